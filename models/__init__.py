@@ -1,0 +1,1 @@
+"""What the world is and what is learned: the city model, language, retrieval, localization, training."""

@@ -1,0 +1,283 @@
+"""Cutting a map into cells: the instances, whole or clipped, inside cubes around given centres.
+
+One function cuts both the cells of the grid and the cell around a pose from which its hints are made
+(kitti360pose.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
+"""
+
+import multiprocessing
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from models.city.points import Ints, PointTable, ranges
+from models.city.types import Cell, CityMap, CutRules, Floats, Instance
+from models.errors import MapError
+
+CHUNK = 128  # cubes a task
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parts:
+    """What lies in a number of cubes: one row an instance (or a connected part of it) and cube.
+
+    Attributes:
+        starts: [N + 1] cube n has the rows starts[n] to starts[n + 1].
+        instance: [R] int32, row in `CityMap.instances`.
+        count: [R] int32, points of the part.
+        low_m, high_m: [R, 3] float32, the part's bounding box, map frame.
+        closest_m: [R, 3] float32, the part's point nearest to the centre of the cube, map frame.
+        rgb: [R, 3] float32 mean colour, NaN where unknown.
+    """
+
+    starts: Ints
+    instance: Ints
+    count: Ints
+    low_m: Floats
+    high_m: Floats
+    closest_m: Floats
+    rgb: Floats
+
+    @property
+    def center_m(self) -> Floats:
+        """[R, 3] middle of the bounding boxes."""
+        return (self.low_m + self.high_m) / 2
+
+    @property
+    def cube(self) -> Ints:
+        """[R] the cube of each row."""
+        return np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
+
+    def take(self, cubes: Ints) -> "Parts":
+        """The rows of some cubes, in the given order."""
+        begin, end = self.starts[cubes], self.starts[cubes + 1]
+        rows = ranges(begin, end)
+        columns = {f.name: getattr(self, f.name)[rows] for f in fields(self) if f.name != "starts"}
+        return Parts(starts=np.concatenate([[0], np.cumsum(end - begin)]), **columns)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CellTable:
+    """The cells of a map, or of several, in columns.
+
+    Attributes:
+        ids: N names "<scene>_<number>".
+        scenes: N scene names.
+        center_m: [N, 3] float64, map frame.
+        size_m: edge of the cubes.
+        parts: what is in them.
+    """
+
+    ids: tuple[str, ...]
+    scenes: tuple[str, ...]
+    center_m: Floats
+    size_m: float
+    parts: Parts
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def take(self, rows: Ints) -> "CellTable":
+        """Some cells, in the given order."""
+        return CellTable(
+            ids=tuple(self.ids[r] for r in rows),
+            scenes=tuple(self.scenes[r] for r in rows),
+            center_m=self.center_m[rows],
+            size_m=self.size_m,
+            parts=self.parts.take(rows),
+        )
+
+
+def cut_cells(
+    city_map: CityMap, points: PointTable | None = None, progress: Callable[[int, int], None] | None = None
+) -> CellTable:
+    """Cut a map into overlapping cells on a grid over its locations (kitti360pose.md, rule 4).
+
+    Args:
+        city_map: the map.
+        points: its point table, if already made.
+        progress: called with (cells cut, cells to cut).
+
+    Raises:
+        MapError: no cell has enough instances.
+    """
+    rules = city_map.rules
+    points = points or PointTable.of(city_map, rules.eps_m)
+    centers = grid_centers(city_map.locations_m, rules)
+    parts = cut_cubes(points, centers, rules, progress)
+    kept = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)
+    if not len(kept):
+        raise MapError(
+            f"map '{city_map.name}': none of {len(centers)} cells has {rules.min_instances} instances, "
+            "too few to tell places apart; take a larger or richer map"
+        )
+    return CellTable(
+        ids=tuple(f"{city_map.name}_{n:05d}" for n in range(len(kept))),
+        scenes=(city_map.name,) * len(kept),
+        center_m=centers[kept],
+        size_m=rules.cell_size_m,
+        parts=parts.take(kept),
+    )
+
+
+def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
+    """[N, 3] float64 centres of the grid within reach of a location, at that location's height."""
+    low = np.floor(locations_m[:, :2].min(axis=0) / rules.grid_m).astype(int)
+    high = np.ceil(locations_m[:, :2].max(axis=0) / rules.grid_m).astype(int)
+    x, y = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1), indexing="ij")
+    grid = np.column_stack([x.ravel(), y.ravel()]) * rules.grid_m
+    distance, nearest = cKDTree(locations_m[:, :2]).query(grid, distance_upper_bound=rules.reach_m)
+    near = np.isfinite(distance)
+    return np.column_stack([grid[near], locations_m[nearest[near], 2]])
+
+
+def cut_cubes(
+    points: PointTable, centers_m: Floats, rules: CutRules, progress: Callable[[int, int], None] | None = None
+) -> Parts:
+    """What lies in the cubes around some centres; in several processes when there are many.
+
+    Args:
+        points: the map's points.
+        centers_m: [N, 3] centres, metres; for hints, the position of the pose.
+        rules: size of the cubes and how to clip.
+        progress: called with (cubes cut, cubes to cut).
+    """
+    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
+    done, results = 0, []
+    for result in _map_chunks(points, rules, chunks):
+        results.append(result)
+        done += len(result[0])
+        if progress:
+            progress(done, len(centers_m))
+    sizes = np.concatenate([result[0] for result in results]) if results else np.zeros(0, dtype=np.int64)
+    columns = [np.concatenate(column) for column in zip(*(r[1:] for r in results), strict=True)] or _columns([])
+    return Parts(np.concatenate([[0], np.cumsum(sizes)]), *columns)
+
+
+def cell_at(city_map: CityMap, points: PointTable, cell_id: str, center_m: Floats) -> Cell:
+    """One cell with the points of its instances, for display and for point encoders."""
+    rows = _cut_cube(points, np.asarray(center_m, dtype=np.float64), city_map.rules)
+    instances = []
+    for members in rows:
+        source = city_map.instances[points.instance[members[0]]]
+        rgb = points.rgb[members] if points.rgb is not None and source.rgb is not None else source.rgb
+        instances.append(
+            Instance(len(instances), source.label, points.xyz[members], rgb, source.name, source.source_id)
+        )
+    return Cell(cell_id, city_map.name, np.asarray(center_m), city_map.rules.cell_size_m, tuple(instances))
+
+
+_shared: tuple[PointTable, CutRules] | None = None  # what forked workers read, set before they start
+
+
+def _map_chunks(points: PointTable, rules: CutRules, chunks: list[Floats]) -> Iterator[tuple[Any, ...]]:
+    global _shared
+    if len(chunks) < 4:
+        yield from (_summarise_chunk(points, rules, chunk) for chunk in chunks)
+        return
+    _shared = (points, rules)
+    try:
+        with ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as pool:
+            yield from pool.map(_work, chunks)
+    finally:
+        _shared = None
+
+
+def _work(centers: Floats) -> tuple[Any, ...]:
+    assert _shared is not None
+    return _summarise_chunk(*_shared, centers)
+
+
+def _summarise_chunk(points: PointTable, rules: CutRules, centers: Floats) -> tuple[Any, ...]:
+    """(rows a cube, then the columns of Parts) of some cubes."""
+    members = [_cut_cube(points, center, rules) for center in centers.astype(np.float64)]
+    sizes = np.array([len(rows) for rows in members], dtype=np.int64)
+    summaries = [_summarise(points, rows, center) for rows, center in zip(members, centers, strict=True) if rows]
+    return (sizes, *_columns(summaries))
+
+
+def _columns(summaries: list[tuple[Any, ...]]) -> list[npt.NDArray[Any]]:
+    empty = (
+        *(np.zeros(0, dtype=np.int32),) * 2,
+        *(np.zeros((0, 3), dtype=np.float32),) * 4,
+    )
+    return [np.concatenate(column) for column in zip(empty, *summaries, strict=True)]
+
+
+def _summarise(points: PointTable, members: list[Ints], center: Floats) -> tuple[Any, ...]:
+    """The columns of Parts for the parts of one cube."""
+    count = np.array([len(m) for m in members], dtype=np.int32)
+    starts = np.cumsum(count) - count
+    rows = np.concatenate(members)
+    xyz = points.xyz[rows]
+    distance = ((xyz - center) ** 2).sum(axis=1)
+    part = np.repeat(np.arange(len(members)), count)
+    # The first row of each part when sorted by distance within the part.
+    closest = np.lexsort((distance, part))[starts]
+    instance = points.instance[rows[starts]]
+    rgb = points.instance_rgb[instance]
+    if points.rgb is not None:
+        rgb = np.add.reduceat(points.rgb[rows], starts) / count[:, None]
+    return (
+        instance,
+        count,
+        np.minimum.reduceat(xyz, starts),
+        np.maximum.reduceat(xyz, starts),
+        xyz[closest],
+        rgb.astype(np.float32),
+    )
+
+
+def _cut_cube(points: PointTable, center: Floats, rules: CutRules) -> list[Ints]:
+    """The point rows of each part in one cube, ordered by instance: things first, then stuff."""
+    half = rules.cell_size_m / 2
+    inside = points.inside(center - half, center + half)
+    stuff = points.is_stuff[points.instance[inside]]
+    present, counts = np.unique(points.instance[inside[~stuff]], return_counts=True)
+    whole = np.diff(points.starts)[present]
+    things = present[counts >= rules.thing_share * whole]
+    parts = [np.arange(points.starts[i], points.starts[i + 1]) for i in things]
+    labels = _dbscan(points, inside[stuff], rules.min_samples)
+    order = np.argsort(labels, kind="stable")
+    sizes = np.bincount(labels[labels >= 0])
+    rows = inside[stuff][order[(labels < 0).sum() :]]
+    clipped = np.split(rows, np.cumsum(sizes)[:-1]) if len(sizes) else []
+    clipped = [part for part in clipped if len(part) >= rules.min_part_points]
+    return parts + sorted(clipped, key=lambda part: int(points.instance[part[0]]))
+
+
+def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
+    """DBSCAN labels of some points from the table's neighbour pairs, as scikit-learn numbers them.
+
+    Args:
+        rows: [M] ascending point rows; neighbours outside of them do not count.
+
+    Returns:
+        [M] cluster of each row, -1 for noise. Clusters never cross from one instance to another.
+    """
+    begin, end = points.pair_starts[rows], points.pair_starts[rows + 1]
+    source = np.repeat(np.arange(len(rows)), end - begin)
+    target_row = points.pairs[ranges(begin, end)]
+    target = np.searchsorted(rows, target_row)
+    valid = (target < len(rows)) & (rows[np.minimum(target, len(rows) - 1)] == target_row) if len(rows) else target > 0
+    source, target = source[valid], target[valid]
+    degree = 1 + np.bincount(source, minlength=len(rows)) + np.bincount(target, minlength=len(rows))
+    core = degree >= min_samples
+    both = core[source] & core[target]
+    number = np.cumsum(core) - 1  # core points among themselves
+    graph = coo_array(
+        (np.ones(both.sum(), dtype=np.int8), (number[source[both]], number[target[both]])), shape=(core.sum(),) * 2
+    )
+    labels = np.full(len(rows), len(rows), dtype=np.int64)
+    labels[core] = connected_components(graph, directed=False)[1]
+    # A border point joins the first cluster that reaches it: the least number among its core neighbours.
+    found = labels.copy()
+    np.minimum.at(found, target[core[source] & ~core[target]], labels[source[core[source] & ~core[target]]])
+    np.minimum.at(found, source[core[target] & ~core[source]], labels[target[core[target] & ~core[source]]])
+    return np.where(found == len(rows), -1, found)

@@ -1,0 +1,108 @@
+"""Colour words: from rgb to a word, by the nearest centre of a palette, and from a written colour to rgb."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from PIL import ImageColor
+
+
+@dataclass(frozen=True, slots=True)
+class Palette:
+    """Colour words and the rgb centres (0..255) they stand for; a word may have several centres."""
+
+    name: str
+    words: tuple[str, ...]
+    centers: tuple[tuple[float, float, float], ...]
+
+    def word_index(self, rgb: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.intp]:
+        """Index of the nearest centre, by Euclidean distance.
+
+        Args:
+            rgb: [..., 3] in 0..1; NaN for unknown.
+
+        Returns:
+            [...] index into `words`, -1 where a channel is NaN.
+        """
+        centers = np.asarray(self.centers) / 255.0
+        distance = np.linalg.norm(np.asarray(rgb)[..., None, :] - centers, axis=-1)
+        unknown = np.isnan(distance).any(axis=-1)
+        return np.where(unknown, -1, np.argmin(np.where(np.isnan(distance), np.inf, distance), axis=-1))
+
+    def word(self, rgb: npt.NDArray[np.floating[Any]]) -> str | None:
+        """The word for one colour, None if it is unknown."""
+        index = int(self.word_index(rgb))
+        return None if index < 0 else self.words[index]
+
+
+# kitti360pose.md, rule 7. "gray" names two centres.
+KITTI360_PALETTE = Palette(
+    "kitti360",
+    ("dark-green", "gray", "gray-green", "bright-gray", "gray", "black", "green", "beige"),
+    (
+        (47.26, 49.75, 42.42), (136.33, 136.95, 126.03), (87.50, 91.69, 80.15), (213.91, 216.25, 207.25),
+        (110.39, 112.92, 103.69), (27.48, 28.44, 25.17), (66.66, 70.22, 60.20), (171.01, 170.06, 155.00),
+    ),
+)  # fmt: skip
+
+# The basic colour terms of English, plus beige, for maps whose colours are named by people.
+BASIC_PALETTE = Palette(
+    "basic",
+    ("black", "gray", "gray", "gray", "white", "red", "red", "brown", "brown", "beige", "orange",
+     "yellow", "green", "green", "blue", "blue", "purple", "pink"),
+    (
+        (25, 25, 25), (75, 75, 75), (128, 128, 128), (190, 190, 190), (248, 248, 248), (215, 40, 40), (150, 35, 40),
+        (150, 90, 50), (95, 60, 35), (225, 212, 180), (240, 145, 35), (240, 220, 50), (60, 150, 60), (170, 200, 130),
+        (50, 90, 200), (130, 185, 230), (130, 50, 150), (245, 160, 190),
+    ),
+)  # fmt: skip
+
+PALETTES = {palette.name: palette for palette in (KITTI360_PALETTE, BASIC_PALETTE)}
+
+# What the materials of OpenStreetMap's material, building:material and surface tags look like.
+MATERIAL_RGB: dict[str, tuple[int, int, int]] = {
+    "asphalt": (75, 75, 75),
+    "concrete": (160, 160, 155),
+    "concrete:plates": (160, 160, 155),
+    "paving_stones": (170, 168, 162),
+    "sett": (115, 112, 108),
+    "cobblestone": (115, 112, 108),
+    "unhewn_cobblestone": (115, 112, 108),
+    "gravel": (150, 145, 135),
+    "fine_gravel": (205, 190, 160),
+    "compacted": (200, 185, 155),
+    "sand": (225, 205, 160),
+    "ground": (120, 90, 60),
+    "dirt": (120, 90, 60),
+    "earth": (120, 90, 60),
+    "wood": (140, 95, 55),
+    "brick": (150, 70, 55),
+    "grass": (80, 140, 70),
+    "stone": (150, 148, 140),
+    "granite": (140, 138, 136),
+    "metal": (140, 142, 145),
+    "steel": (140, 142, 145),
+    "gold": (212, 175, 55),
+    "tartan": (170, 65, 50),
+}
+
+
+def parse_colour(text: str) -> tuple[float, float, float] | None:
+    """RGB in 0..1 of a colour as mappers write it: "#cd7f32", "brown", "light_grey", "white;red" (the first).
+
+    Returns:
+        None for a colour that cannot be read; a map is no worse for one unread tag.
+    """
+    first = text.split(";")[0].strip().lower().replace("_", "").replace(" ", "")
+    try:
+        red, green, blue = ImageColor.getrgb(first)[:3]
+    except ValueError:
+        return None
+    return red / 255, green / 255, blue / 255
+
+
+def material_colour(material: str) -> tuple[float, float, float] | None:
+    """RGB in 0..1 that a material usually has, None for one without a usual colour (glass, plaster)."""
+    rgb = MATERIAL_RGB.get(material.split(";")[0].strip())
+    return None if rgb is None else (rgb[0] / 255, rgb[1] / 255, rgb[2] / 255)

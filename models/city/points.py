@@ -1,0 +1,112 @@
+"""All points of a map in one table, with a spatial index over them."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import cKDTree
+
+from models.city.types import CityMap, Floats
+
+TILE_M = 10.0
+Ints = npt.NDArray[np.integer[Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class PointTable:
+    """The points of a map, ordered by instance, with a grid of tiles and the neighbour pairs of stuff.
+
+    Attributes:
+        xyz: [P, 3] float32, metres, map frame.
+        instance: [P] int32, row in `CityMap.instances`.
+        starts: [I + 1] int64, instance i has the points starts[i] to starts[i + 1].
+        rgb: [P, 3] float32, NaN where unknown; None if every instance has at most one colour.
+        instance_rgb: [I, 3] float32 mean colour, NaN where unknown.
+        is_stuff: [I] bool, True where an instance is clipped to cells.
+        tile_order: [P] point rows sorted by tile, then by row; tile_key: [P] their tiles' keys.
+        pair_starts: [P + 1], pairs: [E] int32: row p has the later neighbours pairs[pair_starts[p]:pair_starts[p + 1]]
+            within eps of it in the same instance (stuff only).
+    """
+
+    xyz: Floats
+    instance: Ints
+    starts: Ints
+    rgb: Floats | None
+    instance_rgb: Floats
+    is_stuff: npt.NDArray[np.bool_]
+    tile_order: Ints
+    tile_key: Ints
+    pair_starts: Ints
+    pairs: Ints
+
+    @classmethod
+    def of(cls, city_map: CityMap, eps_m: float) -> "PointTable":
+        """Lay out a map's points and index them; eps_m is the distance at which stuff is connected."""
+        instances = city_map.instances
+        counts = np.array([len(i.points_m) for i in instances], dtype=np.int64)
+        starts = np.concatenate([[0], np.cumsum(counts)])
+        xyz = np.concatenate([i.points_m for i in instances]).astype(np.float32, copy=False)
+        instance = np.repeat(np.arange(len(instances), dtype=np.int32), counts)
+        is_stuff = np.array([i.label in city_map.stuff for i in instances])
+        key = tile_keys(xyz)
+        order = np.argsort(key, kind="stable")
+        pair_starts, pairs = _neighbour_pairs(xyz, instance, is_stuff, eps_m)
+        instance_rgb = np.full((len(instances), 3), np.nan, dtype=np.float32)
+        for row, i in enumerate(instances):
+            if i.rgb is not None:
+                instance_rgb[row] = i.rgb if i.rgb.ndim == 1 else i.rgb.mean(axis=0)
+        has_point_colours = any(i.rgb is not None and i.rgb.ndim == 2 for i in instances)
+        rgb = None
+        if has_point_colours:
+            unknown = np.full(3, np.nan, dtype=np.float32)
+            rgb = np.concatenate([np.broadcast_to(unknown if i.rgb is None else i.rgb, i.points_m.shape) for i in instances])
+        return cls(xyz, instance, starts, rgb, instance_rgb, is_stuff, order, key[order], pair_starts, pairs)
+
+    def inside(self, low: Floats, high: Floats) -> Ints:
+        """Rows of the points in a box, ascending.
+
+        Args:
+            low, high: [3] opposite corners, metres; both ends belong to the box.
+        """
+        first = np.floor(low[:2] / TILE_M).astype(np.int64)
+        last = np.floor(high[:2] / TILE_M).astype(np.int64)
+        columns = np.arange(first[0], last[0] + 1)
+        begin = np.searchsorted(self.tile_key, _key(columns, first[1]), side="left")
+        end = np.searchsorted(self.tile_key, _key(columns, last[1]), side="right")
+        rows = np.concatenate([self.tile_order[b:e] for b, e in zip(begin, end, strict=True)])
+        xyz = self.xyz[rows]
+        return np.sort(rows[((xyz >= low) & (xyz <= high)).all(axis=1)])
+
+
+def tile_keys(xyz: Floats) -> Ints:
+    """[P] one integer a tile; the tiles of one column follow each other from south to north."""
+    tile = np.floor(xyz[:, :2] / TILE_M).astype(np.int64)
+    return _key(tile[:, 0], tile[:, 1])
+
+
+def _key(column: Any, row: Any) -> Any:
+    return column * (1 << 31) + row
+
+
+def ranges(begin: Ints, end: Ints) -> Ints:
+    """The integers begin[0]..end[0]-1, begin[1]..end[1]-1 and so on, one after the other."""
+    sizes = end - begin
+    offset = np.repeat(begin - (np.cumsum(sizes) - sizes), sizes)
+    return np.arange(sizes.sum()) + offset
+
+
+def thin(points: Floats, spacing_m: float) -> Floats:
+    """One point of every square block of the plane, so that they lie about `spacing_m` apart."""
+    block = np.floor(points[:, :2] / spacing_m).astype(np.int64)
+    return points[np.sort(np.unique(block, axis=0, return_index=True)[1])]
+
+
+def _neighbour_pairs(xyz: Floats, instance: Ints, is_stuff: npt.NDArray[np.bool_], eps_m: float) -> tuple[Ints, Ints]:
+    rows = np.flatnonzero(is_stuff[instance])
+    # A fourth axis keeps instances further apart than eps, so that no pair crosses from one to another.
+    apart = np.column_stack([xyz[rows].astype(np.float64), instance[rows] * (4.0 * eps_m)])
+    found = cKDTree(apart, balanced_tree=False, compact_nodes=False).query_pairs(eps_m, output_type="ndarray")
+    low, high = rows[found[:, 0]], rows[found[:, 1]].astype(np.int32)
+    order = np.argsort(low, kind="stable")
+    return np.searchsorted(low[order], np.arange(len(xyz) + 1)), high[order]

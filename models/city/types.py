@@ -1,0 +1,149 @@
+"""The nouns of the project: Instance, Cell, CityMap, Pose, Hint, Description.
+
+Coordinates are metres in the map's frame (east, north, up) unless a name says `offset`, which is a
+position inside a cell in 0..1.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from models.city.colours import KITTI360_PALETTE, Palette
+from models.city.frame import Frame
+
+Floats = npt.NDArray[np.floating[Any]]
+Direction = Literal["north", "south", "east", "west", "on-top"]
+DIRECTIONS: tuple[Direction, ...] = ("north", "south", "east", "west", "on-top")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Instance:
+    """One object of the map: a building, a tree, a stretch of road.
+
+    Attributes:
+        id: unique in its map.
+        label: class in plain words, open vocabulary ("street lamp").
+        points_m: [P, 3] float32, metres, map frame.
+        rgb: [3] for one colour, [P, 3] for a colour a point, 0..1; None where the source knows none.
+        name: what people call it, for display only ("Mannerheimintie").
+        source_id: where it comes from ("way/1234").
+    """
+
+    id: int
+    label: str
+    points_m: Floats
+    rgb: Floats | None = None
+    name: str | None = None
+    source_id: str | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cell:
+    """A cube of the map with the instances (whole, or clipped parts) inside it; the papers' submap.
+
+    Attributes:
+        id: "<scene>_<number>".
+        scene: scene or map that the cell was cut from.
+        center_m: [3] centre of the cube, metres, map frame.
+        size_m: edge of the cube, metres.
+        instances: instances with their points in the map frame.
+    """
+
+    id: str
+    scene: str
+    center_m: Floats
+    size_m: float
+    instances: tuple[Instance, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CutRules:
+    """How a map is cut into cells (kitti360pose.md, rule 4); the defaults are the released set's.
+
+    Attributes:
+        cell_size_m: edge of a cell's cube.
+        grid_m: distance between the centres of neighbouring cells.
+        reach_m: a centre further than this from every location is no cell.
+        thing_share: a thing belongs to a cell if at least this share of its points is inside.
+        eps_m, min_samples: DBSCAN, which splits clipped stuff into parts.
+        min_part_points: smaller parts of stuff are dropped.
+        min_instances: a cell with fewer is dropped.
+    """
+
+    cell_size_m: float = 30.0
+    grid_m: float = 10.0
+    reach_m: float = 30.0
+    thing_share: float = 1 / 3
+    eps_m: float = 0.75
+    min_samples: int = 5
+    min_part_points: int = 250
+    min_instances: int = 6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CityMap:
+    """A city (or a scene of one) as instances in one metric frame.
+
+    Attributes:
+        name: scene name; cells are called "<name>_<number>".
+        instances: in order of id.
+        frame: what the metres mean on Earth.
+        stuff: labels without a shape of their own (roads, walls, greens): clipped to cells and split
+            into connected parts. Instances of all other labels are things, kept whole.
+        locations_m: [L, 3] where one can stand: a trajectory, or points of walkable ground.
+        palette: the colour words used for this map.
+        rules: how to cut it; the least size of a part depends on how dense the points are.
+        attribution: what the data's licence asks to show.
+    """
+
+    name: str
+    instances: tuple[Instance, ...]
+    stuff: frozenset[str]
+    locations_m: Floats
+    frame: Frame = field(default_factory=Frame)
+    palette: Palette = KITTI360_PALETTE
+    rules: CutRules = CutRules()
+    attribution: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Hint:
+    """One statement about where the speaker is: "I am {direction} of a {colour} {label}".
+
+    Attributes:
+        direction: where the speaker is, seen from the instance.
+        label: class of the instance, in words.
+        colour: colour word, None if unknown or not said.
+        instance_id: the instance meant, None if unknown.
+    """
+
+    direction: Direction
+    label: str
+    colour: str | None = None
+    instance_id: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """What someone said about a position: the hints, in any number and without order."""
+
+    hints: tuple[Hint, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pose:
+    """A true position with a description of what is around it (ground truth, never an answer).
+
+    Attributes:
+        position_m: [3] metres, map frame.
+        cell_id: the best cell: the one whose centre is nearest.
+        description: hints true at this position.
+        strategy: how the hints were chosen ("closest", "class", "direction").
+    """
+
+    position_m: Floats
+    cell_id: str
+    description: Description
+    strategy: str

@@ -1,0 +1,38 @@
+"""The errors a user can meet; each message says what is wrong and what to do next.
+
+HereaboutsError
+├── MapError             a map that cannot be read or holds nothing usable
+├── DescriptionError     a text that cannot be used as a description
+├── WeightsError         weights that are missing, broken or of another model
+└── IndexError_          an index directory that cannot be served
+    ├── IndexBroken      missing, cut short or changed after it was written
+    └── IndexMismatch    built by another model
+"""
+
+
+class HereaboutsError(Exception):
+    """Anything that goes wrong because of the input, not because of a bug."""
+
+
+class MapError(HereaboutsError):
+    """A map that cannot be read or holds nothing usable."""
+
+
+class DescriptionError(HereaboutsError):
+    """A text that cannot be used as a description."""
+
+
+class WeightsError(HereaboutsError):
+    """Weights that are missing, broken or of another model."""
+
+
+class IndexError_(HereaboutsError):
+    """An index directory that cannot be served."""
+
+
+class IndexBroken(IndexError_):
+    """An index directory that is missing, cut short, or changed after it was written."""
+
+
+class IndexMismatch(IndexError_):
+    """An index built by a model other than the one that is loaded."""
