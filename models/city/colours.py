@@ -49,12 +49,12 @@ KITTI360_PALETTE = Palette(
 # The basic colour terms of English, plus beige, for maps whose colours are named by people.
 BASIC_PALETTE = Palette(
     "basic",
-    ("black", "gray", "gray", "gray", "white", "red", "red", "brown", "brown", "beige", "orange",
-     "yellow", "green", "green", "blue", "blue", "purple", "pink"),
+    ("black", "gray", "gray", "gray", "white", "red", "red", "brown", "brown", "brown", "beige", "beige",
+     "orange", "yellow", "green", "green", "blue", "blue", "purple", "pink"),
     (
-        (25, 25, 25), (75, 75, 75), (128, 128, 128), (190, 190, 190), (248, 248, 248), (215, 40, 40), (150, 35, 40),
-        (150, 90, 50), (95, 60, 35), (225, 212, 180), (240, 145, 35), (240, 220, 50), (60, 150, 60), (170, 200, 130),
-        (50, 90, 200), (130, 185, 230), (130, 50, 150), (245, 160, 190),
+        (20, 20, 20), (75, 75, 75), (128, 128, 128), (190, 190, 190), (252, 252, 252), (225, 25, 25), (150, 5, 20),
+        (165, 42, 42), (150, 90, 50), (95, 60, 35), (225, 212, 180), (245, 245, 220), (245, 150, 25),
+        (240, 220, 50), (45, 140, 55), (170, 200, 130), (45, 85, 200), (130, 185, 230), (130, 40, 145), (250, 175, 195),
     ),
 )  # fmt: skip
 

@@ -121,7 +121,7 @@ def _read_elements(path: Path) -> tuple[list[_Element], tuple[float, float, floa
         box = osmium.io.Reader(str(path)).header().box()
         processor = osmium.FileProcessor(str(path)).with_areas().with_filter(osmium.filter.KeyFilter(*keys))
         elements = list(_classify(processor))
-    except (RuntimeError, ValueError, OSError) as error:
+    except (RuntimeError, ValueError, OSError, osmium.InvalidLocationError) as error:
         raise MapError(
             f"{path}: cannot be read as OpenStreetMap ({error}); download it again, it may be cut short"
         ) from error
@@ -137,6 +137,8 @@ def _classify(processor: Any) -> Iterator[_Element]:
         kind = element.type_str()
         if kind not in create:
             continue
+        if kind == "n" and not element.location.valid():
+            raise ValueError(f"node {element.id} has coordinates out of range")
         tags = {tag.k: tag.v for tag in element.tags}
         if not _is_visible(tags):
             continue

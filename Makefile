@@ -1,0 +1,63 @@
+# `make run` and `make test` are all it takes; the rest is listed by `make help`.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PORT ?= 8000
+MAP ?= models/maps/helsinki.osm.pbf
+INDEX ?= data/index
+IMAGE ?= hereabouts
+# Pins. For a CUDA build of torch set TORCH, for example: make install TORCH="torch --index-url <your CUDA index>".
+TORCH ?= $(shell sed -n 's/^torch==/torch==/p' constraints.txt)
+
+.PHONY: help install run test check format train index serve evaluate benchmark web image clean
+
+help:  ## what can be made
+	@sed -n 's/^\([a-z]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
+
+$(BIN)/.installed: pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --disable-pip-version-check $(TORCH)
+	$(BIN)/pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	touch $@
+
+install: $(BIN)/.installed  ## virtual environment with everything in it
+
+$(INDEX)/aliases.json: | install
+	$(BIN)/hereabouts index --map $(MAP) --out $(INDEX)
+
+index: install  ## index MAP into INDEX
+	$(BIN)/hereabouts index --map $(MAP) --out $(INDEX)
+
+run: install $(INDEX)/aliases.json  ## install, index the shipped city if there is no index, serve on PORT
+	$(BIN)/hereabouts serve --index $(INDEX) --port $(PORT)
+
+serve: install  ## serve INDEX on PORT
+	$(BIN)/hereabouts serve --index $(INDEX) --port $(PORT)
+
+test: install  ## the whole test suite
+	$(BIN)/python -m pytest
+
+check: install  ## ruff and mypy
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+format: install  ## let ruff format and fix
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+train: install  ## make the shipped weights again (west of Helsinki)
+	$(BIN)/hereabouts train --map models/maps/helsinki.osm.pbf --out models/weights/retriever
+
+evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
+	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-test
+	$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --report reports/alexanderplatz
+
+benchmark: install $(INDEX)/aliases.json  ## seconds, memory and latency on this machine
+	$(BIN)/hereabouts benchmark --map $(MAP) --index $(INDEX)
+
+image: ## the container image
+	docker build --file docker/Dockerfile --tag $(IMAGE) .
+
+clean: ## remove what was made
+	rm -rf $(VENV) data reports runs

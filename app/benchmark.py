@@ -1,0 +1,141 @@
+"""How fast and how large, on this machine: building an index, and answering over HTTP."""
+
+import itertools
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+
+REQUESTS = 200
+HINTS = 6
+POLL_S = 0.1
+START_S = 120.0
+
+
+def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
+    """Measure this machine.
+
+    Args:
+        map_path: map to index once more, into a directory that is removed again.
+        index_dir: index to serve.
+
+    Returns:
+        Figures by stage: index building, then latencies of `POST /localize` with one client, warm, each
+        description of six hints: new text, text whose hints are cached, and, as the baseline of the same
+        run, an endpoint that computes nothing.
+    """
+    with tempfile.TemporaryDirectory() as scratch:
+        index = measure_index(map_path, Path(scratch) / "index")
+    with serving(index_dir) as client:
+        number = itertools.count()
+        fresh = latencies(lambda: _localize(client, [_new_hint(next(number)) for _ in range(HINTS)]))
+        known = [_new_hint(n) for n in range(HINTS)]
+        cached = latencies(lambda: _localize(client, known))
+        nothing = latencies(lambda: client.get("/healthz").raise_for_status())
+    return {
+        "index": index,
+        "localize_new_text_ms": fresh,
+        "localize_cached_hints_ms": cached,
+        "healthz_ms": nothing,
+        "new_text_over_cached": round(fresh["p50"] / cached["p50"], 1),
+    }
+
+
+def measure_index(map_path: Path, out: Path) -> dict[str, float]:
+    """Seconds, peak memory of all its processes together (PSS), and size of one `hereabouts index`."""
+    start = time.perf_counter()
+    job = subprocess.Popen([*_hereabouts(), "index", "--map", str(map_path), "--out", str(out)], stdout=subprocess.DEVNULL)
+    peak = 0
+    while job.poll() is None:
+        peak = max(peak, sum(_pss_bytes(pid) for pid in _tree(job.pid)))
+        time.sleep(POLL_S)
+    if job.returncode:
+        raise subprocess.CalledProcessError(job.returncode, "hereabouts index")
+    seconds = time.perf_counter() - start
+    size = sum(path.stat().st_size for path in out.rglob("*") if path.is_file())
+    shutil.rmtree(out)
+    return {"seconds": round(seconds, 1), "peak_memory_mib": round(peak / 2**20), "size_mib": round(size / 2**20, 1)}
+
+
+@contextmanager
+def serving(index_dir: Path) -> Iterator[httpx.Client]:
+    """A service of an index on a free local port, ready to answer."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    command = [*_hereabouts(), "serve", "--index", str(index_dir), "--port", str(port)]
+    server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=30, trust_env=False) as client:
+            _wait_until_ready(client, server)
+            yield client
+    finally:
+        server.terminate()
+        server.wait(timeout=30)
+
+
+def latencies(request: Callable[[], Any]) -> dict[str, float]:
+    """p50 and p99 in milliseconds of a request repeated, after a few that are not counted."""
+    seconds = []
+    for n in range(REQUESTS + 10):
+        start = time.perf_counter()
+        request()
+        if n >= 10:
+            seconds.append(time.perf_counter() - start)
+    p50, p99 = np.percentile(seconds, [50, 99]) * 1000
+    return {"p50": round(float(p50), 1), "p99": round(float(p99), 1)}
+
+
+def _localize(client: httpx.Client, hints: list[str]) -> None:
+    client.post("/localize", json={"hints": hints}).raise_for_status()
+
+
+def _new_hint(n: int) -> str:
+    """A sentence that no one has sent before."""
+    direction = ("north", "south", "east", "west")[n % 4]
+    return f"I am {direction} of a gray building with the number {n}."
+
+
+def _wait_until_ready(client: httpx.Client, server: "subprocess.Popen[bytes]") -> None:
+    deadline = time.monotonic() + START_S
+    while time.monotonic() < deadline and server.poll() is None:
+        try:
+            if client.get("/readyz").status_code == httpx.codes.OK:
+                return
+        except httpx.TransportError:
+            pass
+        time.sleep(POLL_S)
+    raise RuntimeError("the service did not become ready; try 'hereabouts serve' to see why")
+
+
+def _hereabouts() -> list[str]:
+    return [sys.executable, "-m", "app.cli"]
+
+
+def _tree(pid: int) -> Iterator[int]:
+    """A process and its descendants (Linux)."""
+    yield pid
+    try:
+        children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    except OSError:
+        return
+    for child in children:
+        yield from _tree(int(child))
+
+
+def _pss_bytes(pid: int) -> int:
+    """Memory of a process, with what it shares split among those that share it; 0 if it is gone."""
+    try:
+        lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
+    except OSError:
+        return 0
+    return next((int(line.split()[1]) * 1024 for line in lines if line.startswith("Pss:")), 0)

@@ -1,0 +1,35 @@
+"""What routes are given: the settings, the queue, and a localizer that is ready."""
+
+from typing import Annotated
+
+from fastapi import Depends, Request
+
+from app.protocol import LocalizerLike
+from app.queue import InferenceQueue
+from app.settings import Settings
+
+
+async def get_settings(request: Request) -> Settings:
+    """The application's settings."""
+    settings: Settings = request.app.state.settings
+    return settings
+
+
+async def get_queue(request: Request) -> InferenceQueue:
+    """The application's queue."""
+    queue: InferenceQueue = request.app.state.queue
+    return queue
+
+
+async def get_localizer(request: Request) -> LocalizerLike:
+    """The localizer.
+
+    Raises:
+        Problem: 503 until it is loaded.
+    """
+    return (await get_queue(request)).localizer
+
+
+SettingsNow = Annotated[Settings, Depends(get_settings)]
+Queue = Annotated[InferenceQueue, Depends(get_queue)]
+Localizer = Annotated[LocalizerLike, Depends(get_localizer)]

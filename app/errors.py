@@ -1,0 +1,174 @@
+"""Errors as clients see them: RFC 9457 problem+json, one table of stable codes, nothing of the input echoed."""
+
+import re
+from collections.abc import Mapping, Sequence
+from enum import Enum
+from typing import Any
+
+from asgi_correlation_id import correlation_id
+from fastapi import FastAPI, HTTPException, Request
+from fastapi.exceptions import RequestValidationError
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.exceptions import HTTPException as StarletteHTTPException
+from starlette.responses import JSONResponse, Response
+
+from models.errors import DescriptionError
+
+PROBLEM_JSON = "application/problem+json"
+MAX_LISTED_ERRORS = 20
+_PLAIN_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
+
+
+class Code(Enum):
+    """Every error of the service. The member's name in lower case is the stable `code`.
+
+    A member holds: HTTP status, title, what to do about it, seconds for Retry-After.
+    """
+
+    INVALID_JSON = (400, "The body is not JSON", "Send one JSON object in UTF-8.", None)
+    NOT_FOUND = (404, "No such path", "See /docs for the paths there are.", None)
+    CELL_NOT_FOUND = (404, "No such cell", "Take a cell_id from an answer of the index that is served now.", None)
+    METHOD_NOT_ALLOWED = (405, "The path does not take this method", "See the Allow header.", None)
+    NOT_ACCEPTABLE = (406, "No such format", "Accept application/json or application/geo+json.", None)
+    NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.", None)
+    CONFLICT = (409, "In conflict with what the service holds", "Look at /info, then ask again.", None)
+    BODY_TOO_LARGE = (413, "The body is too large", "Send less; /info shows the limits.", None)
+    UNSUPPORTED_MEDIA_TYPE = (415, "The body is of another type", "Send Content-Type: application/json.", None)
+    INVALID_REQUEST = (422, "The request cannot be used", "Correct the fields listed in `errors`.", None)
+    QUEUE_FULL = (429, "Too many requests wait", "Ask again after Retry-After seconds.", 1)
+    CLIENT_CLOSED_REQUEST = (499, "The client left", "Nobody reads this; it is for the log.", None)
+    INTERNAL_ERROR = (500, "A fault in the service", "Report it with the request_id.", None)
+    NOT_READY = (503, "The model is still loading", "Ask again after Retry-After seconds.", 2)
+    DRAINING = (503, "The service is shutting down", "Ask another replica, or again after Retry-After seconds.", 5)
+    LOAD_FAILED = (503, "The index or the model could not be loaded", "The operator must correct it.", None)
+    DEADLINE_EXCEEDED = (504, "No answer before the deadline", "Allow more deadline_ms, or ask again later.", None)
+
+    def __init__(self, status: int, title: str, remedy: str, retry_after_s: int | None) -> None:
+        self.status = status
+        self.title = title
+        self.remedy = remedy
+        self.retry_after_s = retry_after_s
+
+    @property
+    def code(self) -> str:
+        """What a client compares with."""
+        return self.name.lower()
+
+
+_BY_STATUS = {
+    code.status: code
+    for code in (
+        Code.INVALID_JSON,
+        Code.NOT_FOUND,
+        Code.METHOD_NOT_ALLOWED,
+        Code.NOT_ACCEPTABLE,
+        Code.CONFLICT,
+        Code.BODY_TOO_LARGE,
+        Code.UNSUPPORTED_MEDIA_TYPE,
+        Code.INVALID_REQUEST,
+    )
+}
+
+
+class FieldError(BaseModel):
+    """One field that is wrong."""
+
+    field: str = Field(examples=["within.bbox[3]"])
+    message: str
+
+
+class ProblemBody(BaseModel):
+    """Any error of the service (RFC 9457); compare `code`, show `detail`."""
+
+    model_config = ConfigDict(title="Problem")
+
+    type: str
+    title: str
+    status: int
+    detail: str
+    code: str = Field(description="; ".join(f"{code.code} ({code.status})" for code in Code))
+    request_id: str
+    errors: list[FieldError] | None = Field(None, description="with code invalid_request: what is wrong where")
+
+
+class Problem(HTTPException):
+    """An error on its way to the client."""
+
+    def __init__(self, code: Code, detail: str | None = None, errors: Sequence[FieldError] = ()) -> None:
+        headers = {} if code.retry_after_s is None else {"Retry-After": str(code.retry_after_s)}
+        super().__init__(code.status, detail or code.remedy, headers)
+        self.code = code
+        self.errors = tuple(errors)
+
+    @classmethod
+    def of_field(cls, field: str, message: str) -> "Problem":
+        """A 422 about one field."""
+        return cls(Code.INVALID_REQUEST, f"{field}: {message}", [FieldError(field=field, message=message)])
+
+    def body(self) -> dict[str, Any]:
+        """The problem+json object."""
+        return ProblemBody(
+            type=f"urn:hereabouts:problem:{self.code.code}",
+            title=self.code.title,
+            status=self.code.status,
+            detail=self.detail,
+            code=self.code.code,
+            request_id=correlation_id.get() or "",
+            errors=list(self.errors) or None,
+        ).model_dump(exclude_none=True)
+
+    def response(self) -> Response:
+        """The problem as a response."""
+        return JSONResponse(self.body(), self.status_code, self.headers, media_type=PROBLEM_JSON)
+
+
+def add_error_handlers(app: FastAPI) -> None:
+    """Make every error of an application a problem."""
+    app.add_exception_handler(StarletteHTTPException, _on_http_exception)
+    app.add_exception_handler(RequestValidationError, _on_validation_error)
+    app.add_exception_handler(DescriptionError, _on_description_error)
+
+
+async def _on_http_exception(_request: Request, error: Exception) -> Response:
+    if isinstance(error, Problem):
+        return error.response()
+    if not isinstance(error, StarletteHTTPException):
+        raise error
+    problem = Problem(_BY_STATUS.get(error.status_code, Code.INTERNAL_ERROR))
+    problem.headers = {**(problem.headers or {}), **(error.headers or {})}
+    return problem.response()
+
+
+async def _on_validation_error(_request: Request, error: Exception) -> Response:
+    if not isinstance(error, RequestValidationError):
+        raise error
+    found = error.errors()
+    listed = [
+        FieldError(field=field_name(item["loc"], item.get("ctx", {})), message=item["msg"])
+        for item in found[:MAX_LISTED_ERRORS]
+    ]
+    detail = f"{listed[0].field}: {listed[0].message}"
+    if len(found) > 1:
+        detail += f" (and {len(found) - 1} more)"
+    return Problem(Code.INVALID_REQUEST, detail, listed).response()
+
+
+async def _on_description_error(_request: Request, error: Exception) -> Response:
+    return Problem.of_field("description", str(error)).response()
+
+
+def field_name(location: Sequence[str | int], context: Mapping[str, Any]) -> str:
+    """Name of a field as a client would write it: "within.bbox[3]".
+
+    Args:
+        location: pydantic's path, which begins with where the field is ("body", "path").
+        context: of the error; its "field", if any, is part of the path (checks of several fields give it).
+    """
+    name = ""
+    for step in (*location[1:], *context.get("field", "").split(".")):
+        if isinstance(step, int):
+            name += f"[{step}]"
+        elif step:
+            # A name we do not know is the client's text: shown only if it is a plain, short word.
+            name += f".{step}" if _PLAIN_NAME.fullmatch(step) else ".(unknown)"
+    return name.lstrip(".") or "(body)"

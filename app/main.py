@@ -1,0 +1,70 @@
+"""The service: put together here, and nowhere else."""
+
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from functools import partial
+from importlib.metadata import version
+
+from asgi_correlation_id import CorrelationIdMiddleware
+from fastapi import FastAPI
+from fastapi_offline import FastAPIOffline
+
+from app.errors import add_error_handlers
+from app.middleware import AccessLog, StrictBody, is_sane_request_id
+from app.openapi import describe, error_table
+from app.protocol import LocalizerLike
+from app.queue import InferenceQueue
+from app.routes import cells, health
+from app.routes.localize import build_router
+from app.settings import Settings
+
+ABOUT = """Say in plain words what you see around you, and it says where in the city you are.
+
+Errors are problem+json (RFC 9457); `code` is stable:
+
+"""
+
+
+def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] | None = None) -> FastAPI:
+    """The application.
+
+    Args:
+        settings: limits, and where the index is.
+        open_localizer: run once, on the inference thread, when the service starts; None opens settings.index_dir.
+    """
+    opener = open_localizer or partial(_open_localizer, settings)
+    queue = InferenceQueue(opener, settings.max_queue, settings.max_batch)
+
+    @asynccontextmanager
+    async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        queue.start()
+        try:
+            yield
+        finally:
+            await queue.close()
+
+    app = FastAPIOffline(
+        title="Hereabouts",
+        version=version("hereabouts"),
+        description=ABOUT + error_table(),
+        lifespan=lifespan,
+        redoc_url=None,  # its page loads a logo from another origin
+        redirect_slashes=False,  # a redirect would repeat the client's Host header
+        swagger_ui_parameters={"validatorUrl": None},  # else Swagger shows a badge from swagger.io
+    )
+    app.state.settings = settings
+    app.state.queue = queue
+    add_error_handlers(app)
+    for router in (build_router(settings), cells.router, health.router):
+        app.include_router(router)
+    app.add_middleware(StrictBody, max_bytes=settings.max_bytes)
+    app.add_middleware(AccessLog)
+    app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
+    app.openapi = partial(describe, app)  # type: ignore[method-assign]
+    return app
+
+
+def _open_localizer(settings: Settings) -> LocalizerLike:
+    from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
+
+    return Localizer.open(settings.index_dir, settings.weights_dir)

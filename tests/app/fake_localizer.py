@@ -1,0 +1,63 @@
+"""A localizer without a model: what a test needs to see what reached it, to hold it up and to make it fail."""
+
+import threading
+
+from index.answers import Answer, Candidate, CellDetail, CellInstance, Estimate, Radius, Wgs84
+from models.city.frame import Frame
+
+TRUE_FRAME = Frame("map", 60.17, 24.94)
+
+
+class FakeLocalizer:
+    """Answers with two cells. Words in the first hint steer it: "bad", "nan" and "nowhere"."""
+
+    map_name = "fakeville"
+    attribution = "© nobody"
+    index_version = "v1"
+    model = "fake"
+    model_sha256 = "ab" * 32
+    num_cells = 2
+    num_instances = 3
+    dim = 8
+    created = "2026-01-01T00:00:00+00:00"
+
+    def __init__(self, frame=TRUE_FRAME):
+        self.frame = frame
+        self.batches = []  # queries of each call, in order
+        self.threads = set()
+        self.gate = threading.Event()  # cleared: localize blocks
+        self.gate.set()
+        self.entered = threading.Semaphore(0)
+
+    def localize(self, queries):
+        self.batches.append(list(queries))
+        self.threads.add(threading.current_thread().name)
+        self.entered.release()
+        assert self.gate.wait(10), "a test left the gate closed"
+        for query in queries:
+            if "bad" in query.hints[0]:
+                raise RuntimeError("secret: " + query.hints[0])
+        return [self._answer(query) for query in queries]
+
+    def cell(self, cell_id):
+        if cell_id != "fakeville_00001":
+            return None
+        tree = CellInstance("tree", None, "node/1", "green", 12, (1.0, 2.0, 3.0), (2.0, 2.0, 6.0), (0.5, 1.0, 0.0))
+        return CellDetail(cell_id, "fakeville", (0.0, 0.0, 1.0), (-15.0, -15.0, 15.0, 15.0), self._wgs84(), (tree,))
+
+    def _answer(self, query):
+        timings = {"encode": 1.0, "search": 1.0, "estimate": 1.0}
+        if "nowhere" in query.hints[0]:
+            return Answer("no_match", None, (), 1.0, ("nothing there",), timings)
+        probability = float("nan") if "nan" in query.hints[0] else 0.6
+        box = (-15.0, -15.0, 15.0, 15.0)
+        candidates = tuple(
+            Candidate(rank, f"fakeville_0000{rank}", 0.9, p, (0.0, 0.0), box, (1.0, 2.0), self._wgs84())
+            for rank, p in ((1, probability), (2, 0.3))
+        )[: query.top_k]
+        covariance = ((100.0, 0.0), (0.0, 100.0))
+        estimate = Estimate((0.0, 0.0), "cell_center", covariance, Radius(12.0, 21.0), probability, self._wgs84())
+        return Answer("ok", estimate, candidates, 0.1, (), timings)
+
+    def _wgs84(self):
+        return Wgs84(60.17, 24.94) if self.frame.is_georeferenced else None

@@ -1,0 +1,86 @@
+import threading
+
+import pytest
+from fastapi.testclient import TestClient
+
+from app.main import create_app
+from models.errors import IndexMismatch
+
+
+def test_alive_at_once_and_ready_when_loaded(settings, fake, until, problem):
+    loaded = threading.Event()
+
+    def open_slowly():
+        assert threading.current_thread().name == "inference"
+        loaded.wait(5)
+        return fake
+
+    with TestClient(create_app(settings, open_slowly)) as api:
+        assert api.get("/healthz").json() == {"status": "ok"}
+        response = api.get("/readyz")
+        problem(response, 503, "not_ready")
+        assert response.headers["retry-after"] == "2"
+        problem(api.post("/localize", json={"description": "a tree"}), 503, "not_ready")
+        problem(api.get("/cells/x"), 503, "not_ready")
+        assert api.get("/info").json()["index"] is None
+        loaded.set()
+        until(lambda: api.get("/readyz").status_code == 200)
+        assert api.get("/readyz").json() == {"status": "ready"}
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (IndexMismatch("index built by a, model is b; rebuild it"), "index built by a, model is b; rebuild it"),
+        (KeyError("secret"), "the operator finds it in the log"),
+    ],
+)
+def test_load_that_failed_is_said_by_readyz(settings, until, problem, error, said):
+    def fail():
+        raise error
+
+    with TestClient(create_app(settings, fail)) as api:
+        until(lambda: api.get("/readyz").json()["code"] != "not_ready")
+        body = problem(api.get("/readyz"), 503, "load_failed")
+        assert said in body["detail"]
+        assert "secret" not in body["detail"]
+        problem(api.post("/localize", json={"description": "a tree"}), 503, "load_failed")
+        assert api.get("/healthz").status_code == 200
+
+
+def test_draining_refuses_and_says_so(api, problem):
+    api.app.state.queue.drain()
+    response = api.get("/readyz")
+    problem(response, 503, "draining")
+    assert response.headers["retry-after"] == "5"
+    problem(api.post("/localize", json={"description": "a tree"}), 503, "draining")
+    assert api.get("/healthz").status_code == 200
+
+
+def test_service_can_be_started_again(settings, fake, until):
+    app = create_app(settings, lambda: fake)
+    for _ in range(2):
+        with TestClient(app) as api:
+            until(lambda api=api: api.get("/readyz").status_code == 200)
+            assert api.post("/localize", json={"description": "a tree"}).status_code == 200
+        assert "inference" not in [thread.name for thread in threading.enumerate()]
+
+
+def test_info_shows_limits_and_index(api):
+    body = api.get("/info").json()
+    assert body["service"] == "hereabouts"
+    assert body["version"]
+    assert body["limits"] == {
+        "max_bytes": 262_144,
+        "max_characters": 4000,
+        "max_hints": 32,
+        "max_top_k": 40,
+        "max_queue": 256,
+        "max_batch": 32,
+        "deadline_ms": 10_000,
+        "max_deadline_ms": 60_000,
+    }
+    assert body["index"]["num_cells"] == 2
+    assert body["index"]["dim"] == 8
+    assert body["index"]["crs"]["origin"] == {"lat": 60.17, "lon": 24.94}
+    assert body["index"]["provenance"]["model_sha256"] == "ab" * 32

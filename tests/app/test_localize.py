@@ -1,0 +1,259 @@
+import re
+import threading
+from itertools import pairwise
+
+import pytest
+from fake_localizer import FakeLocalizer
+
+from index.answers import Box, Circle, Prior, Query
+from models.city.frame import Frame
+
+
+def test_answer_has_exactly_the_names_of_the_api(api, text):
+    body = api.post("/localize", json={"description": text, "top_k": 2}).json()
+    assert set(body) == {
+        *("request_id", "status", "estimate", "candidates", "other_probability"),
+        *("crs", "provenance", "timings_ms", "warnings"),
+    }
+    estimate = body["estimate"]
+    assert estimate["position"] == [0, 0]
+    assert estimate["method"] == "cell_center"
+    assert estimate["covariance"] == [[100, 0], [0, 100]]
+    assert estimate["radius_m"] == {"p50": 12, "p90": 21}
+    assert estimate["probability"] == 0.6
+    assert estimate["wgs84"] == {"lat": 60.17, "lon": 24.94}
+    assert [candidate["rank"] for candidate in body["candidates"]] == [1, 2]
+    assert body["candidates"][0] == {
+        "rank": 1,
+        "cell_id": "fakeville_00001",
+        "score": 0.9,
+        "probability": 0.6,
+        "center": [0, 0],
+        "bbox": [-15, -15, 15, 15],
+        "position": [1, 2],
+        "wgs84": {"lat": 60.17, "lon": 24.94},
+    }
+    origin = {"lat": 60.17, "lon": 24.94}
+    assert body["crs"] == {"frame_id": "map", "epsg": None, "origin": origin, "units": "m", "axes": "ENU"}
+    assert body["provenance"] == {
+        "index": "default",
+        "index_version": "v1",
+        "model": "fake",
+        "model_sha256": "ab" * 32,
+        "map": "fakeville",
+        "attribution": "© nobody",
+    }
+    assert set(body["timings_ms"]) == {"encode", "search", "estimate", "queue", "total"}
+
+
+def test_description_is_split_into_hints_and_defaults_are_the_apis(api, fake, text):
+    api.post("/localize", json={"description": text})
+    assert fake.batches == [[Query(("I am north of a gray building.", "A black pole is to my west."), top_k=5)]]
+
+
+def test_hints_filter_and_prior_reach_the_localizer(api, fake):
+    where = {"within": {"circle": {"center": [1, 2.5], "radius_m": 30}}, "prior": {"position": [3, 4], "sigma_m": 50}}
+    api.post("/localize", json={"hints": [" one tree ", "two trees"], "top_k": 1, **where})
+    api.post("/localize", json={"hints": ["a tree"], "within": {"bbox": [24.9, 60.1, 25, 60.2]}, "crs": "wgs84"})
+    assert fake.batches == [
+        [Query(("one tree", "two trees"), 1, Circle((1, 2.5), 30), Prior((3, 4), 50))],
+        [Query(("a tree",), 5, Box(24.9, 60.1, 25, 60.2), crs="wgs84")],
+    ]
+
+
+def test_no_match_has_no_estimate(api):
+    body = api.post("/localize", json={"hints": ["nowhere"]}).json()
+    assert (body["status"], body["estimate"], body["candidates"]) == ("no_match", None, [])
+    assert body["warnings"] == ["nothing there"]
+
+
+def test_model_runs_on_the_inference_thread_only(api, fake, text):
+    api.post("/localize", json={"description": text})
+    assert fake.threads == {"inference"}
+    assert threading.current_thread().name != "inference"
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({}, "description"),
+        ({"description": "a tree", "hints": ["a tree"]}, "description"),
+        ({"description": ""}, "description"),
+        ({"description": " \n\t "}, "description"),
+        ({"description": "?!."}, "description"),
+        ({"description": "a\u0000tree"}, "description"),
+        ({"description": "a\u0007tree"}, "description"),
+        ({"description": "a\u0085tree"}, "description"),
+        ({"description": 5}, "description"),
+        ({"description": True}, "description"),
+        ({"description": ["a tree"]}, "description"),
+        ({"description": "x" * 4001}, "description"),
+        ({"description": "a tree. " * 33}, "description"),
+        ({"hints": []}, "hints"),
+        ({"hints": ["a tree"] * 33}, "hints"),
+        ({"hints": "a tree"}, "hints"),
+        ({"hints": ["a tree", " "]}, "hints[1]"),
+        ({"hints": ["a tree", 7]}, "hints[1]"),
+        ({"hints": ["x" * 2001, "y" * 2000]}, "hints"),
+        ({"top_k": 0}, "top_k"),
+        ({"top_k": 41}, "top_k"),
+        ({"top_k": True}, "top_k"),
+        ({"top_k": 5.0}, "top_k"),
+        ({"top_k": "5"}, "top_k"),
+        ({"deadline_ms": 0}, "deadline_ms"),
+        ({"deadline_ms": 60_001}, "deadline_ms"),
+        ({"crs": "utm"}, "crs"),
+        ({"index": "other"}, "index"),
+        ({"refine": "none"}, "refine"),
+        ({"heat": False}, "heat"),
+        ({"explain": True}, "explain"),
+        ({"within": {}}, "within"),
+        ({"within": {"bbox": [0, 0, 1, 1], "circle": {"center": [0, 0], "radius_m": 1}}}, "within"),
+        ({"within": {"bbox": [0, 0, 1]}}, "within.bbox[3]"),
+        ({"within": {"bbox": [0, 0, 1, True]}}, "within.bbox[3]"),
+        ({"within": {"bbox": [0, 0, 1, 10**400]}}, "within.bbox[3]"),
+        ({"within": {"bbox": [0, 0, 1, 1, 1]}}, "within.bbox"),
+        ({"within": {"bbox": [1, 0, 0, 1]}}, "within.bbox"),
+        ({"within": {"bbox": [0, 1, 1, 0]}}, "within.bbox"),
+        ({"within": {"bbox": [0, 0, 200, 1]}, "crs": "wgs84"}, "within.bbox"),
+        ({"within": {"bbox": [0, -91, 1, 1]}, "crs": "wgs84"}, "within.bbox"),
+        ({"within": {"circle": {"center": [0, 0], "radius_m": 0}}}, "within.circle.radius_m"),
+        ({"within": {"circle": {"center": [0, 0], "radius_m": 1, "x": 1}}}, "within.circle.x"),
+        ({"within": {"circle": {"center": [0, 91], "radius_m": 1}}, "crs": "wgs84"}, "within.circle.center"),
+        ({"prior": {"position": [0, 0], "sigma_m": -1}}, "prior.sigma_m"),
+        ({"prior": {"position": [0, 0], "sigma_m": 1e-200}}, "prior.sigma_m"),
+        ({"prior": {"position": [0, 0]}}, "prior.sigma_m"),
+        ({"prior": {"position": [181, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+        ({"prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+    ],
+)
+def test_wrong_field_is_named_and_not_computed(api, fake, problem, body, field):
+    if not {"description", "hints"} & set(body) and body:
+        body = {"description": "a tree", **body}
+    problem(api.post("/localize", json=body), 422, "invalid_request", field)
+    assert fake.batches == []
+
+
+def test_body_that_is_no_object_is_422(api, problem):
+    problem(api.post("/localize", json=["a tree"]), 422, "invalid_request", "(body)")
+
+
+def test_box_of_the_whole_earth_is_a_filter(api):
+    world = {"within": {"bbox": [-180, -90, 180, 90]}, "crs": "wgs84"}
+    assert api.post("/localize", json={"description": "a tree", **world}).status_code == 200
+
+
+def test_text_in_any_script_passes(api, fake):
+    body = {"description": "我在一栋灰色建筑的北边。\n나무 옆에 있어요 🌳"}
+    assert api.post("/localize", json=body).status_code == 200
+    assert fake.batches[0][0].hints == ("我在一栋灰色建筑的北边。", "나무 옆에 있어요 🌳")
+
+
+def test_limits_come_from_the_settings(settings, fake, start, problem):
+    small = settings.model_copy(
+        update={"max_characters": 20, "max_hints": 2, "max_top_k": 3, "max_deadline_ms": 500, "deadline_ms": 500}
+    )
+    with start(small, fake) as api:
+        assert api.post("/localize", json={"description": "a tree"}).status_code == 200
+        assert fake.batches[0][0].top_k == 3
+        for body, field in [
+            ({"description": "x" * 21}, "description"),
+            ({"description": "ab. cd. ef."}, "description"),
+            ({"hints": ["a", "b", "c"]}, "hints"),
+            ({"description": "a", "top_k": 4}, "top_k"),
+            ({"description": "a", "deadline_ms": 501}, "deadline_ms"),
+        ]:
+            problem(api.post("/localize", json=body), 422, "invalid_request", field)
+        schema = api.get("/openapi.json").json()["components"]["schemas"]["LocalizeRequest"]["properties"]
+    assert schema["top_k"]["maximum"] == 3
+    assert schema["top_k"]["default"] == 3
+    assert schema["description"]["anyOf"][0]["maxLength"] == 20
+    assert schema["hints"]["anyOf"][0]["maxItems"] == 2
+
+
+def test_degrees_on_a_map_that_is_not_on_earth(settings, start, problem):
+    with start(settings, FakeLocalizer(Frame())) as api:
+        problem(api.post("/localize", json={"description": "a tree", "crs": "wgs84"}), 422, "invalid_request", "crs")
+        answer = api.post("/localize", json={"description": "a tree"}).json()
+    assert answer["estimate"]["wgs84"] is None
+    assert answer["crs"]["origin"] is None
+
+
+def test_geojson_is_lon_lat_and_closed_counter_clockwise(api, text):
+    response = api.post("/localize", json={"description": text}, headers={"Accept": "application/geo+json"})
+    assert response.headers["content-type"] == "application/geo+json"
+    assert response.headers["vary"] == "Accept"
+    body = response.json()
+    estimate, first, second = body["features"]
+    assert body["type"] == "FeatureCollection"
+    assert body["request_id"] == response.headers["x-request-id"]
+    assert body["provenance"]["attribution"] == "© nobody"
+    assert estimate["geometry"]["type"] == "Point"
+    assert estimate["geometry"]["coordinates"] == pytest.approx([24.94, 60.17])
+    assert estimate["properties"]["kind"] == "estimate"
+    assert estimate["properties"]["radius_m"]["p90"] == 21
+    assert (first["id"], second["id"]) == ("fakeville_00001", "fakeville_00002")
+    assert first["properties"]["probability"] == 0.6
+    [ring] = first["geometry"]["coordinates"]
+    assert ring[0] == ring[-1]
+    doubled_area = sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in pairwise(ring))
+    assert doubled_area > 0
+    west, south = ring[0]
+    assert west < 24.94 < ring[2][0]
+    assert south < 60.17 < ring[2][1]
+
+
+def test_geojson_of_no_match_has_no_features(api):
+    response = api.post("/localize", json={"hints": ["nowhere"]}, headers={"Accept": "application/geo+json"})
+    assert (response.json()["features"], response.json()["status"]) == ([], "no_match")
+
+
+def test_map_without_georeference_has_no_geojson(settings, start, problem):
+    fake = FakeLocalizer(Frame())
+    with start(settings, fake) as api:
+        ask = {"json": {"description": "a tree"}}
+        headers = {"Accept": "application/geo+json"}
+        problem(api.post("/localize", **ask, headers=headers), 406, "no_georeference")
+        assert fake.batches == []
+        headers = {"Accept": "application/geo+json, application/json;q=0.1"}
+        assert api.post("/localize", **ask, headers=headers).headers["content-type"] == "application/json"
+
+
+def test_unknown_format_is_406_before_anything_is_computed(api, fake, problem):
+    problem(api.post("/localize", json={"description": "a"}, headers={"Accept": "text/html"}), 406, "not_acceptable")
+    assert fake.batches == []
+
+
+def test_fault_is_500_without_internals_and_others_go_on(api, problem):
+    body = problem(api.post("/localize", json={"description": "a bad tree"}), 500, "internal_error")
+    assert not re.search("secret|bad|Runtime", str(body))
+    assert api.post("/localize", json={"description": "a good tree"}).status_code == 200
+
+
+def test_nan_from_the_model_is_a_fault_and_never_null(api, problem):
+    problem(api.post("/localize", json={"description": "a nan tree"}), 500, "internal_error")
+
+
+def test_deadline_is_kept_while_the_model_is_busy(api, fake, problem):
+    fake.gate.clear()
+    problem(api.post("/localize", json={"description": "a tree", "deadline_ms": 50}), 504, "deadline_exceeded")
+
+
+def test_full_queue_is_429_with_retry_after(settings, fake, start, until, problem):
+    with start(settings.model_copy(update={"max_queue": 1}), fake) as api:
+        fake.gate.clear()
+        statuses = []
+        ask = {"json": {"description": "a tree"}}
+        threads = [threading.Thread(target=lambda: statuses.append(api.post("/localize", **ask).status_code))]
+        threads[0].start()
+        assert fake.entered.acquire(timeout=5)
+        threads.append(threading.Thread(target=lambda: statuses.append(api.post("/localize", **ask).status_code)))
+        threads[1].start()
+        until(lambda: len(api.app.state.queue._jobs) == 1)
+        response = api.post("/localize", **ask)
+        problem(response, 429, "queue_full")
+        assert response.headers["retry-after"] == "1"
+        fake.gate.set()
+        for thread in threads:
+            thread.join(5)
+    assert statuses == [200, 200]

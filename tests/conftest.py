@@ -1,0 +1,118 @@
+"""A tiny seeded city in the real file format, an untrained model, an index of it, and a client."""
+
+import os
+
+os.environ.setdefault("HF_HUB_OFFLINE", "1")
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from index.build import build_index
+from index.localizer import Localizer
+from models.city.cells import CellTable, cut_cells
+from models.city.osm import load_osm
+from models.city.points import PointTable
+from models.city.types import CityMap
+from models.language.text_encoder import TextEncoder, load_text_encoder
+from models.retrieval.checkpoint import save_retriever
+from models.retrieval.retriever import Retriever, RetrieverConfig
+
+SIZE_M = 300
+LAT, LON = 60.0, 25.0
+LAT_M, LON_M = 1 / 111_412.0, 1 / 55_800.0  # degrees a metre, near enough at 60 degrees
+
+
+def tiny_osm(seed: int = 0) -> str:
+    """A made-up town of 300 x 300 m as OSM XML: streets every 60 m, a house a block, things along the streets."""
+    rng = np.random.default_rng(seed)
+    nodes: list[str] = []
+    ways: list[str] = []
+
+    def node(x: float, y: float, **tags: str) -> int:
+        body = "".join(f'<tag k="{k.replace("__", ":")}" v="{v}"/>' for k, v in tags.items())
+        number = len(nodes) + 1
+        nodes.append(f'<node id="{number}" version="1" lat="{LAT + y * LAT_M:.7f}" lon="{LON + x * LON_M:.7f}">{body}</node>')
+        return number
+
+    def way(refs: list[int], **tags: str) -> None:
+        body = "".join(f'<nd ref="{r}"/>' for r in refs)
+        body += "".join(f'<tag k="{k.replace("__", ":")}" v="{v}"/>' for k, v in tags.items())
+        ways.append(f'<way id="{len(ways) + 1}" version="1">{body}</way>')
+
+    for i, at in enumerate(range(0, SIZE_M + 1, 60)):
+        for half in (0, SIZE_M / 2):  # each street in two ways that touch
+            way([node(half, at), node(half + SIZE_M / 2, at)], highway="residential", name=f"East Street {i}", surface="asphalt")
+        way([node(at, 0), node(at, SIZE_M)], highway="footway", name=f"North Path {i}")
+    for x in range(0, SIZE_M, 60):
+        for y in range(0, SIZE_M, 60):
+            colour = ["red", "#ffffff", "brown", ""][rng.integers(4)]
+            corners = [node(x + 20 + dx, y + 20 + dy) for dx, dy in ((0, 0), (18, 0), (18, 18), (0, 18))]
+            tags = {"building": "yes", "building__levels": "3"} | ({"building__colour": colour} if colour else {})
+            way([*corners, corners[0]], **tags)
+    kinds = [
+        {"highway": "street_lamp"},
+        {"natural": "tree"},
+        {"amenity": "bench", "colour": "green"},
+        {"barrier": "bollard"},
+        {"amenity": "waste_basket"},
+        {"amenity": "post_box", "colour": "yellow"},
+    ]
+    for _ in range(500):
+        node(*rng.uniform(0, SIZE_M, 2), **kinds[rng.integers(len(kinds))])
+    return "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>" + "".join(nodes + ways) + "</osm>"
+
+
+@pytest.fixture(scope="session")
+def osm_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("map") / "tinytown.osm"
+    path.write_text(tiny_osm())
+    return path
+
+
+@pytest.fixture(scope="session")
+def city(osm_file: Path) -> CityMap:
+    return load_osm(osm_file)
+
+
+@pytest.fixture(scope="session")
+def points(city: CityMap) -> PointTable:
+    return PointTable.of(city, city.rules.eps_m)
+
+
+@pytest.fixture(scope="session")
+def cells(city: CityMap, points: PointTable) -> CellTable:
+    return cut_cells(city, points)
+
+
+@pytest.fixture(scope="session")
+def text_encoder() -> TextEncoder:
+    return load_text_encoder()
+
+
+@pytest.fixture(scope="session")
+def model(text_encoder: TextEncoder) -> Retriever:
+    """Untrained: its answers mean nothing, its shapes and its determinism do."""
+    torch.manual_seed(0)
+    return Retriever(text_encoder, RetrieverConfig(width=32)).eval()
+
+
+@pytest.fixture(scope="session")
+def weights_dir(model: Retriever, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    directory = tmp_path_factory.mktemp("weights")
+    save_retriever(model, directory, {})
+    return directory
+
+
+@pytest.fixture(scope="session")
+def index_dir(osm_file: Path, weights_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    root = tmp_path_factory.mktemp("index")
+    build_index(osm_file, root, weights_dir)
+    return root
+
+
+@pytest.fixture(scope="session")
+def localizer(index_dir: Path, weights_dir: Path) -> Localizer:
+    return Localizer.open(index_dir, weights_dir)

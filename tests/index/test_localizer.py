@@ -1,0 +1,127 @@
+import dataclasses
+
+import numpy as np
+import pytest
+
+from index.answers import Box, Circle, Prior, Query
+from models.language.hints_text import split_hints
+
+HINTS = ("I am north of a red building.", "A bench is to my west.", "I stand on the road.")
+CORNER = Box(-154, -154, 4, 4)
+
+
+def ask(localizer, **changes):
+    return localizer.localize([dataclasses.replace(Query(HINTS), **changes)])[0]
+
+
+def naive_posterior(localizer, vector, rows, prior=None):
+    """The definition, over every row."""
+    scores = localizer.store.score(vector, np.arange(len(localizer.store))).astype(float)
+    logits = scores / localizer.retriever.config.temperature
+    if prior:
+        distance = np.linalg.norm(localizer.gallery.cells.center_m[:, :2] - np.array(prior.position), axis=1)
+        logits -= distance**2 / (2 * prior.sigma_m**2)
+    keep = np.zeros(len(scores), dtype=bool)
+    keep[rows] = True
+    logits[~keep] = -np.inf
+    weights = np.exp(logits - logits.max())
+    return weights / weights.sum()
+
+
+@pytest.mark.parametrize("prior", [None, Prior((40.0, -30.0), 25.0)])
+@pytest.mark.parametrize("within", [None, CORNER, Circle((10.0, 10.0), 60.0)])
+def test_candidates_are_the_posteriors_best(localizer, within, prior) -> None:
+    answer = ask(localizer, within=within, prior=prior, top_k=7)
+    centers = localizer.gallery.cells.center_m[:, :2]
+    allowed = np.arange(len(centers))
+    if isinstance(within, Box):
+        allowed = allowed[((centers >= -154) & (centers <= 4)).all(axis=1)]
+    elif within:
+        allowed = allowed[np.linalg.norm(centers - 10, axis=1) <= 60]
+    vector = localizer.retriever.encode_descriptions([HINTS])[0]
+    posterior = naive_posterior(localizer, vector, allowed, prior)
+    best = np.argsort(-posterior, kind="stable")[:7]
+    assert [c.cell_id for c in answer.candidates] == [localizer.gallery.cells.ids[n] for n in best]
+    assert [c.probability for c in answer.candidates] == pytest.approx(posterior[best], rel=1e-4)
+    assert answer.other_probability == pytest.approx(1 - posterior[best].sum(), abs=1e-5)
+    assert [c.rank for c in answer.candidates] == list(range(1, 8))
+
+
+def test_the_estimate_is_the_best_cells_centre_and_says_so(localizer) -> None:
+    answer = ask(localizer)
+    best = answer.candidates[0]
+    assert answer.estimate.method == "cell_center"
+    assert answer.estimate.position == best.center == best.position
+    assert answer.estimate.probability == best.probability
+    west, south, east, north = best.bbox
+    assert ((west + east) / 2, (south + north) / 2) == pytest.approx(best.center)
+    back = localizer.frame.from_wgs84(answer.estimate.wgs84.lat, answer.estimate.wgs84.lon)
+    assert back == pytest.approx(best.center, abs=0.02)
+
+
+def test_uncertainty_is_wide_when_unsure_and_narrow_when_told(localizer) -> None:
+    unsure, told = ask(localizer), ask(localizer, within=Circle((0.0, 0.0), 1.0))
+    assert len(told.candidates) == 1
+    assert told.candidates[0].probability == pytest.approx(1)
+    assert told.status == "ok"
+    assert unsure.status == "ambiguous", "an untrained model knows nothing"
+    assert unsure.estimate.radius_m.p90 > 60 > 15 > told.estimate.radius_m.p90 > 0
+    for answer in (unsure, told):
+        covariance = np.array(answer.estimate.covariance)
+        assert np.isfinite(covariance).all()
+        assert (np.linalg.eigvalsh(covariance) > 0).all()
+        assert answer.estimate.radius_m.p50 <= answer.estimate.radius_m.p90
+
+
+def test_cells_beyond_the_search_depth_count_as_doubt(localizer, monkeypatch) -> None:
+    whole = ask(localizer)
+    monkeypatch.setattr("index.localizer.DEPTH", 20)
+    shallow = ask(localizer)
+    assert [c.cell_id for c in shallow.candidates] == [c.cell_id for c in whole.candidates]
+    assert shallow.estimate.probability <= whole.estimate.probability
+    assert shallow.other_probability >= whole.other_probability
+    assert np.isfinite(shallow.estimate.radius_m.p90)
+
+
+def test_a_filter_off_the_map_matches_nothing(localizer) -> None:
+    answer = ask(localizer, within=Box(9000, 9000, 9100, 9100))
+    assert (answer.status, answer.estimate, answer.candidates, answer.other_probability) == ("no_match", None, (), 1.0)
+    assert "within" in answer.warnings[0]
+
+
+def test_wgs84_means_the_same_place(localizer) -> None:
+    lat, lon = localizer.frame.to_wgs84(np.array([[-154.0, -154.0], [4.0, 4.0]]))
+    degrees = ask(localizer, within=Box(lon[0], lat[0], lon[1], lat[1]), crs="wgs84")
+    assert degrees.candidates == ask(localizer, within=CORNER).candidates
+    circle = ask(localizer, within=Circle((lon[1], lat[1]), 50), prior=Prior((lon[1], lat[1]), 20), crs="wgs84")
+    metres = ask(localizer, within=Circle((4, 4), 50), prior=Prior((4, 4), 20))
+    assert [c.cell_id for c in circle.candidates] == [c.cell_id for c in metres.candidates]
+
+
+def test_ten_times_the_same_answer(localizer) -> None:
+    texts = [Query((f"I am west of tree {i}.", *HINTS)) for i in range(5)]
+    first = ask(localizer)
+    for _ in range(9):
+        again = localizer.localize([*texts, Query(HINTS[::-1]), *texts])[5]
+        assert again.candidates == first.candidates
+        assert again.estimate == first.estimate
+
+
+@pytest.mark.parametrize(
+    "text", ["Olen puun pohjoispuolella.", "木の北にいます", "🙂 tree 🙂", "asdf qwer", "a" * 4000, "The stock market fell today.", "x. " * 32]
+)
+def test_odd_texts_get_an_honest_answer(localizer, text) -> None:
+    (answer,) = localizer.localize([Query(split_hints(text))])
+    assert answer.status in ("ok", "ambiguous")
+    assert 0 <= answer.estimate.probability <= 1
+    assert np.isfinite(answer.estimate.covariance).all()
+
+
+def test_a_cell_in_detail(localizer, cells, city) -> None:
+    detail = localizer.cell("tinytown_00003")
+    begin, end = cells.parts.starts[3:5]
+    assert [i.label for i in detail.instances] == [city.instances[i].label for i in cells.parts.instance[begin:end]]
+    assert detail.center == pytest.approx(cells.center_m[3])
+    assert {i.colour for i in detail.instances if i.label == "tree"} <= {None}
+    assert all(i.source_id for i in detail.instances)
+    assert localizer.cell("tinytown_99999") is None

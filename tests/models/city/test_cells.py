@@ -1,0 +1,120 @@
+import numpy as np
+import pytest
+from sklearn.cluster import DBSCAN
+
+from models.city.cells import _cut_cube, cell_at, cut_cells, cut_cubes, grid_centers
+from models.city.points import PointTable
+from models.city.types import CityMap, CutRules, Instance
+from models.errors import MapError
+
+
+def naive_parts(city: CityMap, center: np.ndarray) -> list[tuple[int, frozenset]]:
+    """Rule 4 as it reads, one instance after the other, with scikit-learn's DBSCAN."""
+    rules, half = city.rules, city.rules.cell_size_m / 2
+    parts = []
+    for row, instance in enumerate(city.instances):
+        inside = (np.abs(instance.points_m.astype(float) - center) <= half).all(axis=1)
+        if instance.label not in city.stuff:
+            if inside.sum() and inside.mean() >= rules.thing_share:
+                parts.append((row, frozenset(range(len(inside)))))
+        elif inside.any():
+            rows = np.flatnonzero(inside)
+            labels = DBSCAN(eps=rules.eps_m, min_samples=rules.min_samples).fit(instance.points_m[rows]).labels_
+            for label in range(labels.max() + 1):
+                if (labels == label).sum() >= rules.min_part_points:
+                    parts.append((row, frozenset(rows[labels == label].tolist())))
+    return parts
+
+
+@pytest.mark.parametrize("n", range(8))
+def test_cutting_equals_the_rules_read_literally(city, points, n) -> None:
+    center = np.random.default_rng(n).uniform(-140, 140, 3) * [1, 1, 0]
+    mine = [
+        (int(points.instance[rows[0]]), frozenset((rows - points.starts[points.instance[rows[0]]]).tolist()))
+        for rows in _cut_cube(points, center, city.rules)
+    ]
+    assert sorted(mine, key=repr) == sorted(naive_parts(city, center), key=repr)
+    assert len(mine) > 3
+
+
+def ragged_city(seed: int) -> CityMap:
+    """Clouds at random, so that DBSCAN meets noise, border points and several clusters."""
+    rng = np.random.default_rng(seed)
+    clouds = [(rng.normal(size=(300, 3)) * [4, 4, 0.3]).astype(np.float32) for _ in range(4)]
+    instances = tuple(Instance(i, "terrain", cloud) for i, cloud in enumerate(clouds))
+    rules = CutRules(min_part_points=8, min_instances=1)
+    return CityMap("ragged", instances, frozenset({"terrain"}), np.zeros((1, 3)), rules=rules)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_ragged_stuff_is_split_as_scikit_learn_does(seed) -> None:
+    city = ragged_city(seed)
+    points = PointTable.of(city, city.rules.eps_m)
+    center = np.array([13.0, 12.0, 0.0])  # most of the clouds are outside
+    mine = [
+        (int(points.instance[rows[0]]), frozenset((rows - points.starts[points.instance[rows[0]]]).tolist()))
+        for rows in _cut_cube(points, center, city.rules)
+    ]
+    assert mine == naive_parts(city, center)
+
+
+def test_the_summary_of_parts(city, points) -> None:
+    center = np.array([[7.0, -12.0, 0.0]])
+    parts = cut_cubes(points, center, city.rules)
+    for row, members in enumerate(_cut_cube(points, center[0], city.rules)):
+        xyz = points.xyz[members]
+        assert parts.count[row] == len(xyz)
+        assert (parts.low_m[row] == xyz.min(axis=0)).all()
+        assert (parts.high_m[row] == xyz.max(axis=0)).all()
+        closest = np.linalg.norm(xyz - center[0], axis=1).min()
+        assert np.linalg.norm(parts.closest_m[row] - center[0]) == pytest.approx(closest, abs=1e-4)
+
+
+def test_processes_give_what_one_gives(city, points, monkeypatch) -> None:
+    centers = grid_centers(city.locations_m, city.rules)
+    many = cut_cubes(points, centers, city.rules)
+    monkeypatch.setattr("models.city.cells.CHUNK", 10**6)
+    one = cut_cubes(points, centers, city.rules)
+    for name in ("starts", "instance", "count", "low_m", "closest_m", "rgb"):
+        assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)
+
+
+def test_colours_of_points_are_averaged_over_the_part() -> None:
+    rgb = np.linspace(0, 1, 300)[:, None].repeat(3, axis=1).astype(np.float32)
+    city = ragged_city(0)
+    clouds = tuple(Instance(i.id, i.label, i.points_m, rgb) for i in city.instances[:1])
+    city = CityMap("c", clouds, city.stuff, city.locations_m, rules=city.rules)
+    points = PointTable.of(city, 0.75)
+    parts = cut_cubes(points, np.zeros((1, 3)), city.rules)
+    members = _cut_cube(points, np.zeros(3), city.rules)
+    assert parts.rgb[0] == pytest.approx(rgb[members[0]].mean(axis=0), abs=1e-5)
+
+
+def test_the_grid_is_regular_and_within_reach(city) -> None:
+    centers = grid_centers(city.locations_m, city.rules)
+    assert (centers[:, :2] % city.rules.grid_m == 0).all()
+    distance = np.linalg.norm(centers[:, None, :2] - city.locations_m[None, ::7, :2], axis=2).min(axis=1)
+    assert distance.max() <= city.rules.reach_m + 15
+
+
+def test_cells_are_numbered_and_rich_enough(city, cells) -> None:
+    sizes = np.diff(cells.parts.starts)
+    assert sizes.min() >= city.rules.min_instances
+    assert cells.ids[:2] == ("tinytown_00000", "tinytown_00001")
+    some = cells.take(np.array([5, 2]))
+    assert some.ids == (cells.ids[5], cells.ids[2])
+    assert (some.parts.instance == np.concatenate([cells.parts.instance[cells.parts.starts[n] : cells.parts.starts[n + 1]] for n in (5, 2)])).all()
+
+
+def test_one_cell_with_its_points(city, points, cells) -> None:
+    cell = cell_at(city, points, cells.ids[3], cells.center_m[3])
+    begin, end = cells.parts.starts[3:5]
+    assert [len(i.points_m) for i in cell.instances] == cells.parts.count[begin:end].tolist()
+    assert [i.label for i in cell.instances] == [city.instances[i].label for i in cells.parts.instance[begin:end]]
+
+
+def test_a_map_too_poor_for_cells_says_so() -> None:
+    city = ragged_city(0)
+    poor = CityMap("poor", city.instances[:2], city.stuff, city.locations_m)
+    with pytest.raises(MapError, match="has 6 instances"):
+        cut_cells(poor)

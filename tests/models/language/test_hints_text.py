@@ -1,0 +1,44 @@
+import pytest
+
+from models.city.types import DIRECTIONS, Hint
+from models.errors import DescriptionError
+from models.language.hints_text import ON_TOP_TEMPLATES, TEMPLATES, render_hint, split_hints
+
+
+@pytest.mark.parametrize(
+    ("text", "hints"),
+    [
+        ("I am north of a gray building. A black pole is to my west.", ("I am north of a gray building.", "A black pole is to my west.")),
+        ("one thing", ("one thing",)),
+        ("a tree to the north; a bench to the south", ("a tree to the north", "a bench to the south")),
+        ("A lamp!\nA bin?\r\n\r\nA wall", ("A lamp!", "A bin?", "A wall")),
+        ("It is 2.5 m north of a wall.", ("It is 2.5 m north of a wall.",)),
+        ("Olen puun vieressä. 我在树旁。", ("Olen puun vieressä.", "我在树旁。")),
+        ("... A tree. !!!", ("A tree.",)),
+    ],
+)
+def test_splitting(text, hints) -> None:
+    assert split_hints(text) == hints
+
+
+@pytest.mark.parametrize("text", ["", "   ", "...", "!?", "\n\n", "🙂🙂"])
+def test_no_words_is_an_error(text) -> None:
+    with pytest.raises(DescriptionError, match="no words"):
+        split_hints(text)
+
+
+def test_the_first_template_is_the_benchmarks() -> None:
+    assert render_hint(Hint("north", "building", "gray")) == "The pose is north of a gray building."
+    assert render_hint(Hint("on-top", "road")) == "The pose is on-top of a road."
+
+
+def test_both_points_of_view_agree() -> None:
+    assert render_hint(Hint("north", "tree", "green"), TEMPLATES.index("There is {a} {o} of me.")) == "There is a green tree south of me."
+    assert render_hint(Hint("east", "awning"), TEMPLATES.index("I am {d} of {a}.")) == "I am east of an awning."
+
+
+def test_every_template_renders() -> None:
+    assert len(TEMPLATES) == len(ON_TOP_TEMPLATES)
+    texts = {render_hint(Hint(d, "wall", "red"), t) for d in DIRECTIONS for t in range(len(TEMPLATES))}
+    assert len(texts) == len(DIRECTIONS) * len(TEMPLATES)
+    assert all("red wall" in t and "{" not in t for t in texts)

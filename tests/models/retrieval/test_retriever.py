@@ -1,0 +1,139 @@
+import numpy as np
+import pytest
+import torch
+
+from models.retrieval.checkpoint import load_retriever, save_retriever
+from models.retrieval.instance_encoder import NUM_GEOMETRY, CellFeatures
+from models.retrieval.layers import masked_max
+from models.retrieval.losses import contrastive_loss
+from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.errors import WeightsError
+
+TEXTS = [
+    ["I am north of a gray building."],
+    ["A black pole is to my west.", "I stand on the road.", "There is a tree north of me."],
+    [f"There is a bench number {i} to my east." for i in range(12)],
+]
+
+
+@pytest.fixture(scope="module")
+def features(city, cells):
+    return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+
+
+def test_masked_max_ignores_padding() -> None:
+    x = torch.tensor([[[1.0, -5.0], [9.0, 9.0]], [[-3.0, -4.0], [-2.0, -9.0]]])
+    mask = torch.tensor([[True, False], [True, True]])
+    assert masked_max(x, mask).tolist() == [[1.0, -5.0], [-2.0, -4.0]]
+
+
+def test_a_description_alone_and_in_a_batch(model) -> None:
+    together = model.encode_descriptions(TEXTS)
+    for row, text in enumerate(TEXTS):
+        assert np.abs(model.encode_descriptions([text])[0] - together[row]).max() == 0
+    assert np.linalg.norm(together, axis=1) == pytest.approx(1, abs=1e-6)
+
+
+def test_padding_a_description_changes_nothing(model) -> None:
+    hints = torch.randn(1, 3, 32)
+    padded = torch.cat([hints, torch.full((1, 4, 32), 1e3)], dim=1)
+    mask = torch.arange(7)[None] < 3
+    alone = model.pool_hints(hints, torch.ones(1, 3, dtype=torch.bool))
+    assert torch.allclose(model.pool_hints(padded, mask), alone, atol=1e-5)
+
+
+def test_order_of_hints_does_not_matter(model) -> None:
+    assert np.array_equal(model.encode_descriptions([TEXTS[2]]), model.encode_descriptions([TEXTS[2][::-1]]))
+    hints = torch.randn(2, 5, 32)
+    mask = torch.ones(2, 5, dtype=torch.bool)
+    assert torch.allclose(model.pool_hints(hints, mask), model.pool_hints(hints[:, [3, 1, 0, 4, 2]], mask), atol=1e-5)
+
+
+def test_a_cell_alone_and_in_a_batch(model, features) -> None:
+    every = model.encode_cells(features)
+    labels = model.text_encoder.embed(features.labels)
+    for n in (0, 7, len(features) - 1):
+        with torch.inference_mode():
+            alone = model.pool_instances(features.batch(np.array([n])), labels)[0].numpy()
+        assert np.abs(alone - every[n]).max() < 1e-5
+
+
+def test_cached_hints_give_the_same_vector_and_are_forgotten_when_weights_change(model, text_encoder) -> None:
+    fresh = Retriever(text_encoder, model.config)
+    fresh.load_state_dict(model.state_dict())
+    fresh.eval()
+    first = fresh.encode_descriptions(TEXTS[:1])
+    assert fresh._hint_cache
+    assert np.array_equal(first, fresh.encode_descriptions(TEXTS[:1]))
+    fresh.train()
+    assert not fresh._hint_cache
+
+
+def test_features_of_a_cell(city, cells, features) -> None:
+    n = 4
+    rows = slice(cells.parts.starts[n], cells.parts.starts[n + 1])
+    geometry = features.geometry[rows]
+    assert geometry.shape[1] == NUM_GEOMETRY
+    offset = (cells.parts.closest_m[rows] - cells.center_m[n])[:, :2]
+    assert geometry[:, 3:5] * 15 == pytest.approx(offset, abs=1e-3)
+    assert geometry[:, 5] * 15 == pytest.approx(np.hypot(*offset.T), abs=1e-3)
+    assert [features.labels[i] for i in features.label[rows]] == [city.instances[i].label for i in cells.parts.instance[rows]]
+    known = ~np.isnan(cells.parts.rgb[rows]).any(axis=1)
+    assert (geometry[:, 15] == known).all()
+    assert (geometry[~known, 12:15] == 0).all()
+
+
+def naive_info_nce(texts, cells, same, tau):
+    total = 0.0
+    for a, b, mask in ((texts, cells, same), (cells, texts, same.T)):
+        for i in range(len(a)):
+            allowed = [j for j in range(len(b)) if j == i or not mask[i, j]]
+            logits = {j: float(a[i] @ b[j]) / tau for j in allowed}
+            total += np.log(sum(np.exp(v) for v in logits.values())) - logits[i]
+    return total / (2 * len(texts))
+
+
+def test_contrastive_loss_against_a_naive_loop() -> None:
+    torch.manual_seed(0)
+    texts = torch.nn.functional.normalize(torch.randn(6, 8), dim=-1).requires_grad_()
+    cells = torch.nn.functional.normalize(torch.randn(6, 8), dim=-1)
+    cell = torch.tensor([0, 1, 1, 2, 3, 0])
+    same = cell[:, None] == cell[None]
+    loss = contrastive_loss(texts, cells, same, 0.1)
+    assert loss.item() == pytest.approx(naive_info_nce(texts.detach(), cells, same, 0.1), rel=1e-5)
+    loss.backward()
+    assert torch.isfinite(texts.grad).all()
+
+
+def test_saved_and_loaded_is_the_same(model, tmp_path) -> None:
+    save_retriever(model, tmp_path, {"note": "x"})
+    again = load_retriever(tmp_path)
+    assert again.fingerprint == model.fingerprint
+    assert np.array_equal(again.encode_descriptions(TEXTS), model.encode_descriptions(TEXTS))
+
+
+def test_another_model_of_the_same_shape_has_another_fingerprint(model, text_encoder) -> None:
+    assert Retriever(text_encoder, model.config).fingerprint != model.fingerprint
+
+
+@pytest.mark.parametrize(
+    ("spoil", "message"),
+    [
+        (lambda d: (d / "config.json").unlink(), "config.json is missing"),
+        (lambda d: (d / "model.safetensors").unlink(), "model.safetensors is missing"),
+        (lambda d: (d / "model.safetensors").write_bytes(b"junk"), "cannot be read"),
+        (lambda d: (d / "config.json").write_text("{"), "cannot be read"),
+        (lambda d: (d / "config.json").write_text('{"retriever": {"width": 64}}'), "not of the model"),
+        (lambda d: (d / "config.json").write_text('{"retriever": {"depth": 64}}'), "cannot be read"),
+    ],
+)
+def test_broken_weights_are_refused(model, tmp_path, spoil, message) -> None:
+    save_retriever(model, tmp_path, {})
+    spoil(tmp_path)
+    with pytest.raises(WeightsError, match=message):
+        load_retriever(tmp_path)
+
+
+def test_config_is_strict() -> None:
+    with pytest.raises(ValueError, match="extra"):
+        RetrieverConfig(depth=3)

@@ -1,0 +1,77 @@
+import itertools
+
+import numpy as np
+import pytest
+import torch
+
+from models.city.hints import sample_positions
+from models.city.types import DIRECTIONS
+from models.retrieval.checkpoint import load_retriever
+from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.retriever import RetrieverConfig
+from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingRegion, turn
+from models.training.fit import TrainingConfig, fit_temperature, train_retriever
+from models.city.hints import direction_index
+
+
+@pytest.fixture(scope="module")
+def region(city, points, cells, text_encoder):
+    positions = sample_positions(city.locations_m, 30.0, np.random.default_rng(0))
+    return TrainingRegion(city, points, cells, positions, text_encoder)
+
+
+def test_directions_turn_with_the_map() -> None:
+    for matrix, moved in zip(SYMMETRIES, DIRECTION_UNDER_SYMMETRY, strict=True):
+        for offset in ((0, 5), (0, -5), (5, 0), (-5, 0), (0, 0)):
+            before, after = direction_index(np.array(offset)), direction_index(matrix @ np.array(offset))
+            assert moved[before] == after
+    assert len({tuple(m) for m in DIRECTION_UNDER_SYMMETRY.tolist()}) == 8
+
+
+def test_turning_a_cell_keeps_distances_and_turns_directions(cells, city) -> None:
+    features = CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+    batch = features.batch(np.arange(8))
+    turned = turn(batch, torch.from_numpy(SYMMETRIES))
+    assert torch.equal(turned.geometry[0], batch.geometry[0]), "the first symmetry is none"
+    assert torch.allclose(turned.geometry[..., 3:5].norm(dim=-1), batch.geometry[..., 3:5].norm(dim=-1))
+    assert (turned.geometry[..., 8:11] >= 0).all()
+    swap = 4  # (east, north) becomes (north, east)
+    assert torch.equal(turned.geometry[swap][:, [8, 9]], batch.geometry[swap][:, [9, 8]])
+
+
+def test_batches_are_seeded_and_say_what_is_true(region, city) -> None:
+    drawn = [region.batch(region.draw(16, 4, np.random.default_rng(5)), np.random.default_rng(6)) for _ in range(2)]
+    assert torch.equal(drawn[0].sentences, drawn[1].sentences)
+    batch = drawn[0]
+    assert batch.hint_mask.sum(dim=1).min() >= 3
+    assert (batch.sentences[batch.hint_mask] >= 0).all(), "every sentence is in the vocabulary"
+    assert batch.same_cell.diagonal().all()
+
+
+def test_the_vocabulary_numbers_its_sentences(region) -> None:
+    vocabulary = region.vocabulary
+    said = [
+        int(vocabulary.sentence(label, -1, d, t))
+        for label, d, t in itertools.product(np.flatnonzero(vocabulary._pair[:, -1] >= 0), range(len(DIRECTIONS)), range(2))
+    ]
+    assert len(set(said)) == len(said)
+    assert max(said) < len(vocabulary.mask)
+
+
+def test_temperature_is_the_most_likely_one() -> None:
+    rng = np.random.default_rng(0)
+    logits = rng.normal(size=(4000, 20)) * 2
+    truth = np.array([rng.choice(20, p=np.exp(row) / np.exp(row).sum()) for row in logits])
+    assert fit_temperature(logits * 0.1, truth) == pytest.approx(0.1, rel=0.1)
+
+
+def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
+    config = TrainingConfig(steps=12, batch_size=16, spacing_m=15.0, validate_every=6, learning_rate=3e-3)
+    seen = []
+    recalls = [train_retriever(city, tmp_path / name, RetrieverConfig(width=32), config, seen.append) for name in "ab"]
+    assert recalls[0] == recalls[1]
+    assert load_retriever(tmp_path / "a").fingerprint == load_retriever(tmp_path / "b").fingerprint
+    losses = [p.loss for p in seen[:12]]
+    assert np.mean(losses[-3:]) < np.mean(losses[:3])
+    assert [p.step for p in seen if p.recall] == [6, 12, 6, 12]
+    assert 0.001 < load_retriever(tmp_path / "a").config.temperature < 1
