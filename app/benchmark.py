@@ -53,7 +53,9 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
 def measure_index(map_path: Path, out: Path) -> dict[str, float]:
     """Seconds, peak memory of all its processes together (PSS), and size of one `hereabouts index`."""
     start = time.perf_counter()
-    job = subprocess.Popen([*_hereabouts(), "index", "--map", str(map_path), "--out", str(out)], stdout=subprocess.DEVNULL)
+    job = subprocess.Popen(
+        [*_hereabouts(), "index", "--map", str(map_path), "--out", str(out)], stdout=subprocess.DEVNULL
+    )
     peak = 0
     while job.poll() is None:
         peak = max(peak, sum(_pss_bytes(pid) for pid in _tree(job.pid)))

@@ -1,8 +1,8 @@
 """An index on disk: immutable version directories, a manifest in each, and an alias that says which one serves.
 
-    <root>/aliases.json            {"default": "<version>"}
-    <root>/<version>/manifest.json written last; names every other file with its sha256
-    <root>/<version>/vectors.faiss, cells.safetensors, cells.json
+<root>/aliases.json            {"default": "<version>"}
+<root>/<version>/manifest.json written last; names every other file with its sha256
+<root>/<version>/vectors.faiss, cells.safetensors, cells.json
 """
 
 import hashlib
@@ -125,7 +125,8 @@ def file_records(directory: Path) -> dict[str, FileRecord]:
     for path in directory.iterdir():
         _sync(path)
     return {
-        path.name: FileRecord(sha256=file_sha256(path), bytes=path.stat().st_size) for path in sorted(directory.iterdir())
+        path.name: FileRecord(sha256=file_sha256(path), bytes=path.stat().st_size)
+        for path in sorted(directory.iterdir())
     }
 
 

@@ -64,7 +64,12 @@ def build_index(map_path: Path, out_dir: Path, weights_dir: Path | None = None) 
         MapError: the map cannot be read or cut.
         WeightsError: the model cannot be loaded.
     """
-    columns = (TextColumn("{task.description:<14}"), BarColumn(), TextColumn("{task.completed:.0f}"), TimeElapsedColumn())
+    columns = (
+        TextColumn("{task.description:<14}"),
+        BarColumn(),
+        TextColumn("{task.completed:.0f}"),
+        TimeElapsedColumn(),
+    )
     with Progress(*columns, console=Console(stderr=True)) as progress:
         bar = StageBar(progress)
         with bar.stage("read map"):

@@ -61,7 +61,9 @@ class QuerySet:
             MapError: the map cannot be read, the split is unknown, or nothing can be asked in it.
         """
         if split is not None and split not in SPLITS:
-            raise MapError(f"'{split}' is no split of a map; choose one of {', '.join(SPLITS)}, or none for the whole map")
+            raise MapError(
+                f"'{split}' is no split of a map; choose one of {', '.join(SPLITS)}, or none for the whole map"
+            )
         city_map = load_osm(data)
         points = PointTable.of(city_map, city_map.rules.eps_m)
         cells, locations = cut_cells(city_map, points), city_map.locations_m
@@ -71,7 +73,9 @@ class QuerySet:
         positions = sample_positions(locations, POSE_SPACING_M, np.random.default_rng(POSE_SEED))
         poses = describe_poses(city_map, points, cells, positions) if len(cells) and len(positions) else []
         if not poses:
-            raise MapError(f"{data}: no position in split '{split}' can be described; take a larger map or another split")
+            raise MapError(
+                f"{data}: no position in split '{split}' can be described; take a larger map or another split"
+            )
         row = {cell_id: n for n, cell_id in enumerate(cells.ids)}
         return cls(city_map, cells, poses, np.array([row[pose.cell_id] for pose in poses]))
 
@@ -119,7 +123,8 @@ def evaluate(data: Path, split: str | None, report_dir: Path | None, retriever: 
 
 def _errors(cells: CellTable, rows: npt.NDArray[Any], positions_m: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """[Q, K] metres in the plane from the centres of some cells to the true positions."""
-    return np.linalg.norm(cells.center_m[rows, :2] - positions_m[:, None, :2], axis=2)
+    errors: npt.NDArray[Any] = np.linalg.norm(cells.center_m[rows, :2] - positions_m[:, None, :2], axis=2)
+    return errors
 
 
 def _chance(cells: CellTable, positions_m: npt.NDArray[Any]) -> dict[str, Any]:
@@ -164,7 +169,9 @@ def _ambiguity(queries: QuerySet) -> dict[str, Any]:
     query = np.repeat(np.arange(len(asked)), [len(a) for a in asked])
     symbol = np.concatenate([np.array(a) for a in asked])
     known = symbol >= 0
-    wanted = csr_array((np.ones(known.sum(), dtype=np.float32), (query[known], symbol[known])), shape=(len(asked), len(number)))
+    wanted = csr_array(
+        (np.ones(known.sum(), dtype=np.float32), (query[known], symbol[known])), shape=(len(asked), len(number))
+    )
     fits = (wanted @ holds.T).toarray()
     own = fits[np.arange(len(asked)), queries.truth][:, None]
     better, equal = (fits > own).sum(axis=1), (fits == own).sum(axis=1)

@@ -67,9 +67,14 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
         axes.set_ylabel("north (m)")
         if reach:
             axes.set(xlim=(x - reach, x + reach), ylim=(y - reach, y + reach))
-            axes.set_title(f"best position, and the circle that holds the true one with 90 %: {radius:.0f} m", fontsize=9)
+            axes.set_title(
+                f"best position, and the circle that holds the true one with 90 %: {radius:.0f} m", fontsize=9
+            )
         else:
             axes.set(xlim=(xy[:, 0].min(), xy[:, 0].max()), ylim=(xy[:, 1].min(), xy[:, 1].max()))
-            axes.set_title(f"{localizer.map_name}: {localizer.num_cells} cells, the best {len(answer.candidates)} framed", fontsize=9)
+            axes.set_title(
+                f"{localizer.map_name}: {localizer.num_cells} cells, the best {len(answer.candidates)} framed",
+                fontsize=9,
+            )
     figure.text(0.995, 0.005, localizer.attribution, fontsize=6, ha="right")
     FigureCanvasAgg(figure).print_png(path)

@@ -71,7 +71,9 @@ class FaissStore:
         except RuntimeError as error:
             raise IndexBroken(f"{path} cannot be read; rebuild it with 'hereabouts index'") from error
         if not isinstance(index, faiss.IndexFlatIP):
-            raise IndexBroken(f"{path} holds a {type(index).__name__}, expected IndexFlatIP; rebuild it with 'hereabouts index'")
+            raise IndexBroken(
+                f"{path} holds a {type(index).__name__}, expected IndexFlatIP; rebuild it with 'hereabouts index'"
+            )
         return cls(index)
 
     def __len__(self) -> int:
@@ -80,7 +82,9 @@ class FaissStore:
     def search(self, queries: Floats, k: int) -> tuple[Floats, Rows]:
         """See VectorStore."""
         k = min(k, len(self))
-        found = [self._index.search(queries[i : i + QUERIES_PER_CALL], k) for i in range(0, len(queries), QUERIES_PER_CALL)]
+        found = [
+            self._index.search(queries[i : i + QUERIES_PER_CALL], k) for i in range(0, len(queries), QUERIES_PER_CALL)
+        ]
         scores, rows = np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
         order = np.lexsort((rows, -scores), axis=1)
         return np.take_along_axis(scores, order, axis=1), np.take_along_axis(rows, order, axis=1)

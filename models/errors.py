@@ -4,7 +4,7 @@ HereaboutsError
 ├── MapError             a map that cannot be read or holds nothing usable
 ├── DescriptionError     a text that cannot be used as a description
 ├── WeightsError         weights that are missing, broken or of another model
-└── IndexError_          an index directory that cannot be served
+└── IndexUnusable         an index directory that cannot be served
     ├── IndexBroken      missing, cut short or changed after it was written
     └── IndexMismatch    built by another model
 """
@@ -26,13 +26,13 @@ class WeightsError(HereaboutsError):
     """Weights that are missing, broken or of another model."""
 
 
-class IndexError_(HereaboutsError):
+class IndexUnusable(HereaboutsError):
     """An index directory that cannot be served."""
 
 
-class IndexBroken(IndexError_):
+class IndexBroken(IndexUnusable):
     """An index directory that is missing, cut short, or changed after it was written."""
 
 
-class IndexMismatch(IndexError_):
+class IndexMismatch(IndexUnusable):
     """An index built by a model other than the one that is loaded."""

@@ -34,7 +34,9 @@ def tiny_osm(seed: int = 0) -> str:
     def node(x: float, y: float, **tags: str) -> int:
         body = "".join(f'<tag k="{k.replace("__", ":")}" v="{v}"/>' for k, v in tags.items())
         number = len(nodes) + 1
-        nodes.append(f'<node id="{number}" version="1" lat="{LAT + y * LAT_M:.7f}" lon="{LON + x * LON_M:.7f}">{body}</node>')
+        nodes.append(
+            f'<node id="{number}" version="1" lat="{LAT + y * LAT_M:.7f}" lon="{LON + x * LON_M:.7f}">{body}</node>'
+        )
         return number
 
     def way(refs: list[int], **tags: str) -> None:
@@ -44,7 +46,12 @@ def tiny_osm(seed: int = 0) -> str:
 
     for i, at in enumerate(range(0, SIZE_M + 1, 60)):
         for half in (0, SIZE_M / 2):  # each street in two ways that touch
-            way([node(half, at), node(half + SIZE_M / 2, at)], highway="residential", name=f"East Street {i}", surface="asphalt")
+            way(
+                [node(half, at), node(half + SIZE_M / 2, at)],
+                highway="residential",
+                name=f"East Street {i}",
+                surface="asphalt",
+            )
         way([node(at, 0), node(at, SIZE_M)], highway="footway", name=f"North Path {i}")
     for x in range(0, SIZE_M, 60):
         for y in range(0, SIZE_M, 60):

@@ -10,8 +10,20 @@ import pytest
 ROOT = Path(__file__).parent.parent
 LAYERS = {"models": set(), "index": {"models"}, "app": {"models", "index"}}
 FILES = [path for layer in LAYERS for path in sorted((ROOT / layer).rglob("*.py"))]
-ONLY_IN = {"faiss": "index", "pymilvus": "index", "fastapi": "app", "starlette": "app", "uvicorn": "app", "typer": "app"}
-WITHOUT_TORCH = [ROOT / "models/city", ROOT / "models/training/metrics.py", ROOT / "app/schemas.py", ROOT / "index/answers.py"]
+ONLY_IN = {
+    "faiss": "index",
+    "pymilvus": "index",
+    "fastapi": "app",
+    "starlette": "app",
+    "uvicorn": "app",
+    "typer": "app",
+}
+WITHOUT_TORCH = [
+    ROOT / "models/city",
+    ROOT / "models/training/metrics.py",
+    ROOT / "app/schemas.py",
+    ROOT / "index/answers.py",
+]
 
 
 def imported(path: Path) -> set[str]:
@@ -36,5 +48,8 @@ def test_imports_run_one_way(path: Path) -> None:
 
 
 def test_the_city_model_loads_without_torch() -> None:
-    code = "import sys, models.city.osm, models.city.hints, models.training.metrics, index.answers; sys.exit('torch' in sys.modules)"
+    code = """
+import sys, models.city.osm, models.city.hints, models.training.metrics, index.answers
+sys.exit("torch" in sys.modules)
+"""
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0

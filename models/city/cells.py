@@ -163,7 +163,7 @@ def cut_cubes(
 def cell_at(city_map: CityMap, points: PointTable, cell_id: str, center_m: Floats) -> Cell:
     """One cell with the points of its instances, for display and for point encoders."""
     rows = _cut_cube(points, np.asarray(center_m, dtype=np.float64), city_map.rules)
-    instances = []
+    instances: list[Instance] = []
     for members in rows:
         source = city_map.instances[points.instance[members[0]]]
         rgb = points.rgb[members] if points.rgb is not None and source.rgb is not None else source.rgb
@@ -177,7 +177,7 @@ _shared: tuple[PointTable, CutRules] | None = None  # what forked workers read, 
 
 
 def _map_chunks(points: PointTable, rules: CutRules, chunks: list[Floats]) -> Iterator[tuple[Any, ...]]:
-    global _shared
+    global _shared  # noqa: PLW0603  # forked workers inherit it; an argument would be copied a task
     if len(chunks) < 4:
         yield from (_summarise_chunk(points, rules, chunk) for chunk in chunks)
         return
@@ -256,6 +256,8 @@ def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
     """DBSCAN labels of some points from the table's neighbour pairs, as scikit-learn numbers them.
 
     Args:
+        points: the table.
+        min_samples: neighbours within eps, itself included, that make a core point.
         rows: [M] ascending point rows; neighbours outside of them do not count.
 
     Returns:

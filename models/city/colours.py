@@ -94,7 +94,7 @@ def parse_colour(text: str) -> tuple[float, float, float] | None:
     Returns:
         None for a colour that cannot be read; a map is no worse for one unread tag.
     """
-    first = text.split(";")[0].strip().lower().replace("_", "").replace(" ", "")
+    first = text.split(";", maxsplit=1)[0].strip().lower().replace("_", "").replace(" ", "")
     try:
         red, green, blue = ImageColor.getrgb(first)[:3]
     except ValueError:
@@ -104,5 +104,5 @@ def parse_colour(text: str) -> tuple[float, float, float] | None:
 
 def material_colour(material: str) -> tuple[float, float, float] | None:
     """RGB in 0..1 that a material usually has, None for one without a usual colour (glass, plaster)."""
-    rgb = MATERIAL_RGB.get(material.split(";")[0].strip())
+    rgb = MATERIAL_RGB.get(material.split(";", maxsplit=1)[0].strip())
     return None if rgb is None else (rgb[0] / 255, rgb[1] / 255, rgb[2] / 255)

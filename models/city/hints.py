@@ -77,7 +77,9 @@ def hint_table(city_map: CityMap, parts: Parts, positions_m: Floats) -> HintTabl
     )
 
 
-def choose_hints(table: HintTable, n: int, labels: npt.NDArray[Any], strategy: Strategy, count: int) -> npt.NDArray[Any]:
+def choose_hints(
+    table: HintTable, n: int, labels: npt.NDArray[Any], strategy: Strategy, count: int
+) -> npt.NDArray[Any]:
     """Rows of the hints that one strategy picks at position n.
 
     Args:

@@ -52,16 +52,16 @@ class OsmClass:
 
     def __post_init__(self) -> None:
         """Split the tag lines once, because they are asked for every element of the map."""
-        split = [(line.startswith("!"), *line.lstrip("!").split("=", 1)) for line in self.tags]
-        conditions = [(no, key, None if value == "*" else frozenset(value.split("|"))) for no, key, value in split]
+        split = [(line.startswith("!"), line.lstrip("!").partition("=")) for line in self.tags]
+        conditions = [(no, key, None if value == "*" else frozenset(value.split("|"))) for no, (key, _, value) in split]
         object.__setattr__(self, "required", tuple((key, values) for no, key, values in conditions if not no))
         object.__setattr__(self, "forbidden", tuple((key, values) for no, key, values in conditions if no))
 
     def matches(self, tags: dict[str, str]) -> bool:
         """Whether an element with these tags belongs to this class."""
-        return all(key in tags and (values is None or tags[key] in values) for key, values in self.required) and not any(
-            key in tags and (values is None or tags[key] in values) for key, values in self.forbidden
-        )
+        return all(
+            key in tags and (values is None or tags[key] in values) for key, values in self.required
+        ) and not any(key in tags and (values is None or tags[key] in values) for key, values in self.forbidden)
 
 
 @cache
@@ -132,7 +132,11 @@ def _read_elements(path: Path) -> tuple[list[_Element], tuple[float, float, floa
 
 def _classify(processor: Any) -> Iterator[_Element]:
     factory = osmium.geom.WKBFactory()
-    create = {"n": factory.create_point, "w": factory.create_linestring, "a": factory.create_multipolygon}
+    create: dict[str, Any] = {
+        "n": factory.create_point,
+        "w": factory.create_linestring,
+        "a": factory.create_multipolygon,
+    }
     for element in processor:
         kind = element.type_str()
         if kind not in create:
@@ -184,7 +188,9 @@ def _feature(element: _Element, geometry: shapely.Geometry) -> Feature:
     materials = (material_colour(tags[key]) for key in MATERIAL_KEYS if key in tags)
     if row.shape == "ground" and shapely.get_dimensions(geometry) < 2:
         width = _metres(tags.get("width", "")) or row.width_m
-        geometry = shapely.buffer(geometry, width / 2, quad_segs=4, cap_style="flat" if row.label != "crossing" else "round")
+        geometry = shapely.buffer(
+            geometry, width / 2, quad_segs=4, cap_style="flat" if row.label != "crossing" else "round"
+        )
     return Feature(
         label=row.label,
         shape=row.shape,

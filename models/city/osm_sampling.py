@@ -66,7 +66,7 @@ def sample_features(features: list[Feature], path: Path) -> tuple[Floats, npt.ND
     points = np.concatenate([part[0] for part in parts]).astype(np.float32)
     rank = {group: i for i, group in enumerate(dict.fromkeys(f.group for f in features))}
     groups = np.concatenate([part[1] for part in parts])
-    ranks = np.array([rank[g] for g in range(len(rank))], dtype=np.intp)[groups] if len(rank) else groups
+    ranks = np.array([rank[g] for g in range(len(rank))], dtype=np.intp)[groups] if rank else groups
     order = np.argsort(ranks, kind="stable")
     return points[order], np.searchsorted(ranks[order], np.arange(len(rank) + 1))
 
@@ -94,10 +94,8 @@ def _sample_ground(features: list[Feature]) -> tuple[Floats, npt.NDArray[np.intp
 def _lattice_inside(polygon: shapely.Geometry) -> npt.NDArray[np.int64]:
     """Lattice coordinates [n, 2] inside one polygon."""
     shapely.prepare(polygon)
-    west, south, east, north = np.floor(np.array(polygon.bounds) / GROUND_SPACING_M).astype(np.int64) + [1, 1, 0, 0]
-    if east < west or north < south:
-        return np.zeros((0, 2), dtype=np.int64)
-    x, y = np.meshgrid(np.arange(west, east + 1), np.arange(south, north + 1))
+    west, south, east, north = np.floor(np.array(polygon.bounds) / GROUND_SPACING_M).astype(np.int64)
+    x, y = np.meshgrid(np.arange(west + 1, east + 1), np.arange(south + 1, north + 1))
     inside = shapely.contains_xy(polygon, x * GROUND_SPACING_M, y * GROUND_SPACING_M)
     return np.column_stack([x[inside], y[inside]])
 
@@ -107,7 +105,9 @@ def _sample_raised(features: list[Feature]) -> tuple[Floats, npt.NDArray[np.intp
     lines: list[shapely.Geometry] = []
     owner: list[int] = []
     for i, feature in enumerate(features):
-        outline = shapely.boundary(feature.geometry) if shapely.get_dimensions(feature.geometry) == 2 else feature.geometry
+        outline = (
+            shapely.boundary(feature.geometry) if shapely.get_dimensions(feature.geometry) == 2 else feature.geometry
+        )
         parts = shapely.get_parts(outline)
         lines.extend(parts)
         owner.extend([i] * len(parts))
@@ -136,7 +136,7 @@ def _sample_upright(features: list[Feature]) -> tuple[Floats, npt.NDArray[np.int
     points: list[npt.NDArray[Any]] = [np.zeros((0, 3))]
     for feature in features:
         template = {"column": _column, "crown": _crown, "box": _box}[feature.shape](feature.height_m)
-        points.append(template + [*shapely.get_coordinates(feature.geometry)[0], feature.base_m])
+        points.append(template + np.array([*shapely.get_coordinates(feature.geometry)[0], feature.base_m]))
     sizes = [len(p) for p in points[1:]]
     return np.concatenate(points), np.repeat(np.array([f.group for f in features], dtype=np.intp), sizes)
 

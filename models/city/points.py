@@ -60,14 +60,17 @@ class PointTable:
         rgb = None
         if has_point_colours:
             unknown = np.full(3, np.nan, dtype=np.float32)
-            rgb = np.concatenate([np.broadcast_to(unknown if i.rgb is None else i.rgb, i.points_m.shape) for i in instances])
+            rgb = np.concatenate(
+                [np.broadcast_to(unknown if i.rgb is None else i.rgb, i.points_m.shape) for i in instances]
+            )
         return cls(xyz, instance, starts, rgb, instance_rgb, is_stuff, order, key[order], pair_starts, pairs)
 
     def inside(self, low: Floats, high: Floats) -> Ints:
         """Rows of the points in a box, ascending.
 
         Args:
-            low, high: [3] opposite corners, metres; both ends belong to the box.
+            low: [3] south-west and lowest corner, metres; it belongs to the box.
+            high: [3] the opposite corner; so does it.
         """
         first = np.floor(low[:2] / TILE_M).astype(np.int64)
         last = np.floor(high[:2] / TILE_M).astype(np.int64)
@@ -82,7 +85,8 @@ class PointTable:
 def tile_keys(xyz: Floats) -> Ints:
     """[P] one integer a tile; the tiles of one column follow each other from south to north."""
     tile = np.floor(xyz[:, :2] / TILE_M).astype(np.int64)
-    return _key(tile[:, 0], tile[:, 1])
+    keys: Ints = _key(tile[:, 0], tile[:, 1])
+    return keys
 
 
 def _key(column: Any, row: Any) -> Any:
@@ -93,7 +97,8 @@ def ranges(begin: Ints, end: Ints) -> Ints:
     """The integers begin[0]..end[0]-1, begin[1]..end[1]-1 and so on, one after the other."""
     sizes = end - begin
     offset = np.repeat(begin - (np.cumsum(sizes) - sizes), sizes)
-    return np.arange(sizes.sum()) + offset
+    found: Ints = np.arange(sizes.sum()) + offset
+    return found
 
 
 def thin(points: Floats, spacing_m: float) -> Floats:

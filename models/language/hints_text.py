@@ -7,7 +7,7 @@ from models.city.types import Direction, Hint
 from models.errors import DescriptionError
 
 # A sentence ends at . ! ? ; or a line break; a dot inside a number or an abbreviation's letter does not end one.
-_BREAK = re.compile(r"(?<=[.!?;。！？])(?<!\b\w\.)(?=\s|$)|[\r\n]+")
+_BREAK = re.compile(r"(?<=[.!?;。！？])(?<!\b\w\.)(?=\s|$)|[\r\n]+")  # noqa: RUF001  # Chinese and Japanese too
 _HAS_WORD = re.compile(r"\w")
 OPPOSITE: Final[dict[Direction, Direction]] = {
     "north": "south",
@@ -68,7 +68,12 @@ def render_hint(hint: Hint, template: int = 0) -> str:
     noun = f"{hint.colour} {hint.label}" if hint.colour else hint.label
     # The benchmark writes "a" before any word; people do not.
     article = "an" if template and noun[0] in "aeiou" else "a"
-    words = {"a": f"{article} {noun}", "A": f"{article.capitalize()} {noun}", "the": f"the {noun}", "The": f"The {noun}"}
+    words = {
+        "a": f"{article} {noun}",
+        "A": f"{article.capitalize()} {noun}",
+        "the": f"the {noun}",
+        "The": f"The {noun}",
+    }
     if hint.direction == "on-top":
         return ON_TOP_TEMPLATES[template].format(**words)
     return TEMPLATES[template].format(**words, d=hint.direction, o=OPPOSITE[hint.direction])

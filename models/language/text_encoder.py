@@ -10,7 +10,7 @@ from pathlib import Path
 import torch
 import transformers
 from torch import Tensor, nn
-from transformers import AutoConfig, AutoModel, AutoTokenizer, PreTrainedTokenizerBase, T5EncoderModel
+from transformers import AutoConfig, AutoModel, AutoTokenizer, PreTrainedModel, PreTrainedTokenizerBase, T5EncoderModel
 
 from models.errors import WeightsError
 
@@ -42,7 +42,9 @@ class TextEncoder(nn.Module):
         width: W, size of a token's features.
     """
 
-    def __init__(self, model: nn.Module, tokenizer: PreTrainedTokenizerBase, source: str, fingerprint: str) -> None:
+    def __init__(
+        self, model: PreTrainedModel, tokenizer: PreTrainedTokenizerBase, source: str, fingerprint: str
+    ) -> None:
         super().__init__()
         self.model = model.eval().requires_grad_(False)
         self.tokenizer = tokenizer

@@ -54,5 +54,7 @@ def load_retriever(directory: Path | None = None) -> Retriever:
     try:
         retriever.load_state_dict(weights, strict=True)
     except RuntimeError as error:
-        raise WeightsError(f"the weights in {directory} are not of the model its {CONFIG_FILE} names; {advice}") from error
+        raise WeightsError(
+            f"the weights in {directory} are not of the model its {CONFIG_FILE} names; {advice}"
+        ) from error
     return retriever.eval()

@@ -112,7 +112,7 @@ class InstanceEncoder(nn.Module):
             geometry: [R, 16] columns of GEOMETRY.
             label_embedding: [R, W] text embedding of each instance's label.
         """
-        columns = dict(zip(GEOMETRY, geometry.split(list(GEOMETRY.values()), dim=-1), strict=True))
+        columns = dict(zip(GEOMETRY, torch.split(geometry, list(GEOMETRY.values()), dim=-1), strict=True))
         parts = [branch(columns[name]) for name, branch in self.branches.items()]
         parts.append(self.label(label_embedding))
         merged: Tensor = self.merge(torch.cat([nn.functional.normalize(part, dim=-1) for part in parts], dim=-1))

@@ -1,5 +1,7 @@
 """Small pieces that several encoders share."""
 
+from itertools import pairwise
+
 import torch
 from torch import Tensor, nn
 
@@ -20,7 +22,7 @@ def masked_max(x: Tensor, mask: Tensor) -> Tensor:
 def mlp(*widths: int) -> nn.Sequential:
     """Linear layers with ReLU between them; the last is linear."""
     layers: list[nn.Module] = []
-    for i, (width_in, width_out) in enumerate(zip(widths, widths[1:], strict=False)):
+    for i, (width_in, width_out) in enumerate(pairwise(widths)):
         layers += [nn.ReLU()] if i else []
         layers.append(nn.Linear(width_in, width_out))
     return nn.Sequential(*layers)

@@ -93,7 +93,9 @@ class Retriever(nn.Module):
         return nn.functional.normalize(masked_max(self.cell(features, mask), mask), dim=-1)
 
     @torch.inference_mode()
-    def encode_descriptions(self, descriptions: Sequence[Sequence[str]]) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
+    def encode_descriptions(
+        self, descriptions: Sequence[Sequence[str]]
+    ) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
         """[Q, D] float32 unit vectors of descriptions, each any number of hint sentences in any order."""
         features = self._hint_features(dict.fromkeys(hint for hints in descriptions for hint in hints))
         vectors = np.empty((len(descriptions), self.config.width), dtype=np.float32)

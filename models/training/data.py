@@ -119,7 +119,8 @@ class TrainingRegion:
         """Positions for a batch: groups of `cluster` near each other, whose cells are hard to tell apart."""
         seeds = rng.choice(self.usable, size // cluster, replace=False)
         near = self._tree.query_ball_point(self.positions[seeds, :2], NEIGHBOUR_M)
-        return self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
+        drawn: npt.NDArray[np.intp] = self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
+        return drawn
 
     def batch(self, positions: npt.NDArray[np.intp], rng: np.random.Generator) -> Batch:
         """Examples at some positions, with hints, wording and orientation drawn at random."""

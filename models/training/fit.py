@@ -21,7 +21,7 @@ from models.city.points import PointTable
 from models.city.regions import Region, split_regions
 from models.city.types import CityMap, Pose
 from models.language.hints_text import render_hint
-from models.language.text_encoder import load_text_encoder
+from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.losses import contrastive_loss
@@ -47,7 +47,7 @@ class TrainingConfig(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     seed: int = 0
-    steps: int = Field(default=3000, ge=1)
+    steps: int = Field(default=1500, ge=1)
     batch_size: int = Field(default=128, ge=2)
     cluster: int = Field(default=4, ge=1)
     learning_rate: float = 1e-3
@@ -124,7 +124,9 @@ def train_retriever(
     validation = _validation(city_map, points, cells, regions["val"])
     retriever = Retriever(encoder, model)
     history = _optimise(retriever, region, validation, config, rng, progress)
-    retriever.config = model.model_copy(update={"temperature": fit_temperature(validation.scores(retriever), validation.truth)})
+    retriever.config = model.model_copy(
+        update={"temperature": fit_temperature(validation.scores(retriever), validation.truth)}
+    )
     recall = retrieval_recall(_rank(validation.scores(retriever)), validation.truth)
     training = {
         "map": city_map.name,
@@ -150,7 +152,13 @@ def fit_temperature(scores: npt.NDArray[np.floating[Any]], truth: npt.NDArray[np
 
 
 def _training_region(
-    city_map: CityMap, points: PointTable, cells: CellTable, region: Region, config: TrainingConfig, rng: Any, encoder: Any
+    city_map: CityMap,
+    points: PointTable,
+    cells: CellTable,
+    region: Region,
+    config: TrainingConfig,
+    rng: np.random.Generator,
+    encoder: TextEncoder,
 ) -> TrainingRegion:
     positions = sample_positions(region.locations(city_map.locations_m), config.spacing_m, rng)
     return TrainingRegion(city_map, points, region.cells(cells), positions, encoder)
@@ -183,7 +191,7 @@ def _optimise(
         batch = region.batch(region.draw(config.batch_size, config.cluster, rng), rng)
         loss = _loss(retriever, region, batch, config.temperature)
         optimizer.zero_grad()
-        loss.backward()  # type: ignore[no-untyped-call]
+        loss.backward()
         torch.nn.utils.clip_grad_norm_(retriever.parameters(), 1.0)
         optimizer.step()
         schedule.step()
@@ -192,7 +200,9 @@ def _optimise(
         if step % config.validate_every == 0 or step == config.steps:
             recall = retrieval_recall(_rank(validation.scores(retriever.eval())), validation.truth)
             retriever.train()
-            history.append({"step": step, "loss": float(np.mean(losses))} | {f"recall@{k}": v for k, v in recall.items()})
+            history.append(
+                {"step": step, "loss": float(np.mean(losses))} | {f"recall@{k}": v for k, v in recall.items()}
+            )
             losses = []
             if recall[5] > best_recall:
                 best, best_recall = copy.deepcopy(retriever.state_dict()), recall[5]
@@ -218,7 +228,7 @@ def _hint_features(retriever: Retriever, vocabulary: HintVocabulary, batch: Batc
     sentences, inverse = torch.unique(batch.sentences[batch.hint_mask], return_inverse=True)
     mask = vocabulary.mask[sentences]
     longest = int(mask.sum(dim=1).max())
-    features = retriever.hints(vocabulary.tokens[sentences, :longest].float(), mask[:, :longest])
+    features: Tensor = retriever.hints(vocabulary.tokens[sentences, :longest].float(), mask[:, :longest])
     hints = features.new_zeros(*batch.sentences.shape, features.shape[-1])
     hints[batch.hint_mask] = features[inverse]
     return hints

@@ -62,7 +62,7 @@ def start():
     return started
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def until():
     """Waits until a condition holds."""
     return wait_until

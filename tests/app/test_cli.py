@@ -77,7 +77,7 @@ def test_json_is_all_that_is_printed(opened, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("error", "text"), [(IndexBroken("no [bold] index; build one"), TEXT), (FakeLocalizer(), " ... ")]
+    ("error", "text"), [(IndexBroken("no [bold] index; " + "build one " * 50), TEXT), (FakeLocalizer(), " ... ")]
 )
 def test_wrong_input_is_one_line_on_stderr(opened, error, text):
     opened(error)

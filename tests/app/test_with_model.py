@@ -13,11 +13,9 @@ from app.settings import Settings
 
 
 @pytest.fixture(scope="module")
-def served(index_dir, weights_dir):
-    from conftest import wait_until
-
+def served(index_dir, weights_dir, until):
     with TestClient(create_app(Settings(index_dir=index_dir, weights_dir=weights_dir))) as served:
-        wait_until(lambda: served.get("/readyz").status_code == 200, 60)
+        until(lambda: served.get("/readyz").status_code == 200, 60)
         yield served
 
 
@@ -73,7 +71,7 @@ def test_command_line_answers_the_same(served, text, index_dir, weights_dir, mon
 
 def test_index_that_was_changed_is_not_served(index_dir, weights_dir, tmp_path, until, problem):
     shutil.copytree(index_dir, tmp_path / "index")
-    for file in (tmp_path / "index").rglob("*.npz"):
+    for file in (tmp_path / "index").rglob("*.safetensors"):
         file.write_bytes(file.read_bytes()[:-1])
     settings = Settings(index_dir=tmp_path / "index", weights_dir=weights_dir)
     with TestClient(create_app(settings)) as api:

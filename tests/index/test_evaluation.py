@@ -21,7 +21,7 @@ def test_the_report_has_the_fixed_names(report) -> None:
     assert set(report["localization"]) == {"1", "5", "10"}
     assert all(set(row) == {"5", "10", "15"} for row in report["localization"].values())
     assert report["cells"] > 400
-    assert report["queries"] > 500
+    assert report["queries"] > 400
 
 
 def test_recalls_grow_and_stay_under_the_oracle(report) -> None:
@@ -38,7 +38,9 @@ def test_chance_is_what_random_candidates_reach(report, osm_file) -> None:
     queries = QuerySet.of(osm_file, None)
     rng = np.random.default_rng(0)
     errors = [
-        np.linalg.norm(queries.cells.center_m[rng.integers(len(queries.cells), size=5), :2] - p.position_m[:2], axis=1).min()
+        np.linalg.norm(
+            queries.cells.center_m[rng.integers(len(queries.cells), size=5), :2] - p.position_m[:2], axis=1
+        ).min()
         for p in queries.poses
         for _ in range(10)
     ]
@@ -65,7 +67,11 @@ def test_exact_matching_against_a_naive_count(osm_file) -> None:
     words = (*queries.city_map.palette.words, None)
     true_at = [
         {
-            (queries.city_map.instances[table.instance[r]].label, words[table.colour[r]], DIRECTIONS[table.direction[r]])
+            (
+                queries.city_map.instances[table.instance[r]].label,
+                words[table.colour[r]],
+                DIRECTIONS[table.direction[r]],
+            )
             for r in range(table.starts[n], table.starts[n + 1])
         }
         for n in range(len(queries.cells))

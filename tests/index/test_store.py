@@ -48,7 +48,9 @@ def test_scores_of_some_rows(vectors) -> None:
 def test_files(vectors, tmp_path) -> None:
     path = tmp_path / "v.faiss"
     FaissStore.of(vectors).save(path)
-    assert np.array_equal(FaissStore.load(path).search(vectors[:5], 3)[1], FaissStore.of(vectors).search(vectors[:5], 3)[1])
+    assert np.array_equal(
+        FaissStore.load(path).search(vectors[:5], 3)[1], FaissStore.of(vectors).search(vectors[:5], 3)[1]
+    )
     path.write_bytes(b"junk")
     with pytest.raises(IndexBroken, match="cannot be read"):
         FaissStore.load(path)

@@ -20,9 +20,8 @@ def naive_parts(city: CityMap, center: np.ndarray) -> list[tuple[int, frozenset]
         elif inside.any():
             rows = np.flatnonzero(inside)
             labels = DBSCAN(eps=rules.eps_m, min_samples=rules.min_samples).fit(instance.points_m[rows]).labels_
-            for label in range(labels.max() + 1):
-                if (labels == label).sum() >= rules.min_part_points:
-                    parts.append((row, frozenset(rows[labels == label].tolist())))
+            clusters = [rows[labels == label] for label in range(labels.max() + 1)]
+            parts += [(row, frozenset(c.tolist())) for c in clusters if len(c) >= rules.min_part_points]
     return parts
 
 
@@ -103,7 +102,10 @@ def test_cells_are_numbered_and_rich_enough(city, cells) -> None:
     assert cells.ids[:2] == ("tinytown_00000", "tinytown_00001")
     some = cells.take(np.array([5, 2]))
     assert some.ids == (cells.ids[5], cells.ids[2])
-    assert (some.parts.instance == np.concatenate([cells.parts.instance[cells.parts.starts[n] : cells.parts.starts[n + 1]] for n in (5, 2)])).all()
+    assert (
+        some.parts.instance
+        == np.concatenate([cells.parts.instance[cells.parts.starts[n] : cells.parts.starts[n + 1]] for n in (5, 2)])
+    ).all()
 
 
 def test_one_cell_with_its_points(city, points, cells) -> None:

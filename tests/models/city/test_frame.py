@@ -4,7 +4,9 @@ import pytest
 from models.city.frame import Frame
 
 
-@pytest.mark.parametrize("frame", [Frame(origin_lat=60.17, origin_lon=24.94), Frame(origin_lat=60.17, origin_lon=24.94, epsg=32635)])
+@pytest.mark.parametrize(
+    "frame", [Frame(origin_lat=60.17, origin_lon=24.94), Frame(origin_lat=60.17, origin_lon=24.94, epsg=32635)]
+)
 def test_there_and_back(frame) -> None:
     position = np.array([[0.0, 0.0], [420.0, -650.0], [-1500.0, 900.0]])
     lat, lon = frame.to_wgs84(position)

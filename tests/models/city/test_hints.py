@@ -9,7 +9,15 @@ from models.city.types import DIRECTIONS
 
 @pytest.mark.parametrize(
     ("offset", "direction"),
-    [((0, 5), "north"), ((0, -5), "south"), ((5, 0), "east"), ((-5, 1), "west"), ((1, -1), "on-top"), ((1.6, 0), "east"), ((3, 4), "north")],
+    [
+        ((0, 5), "north"),
+        ((0, -5), "south"),
+        ((5, 0), "east"),
+        ((-5, 1), "west"),
+        ((1, -1), "on-top"),
+        ((1.6, 0), "east"),
+        ((3, 4), "north"),
+    ],
 )
 def test_direction(offset, direction) -> None:
     assert DIRECTIONS[direction_index(np.array(offset, dtype=float))] == direction
@@ -65,7 +73,10 @@ def test_strategies_against_a_naive_round_robin(city, points) -> None:
     for n in range(len(positions)):
         rows = list(range(table.starts[n], table.starts[n + 1]))
         assert (np.diff(table.distance_m[rows]) >= 0).all()
-        for strategy, key in (("class", lambda r: labels[table.instance[r]]), ("direction", lambda r: table.direction[r])):
+        for strategy, key in (
+            ("class", lambda r: labels[table.instance[r]]),
+            ("direction", lambda r: table.direction[r]),
+        ):
             pools: dict = {}
             for row in rows:
                 pools.setdefault(key(row), []).append(row)
@@ -88,7 +99,9 @@ def test_regions_share_no_cell_and_no_point(cells, city) -> None:
     ids = [set(t.ids) for t in tables.values()]
     assert all(ids)
     assert not ids[0] & ids[1] | ids[0] & ids[2] | ids[1] & ids[2]
-    reach = {n: (t.center_m[:, 0].min() - t.size_m / 2, t.center_m[:, 0].max() + t.size_m / 2) for n, t in tables.items()}
+    reach = {
+        n: (t.center_m[:, 0].min() - t.size_m / 2, t.center_m[:, 0].max() + t.size_m / 2) for n, t in tables.items()
+    }
     assert reach["train"][1] <= reach["val"][0]
     assert reach["val"][1] <= reach["test"][0]
     for name, region in regions.items():

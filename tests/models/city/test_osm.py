@@ -29,7 +29,17 @@ def test_reads_all_kinds_of_a_town(city) -> None:
     count = Counter(i.label for i in city.instances)
     assert count["building"] == 25
     assert count["road"] == 6, "streets of two ways are one instance each"
-    assert set(count) == {"building", "road", "footpath", "street lamp", "tree", "bench", "bollard", "trash bin", "post box"}
+    assert set(count) == {
+        "building",
+        "road",
+        "footpath",
+        "street lamp",
+        "tree",
+        "bench",
+        "bollard",
+        "trash bin",
+        "post box",
+    }
     assert [i.id for i in city.instances] == list(range(len(city.instances)))
     assert city.frame.is_georeferenced
     assert {"building", "road", "footpath"} <= city.stuff
@@ -76,7 +86,9 @@ def test_a_lamp_that_carries_a_sign_is_one(tmp_path) -> None:
     assert len(instances(tmp_path, lamp + far, "traffic sign")) == 1
 
 
-@pytest.mark.parametrize("tag", ['k="layer" v="-1"', 'k="indoor" v="yes"', 'k="location" v="underground"', 'k="level" v="2"'])
+@pytest.mark.parametrize(
+    "tag", ['k="layer" v="-1"', 'k="indoor" v="yes"', 'k="location" v="underground"', 'k="level" v="2"']
+)
 def test_what_cannot_be_seen_is_left_out(tmp_path, tag) -> None:
     bench = '<node id="9" lat="60.0001" lon="25.0"><tag k="amenity" v="bench"/>{}</node>'
     assert len(instances(tmp_path, bench.format(""), "bench")) == 1
@@ -136,7 +148,11 @@ def test_names_heights_and_widths_are_read(tmp_path) -> None:
         ("noise.osm", b"this is no XML", "cannot be read"),
         ("map.txt", b"hello", "not an OpenStreetMap file"),
         ("bare.osm", (HEADER + "</osm>").encode(), "no building, street"),
-        ("nostreet.osm", (HEADER + '<node id="1" lat="60" lon="25"><tag k="natural" v="tree"/></node></osm>').encode(), "no street"),
+        (
+            "nostreet.osm",
+            (HEADER + '<node id="1" lat="60" lon="25"><tag k="natural" v="tree"/></node></osm>').encode(),
+            "no street",
+        ),
     ],
 )
 def test_bad_files_say_what_is_wrong(tmp_path, name, content, message) -> None:
@@ -183,7 +199,8 @@ def test_tag_conditions() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "rgb"), [("#ff0000", (1, 0, 0)), ("white;red", (1, 1, 1)), ("light_grey", (211 / 255,) * 3), ("shiny", None), ("", None)]
+    ("text", "rgb"),
+    [("#ff0000", (1, 0, 0)), ("white;red", (1, 1, 1)), ("light_grey", (211 / 255,) * 3), ("shiny", None), ("", None)],
 )
 def test_written_colours(text, rgb) -> None:
     assert parse_colour(text) == (None if rgb is None else pytest.approx(rgb))

@@ -8,7 +8,10 @@ from models.language.hints_text import ON_TOP_TEMPLATES, TEMPLATES, render_hint,
 @pytest.mark.parametrize(
     ("text", "hints"),
     [
-        ("I am north of a gray building. A black pole is to my west.", ("I am north of a gray building.", "A black pole is to my west.")),
+        (
+            "I am north of a gray building. A black pole is to my west.",
+            ("I am north of a gray building.", "A black pole is to my west."),
+        ),
         ("one thing", ("one thing",)),
         ("a tree to the north; a bench to the south", ("a tree to the north", "a bench to the south")),
         ("A lamp!\nA bin?\r\n\r\nA wall", ("A lamp!", "A bin?", "A wall")),
@@ -33,7 +36,10 @@ def test_the_first_template_is_the_benchmarks() -> None:
 
 
 def test_both_points_of_view_agree() -> None:
-    assert render_hint(Hint("north", "tree", "green"), TEMPLATES.index("There is {a} {o} of me.")) == "There is a green tree south of me."
+    assert (
+        render_hint(Hint("north", "tree", "green"), TEMPLATES.index("There is {a} {o} of me."))
+        == "There is a green tree south of me."
+    )
     assert render_hint(Hint("east", "awning"), TEMPLATES.index("I am {d} of {a}.")) == "I am east of an awning."
 
 

@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 import torch
 
+from models.errors import WeightsError
 from models.retrieval.checkpoint import load_retriever, save_retriever
 from models.retrieval.instance_encoder import NUM_GEOMETRY, CellFeatures
 from models.retrieval.layers import masked_max
 from models.retrieval.losses import contrastive_loss
 from models.retrieval.retriever import Retriever, RetrieverConfig
-from models.errors import WeightsError
 
 TEXTS = [
     ["I am north of a gray building."],
@@ -77,7 +77,9 @@ def test_features_of_a_cell(city, cells, features) -> None:
     offset = (cells.parts.closest_m[rows] - cells.center_m[n])[:, :2]
     assert geometry[:, 3:5] * 15 == pytest.approx(offset, abs=1e-3)
     assert geometry[:, 5] * 15 == pytest.approx(np.hypot(*offset.T), abs=1e-3)
-    assert [features.labels[i] for i in features.label[rows]] == [city.instances[i].label for i in cells.parts.instance[rows]]
+    assert [features.labels[i] for i in features.label[rows]] == [
+        city.instances[i].label for i in cells.parts.instance[rows]
+    ]
     known = ~np.isnan(cells.parts.rgb[rows]).any(axis=1)
     assert (geometry[:, 15] == known).all()
     assert (geometry[~known, 12:15] == 0).all()

@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.hints import sample_positions
+from models.city.hints import direction_index, sample_positions
 from models.city.types import DIRECTIONS
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.retriever import RetrieverConfig
 from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingRegion, turn
 from models.training.fit import TrainingConfig, fit_temperature, train_retriever
-from models.city.hints import direction_index
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +51,9 @@ def test_the_vocabulary_numbers_its_sentences(region) -> None:
     vocabulary = region.vocabulary
     said = [
         int(vocabulary.sentence(label, -1, d, t))
-        for label, d, t in itertools.product(np.flatnonzero(vocabulary._pair[:, -1] >= 0), range(len(DIRECTIONS)), range(2))
+        for label, d, t in itertools.product(
+            np.flatnonzero(vocabulary._pair[:, -1] >= 0), range(len(DIRECTIONS)), range(2)
+        )
     ]
     assert len(set(said)) == len(said)
     assert max(said) < len(vocabulary.mask)
