@@ -6,10 +6,10 @@ PORT ?= 8000
 MAP ?= models/maps/helsinki.osm.pbf
 INDEX ?= data/index
 IMAGE ?= hereabouts
-# Pins. For a CUDA build of torch set TORCH, for example: make install TORCH="torch --index-url <your CUDA index>".
-TORCH ?= $(shell sed -n 's/^torch==/torch==/p' constraints.txt)
+# What pip is asked for first; set it to choose another build of torch, for example TORCH=./torch-2.13.0+cu130.whl.
+TORCH ?= $(shell grep '^torch==' constraints.txt)
 
-.PHONY: help install run test check format train index serve evaluate benchmark web image clean
+.PHONY: help install run test check format train index serve evaluate benchmark web wheels image clean
 
 help:  ## what can be made
 	@sed -n 's/^\([a-z]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
@@ -56,8 +56,14 @@ evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderpl
 benchmark: install $(INDEX)/aliases.json  ## seconds, memory and latency on this machine
 	$(BIN)/hereabouts benchmark --map $(MAP) --index $(INDEX)
 
-image: ## the container image
+web:  ## open the page of the running service
+	$(PYTHON) -m webbrowser http://127.0.0.1:$(PORT)/docs
+
+wheels: install  ## put this machine's build of torch where the image build finds it
+	$(BIN)/pip download --quiet --no-deps --dest docker/wheels $(TORCH)
+
+image:  ## the container image
 	docker build --file docker/Dockerfile --tag $(IMAGE) .
 
-clean: ## remove what was made
+clean:  ## remove what was made
 	rm -rf $(VENV) data reports runs

@@ -15,6 +15,8 @@ from typing import Any
 import httpx
 import numpy as np
 
+from models.errors import HereaboutsError
+
 REQUESTS = 200
 HINTS = 6
 POLL_S = 0.1
@@ -116,7 +118,7 @@ def _wait_until_ready(client: httpx.Client, server: "subprocess.Popen[bytes]") -
         except httpx.TransportError:
             pass
         time.sleep(POLL_S)
-    raise RuntimeError("the service did not become ready; try 'hereabouts serve' to see why")
+    raise HereaboutsError("the service did not become ready; try 'hereabouts serve' to see why")
 
 
 def _hereabouts() -> list[str]:

@@ -121,8 +121,9 @@ def write_version(root: Path, version: str) -> Iterator[Path]:
 
 
 def file_records(directory: Path) -> dict[str, FileRecord]:
-    """Sizes and sums of the files of a directory, each flushed to disk."""
+    """Sizes and sums of the files of a directory, each flushed to disk and readable for whoever serves it."""
     for path in directory.iterdir():
+        path.chmod(0o644)
         _sync(path)
     return {
         path.name: FileRecord(sha256=file_sha256(path), bytes=path.stat().st_size)

@@ -100,6 +100,7 @@ def evaluate(data: Path, split: str | None, report_dir: Path | None, retriever: 
     descriptions = [[render_hint(hint) for hint in pose.description.hints] for pose in queries.poses]
     scores, ranked = store.search(retriever.encode_descriptions(descriptions), len(cells))
     positions = np.array([pose.position_m for pose in queries.poses])
+    temperatures = np.array([retriever.temperature(len(hints)) for hints in descriptions])
     report: dict[str, Any] = {
         "data": data.name,
         "split": split or "all",
@@ -112,7 +113,7 @@ def evaluate(data: Path, split: str | None, report_dir: Path | None, retriever: 
         "oracle": localization_recall(np.repeat(_errors(cells, truth[:, None], positions), TOP, axis=1)),
         "chance": _chance(cells, positions),
         "ambiguity": _ambiguity(queries),
-        "calibration": _calibration(scores / retriever.config.temperature, ranked[:, 0] == truth),
+        "calibration": _calibration(scores / temperatures[:, None], ranked[:, 0] == truth),
     }
     report = json.loads(json.dumps(report))  # keys as they will be read: strings
     if report_dir:

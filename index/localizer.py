@@ -199,10 +199,10 @@ class Localizer:
     def _posterior(self, query: Query, rows: npt.NDArray[np.int64], scores: Floats, unseen: int) -> Floats:
         """[len(rows)] probability that each cell is the right one.
 
-        softmax(score / T) over the gallery, with T fitted on validation queries (`fit_temperature`). Cells
+        softmax(score / T) over the gallery, with T fitted on validation queries (`Retriever.temperature`). Cells
         that were left out count as if each scored like the last one seen, so doubt is never understated.
         """
-        logits = scores.astype(np.float64) / self.retriever.config.temperature
+        logits = scores.astype(np.float64) / self.retriever.temperature(len(query.hints))
         if query.prior is not None:
             offset = self._centers[rows] - self._to_map(query.prior.position, query.crs)
             logits = logits - (offset**2).sum(axis=1) / (2 * query.prior.sigma_m**2)

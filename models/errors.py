@@ -2,6 +2,7 @@
 
 HereaboutsError
 ├── MapError             a map that cannot be read or holds nothing usable
+├── DataError            data set files that cannot be read; the message names file and field
 ├── DescriptionError     a text that cannot be used as a description
 ├── WeightsError         weights that are missing, broken or of another model
 └── IndexUnusable         an index directory that cannot be served
@@ -16,6 +17,10 @@ class HereaboutsError(Exception):
 
 class MapError(HereaboutsError):
     """A map that cannot be read or holds nothing usable."""
+
+
+class DataError(HereaboutsError):
+    """Data set files that cannot be read; the message names the file and the field."""
 
 
 class DescriptionError(HereaboutsError):

@@ -4,19 +4,19 @@ One function cuts both the cells of the grid and the cell around a pose from whi
 (kitti360pose.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
 """
 
-import multiprocessing
-from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from models.city.points import Ints, PointTable, ranges
+from models.city.processes import map_forked
 from models.city.types import Cell, CityMap, CutRules, Floats, Instance
 from models.errors import MapError
 
@@ -131,10 +131,14 @@ def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
     low = np.floor(locations_m[:, :2].min(axis=0) / rules.grid_m).astype(int)
     high = np.ceil(locations_m[:, :2].max(axis=0) / rules.grid_m).astype(int)
     x, y = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1), indexing="ij")
-    grid = np.column_stack([x.ravel(), y.ravel()]) * rules.grid_m
-    distance, nearest = cKDTree(locations_m[:, :2]).query(grid, distance_upper_bound=rules.reach_m)
+    return centers_near(np.column_stack([x.ravel(), y.ravel()]) * rules.grid_m, locations_m, rules.reach_m)
+
+
+def centers_near(grid_m: Floats, locations_m: Floats, reach_m: float) -> Floats:
+    """[N, 3] those of the [G, 2] points of a grid that are within reach of a location, at the nearest one's height."""
+    distance, nearest = cKDTree(locations_m[:, :2]).query(grid_m, distance_upper_bound=reach_m)
     near = np.isfinite(distance)
-    return np.column_stack([grid[near], locations_m[nearest[near], 2]])
+    return np.column_stack([grid_m[near], locations_m[nearest[near], 2]])
 
 
 def cut_cubes(
@@ -148,9 +152,9 @@ def cut_cubes(
         rules: size of the cubes and how to clip.
         progress: called with (cubes cut, cubes to cut).
     """
-    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
     done, results = 0, []
-    for result in _map_chunks(points, rules, chunks):
+    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
+    for result in map_forked(partial(_summarise_chunk, points, rules), chunks):
         results.append(result)
         done += len(result[0])
         if progress:
@@ -171,27 +175,6 @@ def cell_at(city_map: CityMap, points: PointTable, cell_id: str, center_m: Float
             Instance(len(instances), source.label, points.xyz[members], rgb, source.name, source.source_id)
         )
     return Cell(cell_id, city_map.name, np.asarray(center_m), city_map.rules.cell_size_m, tuple(instances))
-
-
-_shared: tuple[PointTable, CutRules] | None = None  # what forked workers read, set before they start
-
-
-def _map_chunks(points: PointTable, rules: CutRules, chunks: list[Floats]) -> Iterator[tuple[Any, ...]]:
-    global _shared  # noqa: PLW0603  # forked workers inherit it; an argument would be copied a task
-    if len(chunks) < 4:
-        yield from (_summarise_chunk(points, rules, chunk) for chunk in chunks)
-        return
-    _shared = (points, rules)
-    try:
-        with ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as pool:
-            yield from pool.map(_work, chunks)
-    finally:
-        _shared = None
-
-
-def _work(centers: Floats) -> tuple[Any, ...]:
-    assert _shared is not None
-    return _summarise_chunk(*_shared, centers)
 
 
 def _summarise_chunk(points: PointTable, rules: CutRules, centers: Floats) -> tuple[Any, ...]:
@@ -234,6 +217,11 @@ def _summarise(points: PointTable, members: list[Ints], center: Floats) -> tuple
     )
 
 
+def cut_cube(points: PointTable, center_m: Floats, rules: CutRules) -> list[Ints]:
+    """The point rows of each part in one cube, by instance, then as DBSCAN numbers the parts."""
+    return sorted(_cut_cube(points, center_m, rules), key=lambda rows: int(points.instance[rows[0]]))
+
+
 def _cut_cube(points: PointTable, center: Floats, rules: CutRules) -> list[Ints]:
     """The point rows of each part in one cube, ordered by instance: things first, then stuff."""
     half = rules.cell_size_m / 2
@@ -263,23 +251,39 @@ def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
     Returns:
         [M] cluster of each row, -1 for noise. Clusters never cross from one instance to another.
     """
-    begin, end = points.pair_starts[rows], points.pair_starts[rows + 1]
-    source = np.repeat(np.arange(len(rows)), end - begin)
-    target_row = points.pairs[ranges(begin, end)]
-    target = np.searchsorted(rows, target_row)
-    valid = (target < len(rows)) & (rows[np.minimum(target, len(rows) - 1)] == target_row) if len(rows) else target > 0
-    source, target = source[valid], target[valid]
+    source, target = _pairs_among(points, rows)
     degree = 1 + np.bincount(source, minlength=len(rows)) + np.bincount(target, minlength=len(rows))
     core = degree >= min_samples
-    both = core[source] & core[target]
-    number = np.cumsum(core) - 1  # core points among themselves
-    graph = coo_array(
-        (np.ones(both.sum(), dtype=np.int8), (number[source[both]], number[target[both]])), shape=(core.sum(),) * 2
-    )
+    from_core, to_core = core[source], core[target]
+    both = from_core & to_core
+    number = np.cumsum(core, dtype=np.int32) - 1  # core points among themselves
+    starts = np.concatenate([[0], np.cumsum(np.bincount(source[both], minlength=len(rows)))[core]]).astype(np.int32)
+    graph = csr_array((np.ones(starts[-1]), number[target[both]], starts), shape=(core.sum(),) * 2)
     labels = np.full(len(rows), len(rows), dtype=np.int64)
     labels[core] = connected_components(graph, directed=False)[1]
     # A border point joins the first cluster that reaches it: the least number among its core neighbours.
     found = labels.copy()
-    np.minimum.at(found, target[core[source] & ~core[target]], labels[source[core[source] & ~core[target]]])
-    np.minimum.at(found, source[core[target] & ~core[source]], labels[target[core[target] & ~core[source]]])
+    leaving, arriving = from_core & ~to_core, to_core & ~from_core
+    np.minimum.at(found, target[leaving], labels[source[leaving]])
+    np.minimum.at(found, source[arriving], labels[target[arriving]])
     return np.where(found == len(rows), -1, found)
+
+
+def _pairs_among(points: PointTable, rows: Ints) -> tuple[Ints, Ints]:
+    """[E], [E] positions in `rows`, ascending point rows, of neighbours that are both among them; the first ascends."""
+    if not len(rows):
+        return rows, rows
+    begin, end = points.pair_starts[rows], points.pair_starts[rows + 1]
+    source = np.repeat(np.arange(len(rows)), end - begin)
+    target_row = points.pairs[ranges(begin, end)]
+    # Positions of rows are looked up in a table of the rows from the first to the last of each instance.
+    first = np.flatnonzero(np.diff(points.instance[rows], prepend=-1))
+    last = np.append(first[1:], len(rows)) - 1
+    span = rows[last] - rows[first] + 1
+    shift = np.repeat(np.cumsum(span) - span - rows[first], last - first + 1)
+    position = np.zeros(span.sum(), dtype=np.int64)
+    position[rows + shift] = np.arange(len(rows))
+    within = np.minimum(target_row, np.repeat(rows[last], last - first + 1)[source])
+    target = position[within + shift[source]]
+    valid = rows[target] == target_row
+    return source[valid], target[valid]

@@ -19,11 +19,12 @@ BEST_CELL_REACH_M = 15.0  # a pose further from every cell's centre has no best 
 ON_TOP_M = 1.5  # 0.05 of a 30 m cell
 
 
-def direction_index(offset_m: Floats) -> npt.NDArray[np.intp]:
+def direction_index(offset_m: Floats, on_top_m: float = ON_TOP_M) -> npt.NDArray[np.intp]:
     """Where a position lies, seen from an instance (kitti360pose.md, rule 6).
 
     Args:
         offset_m: [..., 2 or 3] position minus the instance's closest point, metres.
+        on_top_m: nearer than this, in the plane, is "on-top"; in the unit of the offset.
 
     Returns:
         [...] index into DIRECTIONS.
@@ -32,7 +33,7 @@ def direction_index(offset_m: Floats) -> npt.NDArray[np.intp]:
     north_south = np.where(y > 0, 0, 1)
     east_west = np.where(x > 0, 2, 3)
     sector = np.where(np.abs(x) > np.abs(y), east_west, north_south)
-    return np.where(np.hypot(x, y) < ON_TOP_M, 4, sector)
+    return np.where(np.hypot(x, y) < on_top_m, 4, sector)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,6 +105,12 @@ def _turn(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
     turn = np.empty(len(keys), dtype=np.intp)
     turn[order] = np.arange(len(keys)) - np.repeat(starts, np.diff(starts, append=len(keys)))
     return turn
+
+
+def round_robin(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """[M] order in which the keys take turns, each with its next entry; keys go in the order they first appear."""
+    _, first, key = np.unique(keys, return_index=True, return_inverse=True)
+    return np.lexsort((first[key], _turn(keys)))
 
 
 def sample_positions(locations_m: Floats, spacing_m: float, rng: np.random.Generator) -> Floats:

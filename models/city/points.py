@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 from models.city.types import CityMap, Floats
 
 TILE_M = 10.0
+PAIR_BLOCK = 100_000  # points whose neighbours are found at once
 Ints = npt.NDArray[np.integer[Any]]
 
 
@@ -65,6 +66,10 @@ class PointTable:
             )
         return cls(xyz, instance, starts, rgb, instance_rgb, is_stuff, order, key[order], pair_starts, pairs)
 
+    def colours(self, rows: Ints) -> Floats:
+        """[M, 3] float32 colours of some points, or of their instances where points have none; NaN where unknown."""
+        return self.instance_rgb[self.instance[rows]] if self.rgb is None else self.rgb[rows]
+
     def inside(self, low: Floats, high: Floats) -> Ints:
         """Rows of the points in a box, ascending.
 
@@ -107,11 +112,36 @@ def thin(points: Floats, spacing_m: float) -> Floats:
     return points[np.sort(np.unique(block, axis=0, return_index=True)[1])]
 
 
+def first_in_voxel(xyz: Floats, voxel_m: float) -> Ints:
+    """Rows, ascending, of the first point in each cube of space.
+
+    Args:
+        xyz: [P, 3] metres.
+        voxel_m: edge of the cubes; the lowest corner of the points is in the middle of one.
+    """
+    exact = xyz.astype(np.float64)
+    voxel = np.floor((exact - (exact.min(axis=0) - voxel_m / 2)) / voxel_m)
+    order = np.lexsort(voxel.T)
+    is_first = np.ones(len(xyz), dtype=np.bool_)
+    is_first[1:] = (np.diff(voxel[order], axis=0) != 0).any(axis=1)
+    return np.sort(order[is_first])
+
+
 def _neighbour_pairs(xyz: Floats, instance: Ints, is_stuff: npt.NDArray[np.bool_], eps_m: float) -> tuple[Ints, Ints]:
     rows = np.flatnonzero(is_stuff[instance])
+    rows = rows[np.argsort(xyz[rows, 0], kind="stable")]
     # A fourth axis keeps instances further apart than eps, so that no pair crosses from one to another.
     apart = np.column_stack([xyz[rows].astype(np.float64), instance[rows] * (4.0 * eps_m)])
-    found = cKDTree(apart, balanced_tree=False, compact_nodes=False).query_pairs(eps_m, output_type="ndarray")
-    low, high = rows[found[:, 0]], rows[found[:, 1]].astype(np.int32)
-    order = np.argsort(low, kind="stable")
-    return np.searchsorted(low[order], np.arange(len(xyz) + 1)), high[order]
+    found = [np.zeros(0, dtype=np.int64)]
+    for begin in range(0, len(rows), PAIR_BLOCK):
+        # From west to east, so that the partners of a block end not far behind it.
+        end = min(begin + PAIR_BLOCK, len(rows))
+        reach = np.searchsorted(apart[:, 0], apart[end - 1, 0] + eps_m, side="right")
+        tree = cKDTree(apart[begin:reach], leafsize=32, balanced_tree=False)
+        pairs = tree.query_pairs(eps_m, output_type="ndarray")
+        one, other = rows[begin:reach][pairs[:, 0]], rows[begin:reach][pairs[:, 1]]
+        key = (np.minimum(one, other) << 32) | np.maximum(one, other)
+        found.append(key[pairs[:, 0] < end - begin])
+    keys = np.sort(np.concatenate(found))
+    starts = np.searchsorted(keys, np.arange(len(xyz) + 1) << 32)
+    return starts, keys.astype(np.int32)  # the lower half: the later of the two

@@ -27,7 +27,8 @@ class RetrieverConfig(BaseModel):
         cell_layers: attention layers over the instances of a cell.
         hint_layers: attention layers over the hints of a description.
         dropout: in the attention layers, while training.
-        temperature: turns a similarity into a log-probability over the gallery; fitted on validation data.
+        temperature: of a description of one hint, see `Retriever.temperature`; fitted on validation data.
+        temperature_decay: how fast it falls with more hints; fitted on validation data.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -37,7 +38,8 @@ class RetrieverConfig(BaseModel):
     cell_layers: int = 2
     hint_layers: int = 1
     dropout: float = 0.1
-    temperature: float = 0.05
+    temperature: float = 0.2
+    temperature_decay: float = 1.0
 
 
 class Retriever(nn.Module):
@@ -70,6 +72,15 @@ class Retriever(nn.Module):
     def text_encoder(self) -> TextEncoder:
         """The frozen language model."""
         return self._text[0]
+
+    def temperature(self, num_hints: int) -> float:
+        """T for which softmax(similarity / T) over a gallery is the probability of each cell.
+
+        A similarity is a cosine however much was said, so more hints make the same difference mean more:
+        T = temperature * num_hints ** -temperature_decay.
+        """
+        decay: float = num_hints**-self.config.temperature_decay
+        return self.config.temperature * decay
 
     def train(self, mode: bool = True) -> "Retriever":
         """Switch between training and evaluation; features cached under other weights are forgotten."""

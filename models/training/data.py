@@ -17,7 +17,7 @@ from models.language.hints_text import TEMPLATES, render_hint
 from models.language.text_encoder import TextEncoder
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
 
-MIN_HINTS, MAX_HINTS = 3, 8
+MIN_HINTS, MAX_HINTS = 2, 8
 NEIGHBOUR_M = 40.0  # hard negatives are drawn this near
 # The 8 symmetries of the compass: each [2, 2] matrix moves (east, north); directions move along.
 SYMMETRIES = np.array(

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 import torch
 from pydantic import BaseModel, ConfigDict, Field
-from scipy.optimize import minimize_scalar
+from scipy.optimize import minimize
 from scipy.special import logsumexp
 from torch import Tensor
 
@@ -28,6 +28,8 @@ from models.retrieval.losses import contrastive_loss
 from models.retrieval.retriever import Retriever, RetrieverConfig
 from models.training.data import Batch, HintVocabulary, TrainingRegion
 from models.training.metrics import retrieval_recall
+
+CALIBRATION_QUERIES = 500
 
 
 class TrainingConfig(BaseModel):
@@ -124,9 +126,8 @@ def train_retriever(
     validation = _validation(city_map, points, cells, regions["val"])
     retriever = Retriever(encoder, model)
     history = _optimise(retriever, region, validation, config, rng, progress)
-    retriever.config = model.model_copy(
-        update={"temperature": fit_temperature(validation.scores(retriever), validation.truth)}
-    )
+    temperature, decay = fit_temperature(retriever, validation, rng)
+    retriever.config = model.model_copy(update={"temperature": temperature, "temperature_decay": decay})
     recall = retrieval_recall(_rank(validation.scores(retriever)), validation.truth)
     training = {
         "map": city_map.name,
@@ -141,14 +142,46 @@ def train_retriever(
     return recall
 
 
-def fit_temperature(scores: npt.NDArray[np.floating[Any]], truth: npt.NDArray[np.intp]) -> float:
-    """The temperature under which softmax(scores / T) over the gallery gives the true cells most likelihood."""
+def fit_temperature(retriever: Retriever, validation: Validation, rng: np.random.Generator) -> tuple[float, float]:
+    """What `Retriever.temperature` needs, by maximum likelihood of the true cells of validation queries.
 
-    def negative_log_likelihood(log_temperature: float) -> float:
-        logits = scores.astype(np.float64) / np.exp(log_temperature)
-        return float((logsumexp(logits, axis=1) - logits[np.arange(len(truth)), truth]).mean())
+    Args:
+        retriever: trained.
+        validation: its queries are asked whole, and cut down to fewer hints drawn at random.
+        rng: draws them.
 
-    return float(np.exp(minimize_scalar(negative_log_likelihood, bounds=(np.log(1e-3), np.log(1.0))).x))
+    Returns:
+        (temperature, temperature_decay).
+    """
+    cells = retriever.encode_cells(validation.features)
+    longest = min(len(hints) for hints in validation.descriptions)
+    rows = np.arange(0, len(validation.truth), max(1, len(validation.truth) // CALIBRATION_QUERIES))
+    asked = []
+    for count in range(1, longest + 1):
+        texts = [rng.permutation(list(validation.descriptions[int(row)]))[:count].tolist() for row in rows]
+        asked.append((count, (retriever.encode_descriptions(texts) @ cells.T).astype(np.float64)))
+    return most_likely_temperature(asked, validation.truth[rows])
+
+
+def most_likely_temperature(
+    asked: Sequence[tuple[int, npt.NDArray[np.float64]]], truth: npt.NDArray[np.intp]
+) -> tuple[float, float]:
+    """(temperature, decay) that give the true cells most likelihood.
+
+    Args:
+        asked: pairs of a number of hints and similarities [Q, N] of the queries with that many.
+        truth: [Q] the true cell of each query.
+    """
+
+    def negative_log_likelihood(parameters: npt.NDArray[np.float64]) -> float:
+        total = 0.0
+        for count, scores in asked:
+            logits = scores / (np.exp(parameters[0]) * count ** -parameters[1])
+            total += float((logsumexp(logits, axis=1) - logits[np.arange(len(truth)), truth]).mean())
+        return total
+
+    found = minimize(negative_log_likelihood, x0=[np.log(0.2), 1.0], method="Nelder-Mead")
+    return float(np.exp(found.x[0])), float(found.x[1])
 
 
 def _training_region(

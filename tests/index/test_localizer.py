@@ -17,7 +17,7 @@ def ask(localizer, **changes):
 def naive_posterior(localizer, vector, rows, prior=None):
     """The definition, over every row."""
     scores = localizer.store.score(vector, np.arange(len(localizer.store))).astype(float)
-    logits = scores / localizer.retriever.config.temperature
+    logits = scores / localizer.retriever.temperature(len(HINTS))
     if prior:
         distance = np.linalg.norm(localizer.gallery.cells.center_m[:, :2] - np.array(prior.position), axis=1)
         logits -= distance**2 / (2 * prior.sigma_m**2)

@@ -1,0 +1,37 @@
+"""Sharing work over forked processes, which see the parent's arrays without a copy."""
+
+import multiprocessing
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from typing import Any, TypeVar
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+FEW = 4  # tasks that are done at once in this process
+
+_work: Callable[[Any], Any] | None = None  # what forked workers inherit, set before they start
+
+
+def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterator[Result]:
+    """The results of some tasks, in order; tasks and results travel between processes, the work does not.
+
+    Args:
+        work: a function, or a partial one that holds the arrays it reads.
+        tasks: what it is called with; few of them are done without other processes.
+    """
+    global _work  # noqa: PLW0603  # forked workers inherit it; an argument would be copied a task
+    if len(tasks) < FEW:
+        yield from map(work, tasks)
+        return
+    _work = work
+    try:
+        with ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as pool:
+            yield from pool.map(_call, tasks)
+    finally:
+        _work = None
+
+
+def _call(task: Any) -> Any:
+    assert _work is not None
+    return _work(task)

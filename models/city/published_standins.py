@@ -1,0 +1,137 @@
+"""What the published pickles may hold, as inert stand-ins: records, arrays, dtypes, and the names that make them."""
+
+import math
+import re
+import weakref
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, BinaryIO
+
+import numpy as np
+import numpy.typing as npt
+
+RECORD_MODULE = "datapreparation.kitti360pose.imports"
+RECORDS = ("Cell", "Object3d", "Pose", "DescriptionBestCell")
+NUMBER = re.compile(r"b1|[iu][1248]|f[48]")  # dtypes of plain numbers, never "O"
+
+
+class Refused(ValueError):
+    """What the pickle asks for is not data; the message continues "the pickle ..."."""
+
+
+@dataclass(slots=True, eq=False)
+class Record:
+    """A stand-in for an object of the reference package.
+
+    Attributes:
+        kind: name of its class.
+        fields: its attributes.
+        is_listed: whether a list already holds it; a pickle of a few bytes can refer to one object a million times.
+    """
+
+    kind: str
+    fields: dict[str, Any] = field(default_factory=dict)
+    is_listed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Blob:
+    """A byte string that was left in the file."""
+
+    offset: int
+    size: int
+
+
+@dataclass(slots=True, eq=False)
+class StoredType:
+    """A stand-in for a numpy dtype: its code, for example "f8", and its byte order."""
+
+    code: str
+    order: str = "="
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The dtype as stored."""
+        return np.dtype(self.order + self.code)
+
+
+@dataclass(slots=True, eq=False)
+class StoredArray:
+    """A stand-in for a numpy array, whose values are read when asked for; `data` is None until it is built."""
+
+    shape: tuple[int, ...] = ()
+    dtype: np.dtype[Any] = field(default_factory=lambda: np.dtype("f8"))
+    fortran: bool = False
+    data: bytes | Blob | None = None
+    _alive: "weakref.ref[npt.NDArray[Any]] | None" = None
+
+    def read(self, file: BinaryIO) -> npt.NDArray[Any]:
+        """The array, native byte order; the same one while it is in use, however often the pickle refers to it."""
+        found = self._alive() if self._alive else None
+        if found is None:
+            if self.data is None:
+                raise Refused("has an array without values")
+            raw: bytes | bytearray = bytearray(self.data if isinstance(self.data, bytes) else b"")
+            if isinstance(self.data, Blob):
+                file.seek(self.data.offset)
+                raw = bytearray(self.data.size)
+                if file.readinto(raw) != len(raw):  # type: ignore[attr-defined]  # every binary file has it
+                    raise EOFError
+            flat = np.frombuffer(raw, dtype=self.dtype)
+            found = np.ascontiguousarray(flat.reshape(self.shape, order="F" if self.fortran else "C"))
+            found = found.astype(self.dtype.newbyteorder("="), copy=False)
+            self._alive = weakref.ref(found)
+        return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Allowed:
+    """A global that a pickle may name, and what calling it makes here."""
+
+    name: str
+    call: Callable[..., Any] | None = None
+
+
+def fill_array(array: StoredArray, shape: Any, dtype: Any, fortran: Any, data: Any) -> StoredArray:
+    """Give an array its contents, if they fit together."""
+    sized = type(shape) is tuple and len(shape) <= 2 and all(type(n) is int and n >= 0 for n in shape)
+    if not sized or not isinstance(dtype, StoredType) or type(fortran) is not bool or array.data is not None:
+        raise Refused("has an array that is not one of plain numbers")
+    size = data.size if isinstance(data, Blob) else len(data) if type(data) is bytes else -1
+    if size != math.prod(shape) * dtype.dtype.itemsize:
+        raise Refused("has an array whose values do not fit its shape")
+    array.shape, array.dtype, array.fortran, array.data = shape, dtype.dtype, fortran, data
+    return array
+
+
+def _reconstruct(kind: Any, shape: Any, code: Any) -> StoredArray:
+    if kind is not NDARRAY or shape != (0,) or code not in (b"b", "b"):
+        raise Refused("has an array that is not one of plain numbers")
+    return StoredArray()
+
+
+def _dtype(code: Any, align: Any = False, copy: Any = True) -> StoredType:
+    if not isinstance(code, str) or not NUMBER.fullmatch(code) or align not in (0, 1) or copy not in (0, 1):
+        raise Refused("has a dtype that is not one of plain numbers")
+    return StoredType(code)
+
+
+def _scalar(dtype: Any, data: Any) -> Any:
+    if not isinstance(dtype, StoredType) or type(data) is not bytes or len(data) != dtype.dtype.itemsize:
+        raise Refused("has a scalar that is not a plain number")
+    return np.frombuffer(data, dtype=dtype.dtype)[0].item()
+
+
+def _frombuffer(data: Any, dtype: Any, shape: Any, order: Any) -> StoredArray:
+    return fill_array(StoredArray(), shape, dtype, order == "F", data)
+
+
+NDARRAY = Allowed("numpy.ndarray")
+GLOBALS = {
+    ("numpy", "ndarray"): NDARRAY,
+    ("numpy", "dtype"): Allowed("numpy.dtype", _dtype),
+    **{(RECORD_MODULE, kind): Allowed(kind) for kind in RECORDS},
+    **{(f"numpy.{core}.multiarray", "_reconstruct"): Allowed("array", _reconstruct) for core in ("core", "_core")},
+    **{(f"numpy.{core}.multiarray", "scalar"): Allowed("scalar", _scalar) for core in ("core", "_core")},
+    **{(f"numpy.{core}.numeric", "_frombuffer"): Allowed("array", _frombuffer) for core in ("core", "_core")},
+}

@@ -1,0 +1,67 @@
+"""train, evaluate, localize --picture and benchmark, on the tiny town."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from app import benchmark
+from app.cli import app
+from models.errors import HereaboutsError
+
+
+@pytest.fixture
+def run(monkeypatch, weights_dir):
+    monkeypatch.setenv("HEREABOUTS_WEIGHTS_DIR", str(weights_dir))
+    monkeypatch.setenv("COLUMNS", "160")
+    return lambda *args: CliRunner().invoke(app, [str(arg) for arg in args])
+
+
+def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("models.training.fit.CALIBRATION_QUERIES", 20)
+    result = run("train", "--map", osm_file, "--out", tmp_path / "w", "--steps", "1")
+    assert result.exit_code == 0, result.output
+    assert "recall@1/3/5" in result.output
+    record = json.loads((tmp_path / "w" / "config.json").read_text())
+    assert record["training"]["config"]["steps"] == 1
+    assert record["training"]["validation"]["queries"] > 0
+
+
+def test_evaluate_prints_what_it_writes(run, osm_file, tmp_path) -> None:
+    results = [run("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r") for _ in range(2)]
+    assert results[0].exit_code == 0, results[0].output
+    assert results[0].output == results[1].output
+    report = json.loads((tmp_path / "r" / "report.json").read_text())
+    assert f"{report['retrieval']['5']:.3f}" in results[0].output
+    assert "oracle" in results[0].output
+
+
+def test_evaluate_refuses_an_unknown_split_in_one_line(run, osm_file) -> None:
+    result = run("evaluate", "--data", osm_file, "--split", "north")
+    assert result.exit_code == 1
+    assert "no split of a map" in result.output
+
+
+def test_localize_draws_a_picture(run, index_dir, tmp_path) -> None:
+    result = run("localize", "I am north of a red building.", "--index", index_dir, "--picture", tmp_path / "a.png")
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypatch) -> None:
+    monkeypatch.setattr(benchmark, "REQUESTS", 3)
+    result = run("benchmark", "--map", osm_file, "--index", index_dir)
+    assert result.exit_code == 0, result.output
+    figures = json.loads(result.output[result.output.index("{") :])
+    assert figures["index"]["peak_memory_mib"] > 100
+    assert figures["index"]["size_mib"] > 0
+    assert 0 < figures["localize_cached_hints_ms"]["p50"] <= figures["localize_cached_hints_ms"]["p99"]
+
+
+def test_benchmark_says_when_the_service_does_not_start(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(benchmark, "START_S", 3)
+    with (
+        pytest.raises(HereaboutsError, match="did not become ready"),
+        benchmark.serving(tmp_path / "nothing") as client,
+    ):
+        client.get("/healthz")
