@@ -22,13 +22,10 @@ $(BIN)/.installed: pyproject.toml constraints.txt
 
 install: $(BIN)/.installed  ## virtual environment with everything in it
 
-$(INDEX)/aliases.json: | install
-	$(BIN)/hereabouts index --map $(MAP) --out $(INDEX)
+index: install  ## index MAP into INDEX, if it is not there
+	$(BIN)/hereabouts index --map $(MAP) --out $(INDEX) --keep-current
 
-index: install  ## index MAP into INDEX
-	$(BIN)/hereabouts index --map $(MAP) --out $(INDEX)
-
-run: install $(INDEX)/aliases.json  ## install, index the shipped city if there is no index, serve on PORT
+run: index  ## install, index the shipped city if it is not, serve on PORT
 	$(BIN)/hereabouts serve --index $(INDEX) --port $(PORT)
 
 serve: install  ## serve INDEX on PORT
@@ -53,7 +50,7 @@ evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderpl
 	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-test
 	$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --report reports/alexanderplatz
 
-benchmark: install $(INDEX)/aliases.json  ## seconds, memory and latency on this machine
+benchmark: index  ## seconds, memory and latency on this machine
 	$(BIN)/hereabouts benchmark --map $(MAP) --index $(INDEX)
 
 web:  ## open the page of the running service

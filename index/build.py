@@ -1,112 +1,101 @@
 """The offline job: map -> cells -> vectors -> an index version on disk."""
 
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from index.artifact import (
     FrameRecord,
     Manifest,
+    check_model,
     file_records,
-    file_sha256,
     new_version,
+    open_version,
     set_alias,
     write_manifest,
     write_version,
 )
-from index.gallery import Gallery
+from index.map_data import MapData, Progress, fingerprint, load_map
 from index.store import FaissStore
-from models.city.cells import cut_cells
-from models.city.osm import load_osm
-from models.city.points import PointTable
+from models.errors import IndexUnusable
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.retriever import Retriever
 
 VECTORS_FILE = "vectors.faiss"
 
 
-@dataclass
-class StageBar:
-    """A progress bar a stage, and the seconds that each took."""
-
-    progress: Progress
-    seconds: dict[str, float] = field(default_factory=dict)
-
-    @contextmanager
-    def stage(self, name: str) -> Iterator[TaskID]:
-        """Show and time a stage."""
-        task = self.progress.add_task(name, total=None)
-        start = time.perf_counter()
-        yield task
-        self.seconds[name] = round(time.perf_counter() - start, 2)
-        total = self.progress.tasks[task].total or 1
-        self.progress.update(task, total=total, completed=total)
-
-
-def build_index(map_path: Path, out_dir: Path, weights_dir: Path | None = None) -> Path:
+def build_index(
+    map_path: Path,
+    out_dir: Path,
+    weights_dir: Path | None = None,
+    split: str | None = None,
+    keep_current: bool = False,
+    progress: Progress | None = None,
+) -> Path:
     """Build an index version of a map and let the alias "default" name it.
 
     Args:
-        map_path: .osm.pbf or .osm.
+        map_path: as `index.map_data.load_map`.
         out_dir: index directory; older versions in it are kept.
         weights_dir: the retriever's weights; None for those that ship with the package.
+        split: as `index.map_data.load_map`.
+        keep_current: build nothing if the default version is of this map and this model.
+        progress: called as the work goes on.
 
     Returns:
         The version's directory.
 
     Raises:
-        MapError: the map cannot be read or cut.
+        MapError, DataError: the map cannot be read or cut.
         WeightsError: the model cannot be loaded.
     """
-    columns = (
-        TextColumn("{task.description:<14}"),
-        BarColumn(),
-        TextColumn("{task.completed:.0f}"),
-        TimeElapsedColumn(),
-    )
-    with Progress(*columns, console=Console(stderr=True)) as progress:
-        bar = StageBar(progress)
-        with bar.stage("read map"):
-            city_map = load_osm(map_path)
-        with bar.stage("index points"):
-            points = PointTable.of(city_map, city_map.rules.eps_m)
-        with bar.stage("cut cells") as task:
-            cells = cut_cells(city_map, points, lambda done, total: progress.update(task, completed=done, total=total))
-        with bar.stage("load model"):
-            retriever = load_retriever(weights_dir)
-        with bar.stage("encode cells"):
-            features = CellFeatures.of(cells, np.array([i.label for i in city_map.instances]))
-            store = FaissStore.of(retriever.encode_cells(features))
-        with bar.stage("write index"):
-            origin = new_version(file_sha256(map_path), retriever.fingerprint)
-            with write_version(out_dir, origin["version"]) as directory:
-                store.save(directory / VECTORS_FILE)
-                Gallery.of(city_map, cells).save(directory)
-                manifest = Manifest(
-                    **origin,
-                    map_name=city_map.name,
-                    attribution=city_map.attribution,
-                    frame=FrameRecord(
-                        frame_id=city_map.frame.frame_id,
-                        origin_lat=city_map.frame.origin_lat,
-                        origin_lon=city_map.frame.origin_lon,
-                        epsg=city_map.frame.epsg,
-                    ),
-                    palette=city_map.palette.name,
-                    cell_size_m=cells.size_m,
-                    grid_m=city_map.rules.grid_m,
-                    model=retriever.name,
-                    dim=store.dim,
-                    cells=len(cells),
-                    instances=len(city_map.instances),
-                    files=file_records(directory),
-                )
-                write_manifest(directory, manifest)
-            set_alias(out_dir, "default", manifest.version)
+    report = progress or (lambda stage, done, total: None)
+    report("load model", 0, 0)
+    retriever = load_retriever(weights_dir)
+    current = _current(out_dir, map_path, split, retriever) if keep_current else None
+    if current:
+        return current
+    data = load_map(map_path, split, report)
+    report("encode cells", 0, 0)
+    store = FaissStore.of(retriever.encode_cells(CellFeatures.of(data.cells, np.array(data.gallery.labels))))
+    report("write index", 0, 0)
+    origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
+    with write_version(out_dir, origin["version"]) as directory:
+        store.save(directory / VECTORS_FILE)
+        data.gallery.save(directory)
+        manifest = Manifest(
+            **origin, **_describe(data), model=retriever.name, dim=store.dim, files=file_records(directory)
+        )
+        write_manifest(directory, manifest)
+    set_alias(out_dir, "default", manifest.version)
     return out_dir / manifest.version
+
+
+def _describe(data: MapData) -> dict[str, object]:
+    """The manifest's fields that say what was indexed."""
+    return {
+        "map_name": data.name,
+        "attribution": data.attribution,
+        "frame": FrameRecord(
+            frame_id=data.frame.frame_id,
+            origin_lat=data.frame.origin_lat,
+            origin_lon=data.frame.origin_lon,
+            epsg=data.frame.epsg,
+        ),
+        "palette": data.palette.name,
+        "cell_size_m": data.cells.size_m,
+        "grid_m": data.grid_m,
+        "cells": len(data.cells),
+        "instances": len(data.gallery.labels),
+    }
+
+
+def _current(out_dir: Path, map_path: Path, split: str | None, retriever: Retriever) -> Path | None:
+    """The default version's directory if it is whole, of this map and this model."""
+    try:
+        directory, manifest = open_version(out_dir)
+        check_model(manifest, retriever.fingerprint)
+    except IndexUnusable:
+        return None
+    return directory if manifest.map_sha256 == fingerprint(map_path, split) else None

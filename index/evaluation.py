@@ -1,195 +1,217 @@
-"""Recall on queries with known answers, by the protocol of kitti360pose.md, beside chance and ambiguity."""
+"""Evaluation: predictions of a model for queries with known positions, saved, then scored and drawn."""
 
 import json
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csr_array
+from scipy.spatial import cKDTree
+from scipy.special import logsumexp
 
-from index.store import FaissStore
-from models.city.cells import CellTable, cut_cells
-from models.city.hints import describe_poses, hint_table, sample_positions
-from models.city.osm import load_osm
-from models.city.points import PointTable
-from models.city.regions import SPLITS, split_regions
-from models.city.types import DIRECTIONS, CityMap, Pose
-from models.errors import MapError
-from models.language.hints_text import render_hint
+from index.ambiguity import ambiguity
+from index.map_data import MapData, Progress, Queries
+from index.predictions import FILE, Predictions
+from index.report import write_report
+from index.scoring import score
+from index.store import FaissStore, VectorStore
+from models.city.types import Floats
+from models.errors import DataError
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.retriever import Retriever
-from models.training.metrics import (
-    LOCALIZATION_KS,
-    LOCALIZATION_RADII_M,
-    RETRIEVAL_KS,
-    localization_recall,
-    retrieval_recall,
-)
+from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 
-POSE_SPACING_M = 10.0
-POSE_SEED = 1  # evaluation draws nothing: the positions are the same at every run
-TOP = max(*RETRIEVAL_KS, *LOCALIZATION_KS)
+LISTED = 25  # cells kept of each ranking; recall curves end here
+PREDICTED = max(*RETRIEVAL_KS, *LOCALIZATION_KS)
+CHUNK = 64  # queries ranked at once
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class QuerySet:
-    """A gallery and queries with known answers.
-
-    Attributes:
-        city_map: the map.
-        cells: the gallery.
-        poses: the queries.
-        truth: [Q] row of each query's best cell.
-    """
-
-    city_map: CityMap
-    cells: CellTable
-    poses: list[Pose]
-    truth: npt.NDArray[np.intp]
-
-    @classmethod
-    def of(cls, data: Path, split: str | None) -> "QuerySet":
-        """Queries on a map.
-
-        Args:
-            data: .osm.pbf or .osm.
-            split: "train", "val" or "test" for a region of the map (west, middle, east); None for all of it.
-
-        Raises:
-            MapError: the map cannot be read, the split is unknown, or nothing can be asked in it.
-        """
-        if split is not None and split not in SPLITS:
-            raise MapError(
-                f"'{split}' is no split of a map; choose one of {', '.join(SPLITS)}, or none for the whole map"
-            )
-        city_map = load_osm(data)
-        points = PointTable.of(city_map, city_map.rules.eps_m)
-        cells, locations = cut_cells(city_map, points), city_map.locations_m
-        for name, region in split_regions(cells).items():
-            if name == split:
-                cells, locations = region.cells(cells), region.locations(locations)
-        positions = sample_positions(locations, POSE_SPACING_M, np.random.default_rng(POSE_SEED))
-        poses = describe_poses(city_map, points, cells, positions) if len(cells) and len(positions) else []
-        if not poses:
-            raise MapError(
-                f"{data}: no position in split '{split}' can be described; take a larger map or another split"
-            )
-        row = {cell_id: n for n, cell_id in enumerate(cells.ids)}
-        return cls(city_map, cells, poses, np.array([row[pose.cell_id] for pose in poses]))
-
-
-def evaluate(data: Path, split: str | None, report_dir: Path | None, retriever: Retriever) -> dict[str, Any]:
-    """Score a retriever on a map.
+def evaluate(
+    data: MapData,
+    queries: Queries,
+    retriever: Retriever,
+    report_dir: Path | None = None,
+    grow_m: Sequence[float] = (),
+    progress: Progress | None = None,
+    store: VectorStore | None = None,
+) -> dict[str, Any]:
+    """Ask a model, save what it says, score it.
 
     Args:
-        data: .osm.pbf or .osm.
-        split: region of the map, None for all.
-        report_dir: where report.json goes; None to write nothing.
+        data: the gallery.
+        queries: what is asked.
         retriever: the model.
+        report_dir: where predictions.npz, report.json, report.md and the plots go; None to write nothing.
+        grow_m: radii of a growing gallery (`grow`); predictions for each are saved beside the others.
+        progress: called as the work goes on.
+        store: the model's vectors of the gallery, if an index has them; None to make them.
 
     Returns:
-        The report: "cells", "queries", "retrieval" {k: recall}, "localization" {k: {metres: recall}} by the
-        centre of the retrieved cell, the same of an oracle and of chance, ambiguity, and calibration.
+        The report (`index.scoring.score`).
     """
-    queries = QuerySet.of(data, split)
-    cells, truth = queries.cells, queries.truth
-    features = CellFeatures.of(cells, np.array([i.label for i in queries.city_map.instances]))
-    store = FaissStore.of(retriever.encode_cells(features))
-    descriptions = [[render_hint(hint) for hint in pose.description.hints] for pose in queries.poses]
-    scores, ranked = store.search(retriever.encode_descriptions(descriptions), len(cells))
-    positions = np.array([pose.position_m for pose in queries.poses])
-    temperatures = np.array([retriever.temperature(len(hints)) for hints in descriptions])
-    report: dict[str, Any] = {
-        "data": data.name,
-        "split": split or "all",
-        "model": retriever.name,
-        "model_fingerprint": retriever.fingerprint,
-        "cells": len(cells),
-        "queries": len(truth),
-        "retrieval": retrieval_recall(ranked[:, :TOP], truth),
-        "localization": localization_recall(_errors(cells, ranked[:, :TOP], positions)),
-        "oracle": localization_recall(np.repeat(_errors(cells, truth[:, None], positions), TOP, axis=1)),
-        "chance": _chance(cells, positions),
-        "ambiguity": _ambiguity(queries),
-        "calibration": _calibration(scores / temperatures[:, None], ranked[:, 0] == truth),
-    }
-    report = json.loads(json.dumps(report))  # keys as they will be read: strings
+    report = progress or (lambda stage, done, total: None)
+    if store is None or grow_m:
+        report("encode cells", 0, 0)
+        vectors = retriever.encode_cells(CellFeatures.of(data.cells, np.array(data.gallery.labels)))
+    predictions = predict(data, queries, retriever, FaissStore.of(vectors) if store is None else store, report)
+    if queries.hints is not None:
+        report("match hints", 0, 0)
+        predictions.facts["ambiguity"] = ambiguity(data, queries, queries.hints)
+    grown = [
+        (radius, predict(*part, retriever, FaissStore.of(vectors[rows]), report))
+        for radius, part, rows in grow(data, queries, grow_m)
+    ]
     if report_dir:
-        report_dir.mkdir(parents=True, exist_ok=True)
-        (report_dir / "report.json").write_text(json.dumps(report, indent=2) + "\n")
+        save_run(report_dir, predictions, grown)
+        return rescore(report_dir)
+    return _report(predictions, grown)
+
+
+def predict(
+    data: MapData, queries: Queries, retriever: Retriever, store: VectorStore, progress: Progress
+) -> Predictions:
+    """Rank the gallery for each query.
+
+    Args:
+        data: the gallery.
+        queries: what is asked.
+        retriever: the model.
+        store: its vectors of the gallery, in the same rows.
+        progress: called as the work goes on.
+    """
+    total = len(queries)
+    listed = min(LISTED, len(store))
+    ranked, scores = np.empty((total, listed), np.int32), np.empty((total, listed), np.float32)
+    probability = np.empty(total)
+    for start in range(0, total, CHUNK):
+        progress("ask", start, total)
+        rows = slice(start, start + CHUNK)
+        said = queries.sentences[rows]
+        similarity, order = store.search(retriever.encode_descriptions(said), len(store))
+        ranked[rows], scores[rows] = order[:, :listed], similarity[:, :listed]
+        probability[rows] = _first_probability(similarity, np.array([retriever.temperature(len(s)) for s in said]))
+    progress("ask", total, total)
+    centers = data.cells.center_m[:, :2].astype(np.float64)
+    return Predictions(
+        facts={
+            "data": data.name,
+            "split": data.split,
+            "attribution": data.attribution,
+            "model": retriever.name,
+            "model_fingerprint": retriever.fingerprint,
+            "method": "cell_center",
+        },
+        cell_ids=np.array(data.cells.ids),
+        cell_scenes=np.array(data.cells.scenes),
+        cell_centers_m=centers,
+        queried_cells=queries.truth,
+        positions_m=queries.positions_m,
+        scenes=np.array(queries.scenes),
+        strategies=np.array(queries.strategies),
+        ranked=ranked,
+        scores=scores,
+        predicted_m=centers[ranked[:, :PREDICTED]],
+        probability=probability,
+    )
+
+
+def grow(
+    data: MapData, queries: Queries, radii_m: Sequence[float]
+) -> list[tuple[float, tuple[MapData, Queries], npt.NDArray[np.intp]]]:
+    """The scalability protocol (MNCL, figure 5): the same queries, a gallery that grows around them.
+
+    The queries are those within the least radius of one centre (the query's position with most others around it, in
+    its scene); the gallery is every cell within each radius of it.
+
+    Returns:
+        For each radius, in ascending order: the radius, gallery and queries, and the gallery's rows in `data`.
+
+    Raises:
+        DataError: a radius is not positive, or holds nothing to ask about.
+    """
+    if not radii_m:
+        return []
+    radii = sorted(set(radii_m))
+    if radii[0] <= 0:
+        raise DataError(f"grow: {radii[0]:g} m is no radius; give metres above 0, such as 200,300,400,500")
+    asked, center, scene = _densest(queries, radii[0])
+    cells = data.cells
+    distance = np.hypot(*(cells.center_m[:, :2] - center).T)
+    distance[np.array(cells.scenes) != scene] = np.inf
+    asked = asked[distance[queries.truth[asked]] <= radii[0]]  # whose best cell is in the least gallery
+    if not len(asked):
+        raise DataError(f"grow: no query has its cell within {radii[0]:g} m; begin with a larger radius")
+    steps = []
+    for radius in radii:
+        rows = np.flatnonzero(distance <= radius)
+        position = np.full(len(cells), -1)
+        position[rows] = np.arange(len(rows))
+        gallery = replace(data.gallery, cells=cells.take(rows))
+        part = Queries(
+            sentences=[queries.sentences[q] for q in asked],
+            positions_m=queries.positions_m[asked],
+            truth=position[queries.truth[asked]],
+            scenes=[queries.scenes[q] for q in asked],
+            strategies=[queries.strategies[q] for q in asked],
+        )
+        steps.append((radius, (replace(data, gallery=gallery), part), rows))
+    return steps
+
+
+def _densest(queries: Queries, radius_m: float) -> tuple[npt.NDArray[np.intp], Floats, str]:
+    """Rows of the queries around the position that has most of them in reach, that position, and its scene."""
+    scenes = np.array(queries.scenes)
+    best: npt.NDArray[np.intp] = np.empty(0, np.intp)
+    center, scene = np.zeros(2), ""
+    for name in np.unique(scenes).tolist():
+        rows = np.flatnonzero((scenes == name) & (queries.truth >= 0))
+        if len(rows):
+            tree = cKDTree(queries.positions_m[rows])
+            at = int(tree.query_ball_point(queries.positions_m[rows], radius_m, return_length=True).argmax())
+            near = rows[tree.query_ball_point(queries.positions_m[rows[at]], radius_m)]
+            if len(near) > len(best):
+                best, center, scene = np.sort(near), queries.positions_m[rows[at]], name
+    return best, center, scene
+
+
+def save_run(report_dir: Path, predictions: Predictions, grown: Sequence[tuple[float, Predictions]] = ()) -> None:
+    """Save predictions into a report's directory, in place of an older run's."""
+    report_dir.mkdir(parents=True, exist_ok=True)
+    for old in report_dir.glob("grow-*.npz"):
+        old.unlink()
+    predictions.save(report_dir / FILE)
+    for radius, part in grown:
+        part.save(report_dir / f"grow-{radius:g}.npz")
+
+
+def rescore(report_dir: Path) -> dict[str, Any]:
+    """Score a saved run again; writes its report.json, report.md and plots.
+
+    Raises:
+        DataError: there are no predictions.
+    """
+    predictions = Predictions.load(report_dir / FILE)
+    radii = sorted(float(path.stem.removeprefix("grow-")) for path in report_dir.glob("grow-*.npz"))
+    grown = [(radius, Predictions.load(report_dir / f"grow-{radius:g}.npz")) for radius in radii]
+    report = _report(predictions, grown)
+    write_report(report_dir, predictions, report)
     return report
 
 
-def _errors(cells: CellTable, rows: npt.NDArray[Any], positions_m: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """[Q, K] metres in the plane from the centres of some cells to the true positions."""
-    errors: npt.NDArray[Any] = np.linalg.norm(cells.center_m[rows, :2] - positions_m[:, None, :2], axis=2)
-    return errors
+def _report(predictions: Predictions, grown: Sequence[tuple[float, Predictions]]) -> dict[str, Any]:
+    report = score(predictions)
+    if grown:
+        names = ("cells", "queries", "retrieval", "localization", "intervals")
+        parts = [(radius, score(part)) for radius, part in grown]
+        report["growth"] = [{"radius_m": radius} | {name: part[name] for name in names} for radius, part in parts]
+    # As it will be read: a report that was written and one that was returned are the same.
+    return dict(json.loads(json.dumps(report)))
 
 
-def _chance(cells: CellTable, positions_m: npt.NDArray[Any]) -> dict[str, Any]:
-    """Expected recall of candidates drawn at random without looking at the text."""
-    total = len(cells)
-    near = np.array(
-        [
-            [(np.hypot(*(cells.center_m[:, :2] - p[:2]).T) <= radius).mean() for radius in LOCALIZATION_RADII_M]
-            for p in positions_m
-        ]
-    )
-    return {
-        "retrieval": {k: min(1.0, k / total) for k in RETRIEVAL_KS},
-        "localization": {
-            k: {r: float((1 - (1 - near[:, i]) ** k).mean()) for i, r in enumerate(LOCALIZATION_RADII_M)}
-            for k in LOCALIZATION_KS
-        },
-    }
-
-
-def _ambiguity(queries: QuerySet) -> dict[str, Any]:
-    """How far the hints themselves tell the cells apart, whatever the model: exact matching of their symbols.
-
-    A cell fits a hint if the same statement (direction, colour, label) is true at its centre. Cells are ranked by
-    the number of hints that fit; ties count as drawn at random.
-    """
-    city_map, cells = queries.city_map, queries.cells
-    table = hint_table(city_map, cells.parts, cells.center_m)
-    number: dict[tuple[str, str | None, int], int] = {}
-    words = (*city_map.palette.words, None)  # the last, for colour -1
-    said = [
-        number.setdefault((city_map.instances[i].label, words[c], int(d)), len(number))
-        for i, c, d in zip(table.instance, table.colour, table.direction, strict=True)
-    ]
-    holds = csr_array((np.ones(len(said), dtype=np.float32), said, table.starts), shape=(len(cells), len(number)))
-    holds.sum_duplicates()
-    holds.data[:] = 1
-    asked = [
-        [number.get((h.label, h.colour, DIRECTIONS.index(h.direction)), -1) for h in pose.description.hints]
-        for pose in queries.poses
-    ]
-    query = np.repeat(np.arange(len(asked)), [len(a) for a in asked])
-    symbol = np.concatenate([np.array(a) for a in asked])
-    known = symbol >= 0
-    wanted = csr_array(
-        (np.ones(known.sum(), dtype=np.float32), (query[known], symbol[known])), shape=(len(asked), len(number))
-    )
-    fits = (wanted @ holds.T).toarray()
-    own = fits[np.arange(len(asked)), queries.truth][:, None]
-    better, equal = (fits > own).sum(axis=1), (fits == own).sum(axis=1)
-    return {
-        "median_cells_that_fit_as_well": float(np.median(better + equal)),
-        "exact_matching": {k: float(np.clip((k - better) / equal, 0, 1).mean()) for k in RETRIEVAL_KS},
-    }
-
-
-def _calibration(logits: npt.NDArray[Any], hit: npt.NDArray[np.bool_]) -> dict[str, float]:
-    """Expected calibration error of the best candidate's probability, over ten equal bins."""
-    exponential = np.exp(logits - logits.max(axis=1, keepdims=True))
-    probability = exponential[:, 0] / exponential.sum(axis=1)
-    bins = np.minimum((probability * 10).astype(int), 9)
-    error = sum(
-        abs(float(probability[bins == b].mean()) - float(hit[bins == b].mean())) * float((bins == b).mean())
-        for b in range(10)
-        if (bins == b).any()
-    )
-    return {"mean_probability": float(probability.mean()), "expected_calibration_error": error}
+def _first_probability(similarity: Floats, temperature: Floats) -> Floats:
+    """[Q] probability of the first cell: softmax of similarities [Q, N], best first, over temperatures [Q]."""
+    logits = similarity.astype(np.float64) / temperature[:, None]
+    probability: Floats = np.exp(logits[:, 0] - logsumexp(logits, axis=1))
+    return probability

@@ -8,6 +8,7 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from models.city.cells import CellTable, Parts, cut_cubes
+from models.city.colours import Palette
 from models.city.points import PointTable, thin
 from models.city.types import DIRECTIONS, CityMap, Description, Direction, Floats, Hint, Pose
 
@@ -55,11 +56,11 @@ class HintTable:
     distance_m: Floats
 
 
-def hint_table(city_map: CityMap, parts: Parts, positions_m: Floats) -> HintTable:
+def hint_table(palette: Palette, parts: Parts, positions_m: Floats) -> HintTable:
     """All hints that are true at some positions.
 
     Args:
-        city_map: the map that was cut.
+        palette: the colour words.
         parts: the cubes around the positions (`cut_cubes(points, positions_m, rules)`).
         positions_m: [N, 3] metres.
     """
@@ -73,7 +74,7 @@ def hint_table(city_map: CityMap, parts: Parts, positions_m: Floats) -> HintTabl
         starts=np.concatenate([[0], np.cumsum(sizes)]),
         instance=parts.instance[near],
         direction=direction_index(offset[near]),
-        colour=city_map.palette.word_index(parts.rgb[near]),
+        colour=palette.word_index(parts.rgb[near]),
         distance_m=distance[near],
     )
 
@@ -137,7 +138,7 @@ def describe_poses(
     distance, best = cKDTree(cells.center_m).query(positions_m)
     reachable = np.flatnonzero(distance <= BEST_CELL_REACH_M)
     positions, best = positions_m[reachable], best[reachable]
-    table = hint_table(city_map, cut_cubes(points, positions, city_map.rules), positions)
+    table = hint_table(city_map.palette, cut_cubes(points, positions, city_map.rules), positions)
     labels = np.unique([i.label for i in city_map.instances], return_inverse=True)[1]
     poses = []
     for n in np.flatnonzero(np.diff(table.starts) >= num_hints):

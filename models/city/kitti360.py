@@ -9,7 +9,7 @@ import re
 import shutil
 import tempfile
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +17,7 @@ from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
-import plyfile  # type: ignore[import-untyped]
+import plyfile
 
 from models.city.kitti360_rules import CLASSES, ClassRule
 from models.city.kitti360pose import short_name
@@ -75,27 +75,34 @@ def list_raw_scenes(root: Path) -> tuple[str, ...]:
     Raises:
         DataError: there is none.
     """
-    scenes = tuple(sorted(path.parent.name for path in (root / TILES).glob("*/static") if path.is_dir()))
+    scenes = tuple(sorted(_scene_folders(root)))
     if not scenes:
         raise DataError(f"{root / TILES}: no scene; the raw layout is {TILES}/<scene>/static/*.ply")
     return scenes
 
 
-def load_raw_scene(root: Path, scene: str, classes: tuple[ClassRule, ...] = CLASSES) -> RawScene:
+def load_raw_scene(
+    root: Path,
+    scene: str,
+    classes: tuple[ClassRule, ...] = CLASSES,
+    step: Callable[[int], None] = lambda size: None,
+) -> RawScene:
     """Read a scene's tiles and trajectory.
 
     Args:
         root: folder with data_3d_semantics and data_poses.
         scene: name of its folder, or the drive's digits ("0003").
         classes: what is kept and how; points of other classes are ignored.
+        step: called with the size of each tile's file in bytes, when the tile is read.
 
     Raises:
         DataError: no such scene, no tiles, a tile or a trajectory that cannot be read, or no instance in them.
     """
-    folder = _scene_folder(root, scene)
+    folder = scene_folder(root, scene)
     grown: dict[int, _Growing] = {}
     for path in tile_paths(folder):
         _merge(grown, read_tile(path), classes)
+        step(path.stat().st_size)
     instances = tuple(
         Instance(number, g.rule.label, g.xyz, g.rgb.astype(np.float32) / np.float32(255))
         for number, g in grown.items()
@@ -108,10 +115,25 @@ def load_raw_scene(root: Path, scene: str, classes: tuple[ClassRule, ...] = CLAS
     return RawScene(short_name(folder.name), instances, stuff, trajectory)
 
 
-def _scene_folder(root: Path, scene: str) -> Path:
-    for name in list_raw_scenes(root):
+def _scene_folders(root: Path) -> dict[str, Path]:
+    """The folder of each scene's tiles; downloads have them in train/ and test/, older ones beside each other."""
+    found = [path.parent for pattern in ("*/static", "*/*/static") for path in (root / TILES).glob(pattern)]
+    return {path.name: path for path in found if (path / "static").is_dir()}
+
+
+def scene_folder(root: Path, scene: str) -> Path:
+    """The folder of a scene's tiles.
+
+    Args:
+        root: folder with data_3d_semantics and data_poses.
+        scene: name of its folder, or the drive's digits ("0003").
+
+    Raises:
+        DataError: no such scene.
+    """
+    for name, folder in sorted(_scene_folders(root).items()):
         if scene in (name, short_name(name)):
-            return root / TILES / name
+            return folder
     raise DataError(f"{root / TILES}: no scene '{scene}'; there are: {', '.join(list_raw_scenes(root))}")
 
 
@@ -133,8 +155,9 @@ def _merge(grown: dict[int, _Growing], tile: Tile, classes: tuple[ClassRule, ...
     for rule in classes:
         of_class = np.flatnonzero(tile.semantic == rule.semantic)
         rows = of_class[np.argsort(tile.instance[of_class], kind="stable")]
-        numbers, starts = np.unique(tile.instance[rows], return_index=True)
-        for number, members in zip(numbers.tolist(), np.split(rows, starts[1:]), strict=False):
+        numbers, starts, counts = np.unique(tile.instance[rows], return_index=True, return_counts=True)
+        for number, start, count in zip(numbers.tolist(), starts, counts, strict=True):
+            members = rows[start : start + count]
             xyz, rgb = tile.xyz[members], tile.rgb[members]
             if number in grown:
                 xyz = np.concatenate([grown[number].xyz, xyz])

@@ -53,6 +53,11 @@ def short_name(scene: str) -> str:
     return drive[1] if drive else scene
 
 
+def file_name(scene: str) -> str:
+    """What a scene's files are called: KITTI-360's name for four digits, any other name as it is."""
+    return f"2013_05_28_drive_{scene}_sync" if re.fullmatch(r"\d{4}", scene) else scene
+
+
 def list_scenes(root: Path) -> tuple[str, ...]:
     """The scenes of a published layout, by name of file, in order.
 
@@ -214,7 +219,7 @@ def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Se
     Raises:
         DataError: poses do not belong to the cells, or the name is not one of a file; nothing is changed.
     """
-    name = f"2013_05_28_drive_{scene}_sync" if re.fullmatch(r"\d{4}", scene) else scene
+    name = file_name(scene)
     if not name or Path(name).name != name or name.startswith("."):
         raise DataError(f"{root}: '{scene}' cannot be the name of a scene; take letters, digits and underscores")
     poses_path, cells_path = (root / part / f"{name}.pkl" for part in ("poses", "cells"))

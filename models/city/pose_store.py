@@ -112,6 +112,12 @@ class PoseStore:
         """The class of each instance, in rows of the cell table's parts."""
         return tuple(self.words[n] for n in self.columns["object_label"][self._object_rows])
 
+    @property
+    def instance_ids(self) -> Ints:
+        """[R] the data set's number of each instance, in rows of the cell table's parts."""
+        numbers: Ints = self.columns["object_instance"][self._object_rows]
+        return numbers
+
     def cell_table(self) -> CellTable:
         """The cells with what is in them, world metres; `parts.instance` counts the rows: each part is an instance.
 

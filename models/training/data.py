@@ -100,7 +100,7 @@ class TrainingRegion:
         distance, best = cKDTree(cells.center_m).query(positions_m)
         positions = positions_m[distance <= BEST_CELL_REACH_M]
         self.best = best[distance <= BEST_CELL_REACH_M]
-        self.table = hint_table(city_map, cut_cubes(points, positions, city_map.rules), positions)
+        self.table = hint_table(city_map.palette, cut_cubes(points, positions, city_map.rules), positions)
         self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)
         self.positions = positions
         self._tree = cKDTree(positions[self.usable, :2])

@@ -96,7 +96,7 @@ def test_fault_is_not_taken_for_wrong_input(opened):
 def test_index_builds_and_says_what_next(monkeypatch):
     calls = []
 
-    def build_index(map_path, out_dir, weights_dir):
+    def build_index(map_path, out_dir, weights_dir, *_rest):
         calls.append((map_path, out_dir, weights_dir))
         if map_path.name == "bad":
             raise MapError("bad map")

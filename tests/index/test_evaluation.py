@@ -1,25 +1,41 @@
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from index.evaluation import QuerySet, _ambiguity, _calibration, evaluate
+from index.ambiguity import ambiguity
+from index.evaluation import evaluate, grow, rescore
+from index.map_data import ask, load_map, load_queries
+from index.predictions import FILE, Predictions
 from models.city.hints import hint_table
 from models.city.types import DIRECTIONS
-from models.errors import MapError
+from models.errors import DataError, MapError
 
 
 @pytest.fixture(scope="module")
-def report(osm_file, model, tmp_path_factory):
+def asked(osm_file):
+    return load_queries(osm_file)
+
+
+@pytest.fixture(scope="module")
+def run_dir(asked, model, tmp_path_factory):
     directory = tmp_path_factory.mktemp("report")
-    evaluate(osm_file, None, directory, model)
-    return json.loads((directory / "report.json").read_text())
+    evaluate(*asked, model, directory, [60, 120])
+    return directory
 
 
-def test_the_report_has_the_fixed_names(report) -> None:
+@pytest.fixture(scope="module")
+def report(run_dir):
+    return json.loads((run_dir / "report.json").read_text())
+
+
+def test_the_report_has_the_fixed_names(report, asked) -> None:
     assert set(report["retrieval"]) == {"1", "3", "5"}
     assert set(report["localization"]) == {"1", "5", "10"}
     assert all(set(row) == {"5", "10", "15"} for row in report["localization"].values())
+    data, queries = asked
+    assert (report["cells"], report["queries"]) == (len(data.cells), len(queries))
     assert report["cells"] > 400
     assert report["queries"] > 400
 
@@ -34,63 +50,118 @@ def test_recalls_grow_and_stay_under_the_oracle(report) -> None:
         assert row["5"] <= oracle["5"] or k != "1"
 
 
-def test_chance_is_what_random_candidates_reach(report, osm_file) -> None:
-    queries = QuerySet.of(osm_file, None)
+def test_strategies_make_up_the_whole(report) -> None:
+    parts = report["by_strategy"].values()
+    assert set(report["by_strategy"]) == {"closest", "class", "direction"}
+    total = sum(part["queries"] * part["retrieval"]["3"] for part in parts)
+    assert total / report["queries"] == pytest.approx(report["retrieval"]["3"])
+
+
+def test_chance_is_what_random_candidates_reach(report, asked) -> None:
+    data, queries = asked
     rng = np.random.default_rng(0)
-    errors = [
-        np.linalg.norm(
-            queries.cells.center_m[rng.integers(len(queries.cells), size=5), :2] - p.position_m[:2], axis=1
-        ).min()
-        for p in queries.poses
-        for _ in range(10)
+    drawn = rng.integers(len(data.cells), size=(10, len(queries), 5))
+    errors = np.linalg.norm(data.cells.center_m[drawn, :2] - queries.positions_m[:, None], axis=-1).min(axis=-1)
+    assert report["chance"]["localization"]["5"]["15"] == pytest.approx(np.mean(errors <= 15), abs=0.01)
+
+
+def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, model) -> None:
+    assert evaluate(*asked, model, None, [120, 60]) == report
+    written = (run_dir / "report.json").read_bytes()
+    assert rescore(run_dir) == report
+    assert (run_dir / "report.json").read_bytes() == written
+
+
+def test_tables_and_plots_are_written(run_dir, report) -> None:
+    page = (run_dir / "report.md").read_text()
+    assert f"{report['retrieval']['5']:.3f}" in page
+    for name in ("recall", "errors", "map", "growth"):
+        assert (run_dir / f"{name}.png").read_bytes()[:4] == b"\x89PNG"
+        assert f"({name}.png)" in page
+
+
+def test_a_growing_gallery_asks_the_same_queries(report, asked) -> None:
+    data, queries = asked
+    first, second = report["growth"]
+    assert first["queries"] == second["queries"] > 10
+    assert first["cells"] < second["cells"] < len(data.cells)
+    assert first["retrieval"]["5"] >= second["retrieval"]["5"]
+    (radius, (small, part), rows), _ = grow(data, queries, [120, 60])
+    assert radius == 60
+    assert [small.cells.ids[n] for n in part.truth] == [
+        data.cells.ids[queries.truth[list(queries.sentences).index(said)]] for said in part.sentences
     ]
-    expected = report["chance"]["localization"]["5"]["15"]
-    assert np.mean(np.array(errors) <= 15) == pytest.approx(expected, abs=0.01)
+    assert [data.cells.ids[n] for n in rows] == list(small.cells.ids)
 
 
-def test_it_is_the_same_twice(report, osm_file, model) -> None:
-    assert evaluate(osm_file, None, None, model) == report
+@pytest.mark.parametrize(("radii", "message"), [([0], "no radius"), ([1e-6], "larger radius")])
+def test_radii_that_hold_nothing_are_refused(asked, radii, message) -> None:
+    data, queries = asked
+    shifted = replace(queries, positions_m=queries.positions_m + 3.3)
+    with pytest.raises(DataError, match=message):
+        grow(data, shifted, radii)
 
 
-def test_regions_ask_only_about_themselves(osm_file) -> None:
-    everything, test = QuerySet.of(osm_file, None), QuerySet.of(osm_file, "test")
-    assert 0 < len(test.poses) < len(everything.poses)
-    assert min(p.position_m[0] for p in test.poses) > test.cells.center_m[:, 0].min() - 15
+def test_another_scene_is_never_a_hit(run_dir) -> None:
+    whole = Predictions.load(run_dir / FILE)
+    elsewhere = replace(whole, cell_scenes=np.array(["other"] * len(whole.cell_ids)))
+    assert np.isfinite(whole.errors_m()).all()
+    assert np.isinf(elsewhere.errors_m()).all()
+
+
+def test_a_query_far_from_every_cell_is_asked_and_missed(asked, model) -> None:
+    data, queries = asked
+    positions = queries.positions_m[:2] + np.array([[0, 0], [1e4, 0]])
+    own = ask(data.cells, queries.sentences[:2], positions)
+    assert own.truth.tolist() == [queries.truth[0], -1]
+    found = evaluate(data, own, model)
+    assert found["queries_without_cell"] == 1
+    assert max(found["retrieval"]["5"], found["localization"]["10"]["15"]) <= 0.5
+
+
+def test_broken_predictions_are_refused(run_dir, tmp_path) -> None:
+    with pytest.raises(DataError, match="no such file"):
+        rescore(tmp_path)
+    (tmp_path / FILE).write_bytes(b"nothing")
+    with pytest.raises(DataError, match="no predictions"):
+        rescore(tmp_path)
+    whole = Predictions.load(run_dir / FILE)
+    replace(whole, scenes=whole.scenes[:-1]).save(tmp_path / FILE)
+    with pytest.raises(DataError, match="scenes"):
+        rescore(tmp_path)
+    replace(whole, ranked=whole.ranked + 10_000).save(tmp_path / FILE)
+    with pytest.raises(DataError, match="outside the gallery"):
+        rescore(tmp_path)
+
+
+def test_regions_ask_only_about_themselves(osm_file, asked) -> None:
+    data, queries = load_queries(osm_file, "test")
+    assert 0 < len(queries) < len(asked[1])
+    assert queries.positions_m[:, 0].min() > data.cells.center_m[:, 0].min() - 15
+    assert load_map(osm_file, "test").cells.ids == data.cells.ids
     with pytest.raises(MapError, match="no split"):
-        QuerySet.of(osm_file, "east")
+        load_map(osm_file, "east")
 
 
 def test_exact_matching_against_a_naive_count(osm_file) -> None:
-    whole = QuerySet.of(osm_file, "val")
-    queries = QuerySet(whole.city_map, whole.cells, whole.poses[::9], whole.truth[::9])
-    table = hint_table(queries.city_map, queries.cells.parts, queries.cells.center_m)
-    words = (*queries.city_map.palette.words, None)
+    data, queries = load_queries(osm_file, "val")
+    assert queries.hints
+    hints, truths = queries.hints[::9], queries.truth[::9]
+    table = hint_table(data.palette, data.cells.parts, data.cells.center_m)
+    words = (*data.palette.words, None)
     true_at = [
         {
-            (
-                queries.city_map.instances[table.instance[r]].label,
-                words[table.colour[r]],
-                DIRECTIONS[table.direction[r]],
-            )
+            (data.gallery.labels[table.instance[r]], words[table.colour[r]], DIRECTIONS[table.direction[r]])
             for r in range(table.starts[n], table.starts[n + 1])
         }
-        for n in range(len(queries.cells))
+        for n in range(len(data.cells))
     ]
     ranks = []
-    for pose, truth in zip(queries.poses, queries.truth, strict=True):
-        fits = [sum((h.label, h.colour, h.direction) in said for h in pose.description.hints) for said in true_at]
+    for said, truth in zip(hints, truths, strict=True):
+        fits = [sum((h.label, h.colour, h.direction) in true for h in said) for true in true_at]
         better, equal = sum(f > fits[truth] for f in fits), sum(f == fits[truth] for f in fits)
         ranks.append((better, equal))
-    found = _ambiguity(queries)
+    found = ambiguity(data, replace(queries, truth=truths), hints)
     assert found["median_cells_that_fit_as_well"] == np.median([b + e for b, e in ranks])
     for k in (1, 3, 5):
         assert found["exact_matching"][k] == pytest.approx(np.mean([min(1, max(0, (k - b) / e)) for b, e in ranks]))
-
-
-def test_calibration_of_honest_and_of_vain_probabilities() -> None:
-    rng = np.random.default_rng(0)
-    logits = np.sort(rng.normal(size=(5000, 10)) * 3, axis=1)[:, ::-1]
-    weights = np.exp(logits)
-    hit = rng.random(5000) < weights[:, 0] / weights.sum(axis=1)
-    assert _calibration(logits, hit)["expected_calibration_error"] < 0.03
-    assert _calibration(logits * 20, hit)["expected_calibration_error"] > 0.2

@@ -67,7 +67,7 @@ def test_descriptions_of_a_position_differ(poses) -> None:
 
 def test_strategies_against_a_naive_round_robin(city, points) -> None:
     positions = sample_positions(city.locations_m, 60.0, np.random.default_rng(1))
-    table = hint_table(city, cut_cubes(points, positions, city.rules), positions)
+    table = hint_table(city.palette, cut_cubes(points, positions, city.rules), positions)
     labels = np.unique([i.label for i in city.instances], return_inverse=True)[1]
     assert table.distance_m.max() <= 15
     for n in range(len(positions)):

@@ -4,16 +4,13 @@ import tracemalloc
 from pathlib import Path
 
 import numpy as np
-import plyfile  # type: ignore[import-untyped]
 import pytest
 
 from models.city.kitti360 import list_raw_scenes, load_raw_scene, read_tile, read_trajectory
 from models.city.kitti360_rules import CLASSES
 from models.errors import DataError
+from tests.models.city.raw_scenes import FOLDER, VERTEX, write_ply, write_trajectory
 
-VERTEX = [(axis, "f4") for axis in "xyz"] + [(c, "u1") for c in ("red", "green", "blue")]
-VERTEX += [("semantic", "i4"), ("instance", "i4"), ("visible", "u1"), ("confidence", "f4")]
-FOLDER = "2013_05_28_drive_0042_sync"
 POLE, ROAD, CAR, UNLABELLED = (17, 17001), (7, 7001), (26, 26001), (0, 0)
 
 
@@ -28,20 +25,6 @@ def vertices(seed: int, *clouds: tuple[tuple[int, int], int]) -> np.ndarray:
     ids = np.repeat([key for key, _ in clouds], [count for _, count in clouds], axis=0)
     vertex["semantic"], vertex["instance"] = ids.T
     return rng.permutation(vertex)
-
-
-def write_ply(path: Path, vertex: np.ndarray, **how: object) -> Path:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    plyfile.PlyData([plyfile.PlyElement.describe(vertex, "vertex")], **({"byte_order": "<"} | how)).write(str(path))
-    return path
-
-
-def write_trajectory(root: Path, positions: np.ndarray) -> Path:
-    path = root / "data_poses" / FOLDER / "poses.txt"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    rows = [[n, 1, 0, 0, p[0], 0, 1, 0, p[1], 0, 0, 1, p[2]] for n, p in enumerate(positions)]
-    path.write_text("".join(" ".join(f"{value:.6f}" for value in row) + "\n" for row in rows))
-    return path
 
 
 TILES = (

@@ -15,46 +15,11 @@ from models.city.kitti360_prepare import (
     prepare_scene,
     scene_points,
 )
-from models.city.kitti360_rules import CLASSES, PrepareConfig
+from models.city.kitti360_rules import PrepareConfig
 from models.city.published import PublishedHint
-from models.city.types import CutRules, Instance
+from models.city.types import CutRules
 from models.errors import DataError
-
-STUFF = frozenset(rule.label for rule in CLASSES if rule.is_stuff)
-
-
-def town(seed: int) -> RawScene:
-    """A street of 64 m with a bend: road, two fences in pieces and a hedge (stuff), houses and street furniture.
-
-    West of it there is little; the ground rises towards the east.
-    """
-    rng = np.random.default_rng(seed)
-
-    def blob(count: int, center: tuple[float, float, float], size: tuple[float, float, float]):
-        return (rng.uniform(-0.5, 0.5, (count, 3)) * size + np.array(center)).astype(np.float32)
-
-    pieces = [blob(400, (x, y, 1), (5, 0.3, 1.6)) for x in range(0, 64, 8) for y in (-7, 9)]
-    clouds = [("building", blob(500, (x, y, 3), (8, 6, 6))) for x in range(4, 64, 15) for y in (-14, 16)]
-    clouds += [
-        ("pole", blob(60, (-28, 3, 1), (0.5, 0.5, 2))),
-        ("fence", np.concatenate(pieces[0::2])),
-        ("road", blob(9000, (32, 0, 0), (76, 8, 0.1))),
-    ]
-    clouds += [
-        (("pole", "lamp", "trash bin", "box")[n % 4], blob(60, (x, (-5, 6)[n % 2], 1), (0.5, 0.5, 2)))
-        for n, x in enumerate(rng.uniform(0, 64, 14))
-    ]
-    clouds += [("fence", np.concatenate(pieces[1::2])), ("vegetation", blob(5000, (40, 3, 1), (50, 2.5, 2)))]
-    clouds += [("traffic light", blob(60, (x, 8, 14), (0.5, 0.5, 1))) for x in range(5, 64, 12)]  # high above
-    numbers = rng.permutation(len(clouds)) + 100
-    shades = rng.uniform(0, 1, (len(clouds), 3))
-    instances = tuple(
-        Instance(int(number), label, xyz, np.clip(shade + rng.normal(0, 0.1, xyz.shape), 0, 1).astype(np.float32))
-        for number, shade, (label, xyz) in zip(numbers, shades, clouds, strict=True)
-    )
-    t = np.arange(-30.5, 64, 0.9)
-    path = np.column_stack([t, np.where(t < 40, -0.4, (t - 40) / 2 - 0.4), 1 + t / 50])
-    return RawScene("town", instances, STUFF, path)
+from tests.models.city.raw_scenes import town
 
 
 @pytest.fixture(scope="module", params=[0, 1])

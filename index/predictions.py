@@ -1,0 +1,110 @@
+"""What a model answered to queries with known positions: saved first, scored afterwards, as often as one likes."""
+
+import json
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from models.city.types import Floats
+from models.errors import DataError
+
+FILE = "predictions.npz"
+FACTS = "facts"
+Ints = npt.NDArray[np.integer[Any]]
+Words = npt.NDArray[np.str_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Predictions:
+    """Answers to Q queries about a gallery of N cells.
+
+    Attributes:
+        facts: data, split, model and whatever else the report repeats.
+        cell_ids, cell_scenes: [N].
+        cell_centers_m: [N, 2] float64.
+        queried_cells: [Q] row of the true best cell, -1 if the gallery has none.
+        positions_m: [Q, 2] true positions.
+        scenes, strategies: [Q] words.
+        ranked: [Q, K] rows of cells, best first; -1 where the gallery ends.
+        scores: [Q, K] float32 of them.
+        predicted_m: [Q, J] position predicted in each of the first J, [Q, J, 2] float64.
+        probability: [Q] of the first cell to be the true one.
+    """
+
+    facts: dict[str, Any]
+    cell_ids: Words
+    cell_scenes: Words
+    cell_centers_m: Floats
+    queried_cells: Ints
+    positions_m: Floats
+    scenes: Words
+    strategies: Words
+    ranked: Ints
+    scores: Floats
+    predicted_m: Floats
+    probability: Floats
+
+    def save(self, path: Path) -> None:
+        """Write one .npz file, whole or not at all."""
+        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != FACTS}
+        temporary = path.with_name(f".{path.name}")
+        with temporary.open("wb") as file:
+            np.savez_compressed(file, facts=np.array(json.dumps(self.facts)), **arrays)
+        temporary.replace(path)
+
+    @classmethod
+    def load(cls, path: Path) -> "Predictions":
+        """Read what `save` wrote.
+
+        Raises:
+            DataError: there is no such file, or it holds something else.
+        """
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                arrays = {f.name: file[f.name] for f in fields(cls)}
+            predictions = cls(**arrays | {FACTS: json.loads(str(arrays[FACTS]))})
+        except FileNotFoundError:
+            raise DataError(
+                f"{path}: no such file; make it with 'hereabouts evaluate --data ... --report DIR'"
+            ) from None
+        except Exception as error:  # zip, numpy and JSON each have their own
+            raise DataError(f"{path}: holds no predictions ({error}); evaluate again") from error
+        predictions._check(path)
+        return predictions
+
+    def _check(self, path: Path) -> None:
+        """Raise DataError if the arrays do not belong together."""
+        cells, queries = len(self.cell_ids), len(self.queried_cells)
+        lengths = {
+            "cell_scenes": (self.cell_scenes, cells),
+            "cell_centers_m": (self.cell_centers_m, cells),
+            **{
+                name: (getattr(self, name), queries)
+                for name in ("positions_m", "scenes", "strategies", "ranked", "scores", "predicted_m", "probability")
+            },
+        }
+        for name, (array, length) in lengths.items():
+            if len(array) != length:
+                raise DataError(f"{path}: field '{name}' has {len(array)} rows, expected {length}; evaluate again")
+        for name in ("ranked", "queried_cells"):
+            rows = getattr(self, name)
+            if rows.size and not -1 <= rows.min() <= rows.max() < cells:
+                raise DataError(f"{path}: field '{name}' points outside the gallery; evaluate again")
+
+    def errors_m(self) -> Floats:
+        """[Q, J] metres in the plane from each predicted position to the truth; infinite in another scene."""
+        first = self.ranked[:, : self.predicted_m.shape[1]]
+        distance: Floats = np.linalg.norm(self.predicted_m - self.positions_m[:, None], axis=2)
+        return np.where(self._same_scene(first), distance, np.inf)
+
+    def center_errors_m(self, rows: Ints) -> Floats:
+        """[Q, J] metres in the plane from the centres of some cells [Q, J] to the truth; infinite in another scene."""
+        distance: Floats = np.linalg.norm(self.cell_centers_m[rows] - self.positions_m[:, None], axis=2)
+        return np.where(self._same_scene(rows), distance, np.inf)
+
+    def _same_scene(self, rows: Ints) -> npt.NDArray[np.bool_]:
+        same: npt.NDArray[np.bool_] = (rows >= 0) & (self.cell_scenes[rows] == self.scenes[:, None])
+        return same

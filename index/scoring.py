@@ -1,0 +1,143 @@
+"""From saved predictions to the report: recall by the protocol of kitti360pose.md, with intervals and breakdowns."""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from index.predictions import Predictions
+from models.city.types import Floats
+from models.training.metrics import (
+    LOCALIZATION_KS,
+    LOCALIZATION_RADII_M,
+    RETRIEVAL_KS,
+    localization_hits,
+    localization_recall,
+    retrieval_hits,
+    retrieval_recall,
+)
+
+RESAMPLES = 1000
+RESAMPLE_SEED = 0
+LEVEL = (2.5, 97.5)  # percentiles of a 95 % interval
+BINS = 10
+
+
+def score(predictions: Predictions) -> dict[str, Any]:
+    """The report of some predictions.
+
+    Returns:
+        What `Predictions.facts` says, then "cells", "queries", "retrieval" {k: recall}, "localization" {k: {metres:
+        recall}}; the same of the centre of the retrieved cell, of the true best cell ("oracle") and of "chance"; 95 %
+        intervals (bootstrap over queries), breakdowns, error quantiles and calibration. Keys are strings, as in JSON.
+    """
+    p = predictions
+    errors, centers = p.errors_m(), p.center_errors_m(p.ranked[:, : p.predicted_m.shape[1]])
+    oracle = np.repeat(p.center_errors_m(p.queried_cells[:, None]), errors.shape[1], axis=1)
+    report = {
+        **p.facts,
+        "cells": len(p.cell_ids),
+        "queries": len(p.queried_cells),
+        "queries_without_cell": int((p.queried_cells < 0).sum()),
+        "retrieval": retrieval_recall(p.ranked, p.queried_cells),
+        "localization": localization_recall(errors),
+        "intervals": _intervals(p, errors),
+        "cell_center": localization_recall(centers),
+        "oracle": localization_recall(oracle),
+        "chance": _chance(p),
+        "error_m": _quantiles(errors[:, 0]),
+        "by_scene": _by(p.scenes, p, errors),
+        "by_strategy": _by(p.strategies, p, errors),
+        "calibration": calibration(p.probability, p.ranked[:, 0] == p.queried_cells),
+    }
+    return dict(_with_text_keys(report))
+
+
+def calibration(probability: Floats, hit: npt.NDArray[np.bool_]) -> dict[str, Any]:
+    """Expected calibration error of a probability, over ten equal bins.
+
+    Args:
+        probability: [Q] what was claimed.
+        hit: [Q] what was true.
+
+    Returns:
+        "mean_probability", "expected_calibration_error", and "bins": lower edge, queries, mean claimed, share true.
+    """
+    of = np.minimum((probability * BINS).astype(int), BINS - 1)
+    bins = [
+        {
+            "from": b / BINS,
+            "queries": int((of == b).sum()),
+            "claimed": float(probability[of == b].mean()),
+            "true": float(hit[of == b].mean()),
+        }
+        for b in range(BINS)
+        if (of == b).any()
+    ]
+    error = sum(abs(b["claimed"] - b["true"]) * b["queries"] for b in bins) / len(hit)
+    return {"mean_probability": float(probability.mean()), "expected_calibration_error": float(error), "bins": bins}
+
+
+def _intervals(p: Predictions, errors_m: Floats) -> dict[str, Any]:
+    """95 % intervals of the recalls: percentiles over resampled sets of queries."""
+    retrieval, localization = retrieval_hits(p.ranked, p.queried_cells), localization_hits(errors_m)
+    hits = np.column_stack([*retrieval.values(), *(hit for by in localization.values() for hit in by.values())])
+    total = len(hits)
+    rng = np.random.default_rng(RESAMPLE_SEED)
+    drawn = [rng.multinomial(total, np.full(total, 1 / total)) @ hits for _ in range(RESAMPLES)]
+    low, high = np.percentile(np.array(drawn) / total, LEVEL, axis=0).round(6)
+    ranges = iter(zip(low.tolist(), high.tolist(), strict=True))
+    return {
+        "level": 0.95,
+        "retrieval": {k: next(ranges) for k in retrieval},
+        "localization": {k: {radius: next(ranges) for radius in by} for k, by in localization.items()},
+    }
+
+
+def _by(groups: npt.NDArray[np.str_], p: Predictions, errors_m: Floats) -> dict[str, Any]:
+    """Recalls of each group of queries, in the same gallery; nothing if there is one group alone, without a name."""
+    names = np.unique(groups).tolist()
+    if names == [""]:
+        return {}
+    found = {}
+    for name in names:
+        rows = groups == name
+        found[name] = {
+            "queries": int(rows.sum()),
+            "retrieval": retrieval_recall(p.ranked[rows], p.queried_cells[rows]),
+            "localization": localization_recall(errors_m[rows]),
+        }
+    return found
+
+
+def _quantiles(errors_m: Floats) -> dict[str, float | None]:
+    """Quantiles of the first prediction's error, metres; None where it is in another scene."""
+    quantiles = np.quantile(errors_m, [0.25, 0.5, 0.75, 0.9], method="higher")
+    return {
+        f"p{share}": float(q) if np.isfinite(q) else None for share, q in zip((25, 50, 75, 90), quantiles, strict=True)
+    }
+
+
+def _chance(p: Predictions) -> dict[str, Any]:
+    """Expected recall of cells drawn at random without looking at the text."""
+    total = len(p.cell_ids)
+    near = np.zeros((len(p.queried_cells), len(LOCALIZATION_RADII_M)))
+    for row, position in enumerate(p.positions_m):
+        distance = np.hypot(*(p.cell_centers_m - position).T)
+        distance[p.cell_scenes != p.scenes[row]] = np.inf
+        near[row] = [(distance <= radius).mean() for radius in LOCALIZATION_RADII_M]
+    known = float((p.queried_cells >= 0).mean())
+    return {
+        "retrieval": {k: min(1.0, k / total) * known for k in RETRIEVAL_KS},
+        "localization": {
+            k: {r: float((1 - (1 - near[:, i]) ** k).mean()) for i, r in enumerate(LOCALIZATION_RADII_M)}
+            for k in LOCALIZATION_KS
+        },
+    }
+
+
+def _with_text_keys(value: Any) -> Any:
+    """The value as JSON would give it back: keys are strings, tuples lists."""
+    if isinstance(value, dict):
+        return {str(key): _with_text_keys(item) for key, item in value.items()}
+    return [_with_text_keys(item) for item in value] if isinstance(value, (list, tuple)) else value

@@ -1,0 +1,55 @@
+import numpy as np
+import pytest
+
+from index.predictions import Predictions
+from index.scoring import calibration, score
+
+
+def made_up(queries: int, right: float, rng: np.random.Generator) -> Predictions:
+    """Predictions in two scenes of ten cells each, of which a share has the true cell first."""
+    truth = rng.integers(20, size=queries)
+    ranked = np.array([np.r_[t, rng.permutation(np.delete(np.arange(20), t))] for t in truth])
+    wrong = rng.random(queries) >= right
+    ranked[wrong] = np.roll(ranked[wrong], 1, axis=1)
+    scenes = np.repeat(["a", "b"], 10)
+    centers = np.column_stack([np.arange(20) % 10 * 10.0, np.zeros(20)])  # the scenes lie over each other
+    return Predictions(
+        facts={"data": "made up"},
+        cell_ids=np.array([f"{s}_{n}" for n, s in enumerate(scenes)]),
+        cell_scenes=scenes,
+        cell_centers_m=centers,
+        queried_cells=truth,
+        positions_m=centers[truth],
+        scenes=scenes[truth],
+        strategies=np.full(queries, ""),
+        ranked=ranked,
+        scores=np.zeros(ranked.shape, np.float32),
+        predicted_m=centers[ranked[:, :10]],
+        probability=np.full(queries, right),
+    )
+
+
+def test_recall_intervals_and_scenes_of_made_up_predictions() -> None:
+    predictions = made_up(2000, 0.3, np.random.default_rng(0))
+    report = score(predictions)
+    share, (low, high) = report["retrieval"]["1"], report["intervals"]["retrieval"]["1"]
+    assert share == pytest.approx(0.3, abs=0.04)
+    assert low < share < high
+    assert high - low == pytest.approx(2 * 1.96 * np.sqrt(share * (1 - share) / 2000), rel=0.1)
+    assert report["localization"]["1"]["5"] == pytest.approx(share), "the cell over it, in the other scene, is no hit"
+    assert set(report["by_scene"]) == {"a", "b"}
+    assert sum(part["queries"] for part in report["by_scene"].values()) == 2000
+    assert report["by_strategy"] == {}
+    assert report["chance"]["localization"]["1"]["5"] == pytest.approx(1 / 20)
+
+
+def test_calibration_of_honest_and_of_vain_probabilities() -> None:
+    rng = np.random.default_rng(0)
+    honest = rng.random(5000)
+    hit = rng.random(5000) < honest
+    found = calibration(honest, hit)
+    assert found["expected_calibration_error"] < 0.03
+    assert sum(b["queries"] for b in found["bins"]) == 5000
+    vain = calibration(np.minimum(1, honest + 0.4), hit)
+    assert vain["expected_calibration_error"] > 0.2
+    assert vain["mean_probability"] > found["mean_probability"]
