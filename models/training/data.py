@@ -1,4 +1,4 @@
-"""Training examples: positions of a region, whatever can be said there, and the cells around."""
+"""Training examples: positions of a map or a data set, whatever can be said there, and the cells around."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -12,13 +12,16 @@ from torch import Tensor
 from models.city.cells import CellTable, cut_cubes
 from models.city.hints import BEST_CELL_REACH_M, STRATEGIES, HintTable, choose_hints, hint_table
 from models.city.points import PointTable
+from models.city.pose_store import PoseStore
 from models.city.types import DIRECTIONS, CityMap, Floats, Hint
+from models.errors import DataError
 from models.language.hints_text import TEMPLATES, render_hint
 from models.language.text_encoder import TextEncoder
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
 
 MIN_HINTS, MAX_HINTS = 2, 8
 NEIGHBOUR_M = 40.0  # hard negatives are drawn this near
+APART_M = 1e6  # between scenes, on an axis of their own
 # The 8 symmetries of the compass: each [2, 2] matrix moves (east, north); directions move along.
 SYMMETRIES = np.array(
     [[[fx, 0], [0, fy]] for fx in (1, -1) for fy in (1, -1)] + [[[0, fx], [fy, 0]] for fx in (1, -1) for fy in (1, -1)],
@@ -83,42 +86,75 @@ def _pad(x: Tensor, length: int) -> Tensor:
     return torch.nn.functional.pad(x, (0, 0, 0, missing) if x.ndim == 3 else (0, missing))
 
 
-class TrainingRegion:
+class TrainingSet:
     """Positions to train on, with everything that can be said at each of them.
 
     Args:
-        city_map: the map.
-        points: its point table.
-        cells: the region's cells.
-        positions_m: [N, 3] positions in the region.
+        features: the cells.
+        positions_m: [N, 2 or more] positions; those of different scenes are far from each other.
+        best: [N] best cell of each position, row in `features`.
+        table: what can be said there.
+        labels: [I] label of each instance that the table names.
+        words: colour words that the table numbers.
         encoder: the frozen text encoder.
+
+    Raises:
+        DataError: no position has hints enough.
     """
 
     def __init__(
-        self, city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats, encoder: TextEncoder
+        self,
+        features: CellFeatures,
+        positions_m: Floats,
+        best: npt.NDArray[np.intp],
+        table: HintTable,
+        labels: npt.NDArray[np.str_],
+        words: tuple[str, ...],
+        encoder: TextEncoder,
     ) -> None:
-        distance, best = cKDTree(cells.center_m).query(positions_m)
-        positions = positions_m[distance <= BEST_CELL_REACH_M]
-        self.best = best[distance <= BEST_CELL_REACH_M]
-        self.table = hint_table(city_map.palette, cut_cubes(points, positions, city_map.rules), positions)
-        self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)
-        self.positions = positions
-        self._tree = cKDTree(positions[self.usable, :2])
-        instance_labels = np.array([i.label for i in city_map.instances])
-        self.features = CellFeatures.of(cells, instance_labels)
-        labels, self.label_of = np.unique(instance_labels, return_inverse=True)
-        said = np.column_stack([self.label_of[self.table.instance], self.table.colour])
+        self.features, self.positions, self.best, self.table = features, positions_m, best, table
+        self.usable = np.flatnonzero(np.diff(table.starts) >= MIN_HINTS)
+        if not len(self.usable):
+            raise DataError(f"none of {len(positions_m)} positions has {MIN_HINTS} things around it; take a larger map")
+        self._tree = cKDTree(positions_m[self.usable])
+        names, self.label_of = np.unique(labels, return_inverse=True)
+        said = np.column_stack([self.label_of[table.instance], table.colour])
         pairs = np.unique(np.concatenate([said, np.column_stack([said[:, 0], np.full(len(said), -1)])]), axis=0)
-        self.vocabulary = HintVocabulary(encoder, tuple(labels.tolist()), city_map.palette.words, pairs)
-        self.label_embeddings = encoder.embed(self.features.labels)
+        self.vocabulary = HintVocabulary(encoder, tuple(names.tolist()), words, pairs)
+        self.label_embeddings = encoder.embed(features.labels)
+
+    @classmethod
+    def of_map(
+        cls, city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats, encoder: TextEncoder
+    ) -> "TrainingSet":
+        """Positions of a map, [N, 3] metres; those further than 15 m from every centre are left out."""
+        distance, best = cKDTree(cells.center_m).query(positions_m)
+        near = distance <= BEST_CELL_REACH_M
+        positions = positions_m[near]
+        table = hint_table(city_map.palette, cut_cubes(points, positions, city_map.rules), positions)
+        labels = np.array([i.label for i in city_map.instances])
+        features = CellFeatures.of(cells, labels)
+        return cls(features, positions[:, :2], best[near], table, labels, city_map.palette.words, encoder)
+
+    @classmethod
+    def of_store(cls, store: PoseStore, encoder: TextEncoder) -> "TrainingSet":
+        """The poses of a data set; what is said there is what their descriptions say."""
+        cells, poses = store.cell_table(), store.poses
+        scene = np.unique(cells.scenes, return_inverse=True)[1][poses.cell]
+        positions = np.column_stack([poses.positions_m[:, :2], scene * APART_M])
+        order = np.arange(len(poses.label), dtype=np.float64)  # as they were said
+        table = HintTable(poses.starts, poses.label, poses.direction, poses.colour, order)
+        features = CellFeatures.of(cells, np.array(store.labels))
+        return cls(features, positions, poses.cell.astype(np.intp), table, np.array(poses.words), poses.words, encoder)
 
     def __len__(self) -> int:
         return len(self.usable)
 
     def draw(self, size: int, cluster: int, rng: np.random.Generator) -> npt.NDArray[np.intp]:
         """Positions for a batch: groups of `cluster` near each other, whose cells are hard to tell apart."""
-        seeds = rng.choice(self.usable, size // cluster, replace=False)
-        near = self._tree.query_ball_point(self.positions[seeds, :2], NEIGHBOUR_M)
+        groups = max(1, size // cluster)
+        seeds = rng.choice(self.usable, groups, replace=len(self.usable) < groups)
+        near = self._tree.query_ball_point(self.positions[seeds], NEIGHBOUR_M)
         drawn: npt.NDArray[np.intp] = self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
         return drawn
 

@@ -19,12 +19,12 @@ def run(monkeypatch, weights_dir):
 
 def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("models.training.fit.CALIBRATION_QUERIES", 20)
-    result = run("train", "--map", osm_file, "--out", tmp_path / "w", "--steps", "1")
+    result = run("train", "--data", osm_file, "--out", tmp_path / "w", "--steps", "1")
     assert result.exit_code == 0, result.output
     assert "recall@1/3/5" in result.output
     record = json.loads((tmp_path / "w" / "config.json").read_text())
     assert record["training"]["config"]["steps"] == 1
-    assert record["training"]["validation"]["queries"] > 0
+    assert record["training"]["sources"][0]["validation"]["queries"] > 0
 
 
 def test_evaluate_prints_what_it_writes(run, osm_file, tmp_path) -> None:

@@ -1,22 +1,27 @@
 import itertools
+import json
 
 import numpy as np
 import pytest
 import torch
 
 from models.city.hints import direction_index, sample_positions
+from models.city.kitti360_job import prepare_data
 from models.city.types import DIRECTIONS
+from models.errors import DataError
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.retriever import RetrieverConfig
-from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingRegion, turn
+from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, turn
 from models.training.fit import TrainingConfig, most_likely_temperature, train_retriever
+from models.training.sources import load_source, source_of_map
+from tests.models.city.raw_scenes import write_town
 
 
 @pytest.fixture(scope="module")
 def region(city, points, cells, text_encoder):
     positions = sample_positions(city.locations_m, 30.0, np.random.default_rng(0))
-    return TrainingRegion(city, points, cells, positions, text_encoder)
+    return TrainingSet.of_map(city, points, cells, positions, text_encoder)
 
 
 def test_directions_turn_with_the_map() -> None:
@@ -69,17 +74,45 @@ def test_temperature_is_the_most_likely_one() -> None:
         answer = np.array([rng.choice(20, p=np.exp(row) / np.exp(row).sum()) for row in logits])
         swap = np.arange(4000)
         logits[swap, answer], logits[swap, truth] = logits[swap, truth].copy(), logits[swap, answer].copy()
-        asked.append((hints, logits * 0.3 * hints**-0.8))
-    assert most_likely_temperature(asked, truth) == pytest.approx((0.3, 0.8), rel=0.1)
+        asked.append((hints, logits * 0.3 * hints**-0.8, truth))
+    assert most_likely_temperature(asked) == pytest.approx((0.3, 0.8), rel=0.1)
 
 
 def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
     config = TrainingConfig(steps=12, batch_size=16, spacing_m=15.0, validate_every=6, learning_rate=3e-3)
     seen = []
-    recalls = [train_retriever(city, tmp_path / name, RetrieverConfig(width=32), config, seen.append) for name in "ab"]
+
+    def load(encoder, rng):
+        return [source_of_map(city, encoder, config.spacing_m, rng)]
+
+    recalls = [train_retriever(load, tmp_path / name, RetrieverConfig(width=32), config, seen.append) for name in "ab"]
     assert recalls[0] == recalls[1]
     assert load_retriever(tmp_path / "a").fingerprint == load_retriever(tmp_path / "b").fingerprint
     losses = [p.loss for p in seen[:12]]
     assert np.mean(losses[-3:]) < np.mean(losses[:3])
     assert [p.step for p in seen if p.recall] == [6, 12, 6, 12]
     assert load_retriever(tmp_path / "a").temperature(6) > 0
+
+
+def test_a_data_set_trains_as_a_map_does(tmp_path) -> None:
+    raw, prepared = tmp_path / "raw", tmp_path / "prepared"
+    folders = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0010_sync")
+    for seed, folder in enumerate(folders):
+        write_town(raw, folder, seed)
+    prepare_data(raw, prepared)
+    config = TrainingConfig(steps=4, batch_size=16, validate_every=4)
+
+    def load(encoder, rng):
+        source = load_source(prepared, encoder, config.spacing_m, rng, ("train", "val"))
+        with pytest.raises(DataError, match="0042"):
+            load_source(prepared, encoder, config.spacing_m, rng, ("0042", "val"))
+        batch = source.training.batch(source.training.draw(16, 4, rng), rng)
+        assert batch.hint_mask.sum(dim=1).min() >= 2
+        assert (batch.sentences[batch.hint_mask] >= 0).all()
+        assert source.facts["scenes"] == {"train": [folders[0]], "val": [folders[1]]}
+        return [source, source]
+
+    recall = train_retriever(load, tmp_path / "w", RetrieverConfig(width=32), config)
+    assert 0 <= recall[1] <= recall[5] <= 1
+    record = json.loads((tmp_path / "w" / "config.json").read_text())["training"]
+    assert [source["positions"] > 0 for source in record["sources"]] == [True, True]
