@@ -22,19 +22,30 @@ if TYPE_CHECKING:
 
 def train(
     out: Annotated[Path, typer.Option(help="directory for the weights")],
-    map_path: Annotated[Path, typer.Option("--map", help="map whose west is trained on")],
+    data: Annotated[list[Path], typer.Option(help=DATA_HELP + "; may be given several times")],
+    split: Annotated[str, typer.Option(help="of a data set: what to train on")] = "train",
+    val_split: Annotated[str, typer.Option(help="of a data set: what to choose by")] = "val",
     steps: Annotated[int | None, typer.Option(min=1, help="optimisation steps")] = None,
     seed: Seed = 0,
     text_encoder: Annotated[str, typer.Option(help="minilm, or the directory or hub id of a T5")] = "minilm",
 ) -> None:
-    """Train a retriever on the west of a map, chosen on the strip beside it."""
-    from models.city.osm import load_osm
+    """Train a retriever: on the train scenes of a data set, or the west of an OpenStreetMap file."""
     from models.retrieval.retriever import RetrieverConfig
     from models.training.fit import TrainingConfig, train_retriever
+    from models.training.sources import load_source
 
     config = TrainingConfig(seed=seed) if steps is None else TrainingConfig(seed=seed, steps=steps)
+    model = RetrieverConfig(text_encoder=text_encoder)
     with _training_bar() as show:
-        recall = train_retriever(load_osm(map_path), out, RetrieverConfig(text_encoder=text_encoder), config, show)
+        recall = train_retriever(
+            lambda encoder, rng: [
+                load_source(path, encoder, config.spacing_m, rng, (split, val_split)) for path in data
+            ],
+            out,
+            model,
+            config,
+            show,
+        )
     typer.echo(f"weights are in {out}; validation recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}")
 
 
@@ -62,19 +73,21 @@ def _training_bar() -> "Iterator[Callable[[Progress], None]]":
 
 
 def evaluate(
-    data: Annotated[Path | None, typer.Option(help=DATA_HELP)] = None,
+    data: Annotated[
+        Path | None,
+        typer.Option(help=f"{DATA_HELP}; or a .json file with the queries of a POST /evaluate, asked of --index"),
+    ] = None,
     split: Split = None,
+    index_dir: IndexDir = INDEX_DIR,
     report: Annotated[Path | None, typer.Option(help="directory for predictions, report.json, tables, plots")] = None,
     grow: Annotated[str | None, typer.Option(help="radii in metres of a growing gallery: 200,300,400,500")] = None,
     rescore: Annotated[Path | None, typer.Option(help="score the predictions of this report's directory again")] = None,
 ) -> None:
     """Recall on queries with known positions, beside chance, an oracle and exact matching of the hints."""
+    from app.evaluation import Evaluation, read_evaluation
     from app.progress import stage_bars
     from app.settings import load_settings
-    from index.evaluation import evaluate as run
     from index.evaluation import rescore as run_again
-    from index.map_data import load_queries
-    from models.retrieval.checkpoint import load_retriever
 
     if (data is None) == (rescore is None):
         raise DataError("name either --data, what to ask about, or --rescore, the directory of an earlier report")
@@ -82,9 +95,13 @@ def evaluate(
         _print_report(run_again(Path(str(rescore))))
         return
     radii = _radii(grow)
+    settings = load_settings(index_dir=index_dir)
+    if data.suffix == ".json":
+        asked = read_evaluation(data, settings, split, radii)
+    else:
+        asked = Evaluation(weights_dir=settings.weights_dir, data=data, split=split, grow_m=radii)
     with stage_bars() as show:
-        asked = load_queries(data, split, show)
-        found = run(*asked, load_retriever(load_settings().weights_dir), report, radii, show)
+        found = asked.run(report, show)
     _print_report(found)
 
 
