@@ -18,7 +18,7 @@ from models.city.points import PointTable
 from models.city.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
-from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.retrieval.mncl import Mncl, MnclConfig
 
 SIZE_M = 300
 LAT, LON = 60.0, 25.0
@@ -100,14 +100,14 @@ def text_encoder() -> TextEncoder:
 
 
 @pytest.fixture(scope="session")
-def model(text_encoder: TextEncoder) -> Retriever:
+def model(text_encoder: TextEncoder) -> Mncl:
     """Untrained: its answers mean nothing, its shapes and its determinism do."""
     torch.manual_seed(0)
-    return Retriever(text_encoder, RetrieverConfig(width=32)).eval()
+    return Mncl(text_encoder, MnclConfig(width=32)).eval()
 
 
 @pytest.fixture(scope="session")
-def weights_dir(model: Retriever, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def weights_dir(model: Mncl, tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("weights")
     save_retriever(model, directory, {})
     return directory

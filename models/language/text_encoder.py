@@ -27,10 +27,12 @@ class TokenFeatures:
     Attributes:
         values: [S, T, W] float32, zero where there is no token.
         mask: [S, T] bool, True where a token is real.
+        ids: [S, T] int64, number of each token in the tokenizer's vocabulary.
     """
 
     values: Tensor
     mask: Tensor
+    ids: Tensor
 
 
 class TextEncoder(nn.Module):
@@ -61,7 +63,7 @@ class TextEncoder(nn.Module):
         ).to(device)
         hidden = self.model(input_ids=tokens["input_ids"], attention_mask=tokens["attention_mask"]).last_hidden_state
         mask = tokens["attention_mask"].bool()
-        return TokenFeatures(hidden * mask[..., None], mask)
+        return TokenFeatures(hidden * mask[..., None], mask, tokens["input_ids"])
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
         """[S, W] unit vectors of phrases (mean over tokens): how labels enter the instance encoder."""

@@ -10,8 +10,10 @@ from safetensors.torch import load_file, save_file
 
 from models.errors import WeightsError
 from models.language.text_encoder import load_text_encoder
-from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.retrieval.mncl import Mncl
+from models.retrieval.retriever import Retriever
 
+METHODS: dict[str, type[Retriever]] = {"mncl": Mncl}
 DEFAULT_WEIGHTS = Path(__file__).parent.parent / "weights" / "retriever"
 WEIGHTS_FILE = "model.safetensors"
 CONFIG_FILE = "config.json"
@@ -27,7 +29,13 @@ def save_retriever(retriever: Retriever, directory: Path, training: dict[str, An
     """
     directory.mkdir(parents=True, exist_ok=True)
     save_file({name: tensor.contiguous() for name, tensor in retriever.state_dict().items()}, directory / WEIGHTS_FILE)
-    record = {"retriever": retriever.config.model_dump(), "fingerprint": retriever.fingerprint, "training": training}
+    config = retriever.config.model_dump()
+    record = {
+        "method": retriever.method,
+        "retriever": config,
+        "fingerprint": retriever.fingerprint,
+        "training": training,
+    }
     (directory / CONFIG_FILE).write_text(json.dumps(record, indent=2) + "\n")
 
 
@@ -46,11 +54,13 @@ def load_retriever(directory: Path | None = None) -> Retriever:
         if not (directory / name).is_file():
             raise WeightsError(f"no weights in {directory} ({name} is missing); {advice}")
     try:
-        config = RetrieverConfig.model_validate(json.loads((directory / CONFIG_FILE).read_text())["retriever"])
+        record = json.loads((directory / CONFIG_FILE).read_text())
+        method = METHODS[record["method"]]
+        config = method.config_type.model_validate(record["retriever"])
         weights = load_file(directory / WEIGHTS_FILE)
     except (safetensors.SafetensorError, ValueError, KeyError, pydantic.ValidationError) as error:
         raise WeightsError(f"the weights in {directory} cannot be read ({type(error).__name__}); {advice}") from error
-    retriever = Retriever(load_text_encoder(config.text_encoder), config)
+    retriever = method(load_text_encoder(config.text_encoder), config)
     try:
         retriever.load_state_dict(weights, strict=True)
     except RuntimeError as error:

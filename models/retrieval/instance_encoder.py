@@ -90,6 +90,10 @@ class CellBatch:
     label: Tensor
     mask: Tensor
 
+    def to(self, device: torch.device) -> "CellBatch":
+        """The same on a device."""
+        return CellBatch(self.geometry.to(device), self.label.to(device), self.mask.to(device))
+
 
 class InstanceEncoder(nn.Module):
     """Instance features F^C from position, size, point count, colour where known, and the label's text embedding.

@@ -1,32 +1,30 @@
-"""The retriever: descriptions and cells as unit vectors, near each other where they belong together."""
+"""What every retriever is: hint sentences and cells into vectors, near each other where they belong together."""
 
 import hashlib
 from collections import OrderedDict
 from collections.abc import Sequence
+from typing import ClassVar
 
 import numpy as np
 import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, fingerprint_of
-from models.retrieval.hint_encoder import HintEncoder
-from models.retrieval.instance_encoder import CellBatch, CellFeatures, InstanceEncoder
-from models.retrieval.layers import SetTransformer, masked_max
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, fingerprint_of
+from models.retrieval.instance_encoder import CellBatch, CellFeatures
+from models.retrieval.levels import Level, Levels
 
 HINT_CACHE_SIZE = 20_000  # sentences; 20 MB at D = 256
 ENCODE_BATCH = 256  # cells
+Vectors = np.ndarray[tuple[int, int], np.dtype[np.float32]]
 
 
 class RetrieverConfig(BaseModel):
-    """Shape of a retriever.
+    """What every retriever can be told.
 
     Attributes:
         text_encoder: "minilm", a directory or a hub id.
         width: D, size of the vectors.
-        cell_layers: attention layers over the instances of a cell.
-        hint_layers: attention layers over the hints of a description.
-        dropout: in the attention layers, while training.
         temperature: of a description of one hint, see `Retriever.temperature`; fitted on validation data.
         temperature_decay: how fast it falls with more hints; fitted on validation data.
     """
@@ -35,33 +33,66 @@ class RetrieverConfig(BaseModel):
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
     width: int = 256
-    cell_layers: int = 2
-    hint_layers: int = 1
-    dropout: float = 0.1
     temperature: float = 0.2
     temperature_decay: float = 1.0
 
 
 class Retriever(nn.Module):
-    """MNCL's retriever, first form: one global vector a description and one a cell.
+    """A retriever; subclasses say how hints are read, described and compared with cells.
 
     The frozen text encoder is used, not owned: its weights are neither trained nor saved here.
     """
+
+    method: ClassVar[str]
+    config_type: ClassVar[type[RetrieverConfig]]
 
     def __init__(self, text_encoder: TextEncoder, config: RetrieverConfig) -> None:
         super().__init__()
         self.config = config
         self._text = (text_encoder,)  # a tuple hides it from state_dict
-        self.hints = HintEncoder(text_encoder.width, config.width, config.dropout)
-        self.description = SetTransformer(config.width, config.hint_layers, num_heads=4, dropout=config.dropout)
-        self.instances = InstanceEncoder(text_encoder.width, config.width)
-        self.cell = SetTransformer(config.width, config.cell_layers, num_heads=4, dropout=config.dropout)
         self._hint_cache: OrderedDict[str, Tensor] = OrderedDict()
+
+    @property
+    def levels(self) -> tuple[Level, ...]:
+        """The levels that `describe` and `look` give."""
+        return ("global",)
+
+    def read(self, tokens: TokenFeatures) -> Tensor:
+        """[S, D] features of hint sentences, each for itself."""
+        raise NotImplementedError
+
+    def describe(self, hints: Tensor, mask: Tensor) -> Levels:
+        """Descriptions from features of their hints.
+
+        Args:
+            hints: [B, H, D] of `read`.
+            mask: [B, H] bool, True where a hint is real.
+        """
+        raise NotImplementedError
+
+    def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
+        """Cells from their instances.
+
+        Args:
+            batch: padded cells.
+            label_embeddings: [L, W] text embedding of each label.
+        """
+        raise NotImplementedError
+
+    def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
+        """What training makes small, a scalar.
+
+        Args:
+            text: B descriptions.
+            cells: the cell of each.
+            same_cell: [B, B] bool, True where two rows belong to one cell; such pairs are no negatives.
+        """
+        raise NotImplementedError
 
     @property
     def name(self) -> str:
         """What kind of model this is, for people."""
-        return f"retriever/{self.text_encoder.source}/{self.config.width}"
+        return f"{self.method}/{self.text_encoder.source}/{self.config.width}"
 
     @property
     def fingerprint(self) -> str:
@@ -87,44 +118,35 @@ class Retriever(nn.Module):
         self._hint_cache.clear()
         return super().train(mode)
 
-    def pool_hints(self, hints: Tensor, mask: Tensor) -> Tensor:
-        """[B, D] unit vectors of descriptions from hint features [B, H, D] with mask [B, H]."""
-        return nn.functional.normalize(masked_max(hints + self.description(hints, mask), mask), dim=-1)
-
-    def pool_instances(self, batch: CellBatch, label_embeddings: Tensor) -> Tensor:
-        """[B, D] unit vectors of cells.
-
-        Args:
-            batch: padded cells.
-            label_embeddings: [L, W] text embedding of each label.
-        """
-        mask = batch.mask
-        features = batch.geometry.new_zeros(*mask.shape, self.config.width)
-        features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])  # real ones only
-        return nn.functional.normalize(masked_max(self.cell(features, mask), mask), dim=-1)
+    @torch.inference_mode()
+    def encode_description(self, hints: Sequence[str]) -> Levels:
+        """One description, any number of hint sentences in any order, at all levels; B = 1."""
+        features = self._hint_features(dict.fromkeys(hints))
+        # In one order: a description's bits depend on nothing but its hints.
+        stacked = torch.stack([features[hint] for hint in sorted(hints)])[None]
+        return self.describe(stacked, torch.ones(1, len(hints), dtype=torch.bool, device=stacked.device))
 
     @torch.inference_mode()
-    def encode_descriptions(
-        self, descriptions: Sequence[Sequence[str]]
-    ) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
-        """[Q, D] float32 unit vectors of descriptions, each any number of hint sentences in any order."""
-        features = self._hint_features(dict.fromkeys(hint for hints in descriptions for hint in hints))
+    def encode_descriptions(self, descriptions: Sequence[Sequence[str]]) -> Vectors:
+        """[Q, D] float32 unit vectors of descriptions, the global level."""
+        self._hint_features(
+            dict.fromkeys(hint for hints in descriptions for hint in hints)
+        )  # all at once, to the cache
         vectors = np.empty((len(descriptions), self.config.width), dtype=np.float32)
         for row, hints in enumerate(descriptions):
-            # Alone and in one order: a description's bits depend on nothing but its hints.
-            stacked = torch.stack([features[hint] for hint in sorted(hints)])[None]
-            vectors[row] = self.pool_hints(stacked, torch.ones(1, len(hints), dtype=torch.bool))[0].numpy()
+            vectors[row] = self.encode_description(hints).whole[0].cpu().numpy()
         return vectors
 
     @torch.inference_mode()
-    def encode_cells(self, cells: CellFeatures) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
-        """[N, D] float32 unit vectors of a gallery, in batches of cells with about equally many instances."""
+    def encode_cells(self, cells: CellFeatures) -> Vectors:
+        """[N, D] float32 unit vectors of a gallery, the global level, in batches of cells of about equal size."""
         label_embeddings = self.text_encoder.embed(cells.labels)
         order = np.argsort(np.diff(cells.starts), kind="stable")
         vectors = np.empty((len(cells), self.config.width), dtype=np.float32)
         for start in range(0, len(order), ENCODE_BATCH):
             rows = order[start : start + ENCODE_BATCH]
-            vectors[rows] = self.pool_instances(cells.batch(rows), label_embeddings).numpy()
+            batch = cells.batch(rows).to(label_embeddings.device)
+            vectors[rows] = self.look(batch, label_embeddings).whole.cpu().numpy()
         return vectors
 
     def _hint_features(self, sentences: dict[str, None]) -> dict[str, Tensor]:
@@ -133,8 +155,7 @@ class Retriever(nn.Module):
         missing = [sentence for sentence in sentences if sentence not in cache]
         for start in range(0, len(missing), ENCODE_BATCH):
             batch = missing[start : start + ENCODE_BATCH]
-            tokens = self.text_encoder(batch)
-            cache.update(zip(batch, self.hints(tokens.values, tokens.mask), strict=True))
+            cache.update(zip(batch, self.read(self.text_encoder(batch)), strict=True))
         features = {}
         for sentence in sentences:
             cache.move_to_end(sentence)

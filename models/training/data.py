@@ -16,7 +16,7 @@ from models.city.pose_store import PoseStore
 from models.city.types import DIRECTIONS, CityMap, Floats, Hint
 from models.errors import DataError
 from models.language.hints_text import TEMPLATES, render_hint
-from models.language.text_encoder import TextEncoder
+from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
 
 MIN_HINTS, MAX_HINTS = 2, 8
@@ -72,7 +72,15 @@ class HintVocabulary:
         features = [encoder(sentences[i : i + 256]) for i in range(0, len(sentences), 256)]
         longest = max(f.mask.shape[1] for f in features)
         self.mask = torch.cat([_pad(f.mask, longest) for f in features])
-        self.tokens = torch.cat([_pad(f.values.half(), longest) for f in features])
+        self._ids = torch.cat([_pad(f.ids, longest) for f in features])
+        self._values = torch.cat([_pad(f.values.half(), longest) for f in features])
+
+    def tokens(self, sentences: Tensor) -> TokenFeatures:
+        """Token features of sentences [S], padded to the longest of them."""
+        mask = self.mask[sentences]
+        longest = int(mask.sum(dim=1).max())
+        values = self._values[sentences, :longest].float()
+        return TokenFeatures(values, mask[:, :longest], self._ids[sentences, :longest])
 
     def sentence(self, label: Any, colour: Any, direction: Any, template: Any) -> npt.NDArray[np.int64]:
         """Indices of sentences; the arguments broadcast."""

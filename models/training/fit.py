@@ -16,8 +16,8 @@ from torch import Tensor
 
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
-from models.retrieval.losses import contrastive_loss
-from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.retrieval.mncl import Mncl, MnclConfig
+from models.retrieval.retriever import Retriever
 from models.training.data import Batch, HintVocabulary, TrainingSet
 from models.training.metrics import RETRIEVAL_KS, retrieval_recall
 from models.training.sources import Source, Validation
@@ -34,7 +34,6 @@ class TrainingConfig(BaseModel):
         batch_size: descriptions a step.
         cluster: of these, how many lie near each other (hard negatives).
         learning_rate: peak of the one-cycle schedule.
-        temperature: tau of the contrastive loss.
         spacing_m: one training position a square of this size.
         validate_every: steps between validations; the best by recall@5 is kept.
     """
@@ -46,7 +45,6 @@ class TrainingConfig(BaseModel):
     batch_size: int = Field(default=128, ge=2)
     cluster: int = Field(default=4, ge=1)
     learning_rate: float = 1e-3
-    temperature: float = 0.05
     spacing_m: float = 4.0
     validate_every: int = 250
 
@@ -64,7 +62,7 @@ class Progress:
 def train_retriever(
     load: Callable[[TextEncoder, np.random.Generator], Sequence[Source]],
     out: Path,
-    model: RetrieverConfig,
+    model: MnclConfig,
     config: TrainingConfig,
     progress: Callable[[Progress], None] | None = None,
 ) -> dict[int, float]:
@@ -84,7 +82,7 @@ def train_retriever(
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
     sources = load(encoder, rng)
-    retriever = Retriever(encoder, model)
+    retriever: Retriever = Mncl(encoder, model)
     history = _optimise(retriever, sources, config, rng, progress)
     temperature, decay = fit_temperature(retriever, [source.validation for source in sources], rng)
     retriever.config = model.model_copy(update={"temperature": temperature, "temperature_decay": decay})
@@ -170,7 +168,7 @@ def _optimise(
         turn = rng.choice(len(sources), p=sizes / sizes.sum()) if len(sources) > 1 else 0
         training = sources[turn].training
         batch = training.batch(training.draw(config.batch_size, config.cluster, rng), rng)
-        loss = _loss(retriever, training, batch, config.temperature)
+        loss = _loss(retriever, training, batch)
         optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(retriever.parameters(), 1.0)
@@ -195,22 +193,15 @@ def _optimise(
     return history
 
 
-def _loss(retriever: Retriever, training: TrainingSet, batch: Batch, temperature: float) -> Tensor:
-    hints = _hint_features(retriever, training.vocabulary, batch)
-    return contrastive_loss(
-        retriever.pool_hints(hints, batch.hint_mask),
-        retriever.pool_instances(batch.cells, training.label_embeddings),
-        batch.same_cell,
-        temperature,
-    )
+def _loss(retriever: Retriever, training: TrainingSet, batch: Batch) -> Tensor:
+    text = retriever.describe(_hint_features(retriever, training.vocabulary, batch), batch.hint_mask)
+    return retriever.loss(text, retriever.look(batch.cells, training.label_embeddings), batch.same_cell)
 
 
 def _hint_features(retriever: Retriever, vocabulary: HintVocabulary, batch: Batch) -> Tensor:
-    """[B, H, D]; each different sentence of the batch is encoded once."""
+    """[B, H, D]; each different sentence of the batch is read once."""
     sentences, inverse = torch.unique(batch.sentences[batch.hint_mask], return_inverse=True)
-    mask = vocabulary.mask[sentences]
-    longest = int(mask.sum(dim=1).max())
-    features: Tensor = retriever.hints(vocabulary.tokens[sentences, :longest].float(), mask[:, :longest])
+    features = retriever.read(vocabulary.tokens(sentences))
     hints = features.new_zeros(*batch.sentences.shape, features.shape[-1])
     hints[batch.hint_mask] = features[inverse]
     return hints

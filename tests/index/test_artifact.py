@@ -13,7 +13,7 @@ from index.artifact import (
 from index.localizer import Localizer
 from models.errors import IndexBroken, IndexMismatch
 from models.retrieval.checkpoint import save_retriever
-from models.retrieval.retriever import Retriever
+from models.retrieval.mncl import Mncl
 
 
 @pytest.fixture
@@ -108,7 +108,7 @@ def test_aliases_switch(tmp_path) -> None:
 
 
 def test_an_index_of_another_model_is_refused(index_dir, model, text_encoder, tmp_path) -> None:
-    twin = Retriever(text_encoder, model.config)  # the same shape, other weights
+    twin = Mncl(text_encoder, model.config)  # the same shape, other weights
     save_retriever(twin, tmp_path, {})
     with pytest.raises(IndexMismatch, match="was built by model"):
         Localizer.open(index_dir, tmp_path)

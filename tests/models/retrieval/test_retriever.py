@@ -6,8 +6,8 @@ from models.errors import WeightsError
 from models.retrieval.checkpoint import load_retriever, save_retriever
 from models.retrieval.instance_encoder import NUM_GEOMETRY, CellFeatures
 from models.retrieval.layers import masked_max
-from models.retrieval.losses import contrastive_loss
-from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.retrieval.levels import LEVELS
+from models.retrieval.mncl import Mncl, MnclConfig
 
 TEXTS = [
     ["I am north of a gray building."],
@@ -38,15 +38,20 @@ def test_padding_a_description_changes_nothing(model) -> None:
     hints = torch.randn(1, 3, 32)
     padded = torch.cat([hints, torch.full((1, 4, 32), 1e3)], dim=1)
     mask = torch.arange(7)[None] < 3
-    alone = model.pool_hints(hints, torch.ones(1, 3, dtype=torch.bool))
-    assert torch.allclose(model.pool_hints(padded, mask), alone, atol=1e-5)
+    alone, beside = model.describe(hints, torch.ones(1, 3, dtype=torch.bool)), model.describe(padded, mask)
+    for level in LEVELS:
+        assert torch.allclose(beside.of(level)[:, :3], alone.of(level)[:, :3], atol=1e-5)
 
 
 def test_order_of_hints_does_not_matter(model) -> None:
     assert np.array_equal(model.encode_descriptions([TEXTS[2]]), model.encode_descriptions([TEXTS[2][::-1]]))
     hints = torch.randn(2, 5, 32)
     mask = torch.ones(2, 5, dtype=torch.bool)
-    assert torch.allclose(model.pool_hints(hints, mask), model.pool_hints(hints[:, [3, 1, 0, 4, 2]], mask), atol=1e-5)
+    order = [3, 1, 0, 4, 2]
+    before, after = model.describe(hints, mask), model.describe(hints[:, order], mask)
+    assert torch.allclose(before.whole, after.whole, atol=1e-5)
+    for level in ("instance", "relation"):
+        assert torch.allclose(before.of(level)[:, order], after.of(level), atol=1e-5)
 
 
 def test_a_cell_alone_and_in_a_batch(model, features) -> None:
@@ -54,12 +59,16 @@ def test_a_cell_alone_and_in_a_batch(model, features) -> None:
     labels = model.text_encoder.embed(features.labels)
     for n in (0, 7, len(features) - 1):
         with torch.inference_mode():
-            alone = model.pool_instances(features.batch(np.array([n])), labels)[0].numpy()
-        assert np.abs(alone - every[n]).max() < 1e-5
+            alone = model.look(features.batch(np.array([n])), labels)
+            beside = model.look(features.batch(np.array([n, 3, 11])), labels)
+        assert np.abs(alone.whole[0].numpy() - every[n]).max() < 1e-5
+        real = int(alone.mask.sum())
+        for level in ("instance", "relation"):
+            assert torch.allclose(alone.of(level)[0, :real], beside.of(level)[0, :real], atol=1e-5)
 
 
 def test_cached_hints_give_the_same_vector_and_are_forgotten_when_weights_change(model, text_encoder) -> None:
-    fresh = Retriever(text_encoder, model.config)
+    fresh = Mncl(text_encoder, model.config)
     fresh.load_state_dict(model.state_dict())
     fresh.eval()
     first = fresh.encode_descriptions(TEXTS[:1])
@@ -85,28 +94,6 @@ def test_features_of_a_cell(city, cells, features) -> None:
     assert (geometry[~known, 12:15] == 0).all()
 
 
-def naive_info_nce(texts, cells, same, tau):
-    total = 0.0
-    for a, b, mask in ((texts, cells, same), (cells, texts, same.T)):
-        for i in range(len(a)):
-            allowed = [j for j in range(len(b)) if j == i or not mask[i, j]]
-            logits = {j: float(a[i] @ b[j]) / tau for j in allowed}
-            total += np.log(sum(np.exp(v) for v in logits.values())) - logits[i]
-    return total / (2 * len(texts))
-
-
-def test_contrastive_loss_against_a_naive_loop() -> None:
-    torch.manual_seed(0)
-    texts = torch.nn.functional.normalize(torch.randn(6, 8), dim=-1).requires_grad_()
-    cells = torch.nn.functional.normalize(torch.randn(6, 8), dim=-1)
-    cell = torch.tensor([0, 1, 1, 2, 3, 0])
-    same = cell[:, None] == cell[None]
-    loss = contrastive_loss(texts, cells, same, 0.1)
-    assert loss.item() == pytest.approx(naive_info_nce(texts.detach(), cells, same, 0.1), rel=1e-5)
-    loss.backward()
-    assert torch.isfinite(texts.grad).all()
-
-
 def test_saved_and_loaded_is_the_same(model, tmp_path) -> None:
     save_retriever(model, tmp_path, {"note": "x"})
     again = load_retriever(tmp_path)
@@ -115,7 +102,7 @@ def test_saved_and_loaded_is_the_same(model, tmp_path) -> None:
 
 
 def test_another_model_of_the_same_shape_has_another_fingerprint(model, text_encoder) -> None:
-    assert Retriever(text_encoder, model.config).fingerprint != model.fingerprint
+    assert Mncl(text_encoder, model.config).fingerprint != model.fingerprint
 
 
 @pytest.mark.parametrize(
@@ -125,8 +112,11 @@ def test_another_model_of_the_same_shape_has_another_fingerprint(model, text_enc
         (lambda d: (d / "model.safetensors").unlink(), "model.safetensors is missing"),
         (lambda d: (d / "model.safetensors").write_bytes(b"junk"), "cannot be read"),
         (lambda d: (d / "config.json").write_text("{"), "cannot be read"),
-        (lambda d: (d / "config.json").write_text('{"retriever": {"width": 64}}'), "not of the model"),
-        (lambda d: (d / "config.json").write_text('{"retriever": {"depth": 64}}'), "cannot be read"),
+        (
+            lambda d: (d / "config.json").write_text('{"method": "mncl", "retriever": {"width": 64}}'),
+            "not of the model",
+        ),
+        (lambda d: (d / "config.json").write_text('{"method": "mncl", "retriever": {"depth": 64}}'), "cannot be read"),
     ],
 )
 def test_broken_weights_are_refused(model, tmp_path, spoil, message) -> None:
@@ -138,4 +128,4 @@ def test_broken_weights_are_refused(model, tmp_path, spoil, message) -> None:
 
 def test_config_is_strict() -> None:
     with pytest.raises(ValueError, match="extra"):
-        RetrieverConfig(depth=3)
+        MnclConfig(depth=3)

@@ -11,7 +11,7 @@ from models.city.types import DIRECTIONS
 from models.errors import DataError
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.retriever import RetrieverConfig
+from models.retrieval.mncl import MnclConfig
 from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, turn
 from models.training.fit import TrainingConfig, most_likely_temperature, train_retriever
 from models.training.sources import load_source, source_of_map
@@ -85,7 +85,7 @@ def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
     def load(encoder, rng):
         return [source_of_map(city, encoder, config.spacing_m, rng)]
 
-    recalls = [train_retriever(load, tmp_path / name, RetrieverConfig(width=32), config, seen.append) for name in "ab"]
+    recalls = [train_retriever(load, tmp_path / name, MnclConfig(width=32), config, seen.append) for name in "ab"]
     assert recalls[0] == recalls[1]
     assert load_retriever(tmp_path / "a").fingerprint == load_retriever(tmp_path / "b").fingerprint
     losses = [p.loss for p in seen[:12]]
@@ -112,7 +112,7 @@ def test_a_data_set_trains_as_a_map_does(tmp_path) -> None:
         assert source.facts["scenes"] == {"train": [folders[0]], "val": [folders[1]]}
         return [source, source]
 
-    recall = train_retriever(load, tmp_path / "w", RetrieverConfig(width=32), config)
+    recall = train_retriever(load, tmp_path / "w", MnclConfig(width=32), config)
     assert 0 <= recall[1] <= recall[5] <= 1
     record = json.loads((tmp_path / "w" / "config.json").read_text())["training"]
     assert [source["positions"] > 0 for source in record["sources"]] == [True, True]

@@ -1,0 +1,93 @@
+"""Similarities and the scene graph against the equations written as loops, and padding that must not leak."""
+
+import pytest
+import torch
+
+from models.retrieval.levels import Levels, level_scores, set_similarity, sum_of_z_scores
+from models.retrieval.mncl import Mncl, MnclConfig
+from models.retrieval.scene_graph import CellEdges, HintEdges, SceneGraph
+
+
+@pytest.fixture
+def sets():
+    torch.manual_seed(1)
+    unit = torch.nn.functional.normalize
+    hints, instances = unit(torch.randn(3, 4, 5), dim=-1), unit(torch.randn(2, 6, 5), dim=-1)
+    hint_mask = torch.arange(4) < torch.tensor([[4], [1], [3]])
+    instance_mask = torch.arange(6) < torch.tensor([[2], [6]])
+    return hints, hint_mask, instances, instance_mask
+
+
+def test_set_similarity_against_a_loop(sets) -> None:
+    hints, hint_mask, instances, instance_mask = sets
+    found = set_similarity(*sets)
+    for q in range(3):
+        for n in range(2):
+            best = [max(h @ i for i in instances[n, instance_mask[n]]) for h in hints[q, hint_mask[q]]]
+            assert found[q, n].item() == pytest.approx(sum(best).item() / len(best), abs=1e-6)
+
+
+def test_z_scores_make_levels_comparable() -> None:
+    torch.manual_seed(0)
+    small, large = torch.rand(3, 50), torch.rand(3, 50) * 100
+    total = sum_of_z_scores({"global": small, "instance": large})
+    parts = [(s - s.mean(dim=1, keepdim=True)) / s.std(dim=1, keepdim=True, correction=0) for s in (small, large)]
+    assert torch.allclose(total, parts[0] + parts[1], atol=1e-4)
+    flat = sum_of_z_scores({"global": torch.ones(1, 4)})
+    assert torch.isfinite(flat).all()
+
+
+@pytest.mark.parametrize("aggregate", ["code", "gcn"])
+def test_scene_graph_against_a_loop(aggregate) -> None:
+    torch.manual_seed(2)
+    graph = SceneGraph(4, 2, aggregate)
+    nodes, edges = torch.randn(1, 3, 4), torch.randn(1, 3, 3, 4)
+    v, e = list(nodes[0]), [list(row) for row in edges[0]]
+    with torch.no_grad():
+        for _ in range(2):
+            gathered = [sum(e[i]) / 3 if aggregate == "gcn" else 0 for i in range(3)]
+            v = [torch.tanh(graph.node(v[i]) + gathered[i]) for i in range(3)]
+            e = [
+                [
+                    torch.tanh(graph.from_first(v[i]) + graph.from_second(v[j]) + graph.from_edge(e[i][j]))
+                    for j in range(3)
+                ]
+                for i in range(3)
+            ]
+        relations = []
+        for i in range(3):
+            weights = torch.stack([graph.attention(e[i][j]) for j in range(3)]).softmax(dim=0)
+            relations.append(sum(weights[j] * e[i][j] for j in range(3)))
+        found_nodes, found_relations = graph(nodes, edges, torch.ones(1, 3, dtype=torch.bool))
+    assert torch.allclose(found_nodes[0], torch.stack(v), atol=1e-6)
+    assert torch.allclose(found_relations[0], torch.stack(relations), atol=1e-6)
+
+
+def test_edges_are_of_pairs() -> None:
+    centers, hints = torch.randn(1, 3, 3), torch.randn(1, 3, 4)
+    cell_edges, hint_edges = CellEdges(4), HintEdges(4)
+    weight = torch.cat([hint_edges.of_first.weight, hint_edges.of_second.weight], dim=1)
+    for i in range(3):
+        for j in range(3):
+            assert torch.allclose(cell_edges(centers)[0, i, j], cell_edges.linear(centers[0, i] - centers[0, j]))
+            pair = torch.cat([hints[0, i], hints[0, j]])
+            expected = torch.nn.functional.linear(pair, weight, hint_edges.of_first.bias)
+            assert torch.allclose(hint_edges(hints)[0, i, j], expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("levels", [("global",), ("global", "instance"), ("global", "relation")])
+@pytest.mark.parametrize("loss", ["contrastive", "negative"])
+def test_every_row_of_the_ablation_trains(text_encoder, levels, loss) -> None:
+    torch.manual_seed(0)
+    model = Mncl(text_encoder, MnclConfig(width=16, levels=levels, loss=loss)).train()
+    hints, mask = torch.randn(4, 3, 16), torch.ones(4, 3, dtype=torch.bool)
+    text = model.describe(hints, mask)
+    cells = Levels(
+        text.whole.flip(0), mask, *(None if v is None else v.flip(0) for v in (text.instance, text.relation))
+    )
+    assert list(level_scores(text, cells, model.levels)) == list(levels)
+    value = model.loss(text, cells, torch.eye(4, dtype=torch.bool))
+    value.backward()
+    assert torch.isfinite(value)
+    with pytest.raises(ValueError, match="no level"):
+        text.of("relation" if "instance" in levels or levels == ("global",) else "instance")

@@ -1,0 +1,80 @@
+"""The losses against the equations written as loops."""
+
+import math
+
+import pytest
+import torch
+
+from models.retrieval.losses import contrastive_loss, negative_contrastive_loss, negative_weights
+
+TAU = 0.3
+
+
+@pytest.fixture
+def batch():
+    torch.manual_seed(0)
+    unit = torch.nn.functional.normalize
+    cells = torch.randn(6, 8, dtype=torch.float64)
+    cells[3] = cells[2] + 0.1  # near each other: weights above their least
+    texts, cells = unit(cells + 0.2 * torch.randn(6, 8, dtype=torch.float64), dim=-1), unit(cells, dim=-1)
+    same = torch.eye(6, dtype=torch.bool)
+    same[1, 4] = same[4, 1] = True  # two descriptions of one cell
+    return texts, cells, same
+
+
+def softmax_of(row, of, kept):
+    return math.exp(row[of] / TAU) / sum(math.exp(row[j] / TAU) for j in kept)
+
+
+def test_contrastive_loss_against_a_loop(batch) -> None:
+    texts, cells, same = batch
+    scores = (texts @ cells.T).tolist()
+    total = 0.0
+    for i in range(6):
+        kept = [j for j in range(6) if j == i or not same[i, j]]
+        total -= math.log(softmax_of(scores[i], i, kept))
+        total -= math.log(softmax_of([row[i] for row in scores], i, kept))
+    assert contrastive_loss(texts @ cells.T, same, TAU).item() == pytest.approx(total / 12)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 2.0, 4.0])
+def test_negative_contrastive_loss_against_a_loop(batch, exponent) -> None:
+    texts, cells, same = batch
+    scores = (texts @ cells.T).tolist()
+    distance = [[math.dist(t, c) for c in cells.tolist()] for t in texts.tolist()]
+    farthest = max(max(row) for row in distance)
+    total = 0.0
+    for i in range(6):
+        kept = [j for j in range(6) if j == i or not same[i, j]]
+        for j in (j for j in range(6) if not same[i, j]):
+            weight = min(1.0, max(0.8, (1 - distance[i][j] / farthest) ** (1 / exponent)))
+            total -= weight * math.log(1 - softmax_of(scores[i], j, kept) + 1e-10)
+            column = [row[j] for row in scores]
+            others = [k for k in range(6) if k == j or not same[k, j]]
+            total -= weight * math.log(1 - softmax_of(column, i, others) + 1e-10)
+    found = negative_contrastive_loss(texts @ cells.T, texts, cells, same, TAU, exponent)
+    assert found.item() == pytest.approx(total / 6)
+
+
+def test_gradients_are_those_of_the_loss(batch) -> None:
+    texts, cells, same = batch
+    scores = (texts @ cells.T).requires_grad_()
+    assert torch.autograd.gradcheck(lambda s: contrastive_loss(s, same, TAU), scores)
+    assert torch.autograd.gradcheck(lambda s: negative_contrastive_loss(s, texts, cells, same, TAU, 2.0), scores)
+
+
+def test_weights_are_bounded_and_fall_with_distance(batch) -> None:
+    texts, cells, _ = batch
+    weights, distance = negative_weights(texts, cells, 2.0), torch.cdist(texts, cells)
+    assert 0.8 <= weights.min() < weights.max() <= 1
+    order = distance.flatten().argsort()
+    assert (weights.flatten()[order].diff() <= 1e-9).all()
+
+
+def test_certain_answers_stay_finite() -> None:
+    scores = torch.tensor([[1.0, -1.0], [1.0, -1.0]], requires_grad=True)  # the second is certain, and wrong
+    unit = torch.eye(2)
+    loss = negative_contrastive_loss(scores, unit, unit, torch.eye(2, dtype=torch.bool), 1e-3, 2.0)
+    loss.backward()
+    assert torch.isfinite(loss)
+    assert torch.isfinite(scores.grad).all()
