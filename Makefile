@@ -44,7 +44,8 @@ format: install  ## let ruff format and fix
 	$(BIN)/ruff check --fix .
 
 train: install  ## make the shipped weights again (west of Helsinki)
-	$(BIN)/hereabouts train --data models/maps/helsinki.osm.pbf --out models/weights/retriever
+	$(BIN)/hereabouts train --data models/maps/helsinki.osm.pbf --out models/weights/retriever \
+		--set model.levels=global --set model.loss=contrastive
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
 	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-test

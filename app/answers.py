@@ -222,12 +222,15 @@ class Health(_Out):
 class Limits(_Out):
     """What a client can run into."""
 
-    max_bytes: int
+    max_bytes: int = Field(description="of a body, but for the one of POST /evaluate")
+    max_evaluate_bytes: int
     max_characters: int
     max_hints: int
     max_top_k: int
     max_queue: int
     max_batch: int
+    max_queries: int = Field(description="of one evaluation")
+    max_jobs: int = Field(description="evaluations that wait")
     deadline_ms: int = Field(description="of a request that names none")
     max_deadline_ms: int
 
@@ -262,3 +265,4 @@ class InfoResponse(_Out):
     version: str
     limits: Limits
     index: IndexInfo | None = Field(description="null until it is loaded")
+    data_sets: list[str] = Field(description="names that POST /evaluate takes as data")

@@ -11,47 +11,71 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from app.options import DATA_HELP, INDEX_DIR, IndexDir, Seed, Split
+from app.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from models.errors import DataError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from models.training.fit import Progress
+    from models.training.loop import Progress
 
 
 def train(
     out: Annotated[Path, typer.Option(help="directory for the weights")],
     data: Annotated[list[Path], typer.Option(help=DATA_HELP + "; may be given several times")],
+    method: Annotated[str, typer.Option(help="which retriever: mncl, text2loc, ret or text2pos")] = "mncl",
+    change: Annotated[
+        list[str] | None,
+        typer.Option("--set", help="a setting: model.levels=global,instance or training.batch_size=64; repeatable"),
+    ] = None,
     split: Annotated[str, typer.Option(help="of a data set: what to train on")] = "train",
     val_split: Annotated[str, typer.Option(help="of a data set: what to choose by")] = "val",
     steps: Annotated[int | None, typer.Option(min=1, help="optimisation steps")] = None,
-    seed: Seed = 0,
-    text_encoder: Annotated[str, typer.Option(help="minilm, or the directory or hub id of a T5")] = "minilm",
+    seed: Annotated[int | None, typer.Option(min=0, help="of everything that is drawn")] = None,
+    text_encoder: Annotated[str | None, typer.Option(help="minilm, or the directory or hub id of a T5")] = None,
+    run_dir: Annotated[
+        Path | None, typer.Option(help="directory for metrics, curves, best weights and what --resume goes on from")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="go on with the run in --run-dir, if there is one")] = False,
 ) -> None:
-    """Train a retriever: on the train scenes of a data set, or the west of an OpenStreetMap file."""
-    from models.retrieval.retriever import RetrieverConfig
-    from models.training.fit import TrainingConfig, train_retriever
+    """Train a retriever: on the train scenes of a data set, or the west of an OpenStreetMap file.
+
+    For several processes or GPUs: torchrun --nproc-per-node 2 -m app.cli train ...
+    """
+    from models.errors import TrainingError
+    from models.retrieval.checkpoint import METHODS
+    from models.training import distributed
+    from models.training.fit import train_retriever
+    from models.training.settings import load_settings
     from models.training.sources import load_source
 
-    config = TrainingConfig(seed=seed) if steps is None else TrainingConfig(seed=seed, steps=steps)
-    model = RetrieverConfig(text_encoder=text_encoder)
-    with _training_bar() as show:
+    if resume and run_dir is None:
+        raise TrainingError("--resume goes on with the run in --run-dir; name that directory")
+    options = {"training.seed": seed, "training.steps": steps, "model.text_encoder": text_encoder}
+    named = [f"{name}={value}" for name, value in options.items() if value is not None]
+    model, config = load_settings(method, [*(change or []), *named])
+
+    with distributed.process_group(), _training_bar(distributed.is_first()) as show:
         recall = train_retriever(
             lambda encoder, rng: [
                 load_source(path, encoder, config.spacing_m, rng, (split, val_split)) for path in data
             ],
             out,
+            METHODS[method],
             model,
             config,
+            run_dir,
+            resume,
             show,
         )
-    typer.echo(f"weights are in {out}; validation recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}")
+        if distributed.is_first():
+            found = f"{recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
+            typer.echo(f"weights are in {out}; validation recall@1/3/5: {found}")
 
 
 @contextmanager
-def _training_bar() -> "Iterator[Callable[[Progress], None]]":
-    """A progress bar with the loss and the last validation's recall@5."""
+def _training_bar(shown: bool) -> "Iterator[Callable[[Progress], None]]":
+    """A progress bar with the loss, the last validation's recall@5 and the speed."""
     from rich import progress as bars
 
     columns = (
@@ -60,14 +84,15 @@ def _training_bar() -> "Iterator[Callable[[Progress], None]]":
         bars.MofNCompleteColumn(),
         bars.TimeRemainingColumn(),
     )
-    with bars.Progress(*columns, console=Console(stderr=True)) as bar:
+    with bars.Progress(*columns, console=Console(stderr=True), disable=not shown) as bar:
         task = bar.add_task("preparing", total=None)
         recall = "-"
 
         def show(at: "Progress") -> None:
             nonlocal recall
-            recall = f"{at.recall[5]:.3f}" if at.recall else recall
-            bar.update(task, total=at.steps, completed=at.step, description=f"loss {at.loss:.3f}  recall@5 {recall}")
+            recall = f"{at.figures['recall@5']:.3f}" if at.figures else recall
+            text = f"loss {at.loss:.3f}  recall@5 {recall}  {at.descriptions_per_second:.0f} descriptions/s"
+            bar.update(task, total=at.steps, completed=at.step, description=text)
 
         yield show
 

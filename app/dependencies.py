@@ -1,9 +1,10 @@
-"""What routes are given: the settings, the queue, and a localizer that is ready."""
+"""What routes are given: the settings, the queue, the evaluations, and a localizer that is ready."""
 
 from typing import Annotated
 
 from fastapi import Depends, Request
 
+from app.jobs import EvaluationJobs
 from app.protocol import LocalizerLike
 from app.queue import InferenceQueue
 from app.settings import Settings
@@ -21,6 +22,12 @@ async def get_queue(request: Request) -> InferenceQueue:
     return queue
 
 
+async def get_jobs(request: Request) -> EvaluationJobs:
+    """The application's evaluations."""
+    jobs: EvaluationJobs = request.app.state.jobs
+    return jobs
+
+
 async def get_localizer(request: Request) -> LocalizerLike:
     """The localizer.
 
@@ -32,4 +39,5 @@ async def get_localizer(request: Request) -> LocalizerLike:
 
 SettingsNow = Annotated[Settings, Depends(get_settings)]
 Queue = Annotated[InferenceQueue, Depends(get_queue)]
+Jobs = Annotated[EvaluationJobs, Depends(get_jobs)]
 Localizer = Annotated[LocalizerLike, Depends(get_localizer)]

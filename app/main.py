@@ -10,11 +10,12 @@ from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
 from app.errors import add_error_handlers
+from app.jobs import EvaluationJobs
 from app.middleware import AccessLog, StrictBody, is_sane_request_id
 from app.openapi import describe, error_table
 from app.protocol import LocalizerLike
 from app.queue import InferenceQueue
-from app.routes import cells, health
+from app.routes import cells, evaluate, health
 from app.routes.localize import build_router
 from app.settings import Settings
 
@@ -34,13 +35,16 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
     """
     opener = open_localizer or partial(_open_localizer, settings)
     queue = InferenceQueue(opener, settings.max_queue, settings.max_batch)
+    jobs = EvaluationJobs(settings.max_jobs)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
         queue.start()
+        jobs.start()
         try:
             yield
         finally:
+            await jobs.close()
             await queue.close()
 
     app = FastAPIOffline(
@@ -54,10 +58,11 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
     )
     app.state.settings = settings
     app.state.queue = queue
+    app.state.jobs = jobs
     add_error_handlers(app)
-    for router in (build_router(settings), cells.router, health.router):
+    for router in (build_router(settings), evaluate.build_router(settings), cells.router, health.router):
         app.include_router(router)
-    app.add_middleware(StrictBody, max_bytes=settings.max_bytes)
+    app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
     app.add_middleware(AccessLog)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
     app.openapi = partial(describe, app)  # type: ignore[method-assign]

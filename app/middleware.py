@@ -1,8 +1,10 @@
 """What happens before a route: one log line a request, no fault unanswered, no body that is not plain JSON."""
 
+import asyncio
 import json
 import re
 import time
+from collections.abc import Mapping
 from email.message import Message as Headers
 from typing import Any
 
@@ -14,6 +16,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from app.errors import Code, Problem
 
 MAX_DEPTH = 32
+LARGE_BYTES = 65_536  # from here on a body is checked beside the event loop, which would stand still
 _SANE_ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 
 log = structlog.get_logger()
@@ -63,17 +66,25 @@ class AccessLog:
 
 
 class StrictBody:
-    """Checks a body when the route first asks for it, so that an unknown path is a 404 whatever the body."""
+    """Checks a body when the route first asks for it, so that an unknown path is a 404 whatever the body.
 
-    def __init__(self, app: ASGIApp, max_bytes: int) -> None:
+    Args:
+        app: what is served.
+        max_bytes: of a body.
+        larger: paths whose bodies have another limit.
+    """
+
+    def __init__(self, app: ASGIApp, max_bytes: int, larger: Mapping[str, int] | None = None) -> None:
         self.app = app
         self.max_bytes = max_bytes
+        self.larger = larger or {}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one request with its body checked."""
         if scope["type"] != "http" or scope["method"] not in {"POST", "PUT", "PATCH"}:
             await self.app(scope, receive, send)
             return
+        max_bytes = self.larger.get(scope["path"], self.max_bytes)
         is_read = False
 
         async def receive_checked() -> Message:
@@ -82,15 +93,18 @@ class StrictBody:
                 return await receive()
             is_read = True
             try:
-                check_headers(RequestHeaders(scope=scope), self.max_bytes)
-                body = await read_body(receive, self.max_bytes)
+                check_headers(RequestHeaders(scope=scope), max_bytes)
+                body = await read_body(receive, max_bytes)
             except Problem as problem:
                 # Else the server goes on reading what it throws away.
                 problem.headers = {**(problem.headers or {}), "Connection": "close"}
                 raise
             if body is None:
                 return {"type": "http.disconnect"}
-            check_json(body)
+            if len(body) < LARGE_BYTES:
+                check_json(body)
+            else:
+                await asyncio.to_thread(check_json, body)
             return {"type": "http.request", "body": body, "more_body": False}
 
         await self.app(scope, receive_checked, send)

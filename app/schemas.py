@@ -1,7 +1,7 @@
 """What the service is asked. Numbers are strict and finite, unknown fields are refused."""
 
-import unicodedata
-from typing import Annotated, Literal, Self
+import re
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
     AfterValidator,
@@ -20,8 +20,16 @@ from app.settings import Settings
 from index.answers import Box, Circle, Crs, Prior
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
+EVALUATE_EXAMPLE: JsonValue = {
+    "queries": [
+        {"description": "I am north of a gray building. A black pole is to my west.", "position": [105.0, -35.0]},
+        {"hints": ["I stand on a gray road.", "There is a park to my west."], "position": [340.0, 200.0]},
+    ],
+    "crs": "map",
+}
 DEFAULT_TOP_K = 5
-TEXT_WHITESPACE = "\t\n\r"
+MAX_RADII = 8
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
 # No map is wider than the Earth or finer than a millimetre, and the squares of these stay numbers.
 MAX_METRES = 1e8
 MIN_METRES = 1e-3
@@ -41,7 +49,7 @@ def check_text(text: str) -> str:
     Raises:
         PydanticCustomError: what is wrong, without the text.
     """
-    if any(unicodedata.category(character) == "Cc" and character not in TEXT_WHITESPACE for character in text):
+    if _CONTROL.search(text):
         raise _wrong("holds a control character; send plain text")
     if not any(character.isalnum() for character in text):
         raise _wrong("has no words; say what is around you")
@@ -106,25 +114,30 @@ class PriorPosition(_Body):
         return Prior(self.position, self.sigma_m)
 
 
-class LocalizeRequest(_Body):
-    """What to localize; `request_model` adds the limits of a service."""
-
-    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
+class Told(_Body):
+    """What somebody says; `told_fields` adds the limits of a service."""
 
     description: str | None
     hints: list[str] | None
-    top_k: int
-    within: Within | None = None
-    prior: PriorPosition | None = None
-    crs: Crs = Field("map", description="what the coordinates of within and prior mean")
-    deadline_ms: int
-    index: Literal["default"] = "default"
 
     @model_validator(mode="after")
     def _is_one_text(self) -> Self:
         if (self.description is None) == (self.hints is None):
             raise _wrong("give either description or hints", "description")
         return self
+
+
+class LocalizeRequest(Told):
+    """What to localize; `request_model` adds the limits of a service."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
+
+    top_k: int
+    within: Within | None = None
+    prior: PriorPosition | None = None
+    crs: Crs = Field("map", description="what the coordinates of within and prior mean")
+    deadline_ms: int
+    index: Literal["default"] = "default"
 
     @model_validator(mode="after")
     def _is_on_earth(self) -> Self:
@@ -147,8 +160,42 @@ class LocalizeRequest(_Body):
         return points
 
 
-def request_model(settings: Settings) -> type[LocalizeRequest]:
-    """LocalizeRequest with a service's limits in its fields, so that they are checked and in OpenAPI."""
+class EvaluateQuery(Told):
+    """A description and where it was said: [x, y] in metres, or [lon, lat] with crs wgs84."""
+
+    position: Point
+
+
+class EvaluateRequest(_Body):
+    """What to evaluate; `evaluate_model` adds the limits of a service."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [EVALUATE_EXAMPLE]})
+
+    queries: list[EvaluateQuery] | None
+    crs: Crs = Field("map", description="what the positions of queries mean")
+    data: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=255)] | None = Field(
+        None, description="instead of queries: a data set of the service, by its name in /info"
+    )
+    split: Annotated[str, Strict(), StringConstraints(pattern=r"^[A-Za-z0-9_,-]{1,255}$")] | None = Field(
+        None, description="of data: train, val or test, or a comma list of scenes; everything if it is left out"
+    )
+    grow: Annotated[list[Length], Field(min_length=1, max_length=MAX_RADII)] | None = Field(
+        None, description="radii in metres of a growing gallery, for example [200, 300, 400, 500]"
+    )
+
+    @model_validator(mode="after")
+    def _is_one_source(self) -> Self:
+        if (self.queries is None) == (self.data is None):
+            raise _wrong("give either queries or data", "queries")
+        if self.queries is not None and self.split is not None:
+            raise _wrong("goes with data, not with queries", "split")
+        if self.data is not None and "crs" in self.model_fields_set:
+            raise _wrong("goes with queries, not with data", "crs")
+        return self
+
+
+def told_fields(settings: Settings) -> dict[str, Any]:
+    """The fields of `Told` with a service's limits."""
     text = Annotated[str, Strict(), StringConstraints(max_length=settings.max_characters), AfterValidator(check_text)]
 
     def check_total(hints: list[str]) -> list[str]:
@@ -157,14 +204,35 @@ def request_model(settings: Settings) -> type[LocalizeRequest]:
         return hints
 
     hints = Annotated[list[text], Field(min_length=1, max_length=settings.max_hints), AfterValidator(check_total)]
+    return {
+        "description": (text | None, Field(None, description="what is around the speaker, in plain words")),
+        "hints": (hints | None, Field(None, description="the same in sentences, one hint each")),
+    }
+
+
+def request_model(settings: Settings) -> type[LocalizeRequest]:
+    """LocalizeRequest with a service's limits in its fields, so that they are checked and in OpenAPI."""
     top_k = Annotated[int, Strict(), Field(ge=1, le=settings.max_top_k, description="candidates to list")]
     deadline_ms = Annotated[int, Strict(), Field(ge=1, le=settings.max_deadline_ms)]
     return create_model(
         "LocalizeRequest",
         __base__=LocalizeRequest,
         __doc__="One description, or its sentences as hints, and where to look.",
-        description=(text | None, Field(None, description="what is around the speaker, in plain words")),
-        hints=(hints | None, Field(None, description="the same in sentences, one hint each")),
+        **told_fields(settings),
         top_k=(top_k, min(DEFAULT_TOP_K, settings.max_top_k)),
         deadline_ms=(deadline_ms, Field(settings.deadline_ms, description="504 if there is no answer by then")),
+    )
+
+
+def evaluate_model(settings: Settings) -> type[EvaluateRequest]:
+    """EvaluateRequest with a service's limits in its fields."""
+    query = create_model(
+        "EvaluateQuery", __base__=EvaluateQuery, __doc__=EvaluateQuery.__doc__, **told_fields(settings)
+    )
+    queries = Annotated[list[query], Field(min_length=1, max_length=settings.max_queries)]
+    return create_model(
+        "EvaluateRequest",
+        __base__=EvaluateRequest,
+        __doc__="Queries with known positions, or a data set of the service by its name.",
+        queries=(queries | None, Field(None, description="asked of the index that is served")),
     )

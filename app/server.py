@@ -1,10 +1,12 @@
 """Running the service in one process, and ending it without dropping a request."""
 
+from socket import socket
 from types import FrameType
 
 import uvicorn
 from fastapi import FastAPI
 
+from app.jobs import EvaluationJobs
 from app.queue import InferenceQueue
 from app.settings import Settings
 
@@ -14,12 +16,14 @@ CLOSING_S = 5
 class DrainingServer(uvicorn.Server):
     """On the first signal, stays reachable (readyz 503) until the waiting queries are answered, then exits with 0.
 
-    uvicorn alone closes the port at once, and kills itself with the signal when done.
+    uvicorn alone closes the port at once, and kills itself with the signal when done. Evaluations are cancelled
+    before connections are closed, else those who follow one would keep the service from ending.
     """
 
-    def __init__(self, config: uvicorn.Config, queue: InferenceQueue) -> None:
+    def __init__(self, config: uvicorn.Config, queue: InferenceQueue, jobs: EvaluationJobs) -> None:
         super().__init__(config)
         self._queue = queue
+        self._jobs = jobs
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Drain; a second signal does not wait for that."""
@@ -30,6 +34,11 @@ class DrainingServer(uvicorn.Server):
     async def on_tick(self, counter: int) -> bool:
         """Whether to leave, asked ten times a second."""
         return await super().on_tick(counter) or (self._queue.is_draining and self._queue.is_idle)
+
+    async def shutdown(self, sockets: list[socket] | None = None) -> None:
+        """Leave."""
+        await self._jobs.close()
+        await super().shutdown(sockets)
 
 
 def serve(app: FastAPI, settings: Settings) -> None:
@@ -43,4 +52,4 @@ def serve(app: FastAPI, settings: Settings) -> None:
         server_header=False,
         timeout_graceful_shutdown=settings.max_deadline_ms // 1000 + CLOSING_S,
     )
-    DrainingServer(config, app.state.queue).run()
+    DrainingServer(config, app.state.queue, app.state.jobs).run()

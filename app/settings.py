@@ -18,7 +18,11 @@ class Settings(BaseSettings):
     weights_dir: Path | None = Field(None, description="model weights; None: the ones shipped in the package")
     host: str = "127.0.0.1"
     port: int = Field(8000, ge=0, le=65535)
+    data_dir: Path | None = Field(None, description="maps and data sets that POST /evaluate takes by name; None: none")
     max_bytes: PositiveInt = Field(262_144, description="of a request body")
+    max_evaluate_bytes: PositiveInt = Field(16_777_216, description="of the body of POST /evaluate")
+    max_queries: PositiveInt = Field(10_000, description="of one evaluation")
+    max_jobs: PositiveInt = Field(8, description="evaluations that wait; one more is refused with 429")
     max_characters: PositiveInt = Field(4000, description="of a description, or of all hints together")
     max_hints: PositiveInt = Field(32, description="of one request, given as hints or found in a description")
     max_top_k: PositiveInt = 40

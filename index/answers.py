@@ -5,7 +5,8 @@ from typing import Literal
 
 Crs = Literal["map", "wgs84"]
 Status = Literal["ok", "ambiguous", "no_match"]
-Method = Literal["cell_center"]
+Refine = Literal["none", "regressor"]
+Method = Literal["cell_center", "regressor", "matching"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +45,7 @@ class Query:
         within: filter, or None.
         prior: bias, or None.
         crs: what the coordinates of `within` and `prior` mean.
+        refine: what finds positions inside the candidates; "none" leaves them at the centres.
     """
 
     hints: tuple[str, ...]
@@ -51,6 +53,7 @@ class Query:
     within: Box | Circle | None = None
     prior: Prior | None = None
     crs: Crs = "map"
+    refine: Refine = "none"
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +78,7 @@ class Estimate:
 
     Attributes:
         position: (x, y) metres, map frame.
-        method: what made it; "cell_center" is the centre of the best cell.
+        method: what made it; "cell_center" is the centre of the best cell, the others are models of the fine stage.
         covariance: 2 x 2, square metres, of the true position around `position`; finite, wide when unsure.
         radius_m: circles that hold the true position.
         probability: that the best candidate is the right cell.

@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from index.artifact import (
     FrameRecord,
     Manifest,
@@ -16,13 +14,10 @@ from index.artifact import (
     write_version,
 )
 from index.map_data import MapData, Progress, fingerprint, load_map
-from index.store import FaissStore
+from index.ranking import Ranker
 from models.errors import IndexUnusable
 from models.retrieval.checkpoint import load_retriever
-from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.retriever import Retriever
-
-VECTORS_FILE = "vectors.faiss"
 
 
 def build_index(
@@ -58,14 +53,14 @@ def build_index(
         return current
     data = load_map(map_path, split, report)
     report("encode cells", 0, 0)
-    store = FaissStore.of(retriever.encode_cells(CellFeatures.of(data.cells, np.array(data.gallery.labels))))
+    ranker = Ranker.of(retriever, data.cells, data.gallery.labels)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
     with write_version(out_dir, origin["version"]) as directory:
-        store.save(directory / VECTORS_FILE)
+        ranker.save(directory)
         data.gallery.save(directory)
         manifest = Manifest(
-            **origin, **_describe(data), model=retriever.name, dim=store.dim, files=file_records(directory)
+            **origin, **_describe(data), model=retriever.name, dim=ranker.store.dim, files=file_records(directory)
         )
         write_manifest(directory, manifest)
     set_alias(out_dir, "default", manifest.version)

@@ -14,13 +14,12 @@ from scipy.special import logsumexp
 from index.ambiguity import ambiguity
 from index.map_data import MapData, Progress, Queries
 from index.predictions import FILE, Predictions
+from index.ranking import Ranker
+from index.refinement import Refinement, Refiner
 from index.report import write_report
 from index.scoring import score
-from index.store import FaissStore, VectorStore
 from models.city.types import Floats
 from models.errors import DataError
-from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.retriever import Retriever
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 
 LISTED = 25  # cells kept of each ranking; recall curves end here
@@ -31,36 +30,33 @@ CHUNK = 64  # queries ranked at once
 def evaluate(
     data: MapData,
     queries: Queries,
-    retriever: Retriever,
+    ranker: Ranker,
     report_dir: Path | None = None,
     grow_m: Sequence[float] = (),
     progress: Progress | None = None,
-    store: VectorStore | None = None,
+    refiner: Refiner | None = None,
 ) -> dict[str, Any]:
     """Ask a model, save what it says, score it.
 
     Args:
         data: the gallery.
         queries: what is asked.
-        retriever: the model.
+        ranker: the model, with its vectors of the gallery (`Ranker.of`, or an index's).
         report_dir: where predictions.npz, report.json, report.md and the plots go; None to write nothing.
         grow_m: radii of a growing gallery (`grow`); predictions for each are saved beside the others.
         progress: called as the work goes on.
-        store: the model's vectors of the gallery, if an index has them; None to make them.
+        refiner: gives the positions inside the retrieved cells; None for the cells' centres.
 
     Returns:
         The report (`index.scoring.score`).
     """
     report = progress or (lambda stage, done, total: None)
-    if store is None or grow_m:
-        report("encode cells", 0, 0)
-        vectors = retriever.encode_cells(CellFeatures.of(data.cells, np.array(data.gallery.labels)))
-    predictions = predict(data, queries, retriever, FaissStore.of(vectors) if store is None else store, report)
+    predictions = predict(data, queries, ranker, report, refiner)
     if queries.hints is not None:
         report("match hints", 0, 0)
         predictions.facts["ambiguity"] = ambiguity(data, queries, queries.hints)
     grown = [
-        (radius, predict(*part, retriever, FaissStore.of(vectors[rows]), report))
+        (radius, predict(*part, ranker.take(rows), report, refiner))
         for radius, part, rows in grow(data, queries, grow_m)
     ]
     if report_dir:
@@ -70,30 +66,35 @@ def evaluate(
 
 
 def predict(
-    data: MapData, queries: Queries, retriever: Retriever, store: VectorStore, progress: Progress
+    data: MapData, queries: Queries, ranker: Ranker, progress: Progress, refiner: Refiner | None = None
 ) -> Predictions:
     """Rank the gallery for each query.
 
     Args:
         data: the gallery.
         queries: what is asked.
-        retriever: the model.
-        store: its vectors of the gallery, in the same rows.
+        ranker: the model, with its vectors of the gallery in the same rows.
         progress: called as the work goes on.
+        refiner: as `evaluate`.
     """
-    total = len(queries)
-    listed = min(LISTED, len(store))
+    retriever = ranker.retriever
+    total, cells = len(queries), len(data.cells)
+    listed = min(LISTED, cells)
     ranked, scores = np.empty((total, listed), np.int32), np.empty((total, listed), np.float32)
     probability = np.empty(total)
     for start in range(0, total, CHUNK):
         progress("ask", start, total)
         rows = slice(start, start + CHUNK)
         said = queries.sentences[rows]
-        similarity, order = store.search(retriever.encode_descriptions(said), len(store))
+        similarity, order = ranker.rank(retriever.encode_texts(said), cells)
         ranked[rows], scores[rows] = order[:, :listed], similarity[:, :listed]
         probability[rows] = _first_probability(similarity, np.array([retriever.temperature(len(s)) for s in said]))
     progress("ask", total, total)
     centers = data.cells.center_m[:, :2].astype(np.float64)
+    predicted: Floats = centers[ranked[:, :PREDICTED]]
+    if refiner:
+        progress("refine positions", 0, 0)
+        predicted = Refinement(refiner, data.gallery).positions_m(queries.sentences, ranked[:, :PREDICTED])
     return Predictions(
         facts={
             "data": data.name,
@@ -101,7 +102,8 @@ def predict(
             "attribution": data.attribution,
             "model": retriever.name,
             "model_fingerprint": retriever.fingerprint,
-            "method": "cell_center",
+            "method": refiner.method if refiner else "cell_center",
+            "refiner_fingerprint": refiner.fingerprint if refiner else None,
         },
         cell_ids=np.array(data.cells.ids),
         cell_scenes=np.array(data.cells.scenes),
@@ -112,7 +114,7 @@ def predict(
         strategies=np.array(queries.strategies),
         ranked=ranked,
         scores=scores,
-        predicted_m=centers[ranked[:, :PREDICTED]],
+        predicted_m=predicted,
         probability=probability,
     )
 

@@ -1,7 +1,8 @@
 """From a description to candidates and a position, with what is not known stated."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -17,18 +18,21 @@ from index.answers import (
     CellInstance,
     Circle,
     Estimate,
+    Method,
     Query,
-    Radius,
     Wgs84,
 )
 from index.artifact import Manifest, check_model, open_version
-from index.build import VECTORS_FILE
 from index.gallery import Gallery
-from index.store import FaissStore, VectorStore
+from index.map_data import MapData
+from index.ranking import Ranker
+from index.refinement import Refinement, Refiner
+from index.uncertainty import covariance_of, radius_of
 from models.city.colours import PALETTES
 from models.city.frame import Frame
+from models.localization.checkpoint import load_fine
 from models.retrieval.checkpoint import load_retriever
-from models.retrieval.retriever import Retriever
+from models.retrieval.levels import Levels
 
 Floats = npt.NDArray[np.floating[Any]]
 DEPTH = 2000  # cells that a posterior looks at; what is beyond is bounded, see `_posterior`
@@ -38,14 +42,21 @@ class Localizer:
     """Answers queries about one map, with one model. Not thread-safe: one thread owns it.
 
     Args:
-        retriever: the model that made the store's vectors.
-        store: vectors of the gallery's cells.
+        ranker: the model, with its vectors of the gallery.
         gallery: the cells.
         manifest: what the index says of itself.
+        load_refiner: reads a model of the fine stage; called when the first query asks for one.
     """
 
-    def __init__(self, retriever: Retriever, store: VectorStore, gallery: Gallery, manifest: Manifest) -> None:
-        self.retriever, self.store, self.gallery, self.manifest = retriever, store, gallery, manifest
+    def __init__(
+        self,
+        ranker: Ranker,
+        gallery: Gallery,
+        manifest: Manifest,
+        load_refiner: Callable[[], Refiner] = load_fine,
+    ) -> None:
+        self.ranker, self.gallery, self.manifest, self._load_refiner = ranker, gallery, manifest, load_refiner
+        self.retriever, self.store = ranker.retriever, ranker.store
         self.frame = Frame(**manifest.frame.model_dump())
         self._centers = gallery.cells.center_m[:, :2]
         self._row = {cell_id: row for row, cell_id in enumerate(gallery.cells.ids)}
@@ -97,8 +108,15 @@ class Localizer:
         return self.store.dim
 
     @classmethod
-    def open(cls, index_dir: Path, weights_dir: Path | None = None) -> "Localizer":
+    def open(
+        cls, index_dir: Path, weights_dir: Path | None = None, fine_weights_dir: Path | None = None
+    ) -> "Localizer":
         """Open an index directory (what its alias "default" names) or one version of it.
+
+        Args:
+            index_dir: as it says.
+            weights_dir: the retriever's; None for those that ship with the package.
+            fine_weights_dir: the same of the fine stage; read when the first query asks for it.
 
         Raises:
             IndexBroken: the index is missing, incomplete or changed.
@@ -108,14 +126,40 @@ class Localizer:
         directory, manifest = open_version(index_dir)
         retriever = load_retriever(weights_dir)
         check_model(manifest, retriever.fingerprint)
-        return cls(retriever, FaissStore.load(directory / VECTORS_FILE), Gallery.load(directory), manifest)
+        load_refiner = partial(load_fine, fine_weights_dir)
+        return cls(Ranker.load(retriever, directory), Gallery.load(directory), manifest, load_refiner)
+
+    def map_data(self) -> MapData:
+        """The map of the index, as the evaluation takes it."""
+        return MapData(
+            name=self.map_name,
+            split="index",
+            gallery=self.gallery,
+            palette=PALETTES[self.manifest.palette],
+            frame=self.frame,
+            grid_m=self.manifest.grid_m,
+            attribution=self.attribution,
+        )
+
+    @cached_property
+    def refinement(self) -> Refinement:
+        """The fine stage on this gallery.
+
+        Raises:
+            WeightsError: its model cannot be loaded.
+        """
+        return Refinement(self._load_refiner(), self.gallery)
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
-        """Answer queries, in order; the text encoder runs once for all that is new to it."""
+        """Answer queries, in order; the text encoder runs once for all that is new to it.
+
+        Raises:
+            WeightsError: a query asks for the fine stage, which cannot be loaded.
+        """
         start = time.perf_counter()
-        vectors = self.retriever.encode_descriptions([query.hints for query in queries])
+        texts = self.retriever.encode_texts([query.hints for query in queries])
         encode_ms = (time.perf_counter() - start) * 1000
-        return [self._answer(query, vector, encode_ms) for query, vector in zip(queries, vectors, strict=True)]
+        return [self._answer(query, text, encode_ms) for query, text in zip(queries, texts, strict=True)]
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""
@@ -147,9 +191,9 @@ class Localizer:
             ),
         )
 
-    def _answer(self, query: Query, vector: npt.NDArray[np.float32], encode_ms: float) -> Answer:
+    def _answer(self, query: Query, text: Levels, encode_ms: float) -> Answer:
         start = time.perf_counter()
-        rows, scores, unseen = self._candidates(query, vector)
+        rows, scores, unseen = self._candidates(query, text)
         search_ms = (time.perf_counter() - start) * 1000
         if not len(rows):
             warning = "no cell of the map lies inside 'within'; move it onto the map or leave it out"
@@ -158,22 +202,23 @@ class Localizer:
         probability = self._posterior(query, rows, scores, unseen)
         order = np.lexsort((rows, -probability))
         rows, scores, probability = rows[order], scores[order], probability[order]
-        estimate = self._estimate(rows, probability)
+        positions = self._positions(query, rows)
+        estimate = self._estimate(query, positions, probability)
         listed = range(min(query.top_k, len(rows)))
-        candidates = tuple(self._candidate(i + 1, rows[i], scores[i], probability[i]) for i in listed)
+        candidates = tuple(self._candidate(i + 1, rows[i], scores[i], probability[i], positions[i]) for i in listed)
         other = max(0.0, 1.0 - sum(candidate.probability for candidate in candidates))
         is_clear = estimate.radius_m.p50 <= self.manifest.cell_size_m
         timings = {"encode": encode_ms, "search": search_ms, "estimate": (time.perf_counter() - start) * 1000}
         return Answer("ok" if is_clear else "ambiguous", estimate, candidates, other, (), timings)
 
-    def _candidates(self, query: Query, vector: npt.NDArray[np.float32]) -> tuple[npt.NDArray[np.int64], Floats, int]:
+    def _candidates(self, query: Query, text: Levels) -> tuple[npt.NDArray[np.int64], Floats, int]:
         """Rows and scores of the cells to consider, and how many cells scored less and were left out."""
         if query.within is None and query.prior is None:
-            scores, rows = self.store.search(vector[None], DEPTH)
+            scores, rows = self.ranker.rank([text], DEPTH)
             return rows[0], scores[0], len(self.store) - len(rows[0])
         # A filter or a prior: the vectors' order is not the answer's, so score all that may be in it.
         rows = np.flatnonzero(self._inside(query))
-        return rows, self.store.score(vector, rows), 0
+        return rows, self.ranker.score(text, rows), 0
 
     def _inside(self, query: Query) -> npt.NDArray[np.bool_]:
         """[N] True where a cell's centre is inside `within`."""
@@ -210,35 +255,38 @@ class Localizer:
         probability: Floats = np.exp(logits - np.logaddexp(logsumexp(logits), rest))
         return probability
 
-    def _estimate(self, rows: npt.NDArray[np.int64], probability: Floats) -> Estimate:
-        """The best cell's centre, and how far the true position may be from it."""
-        position = self._centers[rows[0]]
-        offset = self._centers[rows] - position
-        unseen = max(0.0, 1.0 - float(probability.sum()))
-        # Inside its cell a position is anywhere in the square that is nearest to the centre.
-        spread = np.eye(2) * (self.manifest.grid_m**2 / 12 + unseen * self._extent_m**2 / 12)
-        covariance = (offset * probability[:, None]).T @ offset + spread
-        step = self.manifest.grid_m / 3
-        around = np.array([[i, j] for i in (-1, 0, 1) for j in (-1, 0, 1)]) * step
-        distance = np.linalg.norm(offset[:, None] + around, axis=2).ravel()
-        order = np.argsort(distance)
-        mass = np.cumsum(np.repeat(probability / 9, 9)[order])
-        p50, p90 = (self._quantile(distance[order], mass, share) for share in (0.5, 0.9))
+    def _positions(self, query: Query, rows: npt.NDArray[np.int64]) -> Floats:
+        """[len(rows), 2] the best position in each cell: what will be listed may be refined, the rest are centres."""
+        positions: Floats = self._centers[rows].astype(np.float64)
+        if query.refine != "none":
+            positions[: query.top_k] = self.refinement.positions_m([query.hints], rows[None, : query.top_k])[0]
+        return positions
+
+    def _estimate(self, query: Query, positions: Floats, probability: Floats) -> Estimate:
+        """The position in the best cell, and how far the true one may be from it.
+
+        Args:
+            query: what was asked.
+            positions: [C, 2] in each cell, the best cell first.
+            probability: [C] of the cells.
+        """
+        # In its cell the position is in the square nearest to the centre, or in one as wide as the fine stage errs.
+        method: Method = "cell_center"
+        edge_m = self.manifest.grid_m
+        if query.refine != "none":
+            model = self.refinement.model
+            method, edge_m = model.method, edge_m if model.error_m is None else model.error_m * 12**0.5
+        covariance = covariance_of(positions, probability, edge_m, self._extent_m)
         return Estimate(
-            position=_pair(position),
-            method="cell_center",
+            position=_pair(positions[0]),
+            method=method,
             covariance=(_pair(covariance[0]), _pair(covariance[1])),
-            radius_m=Radius(p50, p90),
+            radius_m=radius_of(positions, probability, edge_m, self._extent_m),
             probability=float(probability[0]),
-            wgs84=self._wgs84(position),
+            wgs84=self._wgs84(positions[0]),
         )
 
-    def _quantile(self, distance: Floats, mass: Floats, share: float) -> float:
-        """The distance that holds a share of the mass; the whole map if what is listed does not."""
-        found = int(np.searchsorted(mass, share))
-        return float(distance[found]) if found < len(distance) else self._extent_m
-
-    def _candidate(self, rank: int, row: int, score: float, probability: float) -> Candidate:
+    def _candidate(self, rank: int, row: int, score: float, probability: float, position: Floats) -> Candidate:
         center = self._centers[row]
         return Candidate(
             rank=rank,
@@ -247,8 +295,8 @@ class Localizer:
             probability=float(probability),
             center=_pair(center),
             bbox=self._bbox(row),
-            position=_pair(center),
-            wgs84=self._wgs84(center),
+            position=_pair(position),
+            wgs84=self._wgs84(position),
         )
 
     def _bbox(self, row: int) -> tuple[float, float, float, float]:

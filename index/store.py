@@ -39,6 +39,10 @@ class VectorStore(Protocol):
         """[len(rows)] exact scores of one query [D] with some rows."""
         ...
 
+    def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
+        """[len(rows), D] the vectors of some rows."""
+        ...
+
     def save(self, path: Path) -> None:
         """Write the vectors to a file."""
         ...
@@ -93,6 +97,11 @@ class FaissStore:
         """See VectorStore."""
         scores: Floats = self._vectors[rows] @ query
         return scores
+
+    def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
+        """See VectorStore."""
+        vectors: Floats = self._vectors[rows]
+        return vectors
 
     def save(self, path: Path) -> None:
         """See VectorStore."""

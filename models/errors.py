@@ -5,6 +5,7 @@ HereaboutsError
 ├── DataError            data set files that cannot be read; the message names file and field
 ├── DescriptionError     a text that cannot be used as a description
 ├── WeightsError         weights that are missing, broken or of another model
+├── TrainingError        settings that cannot be trained with, or a run directory of another run
 └── IndexUnusable         an index directory that cannot be served
     ├── IndexBroken      missing, cut short or changed after it was written
     └── IndexMismatch    built by another model
@@ -29,6 +30,10 @@ class DescriptionError(HereaboutsError):
 
 class WeightsError(HereaboutsError):
     """Weights that are missing, broken or of another model."""
+
+
+class TrainingError(HereaboutsError):
+    """Settings that cannot be trained with, a run that went astray, or a run directory of another run."""
 
 
 class IndexUnusable(HereaboutsError):

@@ -103,6 +103,13 @@ def text_encoder() -> TextEncoder:
 def model(text_encoder: TextEncoder) -> Mncl:
     """Untrained: its answers mean nothing, its shapes and its determinism do."""
     torch.manual_seed(0)
+    return Mncl(text_encoder, MnclConfig(width=32, levels=("global",))).eval()
+
+
+@pytest.fixture(scope="session")
+def mncl(text_encoder: TextEncoder) -> Mncl:
+    """Untrained, with all three levels."""
+    torch.manual_seed(0)
     return Mncl(text_encoder, MnclConfig(width=32)).eval()
 
 

@@ -7,6 +7,7 @@ from fastapi import APIRouter
 from app.answers import Health, IndexInfo, InfoResponse, Limits
 from app.dependencies import Queue, SettingsNow
 from app.errors import Code, Problem
+from app.evaluation import data_sets
 from app.openapi import problems
 
 router = APIRouter(tags=["service"])
@@ -33,5 +34,9 @@ async def info(queue: Queue, settings: SettingsNow) -> InfoResponse:
     except Problem:
         index = None
     return InfoResponse(
-        service="hereabouts", version=version("hereabouts"), limits=Limits.model_validate(settings), index=index
+        service="hereabouts",
+        version=version("hereabouts"),
+        limits=Limits.model_validate(settings),
+        index=index,
+        data_sets=[path.name for path in data_sets(settings.data_dir)],
     )

@@ -11,9 +11,12 @@ from safetensors.torch import load_file, save_file
 from models.errors import WeightsError
 from models.language.text_encoder import load_text_encoder
 from models.retrieval.mncl import Mncl
+from models.retrieval.ret import Ret
 from models.retrieval.retriever import Retriever
+from models.retrieval.text2loc import Text2Loc
+from models.retrieval.text2pos import Text2Pos
 
-METHODS: dict[str, type[Retriever]] = {"mncl": Mncl}
+METHODS: dict[str, type[Retriever]] = {"text2pos": Text2Pos, "ret": Ret, "text2loc": Text2Loc, "mncl": Mncl}
 DEFAULT_WEIGHTS = Path(__file__).parent.parent / "weights" / "retriever"
 WEIGHTS_FILE = "model.safetensors"
 CONFIG_FILE = "config.json"

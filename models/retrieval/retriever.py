@@ -2,7 +2,7 @@
 
 import hashlib
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -12,7 +12,7 @@ from torch import Tensor, nn
 
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, fingerprint_of
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
-from models.retrieval.levels import Level, Levels
+from models.retrieval.levels import Level, Levels, sum_of_z_scores
 
 HINT_CACHE_SIZE = 20_000  # sentences; 20 MB at D = 256
 ENCODE_BATCH = 256  # cells
@@ -25,6 +25,8 @@ class RetrieverConfig(BaseModel):
     Attributes:
         text_encoder: "minilm", a directory or a hub id.
         width: D, size of the vectors.
+        level_weights: of each level in a cell's score, in order of `Retriever.levels`; fitted on validation data; empty
+            until then: the levels' z-scores over the gallery are added.
         temperature: of a description of one hint, see `Retriever.temperature`; fitted on validation data.
         temperature_decay: how fast it falls with more hints; fitted on validation data.
     """
@@ -33,6 +35,7 @@ class RetrieverConfig(BaseModel):
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
     width: int = 256
+    level_weights: tuple[float, ...] = ()
     temperature: float = 0.2
     temperature_decay: float = 1.0
 
@@ -89,6 +92,24 @@ class Retriever(nn.Module):
         """
         raise NotImplementedError
 
+    def combine(self, scores: Mapping[Level, Vectors]) -> Vectors:
+        """[Q, C] the levels' similarities with C cells in one score.
+
+        Weighted by `level_weights`, a cell's score does not depend on which others stand beside it, so that an index
+        can serve it; without, the levels' z-scores among the cells are added (MNCL's code).
+
+        Args:
+            scores: [Q, C] by level.
+        """
+        if self.levels == ("global",):
+            return scores["global"]
+        if not self.config.level_weights:
+            summed: Vectors = sum_of_z_scores({n: torch.from_numpy(scores[n]) for n in self.levels}).numpy()
+            return summed
+        weighted = [w * scores[level] for w, level in zip(self.config.level_weights, self.levels, strict=True)]
+        combined: Vectors = np.sum(weighted, axis=0, dtype=np.float32)
+        return combined
+
     @property
     def name(self) -> str:
         """What kind of model this is, for people."""
@@ -127,14 +148,14 @@ class Retriever(nn.Module):
         return self.describe(stacked, torch.ones(1, len(hints), dtype=torch.bool, device=stacked.device))
 
     @torch.inference_mode()
+    def encode_texts(self, descriptions: Sequence[Sequence[str]]) -> list[Levels]:
+        """Descriptions at all levels, each with B = 1; the text encoder runs once for all that is new to it."""
+        self._hint_features(dict.fromkeys(hint for hints in descriptions for hint in hints))
+        return [self.encode_description(hints) for hints in descriptions]
+
     def encode_descriptions(self, descriptions: Sequence[Sequence[str]]) -> Vectors:
         """[Q, D] float32 unit vectors of descriptions, the global level."""
-        self._hint_features(
-            dict.fromkeys(hint for hints in descriptions for hint in hints)
-        )  # all at once, to the cache
-        vectors = np.empty((len(descriptions), self.config.width), dtype=np.float32)
-        for row, hints in enumerate(descriptions):
-            vectors[row] = self.encode_description(hints).whole[0].cpu().numpy()
+        vectors: Vectors = np.concatenate([text.whole.cpu().numpy() for text in self.encode_texts(descriptions)])
         return vectors
 
     @torch.inference_mode()

@@ -18,6 +18,7 @@ from models.errors import DataError
 from models.language.hints_text import TEMPLATES, render_hint
 from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
+from models.training.feature_cache import frozen_features
 
 MIN_HINTS, MAX_HINTS = 2, 8
 NEIGHBOUR_M = 40.0  # hard negatives are drawn this near
@@ -41,17 +42,22 @@ class Batch:
         cells: the best cells.
         sentences: [B, H] index into the vocabulary.
         hint_mask: [B, H] bool, True where a hint is real.
-        same_cell: [B, B] bool.
+        cell: [B] int64, the best cell's row in the training set's features.
     """
 
     cells: CellBatch
     sentences: Tensor
     hint_mask: Tensor
-    same_cell: Tensor
+    cell: Tensor
+
+    @property
+    def same_cell(self) -> Tensor:
+        """[B, B] bool, True where two rows belong to one cell."""
+        return self.cell[:, None] == self.cell[None, :]
 
 
 class HintVocabulary:
-    """Every sentence that can be said about a region, with its token features, computed once.
+    """Every sentence that can be said about a region, with its token features, computed once and cached on disk.
 
     Args:
         encoder: the frozen text encoder.
@@ -69,11 +75,12 @@ class HintVocabulary:
             for direction in DIRECTIONS
             for template in range(len(TEMPLATES))
         ]
-        features = [encoder(sentences[i : i + 256]) for i in range(0, len(sentences), 256)]
-        longest = max(f.mask.shape[1] for f in features)
-        self.mask = torch.cat([_pad(f.mask, longest) for f in features])
-        self._ids = torch.cat([_pad(f.ids, longest) for f in features])
-        self._values = torch.cat([_pad(f.values.half(), longest) for f in features])
+        features = frozen_features(encoder, sentences)
+        self.mask, self._ids, self._values = features.mask, features.ids, features.values
+
+    def to(self, device: torch.device) -> None:
+        """Move the token features to a device."""
+        self.mask, self._ids, self._values = (x.to(device) for x in (self.mask, self._ids, self._values))
 
     def tokens(self, sentences: Tensor) -> TokenFeatures:
         """Token features of sentences [S], padded to the longest of them."""
@@ -87,11 +94,6 @@ class HintVocabulary:
         pair = self._pair[label, colour]
         index: npt.NDArray[np.int64] = (pair * len(DIRECTIONS) + direction) * len(TEMPLATES) + template
         return index
-
-
-def _pad(x: Tensor, length: int) -> Tensor:
-    missing = length - x.shape[1]
-    return torch.nn.functional.pad(x, (0, 0, 0, missing) if x.ndim == 3 else (0, missing))
 
 
 class TrainingSet:
@@ -158,6 +160,12 @@ class TrainingSet:
     def __len__(self) -> int:
         return len(self.usable)
 
+    def to(self, device: torch.device) -> None:
+        """Move what the model looks up while training to a device."""
+        if self.label_embeddings.device != device:
+            self.vocabulary.to(device)
+            self.label_embeddings = self.label_embeddings.to(device)
+
     def draw(self, size: int, cluster: int, rng: np.random.Generator) -> npt.NDArray[np.intp]:
         """Positions for a batch: groups of `cluster` near each other, whose cells are hard to tell apart."""
         groups = max(1, size // cluster)
@@ -185,7 +193,7 @@ class TrainingSet:
             cells=turn(self.features.batch(best), torch.from_numpy(SYMMETRIES[symmetry])),
             sentences=torch.from_numpy(sentences),
             hint_mask=torch.from_numpy(mask),
-            same_cell=torch.from_numpy(best[:, None] == best[None, :]),
+            cell=torch.from_numpy(best.astype(np.int64)),
         )
 
 

@@ -19,6 +19,8 @@ from models.city.types import CityMap, Pose
 from models.language.hints_text import render_hint
 from models.language.text_encoder import TextEncoder
 from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.level_table import LevelTable
+from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
 from models.training.data import TrainingSet
 
@@ -59,9 +61,18 @@ class Validation:
             poses.cell.astype(np.intp),
         )
 
+    def level_scores(self, retriever: Retriever) -> dict[Level, npt.NDArray[np.float32]]:
+        """[Q, N] similarities by level."""
+        whole = retriever.encode_descriptions(self.descriptions) @ retriever.encode_cells(self.features).T
+        table = LevelTable.of(retriever, self.features)
+        if not table.vectors:
+            return {"global": whole}
+        texts = [retriever.encode_description(said) for said in self.descriptions]
+        return {**table.scores(texts, np.arange(len(self.features))), "global": whole}
+
     def scores(self, retriever: Retriever) -> npt.NDArray[np.float32]:
-        """[Q, N] similarities."""
-        return retriever.encode_descriptions(self.descriptions) @ retriever.encode_cells(self.features).T
+        """[Q, N] scores by which cells are ranked."""
+        return retriever.combine(self.level_scores(retriever))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -77,9 +77,13 @@ def test_info_shows_limits_and_index(api):
         "max_top_k": 40,
         "max_queue": 256,
         "max_batch": 32,
+        "max_evaluate_bytes": 16_777_216,
+        "max_queries": 10_000,
+        "max_jobs": 8,
         "deadline_ms": 10_000,
         "max_deadline_ms": 60_000,
     }
+    assert body["data_sets"] == []
     assert body["index"]["num_cells"] == 2
     assert body["index"]["dim"] == 8
     assert body["index"]["crs"]["origin"] == {"lat": 60.17, "lon": 24.94}

@@ -18,7 +18,7 @@ def run(monkeypatch, weights_dir):
 
 
 def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("models.training.fit.CALIBRATION_QUERIES", 20)
+    monkeypatch.setattr("models.training.calibration.QUERIES", 20)
     result = run("train", "--data", osm_file, "--out", tmp_path / "w", "--steps", "1")
     assert result.exit_code == 0, result.output
     assert "recall@1/3/5" in result.output
@@ -30,7 +30,7 @@ def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_pa
 def test_evaluate_prints_what_it_writes(run, osm_file, tmp_path) -> None:
     results = [run("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r") for _ in range(2)]
     assert results[0].exit_code == 0, results[0].output
-    assert results[0].output == results[1].output
+    assert results[0].stdout == results[1].stdout
     report = json.loads((tmp_path / "r" / "report.json").read_text())
     assert f"{report['retrieval']['5']:.3f}" in results[0].output
     assert "oracle" in results[0].output

@@ -1,4 +1,5 @@
 import json
+import os
 import signal
 import socket
 import subprocess
@@ -16,13 +17,14 @@ SCRIPT = Path(__file__).parent / "serve_fake.py"
 class Served:
     """A service in its own process."""
 
-    def __init__(self):
+    def __init__(self, scratch):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
         self.url = f"http://127.0.0.1:{self.port}"
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "stdin": subprocess.PIPE, "text": True}
-        self.process = subprocess.Popen([sys.executable, SCRIPT, str(self.port)], **pipes)
+        environ = os.environ | {"TMPDIR": str(scratch)}  # a service that is killed leaves its files there
+        self.process = subprocess.Popen([sys.executable, SCRIPT, str(self.port)], env=environ, **pipes)
 
     def is_ready(self):
         assert self.process.poll() is None, self.process.stderr.read()
@@ -33,6 +35,14 @@ class Served:
 
     def localize(self, text):
         return httpx.post(f"{self.url}/localize", json={"description": text})
+
+    def evaluate(self, until):
+        """Status URL and process id of an evaluation that does not end by itself."""
+        body = {"queries": [{"hints": ["held"], "position": [1, 2]}]}
+        url = self.url + httpx.post(f"{self.url}/evaluate", json=body).headers["location"]
+        until(lambda: httpx.get(url).json()["progress"]["stage"] == "ask", 20)
+        children = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text()
+        return url, int(children)
 
     def waiting(self):
         return httpx.get(f"{self.url}/waiting").json()
@@ -50,8 +60,8 @@ class Served:
 
 
 @pytest.fixture
-def served(until):
-    served = Served()
+def served(until, tmp_path):
+    served = Served(tmp_path)
     try:
         until(served.is_ready, 30)
         yield served
@@ -126,3 +136,38 @@ def test_second_signal_does_not_wait_for_the_queue(served, until):
     assert served.process.wait(10) == -signal.SIGTERM
     for thread in threads:
         thread.join(10)
+
+
+def test_sigterm_ends_an_evaluation_and_tells_who_follows_it(served, until):
+    url, worker = served.evaluate(until)
+    told = []
+    follower = threading.Thread(target=lambda: told.append(httpx.get(f"{url}/events", timeout=20).text))
+    follower.start()
+    until(lambda: len(httpx.get(url).text) > 0)
+    served.terminate()
+    follower.join(20)
+    assert served.outcome()[0] == 0
+    assert "event: cancelled" in told[0]
+    assert not Path(f"/proc/{worker}").exists()
+
+
+def test_worker_dies_with_a_service_that_is_killed(served, until):
+    _, worker = served.evaluate(until)
+    served.process.kill()
+    until(lambda: not is_running(worker))
+
+
+def test_client_that_leaves_the_events_cancels_nothing(served, until):
+    url, worker = served.evaluate(until)
+    with httpx.stream("GET", f"{url}/events") as stream:
+        assert next(stream.iter_lines()) == "event: progress"
+    assert httpx.get(url).json()["status"] == "running"
+    assert is_running(worker)
+    assert httpx.delete(url).json()["status"] == "cancelled"
+
+
+def is_running(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False

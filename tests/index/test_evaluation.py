@@ -8,6 +8,7 @@ from index.ambiguity import ambiguity
 from index.evaluation import evaluate, grow, rescore
 from index.map_data import ask, load_map, load_queries
 from index.predictions import FILE, Predictions
+from index.ranking import Ranker
 from models.city.hints import hint_table
 from models.city.types import DIRECTIONS
 from models.errors import DataError, MapError
@@ -19,9 +20,14 @@ def asked(osm_file):
 
 
 @pytest.fixture(scope="module")
-def run_dir(asked, model, tmp_path_factory):
+def ranker(asked, model):
+    return Ranker.of(model, asked[0].cells, asked[0].gallery.labels)
+
+
+@pytest.fixture(scope="module")
+def run_dir(asked, ranker, tmp_path_factory):
     directory = tmp_path_factory.mktemp("report")
-    evaluate(*asked, model, directory, [60, 120])
+    evaluate(*asked, ranker, directory, [60, 120])
     return directory
 
 
@@ -65,8 +71,8 @@ def test_chance_is_what_random_candidates_reach(report, asked) -> None:
     assert report["chance"]["localization"]["5"]["15"] == pytest.approx(np.mean(errors <= 15), abs=0.01)
 
 
-def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, model) -> None:
-    assert evaluate(*asked, model, None, [120, 60]) == report
+def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, ranker) -> None:
+    assert evaluate(*asked, ranker, None, [120, 60]) == report
     written = (run_dir / "report.json").read_bytes()
     assert rescore(run_dir) == report
     assert (run_dir / "report.json").read_bytes() == written
@@ -109,12 +115,12 @@ def test_another_scene_is_never_a_hit(run_dir) -> None:
     assert np.isinf(elsewhere.errors_m()).all()
 
 
-def test_a_query_far_from_every_cell_is_asked_and_missed(asked, model) -> None:
+def test_a_query_far_from_every_cell_is_asked_and_missed(asked, ranker) -> None:
     data, queries = asked
     positions = queries.positions_m[:2] + np.array([[0, 0], [1e4, 0]])
     own = ask(data.cells, queries.sentences[:2], positions)
     assert own.truth.tolist() == [queries.truth[0], -1]
-    found = evaluate(data, own, model)
+    found = evaluate(data, own, ranker)
     assert found["queries_without_cell"] == 1
     assert max(found["retrieval"]["5"], found["localization"]["10"]["15"]) <= 0.5
 

@@ -17,6 +17,11 @@ TEXTS = [
 
 
 @pytest.fixture(scope="module")
+def model(mncl):
+    return mncl
+
+
+@pytest.fixture(scope="module")
 def features(city, cells):
     return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
 

@@ -11,9 +11,10 @@ from models.city.types import DIRECTIONS
 from models.errors import DataError
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.mncl import MnclConfig
+from models.retrieval.mncl import Mncl, MnclConfig
 from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, turn
-from models.training.fit import TrainingConfig, most_likely_temperature, train_retriever
+from models.training.fit import train_retriever
+from models.training.settings import TrainingConfig
 from models.training.sources import load_source, source_of_map
 from tests.models.city.raw_scenes import write_town
 
@@ -64,20 +65,6 @@ def test_the_vocabulary_numbers_its_sentences(region) -> None:
     assert max(said) < len(vocabulary.mask)
 
 
-def test_temperature_is_the_most_likely_one() -> None:
-    rng = np.random.default_rng(0)
-    truth = rng.integers(20, size=4000)
-    asked = []
-    for hints in (1, 2, 4):
-        # Scores for which softmax(score / T) is the truth: each query's are drawn until its answer comes out.
-        logits = rng.normal(size=(4000, 20)) * 2
-        answer = np.array([rng.choice(20, p=np.exp(row) / np.exp(row).sum()) for row in logits])
-        swap = np.arange(4000)
-        logits[swap, answer], logits[swap, truth] = logits[swap, truth].copy(), logits[swap, answer].copy()
-        asked.append((hints, logits * 0.3 * hints**-0.8, truth))
-    assert most_likely_temperature(asked) == pytest.approx((0.3, 0.8), rel=0.1)
-
-
 def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
     config = TrainingConfig(steps=12, batch_size=16, spacing_m=15.0, validate_every=6, learning_rate=3e-3)
     seen = []
@@ -85,12 +72,15 @@ def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
     def load(encoder, rng):
         return [source_of_map(city, encoder, config.spacing_m, rng)]
 
-    recalls = [train_retriever(load, tmp_path / name, MnclConfig(width=32), config, seen.append) for name in "ab"]
+    recalls = [
+        train_retriever(load, tmp_path / name, Mncl, MnclConfig(width=32), config, progress=seen.append)
+        for name in "ab"
+    ]
     assert recalls[0] == recalls[1]
     assert load_retriever(tmp_path / "a").fingerprint == load_retriever(tmp_path / "b").fingerprint
     losses = [p.loss for p in seen[:12]]
     assert np.mean(losses[-3:]) < np.mean(losses[:3])
-    assert [p.step for p in seen if p.recall] == [6, 12, 6, 12]
+    assert [p.step for p in seen if p.figures] == [6, 12, 6, 12]
     assert load_retriever(tmp_path / "a").temperature(6) > 0
 
 
@@ -112,7 +102,7 @@ def test_a_data_set_trains_as_a_map_does(tmp_path) -> None:
         assert source.facts["scenes"] == {"train": [folders[0]], "val": [folders[1]]}
         return [source, source]
 
-    recall = train_retriever(load, tmp_path / "w", MnclConfig(width=32), config)
+    recall = train_retriever(load, tmp_path / "w", Mncl, MnclConfig(width=32), config)
     assert 0 <= recall[1] <= recall[5] <= 1
     record = json.loads((tmp_path / "w" / "config.json").read_text())["training"]
     assert [source["positions"] > 0 for source in record["sources"]] == [True, True]

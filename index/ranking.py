@@ -1,0 +1,104 @@
+"""Cells in order for a description: vector search by the global level, then all levels on the best of them."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from index.store import FaissStore, Floats, Rows, VectorStore
+from models.city.cells import CellTable
+from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.level_table import LevelTable
+from models.retrieval.levels import Levels
+from models.retrieval.retriever import Retriever
+
+VECTORS_FILE = "vectors.faiss"
+RERANKED = 100  # cells whose other levels are looked at
+
+
+class Ranker:
+    """Scores of a gallery's cells, by as many levels as the retriever has.
+
+    Args:
+        retriever: the model that made store and table.
+        store: the gallery's vectors, global level.
+        table: its other levels; empty if the retriever has none.
+        depth: cells whose other levels are looked at: 0 is the global level alone, the size of the gallery MNCL's
+            released code.
+    """
+
+    def __init__(self, retriever: Retriever, store: VectorStore, table: LevelTable, depth: int = RERANKED) -> None:
+        self.retriever, self.store, self.table, self.depth = retriever, store, table, depth
+
+    @classmethod
+    def of(cls, retriever: Retriever, cells: CellTable, labels: Sequence[str], depth: int = RERANKED) -> "Ranker":
+        """Encode a gallery.
+
+        Args:
+            retriever: the model.
+            cells: the gallery.
+            labels: of each instance that its parts name.
+            depth: see Ranker.
+        """
+        features = CellFeatures.of(cells, np.array(labels))
+        store = FaissStore.of(retriever.encode_cells(features))
+        return cls(retriever, store, LevelTable.of(retriever, features), depth)
+
+    def save(self, directory: Path) -> None:
+        """Write the vectors, and the levels if there are any."""
+        self.store.save(directory / VECTORS_FILE)
+        if self.table.vectors:
+            self.table.save(directory)
+
+    @classmethod
+    def load(cls, retriever: Retriever, directory: Path) -> "Ranker":
+        """Read what `save` wrote.
+
+        Raises:
+            IndexBroken: it is not an index of this model.
+        """
+        has_levels = retriever.levels != ("global",)
+        table = LevelTable.load(directory, retriever.levels) if has_levels else LevelTable(np.zeros(1, np.int64), {})
+        return cls(retriever, FaissStore.load(directory / VECTORS_FILE), table)
+
+    def take(self, rows: npt.NDArray[np.intp]) -> "Ranker":
+        """The same of some cells of the gallery."""
+        return Ranker(self.retriever, FaissStore.of(self.store.vectors(rows)), self.table.take(rows), self.depth)
+
+    def rank(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
+        """The k best cells of each description.
+
+        Args:
+            texts: Q descriptions (`Retriever.encode_description`).
+            k: how many; cut to the size of the gallery.
+
+        Returns:
+            scores [Q, k] and rows [Q, k], best first, equal scores by row.
+        """
+        whole = np.concatenate([text.whole.cpu().numpy() for text in texts])
+        scores, rows = self.store.search(whole, max(k, self.depth) if self.table.vectors else k)
+        if self.table.vectors and self.depth:
+            scores = np.stack([self._refine(*part) for part in zip(texts, rows, scores, strict=True)])
+            order = np.lexsort((rows, -scores), axis=1)
+            scores, rows = np.take_along_axis(scores, order, axis=1), np.take_along_axis(rows, order, axis=1)
+        return scores[:, :k], rows[:, :k]
+
+    def score(self, text: Levels, rows: npt.NDArray[np.int64]) -> Floats:
+        """[len(rows)] scores of some cells, comparable with those of `rank`."""
+        whole = self.store.score(text.whole[0].cpu().numpy(), rows)
+        if not (self.table.vectors and self.depth and len(rows)):
+            return whole
+        order = np.argsort(-whole, kind="stable")
+        scores = np.empty_like(whole)
+        scores[order] = self._refine(text, rows[order], whole[order])
+        return scores
+
+    def _refine(self, text: Levels, rows: npt.NDArray[np.integer[Any]], whole: Floats) -> Floats:
+        """[C] scores of cells in order of the global level; those beyond the depth count as no better at the others."""
+        first = rows[: self.depth]
+        by_level = {**self.table.scores([text], first), "global": whole[None, : len(first)]}
+        refined = self.retriever.combine(by_level)[0]
+        rest = whole[len(first) :] + (refined - whole[: len(first)]).min()
+        return np.concatenate([refined, rest]).astype(np.float32)

@@ -1,0 +1,1 @@
+"""From a description and a candidate cell to a position inside it."""

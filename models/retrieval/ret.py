@@ -1,0 +1,158 @@
+"""RET (Wang, Fan and Kankanhalli, AAAI 2023), coarse stage: transformers whose values carry relations of pairs."""
+
+from typing import ClassVar
+
+from torch import Tensor, nn
+
+from models.language.text_encoder import TextEncoder, TokenFeatures
+from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
+from models.retrieval.layers import masked_max, mlp
+from models.retrieval.levels import Levels
+from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.retrieval.text2pos import WordEncoder, pairwise_ranking_loss
+
+NUM_HEADS = 4
+
+
+class RetConfig(RetrieverConfig):
+    """Shape and loss of RET.
+
+    Attributes:
+        cell_layers: relation-enhanced layers over the instances of a cell.
+        hint_layers: relation-enhanced layers over the hints of a description.
+        dropout: in these layers, while training.
+        margin: of the ranking loss.
+    """
+
+    cell_layers: int = 2
+    hint_layers: int = 2
+    dropout: float = 0.1
+    margin: float = 0.35
+
+
+class InstanceRelation(nn.Module):
+    """Pooled relations of instances: max over j of R_ij = W (c_i - c_j) (RET, relation-enhanced self-attention)."""
+
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        self.linear = nn.Linear(3, width, bias=False)
+
+    def forward(self, centers: Tensor, mask: Tensor) -> Tensor:
+        """[B, K, D] from centres [B, K, 3] with mask [B, K]."""
+        mapped = self.linear(centers)
+        # The maximum over j does not touch c_i: nothing of size K x K x D is made.
+        pooled: Tensor = mapped + masked_max(-mapped, mask)[:, None]
+        return pooled
+
+
+class HintRelation(nn.Module):
+    """Pooled relations of hints: max over j of R_ij = W [h_i; h_j] (RET, relation-enhanced self-attention)."""
+
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        self.of_first, self.of_second = nn.Linear(width, width), nn.Linear(width, width, bias=False)
+
+    def forward(self, hints: Tensor, mask: Tensor) -> Tensor:
+        """[B, K, D] from features [B, K, D] with mask [B, K]."""
+        pooled: Tensor = self.of_first(hints) + masked_max(self.of_second(hints), mask)[:, None]
+        return pooled
+
+
+class RelationLayer(nn.Module):
+    """A transformer layer with relation-enhanced self-attention: softmax(Q K^T / sqrt(d)) (V + pooled R)."""
+
+    def __init__(self, width: int, dropout: float) -> None:
+        super().__init__()
+        self.project = nn.Linear(width, 3 * width)
+        self.merge = nn.Linear(width, width)
+        self.feed_forward = mlp(width, 2 * width, width)
+        self.attention_norm, self.feed_forward_norm = nn.LayerNorm(width), nn.LayerNorm(width)
+        self.dropout = nn.Dropout(dropout)
+
+    def forward(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
+        """One layer.
+
+        Args:
+            x: [B, K, D].
+            relation: [B, K, D] pooled relations of each entry.
+            mask: [B, K] bool, True where an entry is real.
+
+        Returns:
+            [B, K, D]; what stands at padding means nothing.
+        """
+        x = self.attention_norm(x + self.dropout(self.attend(x, relation, mask)))
+        updated: Tensor = self.feed_forward_norm(x + self.dropout(self.feed_forward(x)))
+        return updated
+
+    def attend(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
+        """The attention alone; arguments as in `forward`."""
+        b, k, d = x.shape
+        query, key, value = self.project(x).chunk(3, dim=-1)
+        query, key, value = (
+            part.view(b, k, NUM_HEADS, -1).transpose(1, 2) for part in (query, key, value + relation)
+        )  # [B, NUM_HEADS, K, D / NUM_HEADS]
+        dropout = self.dropout.p if self.training else 0.0
+        mixed = nn.functional.scaled_dot_product_attention(
+            query, key, value, attn_mask=mask[:, None, None], dropout_p=dropout
+        )
+        merged: Tensor = self.merge(mixed.transpose(1, 2).reshape(b, k, d))
+        return merged
+
+
+class RelationTransformer(nn.Module):
+    """Relation-enhanced layers, then the maximum over the set as a unit vector (RET, either side)."""
+
+    def __init__(self, width: int, num_layers: int, dropout: float) -> None:
+        super().__init__()
+        self.layers = nn.ModuleList(RelationLayer(width, dropout) for _ in range(num_layers))
+
+    def forward(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
+        """[B, D] unit vectors of sets; arguments as in `RelationLayer`."""
+        for layer in self.layers:
+            x = layer(x, relation, mask)
+        return nn.functional.normalize(masked_max(x, mask), dim=-1)
+
+
+class Ret(Retriever):
+    """RET's coarse stage: hints by an LSTM over words, one relation-enhanced transformer a side, a ranking loss.
+
+    The authors' repository (daoyuan98/text2pos-ret) holds no code, so this follows the paper alone. Chosen here,
+    because no source at hand settles it: relations are pooled by their maximum over the partners and made once, for
+    all layers. Differs: padding is masked (in the pooling too), any number of hints, instances from the encoder that
+    all methods share, and pairs of one cell are no negatives.
+    """
+
+    method: ClassVar[str] = "ret"
+    config_type: ClassVar[type[RetrieverConfig]] = RetConfig
+    config: RetConfig
+
+    def __init__(self, text_encoder: TextEncoder, config: RetConfig) -> None:
+        super().__init__(text_encoder, config)
+        width, dropout = config.width, config.dropout
+        self.hints = WordEncoder(text_encoder, width)
+        self.hint_relation = HintRelation(width)
+        self.description = RelationTransformer(width, config.hint_layers, dropout)
+        self.instances = InstanceEncoder(text_encoder.width, width)
+        self.instance_relation = InstanceRelation(width)
+        self.cell = RelationTransformer(width, config.cell_layers, dropout)
+
+    def read(self, tokens: TokenFeatures) -> Tensor:
+        """See Retriever."""
+        features: Tensor = self.hints(tokens.ids, tokens.mask)
+        return features
+
+    def describe(self, hints: Tensor, mask: Tensor) -> Levels:
+        """See Retriever."""
+        return Levels(self.description(hints, self.hint_relation(hints, mask), mask), mask)
+
+    def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
+        """See Retriever."""
+        mask = batch.mask
+        features = batch.geometry.new_zeros(*mask.shape, self.config.width)
+        features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])
+        relation = self.instance_relation(batch.geometry[..., :3], mask)
+        return Levels(self.cell(features, relation, mask), mask)
+
+    def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
+        """See Retriever."""
+        return pairwise_ranking_loss(text.whole @ cells.whole.T, same_cell, self.config.margin)

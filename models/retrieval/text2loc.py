@@ -1,0 +1,84 @@
+"""Text2Loc (Xia et al., CVPR 2024), global place recognition: a hierarchical transformer with max pooling, InfoNCE."""
+
+from typing import ClassVar
+
+from torch import Tensor, nn
+
+from models.language.text_encoder import TextEncoder, TokenFeatures
+from models.retrieval.hint_encoder import HintEncoder
+from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
+from models.retrieval.layers import SetTransformer, masked_max
+from models.retrieval.levels import Levels
+from models.retrieval.losses import contrastive_loss
+from models.retrieval.retriever import Retriever, RetrieverConfig
+
+NUM_HEADS = 4
+
+
+class Text2LocConfig(RetrieverConfig):
+    """Shape and loss of Text2Loc.
+
+    Attributes:
+        cell_layers: attention layers over the instances of a cell.
+        hint_layers: attention layers over the hints of a description, each with a residual around it.
+        dropout: in the attention layers, while training.
+        loss_temperature: tau.
+    """
+
+    cell_layers: int = 2
+    hint_layers: int = 1
+    dropout: float = 0.1
+    loss_temperature: float = 0.1
+
+
+class Text2Loc(Retriever):
+    """Text2Loc's global place recognition; MNCL's global level grew out of it.
+
+    Text branch (the paper's hierarchical transformer with max pooling): a frozen language model, one transformer layer
+    over the tokens of a hint, maximum, linear and batch norm; then one layer over the hints with a residual,
+    maximum. Submap branch: unit instance features, two attention layers, maximum. Loss: the paper's text-submap
+    contrastive loss; its two directions are averaged here, added there.
+
+    Differs: padding is masked (the released code attends to it and takes the maximum over it), any number of hints
+    (there: the same for a whole batch), instances from the encoder that all methods share in place of PointNet++,
+    tokens are projected to D before their layer (see HintEncoder), feed-forward layers are 2D wide on the text
+    side too (there: 4D), pairs of one cell are no negatives, and the language model is what the project ships with
+    unless told T5.
+    """
+
+    method: ClassVar[str] = "text2loc"
+    config_type: ClassVar[type[RetrieverConfig]] = Text2LocConfig
+    config: Text2LocConfig
+
+    def __init__(self, text_encoder: TextEncoder, config: Text2LocConfig) -> None:
+        super().__init__(text_encoder, config)
+        width, dropout = config.width, config.dropout
+        self.hints = HintEncoder(text_encoder.width, width, dropout)
+        self.description = nn.ModuleList(
+            SetTransformer(width, num_layers=1, num_heads=NUM_HEADS, dropout=dropout) for _ in range(config.hint_layers)
+        )
+        self.instances = InstanceEncoder(text_encoder.width, width)
+        self.cell = SetTransformer(width, config.cell_layers, num_heads=NUM_HEADS, dropout=dropout)
+
+    def read(self, tokens: TokenFeatures) -> Tensor:
+        """See Retriever."""
+        features: Tensor = self.hints(tokens.values, tokens.mask)
+        return features
+
+    def describe(self, hints: Tensor, mask: Tensor) -> Levels:
+        """See Retriever."""
+        for layer in self.description:
+            hints = hints + layer(hints, mask)
+        return Levels(nn.functional.normalize(masked_max(hints, mask), dim=-1), mask)
+
+    def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
+        """See Retriever."""
+        mask = batch.mask
+        features = batch.geometry.new_zeros(*mask.shape, self.config.width)
+        features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])
+        features = self.cell(nn.functional.normalize(features, dim=-1), mask)
+        return Levels(nn.functional.normalize(masked_max(features, mask), dim=-1), mask)
+
+    def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
+        """See Retriever."""
+        return contrastive_loss(text.whole @ cells.whole.T, same_cell, self.config.loss_temperature)

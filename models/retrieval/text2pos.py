@@ -1,0 +1,142 @@
+"""Text2Pos (Kolmet et al., CVPR 2022), coarse stage: words through an LSTM, a graph over instances, a ranking loss."""
+
+from typing import ClassVar
+
+import torch
+from pydantic import Field
+from torch import Tensor, nn
+from torch.nn.utils.rnn import pack_padded_sequence
+
+from models.language.text_encoder import TextEncoder, TokenFeatures
+from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
+from models.retrieval.layers import masked_max, mlp
+from models.retrieval.levels import Levels
+from models.retrieval.retriever import Retriever, RetrieverConfig
+
+
+class Text2PosConfig(RetrieverConfig):
+    """Shape and loss of Text2Pos.
+
+    Attributes:
+        neighbours: k of the edge convolution, the instance itself counted.
+        margin: of the ranking loss.
+    """
+
+    neighbours: int = Field(default=8, ge=1)
+    margin: float = 0.35
+
+
+class WordEncoder(nn.Module):
+    """A sentence by a bidirectional LSTM over learned word embeddings (Text2Pos, language encoder).
+
+    The last states of the two directions are averaged, as in the released code. Differs: the words are the
+    tokenizer's pieces, so no word is unknown; the language model's weights have no part.
+    """
+
+    def __init__(self, text_encoder: TextEncoder, width: int) -> None:
+        super().__init__()
+        tokenizer = text_encoder.tokenizer
+        self.words = nn.Embedding(len(tokenizer), width, padding_idx=tokenizer.pad_token_id)
+        self.lstm = nn.LSTM(width, width, batch_first=True, bidirectional=True)
+
+    def forward(self, ids: Tensor, mask: Tensor) -> Tensor:
+        """[S, D] features of sentences from token ids [S, T], padded at the end as mask [S, T] says."""
+        lengths = mask.sum(dim=1).cpu()  # where packing wants them
+        packed = pack_padded_sequence(self.words(ids), lengths, batch_first=True, enforce_sorted=False)
+        _, (last, _) = self.lstm(packed)  # [2, S, D], one a direction
+        features: Tensor = last.mean(dim=0)
+        return features
+
+
+class EdgeConvolution(nn.Module):
+    """x_i <- max over the k nearest j of MLP([x_i; x_j - x_i]), near in feature space (Text2Pos, cell encoder).
+
+    This is DynamicEdgeConv of DGCNN, as in the released code. Differs: padding is nobody's neighbour, and there is no
+    batch norm, so a cell does not depend on the batch in training either.
+    """
+
+    def __init__(self, width: int, neighbours: int) -> None:
+        super().__init__()
+        self.neighbours = neighbours
+        # The MLP's first layer, split: nodes are mapped once, not once an edge.
+        self.of_node, self.of_difference = nn.Linear(width, width), nn.Linear(width, width, bias=False)
+        self.head = nn.Sequential(nn.ReLU(), nn.Linear(width, width))
+
+    def forward(self, x: Tensor, mask: Tensor) -> Tensor:
+        """[B, K, D] features of sets with mask [B, K]; what stands at padding means nothing."""
+        batch = torch.arange(len(x), device=x.device)[:, None, None]
+        nearest = self._nearest(x.detach(), mask)
+        ends = self.of_difference(x)
+        edges = (self.of_node(x) - ends)[:, :, None] + ends[batch, nearest]
+        return masked_max(self.head(edges), mask[batch, nearest])
+
+    def _nearest(self, x: Tensor, mask: Tensor) -> Tensor:
+        """[B, K, k] indices of the nearest real entries, padding last."""
+        # Not by matrix products, which round by the size of the batch and so could pick another neighbour.
+        distance = torch.cdist(x, x, compute_mode="donot_use_mm_for_euclid_dist")
+        distance = distance.masked_fill(~mask[:, None], float("inf"))
+        return distance.topk(min(self.neighbours, x.shape[1]), largest=False).indices
+
+
+class Text2Pos(Retriever):
+    """Text2Pos's coarse stage. No attention anywhere.
+
+    Differs: the paper runs one LSTM over the whole description; here each hint is read for itself and the description
+    is the maximum over its hints, so that their order does not matter and any number of them will do. Instances come
+    from the encoder that all methods share, in place of PointNet++ on points, and padding is masked. The released
+    code ends its MLPs with a ReLU, so that its cell vectors are never negative while its descriptions can be; here the
+    last layer is linear.
+    """
+
+    method: ClassVar[str] = "text2pos"
+    config_type: ClassVar[type[RetrieverConfig]] = Text2PosConfig
+    config: Text2PosConfig
+
+    def __init__(self, text_encoder: TextEncoder, config: Text2PosConfig) -> None:
+        super().__init__(text_encoder, config)
+        width = config.width
+        self.hints = WordEncoder(text_encoder, width)
+        self.instances = InstanceEncoder(text_encoder.width, width)
+        self.graph = EdgeConvolution(width, config.neighbours)
+        self.cell = mlp(width, width, width)
+
+    def read(self, tokens: TokenFeatures) -> Tensor:
+        """See Retriever."""
+        features: Tensor = self.hints(tokens.ids, tokens.mask)
+        return features
+
+    def describe(self, hints: Tensor, mask: Tensor) -> Levels:
+        """See Retriever."""
+        return Levels(nn.functional.normalize(masked_max(hints, mask), dim=-1), mask)
+
+    def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
+        """See Retriever."""
+        mask = batch.mask
+        features = batch.geometry.new_zeros(*mask.shape, self.config.width)
+        features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])
+        features = self.graph(nn.functional.normalize(features, dim=-1), mask)
+        return Levels(nn.functional.normalize(self.cell(masked_max(features, mask)), dim=-1), mask)
+
+    def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
+        """See Retriever."""
+        return pairwise_ranking_loss(text.whole @ cells.whole.T, same_cell, self.config.margin)
+
+
+def pairwise_ranking_loss(scores: Tensor, same_cell: Tensor, margin: float) -> Tensor:
+    """Pairwise ranking loss in both directions (Text2Pos, and RET after it; first in Kiros et al., 2014).
+
+    L = mean over i of the sum over j != i of max(0, m - s_ii + s_ij) + max(0, m - s_ii + s_ji): all other pairs of the
+    batch are negatives. Differs: pairs of one cell are none.
+
+    Args:
+        scores: [B, B] similarity of description i with cell j; their own are on the diagonal.
+        same_cell: [B, B] bool, True where two rows belong to one cell, the diagonal too.
+        margin: m.
+
+    Returns:
+        Scalar.
+    """
+    own = scores.diagonal()
+    other_cells = (margin - own[:, None] + scores).clamp(min=0)
+    other_texts = (margin - own[None, :] + scores).clamp(min=0)
+    return (other_cells + other_texts).masked_fill(same_cell, 0.0).sum() / len(scores)

@@ -1,0 +1,130 @@
+"""The tables and figures of MNCL (AAAI 2025) as runs to make: what is trained, and what the paper says of it.
+
+Published figures are of KITTI360Pose's test split (kitti360pose.md); on other data they are for comparison of order,
+not of height.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """One training.
+
+    Attributes:
+        method: key of models.retrieval.checkpoint.METHODS.
+        changes: fields of its configuration that differ from its defaults.
+    """
+
+    method: str
+    changes: tuple[tuple[str, Any], ...] = ()
+
+    @property
+    def name(self) -> str:
+        """A name for its directory: the method and what differs."""
+        parts = [f"{key}={'+'.join(value) if isinstance(value, tuple) else value}" for key, value in self.changes]
+        return "-".join([self.method, *parts])
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of a table, or a point of a curve.
+
+    Attributes:
+        name: as the paper calls it.
+        run: what is trained for it.
+        published: figures by name, such as "R@1" or "k=1: 5/10/15 m"; those that the paper has.
+    """
+
+    name: str
+    run: Run
+    published: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Experiment:
+    """A table or a curve.
+
+    Attributes:
+        title: which one, and of what.
+        metrics: columns.
+        rows: rows, or points in order.
+    """
+
+    title: str
+    metrics: tuple[str, ...]
+    rows: tuple[Row, ...]
+
+
+def _mncl(**changes: Any) -> Run:
+    return Run("mncl", tuple(sorted(changes.items())))
+
+
+MNCL = _mncl()
+RETRIEVAL = ("R@1", "R@3", "R@5")
+LOCALIZATION = ("k=1", "k=5", "k=10")
+
+TABLE_1 = Experiment(
+    "Table 1: localization recall within 5/10/15 m",
+    LOCALIZATION,
+    (
+        Row("Text2Pos", Run("text2pos"), {"k=1": ".13/.21/.25", "k=5": ".33/.48/.52", "k=10": ".43/.61/.65"}),
+        Row("RET", Run("ret"), {"k=1": ".16/.25/.29", "k=5": ".35/.51/.56", "k=10": ".46/.65/.71"}),
+        Row("Text2Loc", Run("text2loc"), {"k=1": ".33/.48/.52", "k=5": ".61/.75/.78", "k=10": ".71/.84/.86"}),
+        Row("MNCL", MNCL, {"k=1": ".50/.66/.68", "k=5": ".76/.87/.89", "k=10": ".83/.93/.94"}),
+    ),
+)
+TABLE_2 = Experiment(
+    "Table 2: retrieval recall",
+    RETRIEVAL,
+    (
+        Row("Text2Pos", Run("text2pos"), {"R@1": ".12", "R@3": ".25", "R@5": ".33"}),
+        Row("RET", Run("ret")),
+        Row("Text2Loc", Run("text2loc"), {"R@1": ".28", "R@3": ".49", "R@5": ".58"}),
+        Row("MNCL", MNCL, {"R@1": ".44", "R@3": ".67", "R@5": ".75"}),
+    ),
+)
+TABLE_3 = Experiment(
+    "Table 3: levels",
+    RETRIEVAL,
+    (
+        Row("global", _mncl(levels=("global",)), {"R@1": ".38"}),
+        Row("global + instance", _mncl(levels=("global", "instance")), {"R@1": ".42"}),
+        Row("global + relation", _mncl(levels=("global", "relation")), {"R@1": ".42"}),
+        Row("all three", MNCL, {"R@1": ".44"}),
+    ),
+)
+TABLE_4 = Experiment(
+    "Table 4: loss",
+    RETRIEVAL,
+    (
+        Row("vanilla contrastive", _mncl(loss="contrastive"), {"R@1": ".41"}),
+        Row("negative contrastive", MNCL, {"R@1": ".44"}),
+    ),
+)
+FIGURE_4A = Experiment(
+    "Figure 4: layers of the graph",
+    RETRIEVAL,
+    tuple(Row(f"{m} layers", MNCL if m == 3 else _mncl(graph_layers=m)) for m in range(6)),
+)
+FIGURE_4B = Experiment(
+    "Figure 4: exponent a of the negative loss",
+    RETRIEVAL,
+    tuple(
+        Row(f"a = {a}", MNCL if a == 2 else _mncl(loss="contrastive") if a == 0 else _mncl(exponent=float(a)))
+        for a in range(5)
+    ),
+)
+EXPERIMENTS = (TABLE_1, TABLE_2, TABLE_3, TABLE_4, FIGURE_4A, FIGURE_4B)
+# Figure 5: loss of recall@1 as the gallery grows from 200 m to 300, 400 and 500 m round one centre.
+GROWTH_RADII_M = (200.0, 300.0, 400.0, 500.0)
+GROWTH = {
+    "Text2Loc": (Run("text2loc"), "-14.3/-16.8/-19.2 %"),
+    "MNCL": (MNCL, "-4.9/-6.8/-9.6 %"),
+}
+
+
+def all_runs() -> tuple[Run, ...]:
+    """Every training that the tables and figures need, each once, methods first."""
+    return tuple(dict.fromkeys(row.run for experiment in EXPERIMENTS for row in experiment.rows))

@@ -1,0 +1,246 @@
+"""Examples for the fine stage: a description, a cell that contains its position, and where in the cell that is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from scipy.spatial import cKDTree
+from torch import Tensor
+
+from models.city.cells import CellTable
+from models.city.hints import STRATEGIES, choose_hints
+from models.city.points import Ints
+from models.city.pose_store import PoseStore
+from models.city.types import Floats
+from models.language.hints_text import TEMPLATES
+from models.localization.fine_model import FineModel, Truth
+from models.retrieval.instance_encoder import CellBatch, CellFeatures
+from models.training.data import (
+    APART_M,
+    DIRECTION_UNDER_SYMMETRY,
+    MAX_HINTS,
+    MIN_HINTS,
+    SYMMETRIES,
+    TrainingSet,
+    turn,
+)
+
+CLONED = 0.5  # share of the examples whose cell is a neighbour
+KNOWS_COLOUR, CANONICAL = 0.8, 0.5  # shares of the hints, as the retriever is trained
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FineBatch:
+    """B descriptions, each with one cell that contains its position.
+
+    Attributes:
+        cells: the cells.
+        sentences: [B, H] index into the vocabulary.
+        hint_mask: [B, H] bool, True where a hint is real.
+        truth: what is known of them.
+    """
+
+    cells: CellBatch
+    sentences: Tensor
+    hint_mask: Tensor
+    truth: Truth
+
+
+class FineSet:
+    """A training set with where its cells are, and which instance each hint means.
+
+    Args:
+        training: positions and what can be said there.
+        cells: those of `training.features`, in the same rows.
+        part_number: [R] number of each instance, in rows of the cells' parts; parts of one instance share it.
+        said_number: [H] number of the instance that each row of `training.table` means, -1 if unknown.
+        pmc: prototype-based map cloning (Text2Loc): half of the time the cell is not the best one but another that
+            contains the position.
+    """
+
+    def __init__(
+        self, training: TrainingSet, cells: CellTable, part_number: Ints, said_number: Ints, pmc: bool = True
+    ) -> None:
+        self.training, self.cells = training, cells
+        self.part_number, self.said_number, self.pmc = part_number, said_number, pmc
+        starts, rows = containing_cells(cells, training.positions[:, :2], training.best)
+        self.neighbour_starts, self.neighbours = starts, rows
+
+    @classmethod
+    def of_map(cls, training: TrainingSet, cells: CellTable, pmc: bool = True) -> "FineSet":
+        """Of positions of a map (`TrainingSet.of_map`)."""
+        return cls(training, cells, cells.parts.instance, training.table.instance, pmc)
+
+    @classmethod
+    def of_store(cls, training: TrainingSet, store: PoseStore, pmc: bool = True) -> "FineSet":
+        """Of the poses of a data set (`TrainingSet.of_store`); numbers are the data set's own."""
+        row = store.poses.instance
+        said = np.where(row >= 0, store.instance_ids[row], -1)
+        return cls(training, store.cell_table(), store.instance_ids, said, pmc)
+
+    def __len__(self) -> int:
+        return len(self.training)
+
+    def draw_cells(self, positions: npt.NDArray[np.intp], rng: np.random.Generator) -> npt.NDArray[np.intp]:
+        """A cell for each position: the best, or, with map cloning, half of the time another that contains it."""
+        start, end = self.neighbour_starts[positions], self.neighbour_starts[positions + 1]
+        cloned = self.pmc & (rng.random(len(positions)) < CLONED) & (end > start)
+        picked = start + (rng.random(len(positions)) * (end - start)).astype(np.intp)
+        cells: npt.NDArray[np.intp] = np.array(self.training.best[positions])
+        cells[cloned] = self.neighbours[picked[cloned]]
+        return cells
+
+    def batch(self, size: int, rng: np.random.Generator, with_matches: bool = True) -> FineBatch:
+        """Examples with position, cell, hints, wording and orientation drawn at random.
+
+        Args:
+            size: B.
+            rng: draws them.
+            with_matches: whether to look up the instances meant; else all are -1.
+        """
+        positions = rng.choice(self.training.usable, size)
+        cells = self.draw_cells(positions, rng)
+        symmetry = rng.integers(len(SYMMETRIES), size=size)
+        sentences = np.zeros((size, MAX_HINTS), dtype=np.int64)
+        mask = np.zeros(sentences.shape, dtype=bool)
+        match = np.full(sentences.shape, -1, dtype=np.int64)
+        for row, position in enumerate(positions):
+            hints = self._draw_hints(int(position), rng)
+            sentences[row, : len(hints)] = self._say(hints, symmetry[row], rng)
+            mask[row, : len(hints)] = True
+            if with_matches:
+                match[row, : len(hints)] = self._match(hints, int(cells[row]), self.training.positions[position, :2])
+        matrix = torch.from_numpy(SYMMETRIES[symmetry])
+        offset = offsets_in(self.cells, cells, self.training.positions[positions, :2]).astype(np.float32)
+        return FineBatch(
+            cells=turn(self.training.features.batch(cells), matrix),
+            sentences=torch.from_numpy(sentences),
+            hint_mask=torch.from_numpy(mask),
+            truth=Truth(turn_offset(torch.from_numpy(offset), matrix), torch.from_numpy(match)),
+        )
+
+    def _draw_hints(self, position: int, rng: np.random.Generator) -> Ints:
+        count = int(rng.integers(MIN_HINTS, MAX_HINTS + 1)) if rng.random() < 0.5 else 6
+        strategy = STRATEGIES[rng.integers(len(STRATEGIES))]
+        return choose_hints(self.training.table, position, self.training.label_of, strategy, count)
+
+    def _say(self, hints: Ints, symmetry: int, rng: np.random.Generator) -> Ints:
+        """Sentences of some rows of the table, worded at random, as said under a symmetry of the compass."""
+        table, drawn = self.training.table, rng.random((2, len(hints)))
+        direction = DIRECTION_UNDER_SYMMETRY[symmetry][table.direction[hints]]
+        colour = np.where(drawn[0] < KNOWS_COLOUR, table.colour[hints], -1)  # people leave colours out
+        template = np.where(drawn[1] < CANONICAL, 0, rng.integers(len(TEMPLATES), size=len(hints)))
+        label = self.training.label_of[table.instance[hints]]
+        return self.training.vocabulary.sentence(label, colour, direction, template)
+
+    def _match(self, hints: Ints, cell: int, position_m: Floats) -> Ints:
+        """[H] which instance of a cell each hint means; of several parts of one, that nearest to the position."""
+        parts = self.cells.parts
+        rows = slice(parts.starts[cell], parts.starts[cell + 1])
+        low, high = parts.low_m[rows, :2], parts.high_m[rows, :2]
+        distance = np.linalg.norm(np.maximum(0, np.maximum(low - position_m, position_m - high)), axis=1)
+        said = self.said_number[hints]
+        is_meant = (self.part_number[rows] == said[:, None]) & (said >= 0)[:, None]
+        nearest: Ints = np.where(is_meant, distance, np.inf).argmin(axis=1)
+        return np.where(is_meant.any(axis=1), nearest, -1)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FineValidation:
+    """Queries with known positions, in the benchmark's wording.
+
+    Attributes:
+        features: the gallery.
+        size_m: edge of its cells.
+        descriptions: Q lists of sentences.
+        rows: [Q, 2] the best cell of each, and another that contains the position (-1 if there is none).
+        offset: [Q, 2, 2] the position in these.
+    """
+
+    features: CellFeatures
+    size_m: float
+    descriptions: Sequence[Sequence[str]]
+    rows: npt.NDArray[np.intp]
+    offset: Floats
+
+    @classmethod
+    def of(
+        cls,
+        cells: CellTable,
+        labels: npt.NDArray[Any],
+        descriptions: Sequence[Sequence[str]],
+        positions_m: Floats,
+        truth: npt.NDArray[np.intp],
+    ) -> "FineValidation":
+        """Queries against a gallery.
+
+        Args:
+            cells: the gallery.
+            labels: [I] label of each instance that its parts name.
+            descriptions: Q lists of sentences.
+            positions_m: [Q, 2 or 3] where they were said.
+            truth: [Q] the best cell of each.
+        """
+        starts, neighbours = containing_cells(cells, positions_m[:, :2], truth)
+        count = np.diff(starts)
+        # The same at every run, and another from query to query.
+        pick = starts[:-1] + np.random.default_rng(0).integers(np.maximum(count, 1))
+        other = np.where(count > 0, np.append(neighbours, -1)[np.minimum(pick, len(neighbours))], -1)
+        rows = np.column_stack([truth, other])
+        offset = offsets_in(cells, rows, positions_m[:, None, :2])
+        return cls(CellFeatures.of(cells, labels), cells.size_m, descriptions, rows, offset)
+
+    def residuals_m(self, model: FineModel) -> Floats:
+        """[Q, 2, 2] metres from the truth to what a model predicts, (east, north), in each of the two cells."""
+        predicted = model.predict(self.descriptions, self.features, self.rows)
+        return (predicted - self.offset) * self.size_m
+
+    def figures(self, model: FineModel) -> dict[str, float]:
+        """Shares of the predictions within 5 and 10 m, given the best cell, and given the other."""
+        return self._shares(np.linalg.norm(self.residuals_m(model), axis=-1))
+
+    def center_figures(self) -> dict[str, float]:
+        """The same of the cell's centre."""
+        return self._shares(np.linalg.norm(0.5 - self.offset, axis=-1) * self.size_m)
+
+    def _shares(self, error_m: Floats) -> dict[str, float]:
+        known = self.rows[:, 1] >= 0
+        errors = {"": error_m[:, 0], "neighbour_": error_m[known, 1]}
+        return {
+            f"{of}within_{radius}m": float((e <= radius).mean()) if len(e) else 0.0
+            for of, e in errors.items()
+            for radius in (5, 10)
+        }
+
+
+def containing_cells(cells: CellTable, positions_m: Floats, best: npt.NDArray[np.intp]) -> tuple[Ints, Ints]:
+    """The other cells whose square contains a position: the prototypes of Text2Loc's map cloning.
+
+    Args:
+        cells: on their grid.
+        positions_m: [N, 2].
+        best: [N] the best cell of each, which says its scene and is left out.
+
+    Returns:
+        starts [N + 1] and cells: position n has cells[starts[n]:starts[n + 1]], ascending.
+    """
+    scene = np.unique(cells.scenes, return_inverse=True)[1] * APART_M
+    tree = cKDTree(np.column_stack([cells.center_m[:, :2], scene]))
+    found = tree.query_ball_point(np.column_stack([positions_m, scene[best]]), cells.size_m / 2, p=np.inf)
+    others = [sorted(set(rows) - {int(own)}) for rows, own in zip(found, best, strict=True)]
+    starts = np.concatenate([[0], np.cumsum([len(rows) for rows in others])]).astype(np.int64)
+    return starts, np.array([row for rows in others for row in rows], dtype=np.int64)
+
+
+def offsets_in(cells: CellTable, rows: npt.NDArray[Any], positions_m: Floats) -> Floats:
+    """[..., 2] positions [..., 2] (metres) in some cells [...], 0..1 inside."""
+    offset: Floats = (positions_m - cells.center_m[rows, :2]) / cells.size_m + 0.5
+    return offset
+
+
+def turn_offset(offset: Tensor, matrix: Tensor) -> Tensor:
+    """Positions [B, 2] in cells (0..1) under symmetries of the compass [B, 2, 2], as `models.training.data.turn`."""
+    return torch.einsum("bij,bj->bi", matrix, offset - 0.5) + 0.5

@@ -1,0 +1,306 @@
+"""The training loop: optimiser, schedule, mixed precision, validation, early stopping, resuming. It knows no model."""
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal, Protocol
+
+import numpy as np
+import torch
+from pydantic import BaseModel, ConfigDict, Field
+from torch import Tensor, nn
+
+from models.errors import TrainingError
+from models.training import distributed
+from models.training.run_dir import Row, RunDir, RunState
+
+_AMP = {"bfloat16": torch.bfloat16, "float16": torch.float16}
+_Schedule = torch.optim.lr_scheduler.OneCycleLR | torch.optim.lr_scheduler.StepLR
+
+
+class LoopConfig(BaseModel):
+    """How to optimise.
+
+    Attributes:
+        seed: of the order of examples, and of all else that the task's maker draws.
+        steps: optimisation steps.
+        batch_size: examples a step, of all processes together.
+        learning_rate: the peak of "one-cycle", the start of "step".
+        schedule: "one-cycle" rises for a tenth of the steps and falls to nearly nothing; "step" halves the rate every
+            `halve_every` steps (the paper's: every 5 epochs).
+        halve_every: steps.
+        weight_decay: of AdamW.
+        clip_norm: gradients are scaled down to this norm.
+        validate_every: steps between validations; the weights that are best by the task's criterion are kept.
+        patience: stop after so many validations without a better criterion; None never stops early.
+        amp: what the forward pass computes in on a GPU; on a CPU it is float32 whatever this says.
+        device: "auto" is the GPU where there is one.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    seed: int = 0
+    steps: int = Field(default=1500, ge=1)
+    batch_size: int = Field(default=128, ge=2)
+    learning_rate: float = Field(default=1e-3, gt=0)
+    schedule: Literal["one-cycle", "step"] = "one-cycle"
+    halve_every: int = Field(default=500, ge=1)
+    weight_decay: float = Field(default=0.01, ge=0)
+    clip_norm: float = Field(default=1.0, gt=0)
+    validate_every: int = Field(default=250, ge=1)
+    patience: int | None = Field(default=None, ge=1)
+    amp: Literal["none", "bfloat16", "float16"] = "bfloat16"
+    device: Literal["auto", "cpu", "cuda"] = "auto"
+
+
+class Task(Protocol):
+    """What is trained.
+
+    Attributes:
+        model: trained in place; the loop moves it to the device, and the task follows it there.
+        criterion: key of `validate()` that is made large, for example "recall@5".
+    """
+
+    @property
+    def model(self) -> nn.Module: ...  # noqa: D102
+
+    @property
+    def criterion(self) -> str: ...  # noqa: D102
+
+    def batch(self, rng: np.random.Generator) -> Any:
+        """Examples on the CPU; of several processes each draws `distributed.share_of(batch_size)`."""
+
+    def loss(self, batch: Any) -> Tensor:
+        """Scalar to make small, computed on the model's device."""
+
+    def validate(self) -> dict[str, float]:
+        """Figures of the model as it is, in evaluation mode; called in the first process only."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """Where training stands, for a progress bar.
+
+    Attributes:
+        step: steps done.
+        steps: of so many.
+        loss: of this step.
+        figures: of a validation, if there was one after this step.
+        learning_rate: of this step.
+        descriptions_per_second: examples trained on, of all processes, since the last validation.
+    """
+
+    step: int
+    steps: int
+    loss: float
+    figures: dict[str, float] | None
+    learning_rate: float
+    descriptions_per_second: float
+
+
+@dataclass(slots=True)
+class History:
+    """What came of training.
+
+    Attributes:
+        rows: one a validation.
+        best_step: the step whose weights were kept.
+        best: the criterion there.
+        stopped_early: whether patience ended it.
+    """
+
+    rows: list[Row] = field(default_factory=list)
+    best_step: int = 0
+    best: float = -math.inf
+    stopped_early: bool = False
+
+
+def run_training(
+    task: Task,
+    config: LoopConfig,
+    run_dir: Path | None = None,
+    resume: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+    rng: np.random.Generator | None = None,
+    record: dict[str, Any] | None = None,
+) -> History:
+    """Train, and leave the model on its device, in evaluation mode, with the weights that validated best.
+
+    Seed torch before the model is built; the loop goes on with torch's generator as it is. In several processes
+    (`distributed.process_group`) every process calls this with the same arguments.
+
+    Args:
+        task: what to train.
+        config: how.
+        run_dir: directory for config.json, metrics.csv, curves.png, best.safetensors and state.safetensors;
+            None writes nothing.
+        resume: go on from `run_dir` if a run stands there; ends with the weights that an unbroken run ends with.
+        progress: called at every step, in the first process.
+        rng: draws the batches; None for one seeded by `config.seed`. Several processes draw from their own.
+        record: what config.json shall say; None for `config`.
+
+    Raises:
+        TrainingError: the loss is not finite; there is no such device; or the run directory holds another run.
+    """
+    files = RunDir.open(run_dir, resume, record or config.model_dump(mode="json")) if run_dir else None
+    run = _Run(task, config, rng or np.random.default_rng(config.seed))
+    state = files.load_state() if files and resume else None
+    if state:
+        run.restore(state)
+    while not run.finished:
+        loss = run.advance()
+        figures = run.validate() if run.validation_due else None
+        if files and figures is not None:
+            state = run.state()
+            if distributed.is_first():
+                files.write(run.history.rows, task.criterion, run.best_weights, state)
+        if progress and distributed.is_first():
+            rate = run.last_learning_rate
+            progress(Progress(run.step, config.steps, loss, figures, rate, run.descriptions_per_second))
+    task.model.load_state_dict(run.best_weights)
+    task.model.eval()
+    return run.history
+
+
+def pick_device(wanted: Literal["auto", "cpu", "cuda"]) -> torch.device:
+    """The device to train on; of several processes, each has a GPU of its own.
+
+    Raises:
+        TrainingError: "cuda" is wanted and there is none.
+    """
+    if wanted == "cuda" and not torch.cuda.is_available():
+        raise TrainingError("there is no GPU that torch can use here; take device 'auto' or 'cpu'")
+    if wanted == "cpu" or not torch.cuda.is_available():
+        return torch.device("cpu")
+    return torch.device("cuda", torch.cuda.current_device())
+
+
+class _Run:
+    """A run under way: everything that `state` writes down and `restore` brings back."""
+
+    def __init__(self, task: Task, config: LoopConfig, rng: np.random.Generator) -> None:
+        self.task, self.config, self.rng = task, config, rng
+        self.device = pick_device(config.device)
+        task.model.to(self.device)
+        if distributed.world_size() > 1:
+            distributed.prepare(task.model)
+            self.rng = np.random.default_rng([config.seed, distributed.rank()])
+            torch.manual_seed(config.seed + 1 + distributed.rank())  # dropout of its own in each process
+        self.optimizer = torch.optim.AdamW(
+            task.model.parameters(), config.learning_rate, weight_decay=config.weight_decay
+        )
+        self.schedule = _schedule(self.optimizer, config)
+        self.amp = _AMP.get(config.amp) if self.device.type == "cuda" else None
+        self.scaler = torch.amp.GradScaler(self.device.type, enabled=self.amp is torch.float16)
+        self.step, self.stale, self.losses = 0, 0, list[float]()
+        self.history, self.best_weights = History(), _copy(task.model)
+        self.seconds, self._training_seconds, self._clock = 0.0, 0.0, time.perf_counter()
+        self.descriptions_per_second = 0.0
+        self.last_learning_rate = config.learning_rate
+        task.model.train()
+
+    @property
+    def finished(self) -> bool:
+        return self.step >= self.config.steps or self.history.stopped_early
+
+    @property
+    def validation_due(self) -> bool:
+        return self.step % self.config.validate_every == 0 or self.step == self.config.steps
+
+    def advance(self) -> float:
+        """One step; its loss."""
+        model = self.task.model
+        batch = self.task.batch(self.rng)
+        with torch.autocast(self.device.type, dtype=self.amp, enabled=self.amp is not None):
+            loss = self.task.loss(batch)
+        self.optimizer.zero_grad()
+        self.scaler.scale(loss).backward()
+        distributed.average_gradients(model)
+        self.scaler.unscale_(self.optimizer)
+        nn.utils.clip_grad_norm_(model.parameters(), self.config.clip_norm)
+        scale = self.scaler.get_scale()
+        self.scaler.step(self.optimizer)
+        self.scaler.update()
+        self.last_learning_rate = float(self.schedule.get_last_lr()[0])
+        if self.scaler.get_scale() >= scale:  # else float16 overflowed, and the scaler left the step out
+            self.schedule.step()
+        self.step += 1
+        value = loss.item()
+        if not math.isfinite(value):
+            raise TrainingError(f"the loss of step {self.step} is {value}; lower training.learning_rate")
+        self.losses.append(value)
+        self._training_seconds += self._lap()
+        self.descriptions_per_second = len(self.losses) * self.config.batch_size / self._training_seconds
+        return value
+
+    def validate(self) -> dict[str, float]:
+        """Measure, keep the weights if they are the best so far, note a row."""
+        model, history = self.task.model, self.history
+        model.eval()
+        figures = distributed.from_first(self.task.validate)
+        model.train()
+        if figures[self.task.criterion] > history.best:
+            history.best, history.best_step, self.stale = figures[self.task.criterion], self.step, 0
+            self.best_weights = _copy(model)
+        else:
+            self.stale += 1
+        history.stopped_early = self.stale == self.config.patience and self.step < self.config.steps
+        self._lap()
+        loss = float(np.mean(self.losses))
+        rate, speed = self.last_learning_rate, self.descriptions_per_second
+        history.rows.append(Row(self.step, self.seconds, loss, rate, speed, figures))
+        self.losses, self._training_seconds = [], 0.0
+        return figures
+
+    def state(self) -> RunState:
+        """Everything that a run goes on from; every process must call it."""
+        return RunState.of(
+            self.task.model,
+            self.best_weights,
+            self.optimizer,
+            [self.schedule, self.scaler],
+            distributed.gather_objects(self.rng.bit_generator.state),
+            distributed.gather_objects(_torch_generators(self.device)),
+            self.history.rows,
+            {"step": self.step, "stale": self.stale, "seconds": self.seconds}
+            | {name: getattr(self.history, name) for name in ("best_step", "best", "stopped_early")},
+        )
+
+    def restore(self, state: RunState) -> None:
+        """Go on from a state."""
+        state.load_into(self.task.model, self.optimizer, [self.schedule, self.scaler])
+        self.best_weights = state.best_weights(self.device)
+        self.rng.bit_generator.state, generators = state.generators(distributed.rank(), distributed.world_size())
+        torch.set_rng_state(generators[0])
+        if self.device.type == "cuda":
+            torch.cuda.set_rng_state(generators[-1], self.device)
+        facts = state.counters
+        self.step, self.stale, self.seconds = facts["step"], facts["stale"], facts["seconds"]
+        self.history = History(state.rows, facts["best_step"], facts["best"], facts["stopped_early"])
+
+    def _lap(self) -> float:
+        now = time.perf_counter()
+        lap, self._clock = now - self._clock, now
+        self.seconds += lap
+        return lap
+
+
+def _schedule(optimizer: torch.optim.Optimizer, config: LoopConfig) -> _Schedule:
+    if config.schedule == "step":
+        return torch.optim.lr_scheduler.StepLR(optimizer, config.halve_every, gamma=0.5)
+    rise = 0.11 if config.steps == 10 else 0.1  # torch divides by rise * steps - 1
+    return torch.optim.lr_scheduler.OneCycleLR(
+        optimizer, config.learning_rate, total_steps=config.steps, pct_start=rise
+    )
+
+
+def _copy(model: nn.Module) -> dict[str, Tensor]:
+    return {name: tensor.detach().clone() for name, tensor in model.state_dict().items()}
+
+
+def _torch_generators(device: torch.device) -> list[Tensor]:
+    """States [n] uint8 of torch's generators: the CPU's, and the GPU's where one is used."""
+    gpu = [torch.cuda.get_rng_state(device)] if device.type == "cuda" else []
+    return [torch.get_rng_state(), *gpu]

@@ -1,0 +1,279 @@
+"""The directory of a training run: settings, metrics, curves, the best weights, and what a killed run goes on from.
+
+    config.json          the settings
+    metrics.csv          a row a validation
+    curves.png           the loss and the figures over the steps
+    best.safetensors     the weights that validated best so far
+    state.safetensors    model, best weights, optimiser, schedule, random generators and counters
+
+Tensors are safetensors and all else is JSON: reading them runs nothing. Each file is replaced whole.
+"""
+
+import csv
+import io
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import torch
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from safetensors import SafetensorError, safe_open
+from safetensors.torch import save
+from torch import Tensor, nn
+
+from models.errors import TrainingError
+
+CONFIG_FILE, METRICS_FILE, CURVES_FILE = "config.json", "metrics.csv", "curves.png"
+BEST_FILE, STATE_FILE = "best.safetensors", "state.safetensors"
+_OPTIMIZER, _MODEL, _BEST, _GENERATOR = "optimizer.", "model.", "best.", "generator."
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A validation.
+
+    Attributes:
+        step: steps done.
+        seconds: since the start, validations included, pauses of a resumed run not.
+        loss: mean since the last validation.
+        learning_rate: of the last step.
+        descriptions_per_second: examples trained on, of all processes, since the last validation.
+        figures: what the task's `validate` gave.
+    """
+
+    step: int
+    seconds: float
+    loss: float
+    learning_rate: float
+    descriptions_per_second: float
+    figures: dict[str, float]
+
+    def flat(self) -> dict[str, float]:
+        """All of it under one name each, the columns of metrics.csv."""
+        values = asdict(self)
+        figures: dict[str, float] = values.pop("figures")
+        return values | figures
+
+
+class _Stateful(Protocol):
+    def state_dict(self) -> dict[str, Any]: ...
+    def load_state_dict(self, state_dict: dict[str, Any]) -> Any: ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RunState:
+    """Everything that a run goes on from.
+
+    Attributes:
+        tensors: by name.
+        facts: JSON.
+    """
+
+    tensors: dict[str, Tensor]
+    facts: dict[str, Any]
+
+    @classmethod
+    def of(
+        cls,
+        model: nn.Module,
+        best_weights: dict[str, Tensor],
+        optimizer: torch.optim.Optimizer,
+        others: Sequence[_Stateful],
+        numpy_generators: list[Mapping[str, Any]],
+        torch_generators: list[list[Tensor]],
+        rows: Sequence[Row],
+        counters: dict[str, Any],
+    ) -> "RunState":
+        """Write a run down.
+
+        Args:
+            model: as it is.
+            best_weights: the best so far.
+            optimizer: of the model's parameters.
+            others: the schedule and the scaler; their state is JSON.
+            numpy_generators: state of NumPy's generator, one a process.
+            torch_generators: states of torch's generators, one list a process.
+            rows: validations so far.
+            counters: JSON.
+        """
+        state = optimizer.state_dict()
+        tensors = {_MODEL + name: tensor for name, tensor in model.state_dict().items()}
+        tensors |= {_BEST + name: tensor for name, tensor in best_weights.items()}
+        tensors |= {f"{_OPTIMIZER}{n}.{key}": t for n, values in state["state"].items() for key, t in values.items()}
+        tensors |= {f"{_GENERATOR}{r}.{n}": t for r, ts in enumerate(torch_generators) for n, t in enumerate(ts)}
+        facts = {
+            "groups": state["param_groups"],
+            "others": [other.state_dict() for other in others],
+            "generators": numpy_generators,
+            "rows": [asdict(row) for row in rows],
+            "counters": counters,
+        }
+        return cls(tensors, facts)
+
+    @property
+    def counters(self) -> dict[str, Any]:
+        """What `of` was given."""
+        counters: dict[str, Any] = self.facts["counters"]
+        return counters
+
+    @property
+    def rows(self) -> list[Row]:
+        """Validations so far."""
+        return [Row(**row) for row in self.facts["rows"]]
+
+    def load_into(self, model: nn.Module, optimizer: torch.optim.Optimizer, others: Sequence[_Stateful]) -> None:
+        """Bring model, optimiser, schedule and scaler to this state."""
+        model.load_state_dict(self._part(_MODEL))
+        moments: dict[int, dict[str, Tensor]] = {}
+        for name, tensor in self._part(_OPTIMIZER).items():
+            number, key = name.split(".", 1)
+            moments.setdefault(int(number), {})[key] = tensor
+        optimizer.load_state_dict({"state": moments, "param_groups": self.facts["groups"]})
+        for other, state in zip(others, self.facts["others"], strict=True):
+            other.load_state_dict(state)
+
+    def best_weights(self, device: torch.device) -> dict[str, Tensor]:
+        """The best weights so far, on a device."""
+        return {name: tensor.to(device) for name, tensor in self._part(_BEST).items()}
+
+    def generators(self, rank: int, world_size: int) -> tuple[dict[str, Any], list[Tensor]]:
+        """State of NumPy's generator and of torch's in one process.
+
+        Raises:
+            TrainingError: the run was of another number of processes.
+        """
+        states = self.facts["generators"]
+        if len(states) != world_size:
+            raise TrainingError(f"the run was of {len(states)} processes, this is one of {world_size}; start as many")
+        return states[rank], list(self._part(f"{_GENERATOR}{rank}.").values())
+
+    def _part(self, prefix: str) -> dict[str, Tensor]:
+        return {name[len(prefix) :]: self.tensors[name] for name in sorted(self.tensors) if name.startswith(prefix)}
+
+
+class RunDir:
+    """A run directory; see the module's text for its files. Made by `open`."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    @classmethod
+    def open(cls, path: Path, resume: bool, record: dict[str, Any]) -> "RunDir":
+        """Make a run directory, or go on in one.
+
+        Args:
+            path: made if it is missing.
+            resume: whether a run that stands there goes on; otherwise there must be none.
+            record: the settings, JSON; a run goes on with the same.
+
+        Raises:
+            TrainingError: a run stands there and is not to be resumed, or was made with other settings.
+        """
+        path.mkdir(parents=True, exist_ok=True)
+        run_dir = cls(path)
+        if (path / STATE_FILE).is_file():
+            if not resume:
+                raise TrainingError(f"{path} holds a run; go on with --resume, or take another directory")
+            try:
+                before = json.loads((path / CONFIG_FILE).read_text())
+            except (OSError, ValueError) as error:
+                raise TrainingError(f"{path / CONFIG_FILE} cannot be read ({error}); take another directory") from error
+            if before != record:
+                changed = ", ".join(sorted(_differences(before, record)))
+                raise TrainingError(f"{path} holds a run with other settings ({changed}); use those, or another one")
+        replace_file(path / CONFIG_FILE, (json.dumps(record, indent=2) + "\n").encode())
+        return run_dir
+
+    def load_state(self) -> RunState | None:
+        """What to go on from; None if no run stands here.
+
+        Raises:
+            TrainingError: the file is broken.
+        """
+        path = self.path / STATE_FILE
+        if not path.is_file():
+            return None
+        try:
+            with safe_open(path, framework="pt") as file:
+                return RunState({n: file.get_tensor(n) for n in list(file.keys())}, _facts(file.metadata()))
+        except (SafetensorError, ValueError, KeyError) as error:
+            raise TrainingError(f"{path} cannot be read ({error}); start anew in another directory") from error
+
+    def write(self, rows: Sequence[Row], criterion: str, best_weights: dict[str, Tensor], state: RunState) -> None:
+        """Write what a validation found, the state last.
+
+        Args:
+            rows: all validations so far.
+            criterion: the figure that chooses, for the curves.
+            best_weights: the best so far.
+            state: what to go on from.
+        """
+        replace_file(self.path / METRICS_FILE, _table(rows))
+        replace_file(self.path / CURVES_FILE, _curves(rows, criterion))
+        replace_file(self.path / BEST_FILE, save(_plain(best_weights)))
+        metadata = {"facts": json.dumps(state.facts)}
+        replace_file(self.path / STATE_FILE, save(_plain(state.tensors), metadata))
+
+
+def replace_file(path: Path, content: bytes) -> None:
+    """Write a file so that a reader, or a restart after a crash, finds the old one or the new one, never a part."""
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        with beside.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _facts(metadata: dict[str, str]) -> dict[str, Any]:
+    facts: dict[str, Any] = json.loads(metadata["facts"])
+    return facts
+
+
+def _plain(tensors: dict[str, Tensor]) -> dict[str, Tensor]:
+    return {name: tensor.detach().cpu().contiguous() for name, tensor in tensors.items()}
+
+
+def _differences(before: Any, now: Any, prefix: str = "") -> Iterable[str]:
+    if not (isinstance(before, dict) and isinstance(now, dict)):
+        return [prefix] if before != now else []
+    return [
+        name
+        for key in before.keys() | now.keys()
+        for name in _differences(before.get(key), now.get(key), f"{prefix}.{key}".lstrip("."))
+    ]
+
+
+def _table(rows: Sequence[Row]) -> bytes:
+    lines = io.StringIO()
+    writer = csv.DictWriter(lines, list(rows[0].flat()), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(row.flat() for row in rows)
+    return lines.getvalue().encode()
+
+
+def _curves(rows: Sequence[Row], criterion: str) -> bytes:
+    """A picture: the loss, and the recalls (or, where there are none, the criterion) over the steps."""
+    figure = Figure(figsize=(9.0, 3.8), layout="constrained", dpi=150)
+    of_loss, of_figures = figure.subplots(1, 2)
+    steps = [row.step for row in rows]
+    of_loss.plot(steps, [row.loss for row in rows], marker="o", ms=3, color="#1d3557")
+    of_loss.set(xlabel="step", ylabel="loss")
+    shown = [name for name in rows[0].figures if name == criterion or "recall" in name]
+    for name in shown:
+        style = "-" if name == criterion else ":"
+        of_figures.plot(steps, [row.figures[name] for row in rows], style, marker="o", ms=3, label=name)
+    of_figures.set(xlabel="step", title="validation")
+    of_figures.legend(frameon=False, fontsize=8)
+    for axes in (of_loss, of_figures):
+        axes.grid(alpha=0.3)
+    picture = io.BytesIO()
+    FigureCanvasAgg(figure).print_png(picture)
+    return picture.getvalue()

@@ -1,0 +1,83 @@
+"""The settings of a training: a TOML file a method in configs/, single values overridden on the command line."""
+
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, TypeVar, get_args, get_origin
+
+from pydantic import BaseModel, Field, ValidationError
+from pydantic.fields import FieldInfo
+
+from models.errors import TrainingError
+from models.retrieval.checkpoint import METHODS
+from models.retrieval.retriever import RetrieverConfig
+from models.training.loop import LoopConfig
+
+CONFIGS = Path(__file__).parent / "configs"
+C = TypeVar("C", bound=BaseModel)
+EXAMPLE = "--set training.steps=500"
+
+
+class TrainingConfig(LoopConfig):
+    """How to train a retriever.
+
+    Attributes:
+        cluster: of the descriptions of a batch, how many lie near each other (hard negatives).
+        spacing_m: of an OpenStreetMap file: one training position a square of this size.
+    """
+
+    cluster: int = Field(default=4, ge=1)
+    spacing_m: float = Field(default=4.0, gt=0)
+
+
+def load_settings(method: str, changes: Sequence[str] = ()) -> tuple[RetrieverConfig, TrainingConfig]:
+    """Settings of a method.
+
+    Args:
+        method: key of METHODS.
+        changes: "model.FIELD=VALUE" or "training.FIELD=VALUE"; lists are separated by commas, "none" is no value;
+            a later one wins.
+
+    Raises:
+        TrainingError: there is no such method or field, or a value does not fit.
+    """
+    if method not in METHODS:
+        raise TrainingError(f"there is no method '{method}'; take one of {', '.join(METHODS)}")
+    types: dict[str, type[BaseModel]] = {"model": METHODS[method].config_type, "training": TrainingConfig}
+    tables = tomllib.loads((CONFIGS / f"{method}.toml").read_text())
+    for change in changes:
+        part, field, value = _parse(change, types)
+        tables.setdefault(part, {})[field] = value
+    model = _validated(METHODS[method].config_type, tables.get("model", {}), "model")
+    return model, _validated(TrainingConfig, tables.get("training", {}), "training")
+
+
+def _parse(change: str, types: dict[str, type[BaseModel]]) -> tuple[str, str, Any]:
+    """(part, field, value) of "part.field=value"."""
+    name, equals, text = change.partition("=")
+    part, _, field = name.strip().partition(".")
+    if not equals or part not in types or not field:
+        raise TrainingError(f"--set {change}: give it as model.NAME=VALUE or training.NAME=VALUE, as in {EXAMPLE}")
+    fields = types[part].model_fields
+    if field not in fields:
+        raise TrainingError(f"--set {change}: {part} has no '{field}'; it has {', '.join(fields)}")
+    return part, field, _value(text.strip(), fields[field])
+
+
+def _value(text: str, field: FieldInfo) -> Any:
+    if get_origin(field.annotation) in (tuple, list):
+        return [item.strip() for item in text.split(",") if item.strip()]
+    if text.lower() == "none" and type(None) in get_args(field.annotation):
+        return None
+    return text  # pydantic reads numbers and truth values out of it
+
+
+def _validated(config_type: type[C], table: dict[str, Any], part: str) -> C:
+    try:
+        return config_type.model_validate(table)
+    except ValidationError as error:
+        wrong = "; ".join(
+            f"{'.'.join([part, *map(str, e['loc'])])}={e['input']!r}: {e['msg'][0].lower() + e['msg'][1:]}"
+            for e in error.errors()
+        )
+        raise TrainingError(f"settings cannot be trained with: {wrong}") from error

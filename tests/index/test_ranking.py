@@ -1,0 +1,81 @@
+import numpy as np
+import pytest
+import torch
+
+from index.ranking import Ranker
+from models.errors import IndexBroken
+from models.retrieval.levels import LEVELS, level_scores
+from models.retrieval.mncl import Mncl, MnclConfig
+
+TEXTS = [["I am north of a red building.", "A bench is west of me."], ["There is a tree to my east."]]
+WEIGHTS = (1.0, 0.7, 0.4)
+
+
+@pytest.fixture(scope="module")
+def weighted(text_encoder):
+    torch.manual_seed(0)
+    return Mncl(text_encoder, MnclConfig(width=32, level_weights=WEIGHTS)).eval()
+
+
+@pytest.fixture(scope="module")
+def labels(city):
+    return [instance.label for instance in city.instances]
+
+
+@pytest.fixture(scope="module")
+def expected(weighted, cells, labels):
+    """[Q, N] what the weighted sum over the levels is, padded and all at once."""
+    ranker = Ranker.of(weighted, cells, labels)
+    texts = weighted.encode_texts(TEXTS)
+    table = ranker.table.scores(texts, np.arange(len(cells)))
+    whole = np.concatenate([text.whole.numpy() for text in texts]) @ ranker.store.vectors(np.arange(len(cells))).T
+    return WEIGHTS[0] * whole + WEIGHTS[1] * table["instance"] + WEIGHTS[2] * table["relation"]
+
+
+def test_all_levels_on_the_whole_gallery(weighted, cells, labels, expected) -> None:
+    ranker = Ranker.of(weighted, cells, labels, depth=len(cells))
+    scores, rows = ranker.rank(weighted.encode_texts(TEXTS), len(cells))
+    for q in range(len(TEXTS)):
+        assert sorted(rows[q]) == list(range(len(cells)))
+        assert scores[q] == pytest.approx(np.sort(expected[q])[::-1], abs=1e-5)
+        assert expected[q][rows[q]] == pytest.approx(scores[q], abs=1e-5)
+
+
+def test_the_best_of_vector_search_are_reordered_and_stay_first(weighted, cells, labels, expected) -> None:
+    plain, deep = (Ranker.of(weighted, cells, labels, depth=depth) for depth in (0, 20))
+    texts = weighted.encode_texts(TEXTS)
+    (whole, by_whole), (scores, rows) = plain.rank(texts, 50), deep.rank(texts, 50)
+    assert np.array_equal(by_whole, plain.store.search(np.concatenate([t.whole.numpy() for t in texts]), 50)[1])
+    for q in range(len(TEXTS)):
+        first = by_whole[q, :20]
+        assert list(rows[q, :20]) == list(first[np.argsort(-expected[q][first], kind="stable")])
+        assert set(rows[q, 20:]) == set(by_whole[q, 20:])
+    assert (np.diff(scores, axis=1) <= 0).all()
+    assert (np.diff(whole, axis=1) <= 0).all()
+
+
+def test_some_cells_score_as_in_the_whole(weighted, cells, labels, expected) -> None:
+    ranker, rows = Ranker.of(weighted, cells, labels), np.array([7, 3, 100])
+    [text] = weighted.encode_texts(TEXTS[:1])
+    assert ranker.score(text, rows) == pytest.approx(expected[0][rows], abs=1e-5)
+    scores, found = ranker.take(rows).rank([text], 3)
+    assert sorted(scores[0]) == pytest.approx(sorted(expected[0][rows]), abs=1e-5)
+    assert sorted(found[0]) == [0, 1, 2]
+
+
+def test_without_weights_z_scores_are_added(mncl, cells, labels) -> None:
+    ranker = Ranker.of(mncl, cells, labels, depth=len(cells))
+    texts = mncl.encode_texts(TEXTS)
+    scores, _ = ranker.rank(texts, len(cells))
+    assert scores.mean(axis=1) == pytest.approx(0, abs=1e-4), "each level is centred on the gallery"
+    assert set(level_scores(texts[0], texts[0], LEVELS)) == set(LEVELS)
+
+
+def test_saved_and_loaded_ranks_the_same(weighted, cells, labels, tmp_path) -> None:
+    ranker = Ranker.of(weighted, cells, labels)
+    ranker.save(tmp_path)
+    again, texts = Ranker.load(weighted, tmp_path), weighted.encode_texts(TEXTS)
+    assert again.rank(texts, 10)[0] == pytest.approx(ranker.rank(texts, 10)[0], abs=2e-3)
+    (tmp_path / "levels.instance.npy").unlink()
+    with pytest.raises(IndexBroken, match="levels"):
+        Ranker.load(weighted, tmp_path)

@@ -1,0 +1,204 @@
+import numpy as np
+import pytest
+import torch
+
+from models.errors import WeightsError
+from models.localization.checkpoint import FINE_METHODS, load_fine, save_fine
+from models.localization.fine_model import CrossAttentionRound, Truth, nearest
+from models.localization.hint_cache import HintCache
+from models.localization.matching import MatchingConfig, sinkhorn
+from models.training.fine_data import FineBatch
+
+TEXTS = [
+    ["I am north of a gray building."],
+    ["A black pole is to my west.", "I stand on the road.", "There is a tree north of me."],
+    [f"There is a bench number {i} to my east." for i in range(12)],
+]
+ROWS = np.array([[0, 5], [5, 9], [3, 0]])
+
+
+def attend(layer, queries, keys):
+    """Multi-head attention of one set to another, head by head and query by query."""
+    width, heads = layer.embed_dim, layer.num_heads
+    q, k, v = (
+        part @ layer.in_proj_weight[n * width : (n + 1) * width].T + layer.in_proj_bias[n * width : (n + 1) * width]
+        for n, part in enumerate((queries, keys, keys))
+    )
+    size = width // heads
+    rows = []
+    for query in q:
+        parts = []
+        for h in range(heads):
+            of_head = slice(h * size, (h + 1) * size)
+            weights = torch.stack([query[of_head] @ key[of_head] / size**0.5 for key in k]).softmax(dim=0)
+            parts.append(sum(weight * value[of_head] for weight, value in zip(weights, v, strict=True)))
+        rows.append(layer.out_proj(torch.cat(parts)))
+    return torch.stack(rows)
+
+
+def look_naively(layer, own, other):
+    """A decoder layer on one unpadded set."""
+    own = own + attend(layer.self_attn, layer.norm1(own), layer.norm1(own))
+    own = own + attend(layer.multihead_attn, layer.norm2(own), other)
+    return own + layer.linear2(layer.linear1(layer.norm3(own)).relu())
+
+
+def test_cross_attention_against_a_naive_loop() -> None:
+    torch.manual_seed(1)
+    layer = CrossAttentionRound(16, 4, 0.1).eval()
+    hints, instances = torch.randn(2, 3, 16), torch.randn(2, 5, 16)
+    hint_mask = torch.tensor([[True, True, False], [True, True, True]])
+    instance_mask = torch.tensor([[True] * 5, [True, True, False, False, False]])
+    met, seen = layer(hints, hint_mask, instances, instance_mask)
+    for b in range(2):
+        h, i = hints[b, hint_mask[b]], instances[b, instance_mask[b]]
+        i = look_naively(layer.of_instances, i, h)
+        h = look_naively(layer.of_hints, h, i)
+        assert torch.allclose(met[b, hint_mask[b]], h, atol=1e-5)
+        assert torch.allclose(seen[b, instance_mask[b]], i, atol=1e-5)
+
+
+def test_the_nearest_instances_are_kept(features) -> None:
+    batch = features.batch(np.arange(12))
+    order = nearest(batch, 6)
+    for row, kept in enumerate(order):
+        distance = batch.geometry[row, : int(batch.mask[row].sum()), 5]
+        assert torch.equal(batch.geometry[row, kept, 5], distance.sort().values[:6])
+    assert nearest(batch, None).shape == batch.mask.shape
+
+
+def test_a_description_alone_and_in_a_batch(fine_model, features) -> None:
+    together = fine_model.predict(TEXTS, features, ROWS)
+    assert together.shape == (3, 2, 2)
+    for q, text in enumerate(TEXTS):
+        for j in range(2):
+            alone = fine_model.predict([text], features, ROWS[q : q + 1, j : j + 1])
+            assert np.abs(alone[0, 0] - together[q, j]).max() < 1e-5
+    assert len(np.unique(together[..., 0])) > 1 or fine_model.method == "matching"
+
+
+def test_padding_and_masked_instances_change_nothing(fine_model, features) -> None:
+    labels = fine_model.text_encoder.embed(features.labels)
+    hints, mask = torch.randn(1, 3, 32), torch.ones(1, 3, dtype=torch.bool)
+    padded, longer = torch.cat([hints, torch.full((1, 4, 32), 1e3)], dim=1), torch.arange(7)[None] < 3
+    alone, beside = features.batch(np.array([4])), features.batch(np.array([4, int(np.diff(features.starts).argmax())]))
+    beside.geometry[0, int(beside.mask[0].sum()) :] = 1e3
+    with torch.inference_mode():
+        first = fine_model.locate(hints, mask, fine_model.look(alone, labels))
+        seen = fine_model.look(beside, labels).take(torch.tensor([0]))
+        assert torch.allclose(fine_model.locate(padded, longer, seen), first, atol=1e-5)
+
+
+def test_order_does_not_matter(fine_model, features) -> None:
+    backwards = [text[::-1] for text in TEXTS]
+    before = fine_model.predict(TEXTS, features, ROWS)
+    assert np.array_equal(before, fine_model.predict(backwards, features, ROWS))
+    labels = fine_model.text_encoder.embed(features.labels)
+    cells = features.batch(np.array([2, 8]))
+    hints, mask = torch.randn(2, 5, 32), torch.ones(2, 5, dtype=torch.bool)
+    with torch.inference_mode():
+        seen = fine_model.look(cells, labels)
+        mixed = fine_model.locate(hints[:, [3, 1, 0, 4, 2]], mask, seen)
+        assert torch.allclose(fine_model.locate(hints, mask, seen), mixed, atol=1e-5)
+
+
+def test_no_cell_is_the_middle(fine_model, features) -> None:
+    found = fine_model.predict(TEXTS[:1], features, np.array([[0, -1]]))
+    assert found[0, 1].tolist() == [0.5, 0.5]
+    assert ((found >= 0) & (found <= 1)).all()
+
+
+def test_every_parameter_that_locates_gets_a_finite_gradient(fine_model, fine_set) -> None:
+    batch: FineBatch = fine_set.batch(8, np.random.default_rng(0))
+    fine_model.zero_grad()
+    hints = torch.randn(*batch.sentences.shape, 32, requires_grad=True)
+    instances = fine_model.look(batch.cells, fine_set.training.label_embeddings)
+    fine_model.loss(hints, batch.hint_mask, instances, batch.truth).backward()
+    gradients = {name: p.grad for name, p in fine_model.named_parameters() if not name.startswith("hint_encoder")}
+    assert all(g is not None and torch.isfinite(g).all() for g in gradients.values())
+    of_hints = hints.grad
+    assert of_hints is not None
+    assert (of_hints[~batch.hint_mask] == 0).all()
+    assert (of_hints[batch.hint_mask].abs().sum(dim=-1) > 0).any()
+    fine_model.zero_grad()
+
+
+def test_sinkhorn_gives_every_real_row_and_column_its_share() -> None:
+    torch.manual_seed(2)
+    scores = torch.randn(2, 3, 4)
+    rows, columns = (
+        torch.tensor([[True, True, False], [True] * 3]),
+        torch.tensor([[True] * 4, [True] * 2 + [False] * 2]),
+    )
+    share = sinkhorn(scores, rows, columns, torch.tensor(0.3), 100).exp()
+    assert torch.allclose(share[:, :-1].sum(dim=2), rows.float(), atol=1e-4)
+    assert torch.allclose(share[:, :, :-1].sum(dim=1), columns.float(), atol=1e-4)
+    small = sinkhorn(scores[1:, :, :2], rows[1:], columns[1:, :2], torch.tensor(0.3), 100).exp()
+    assert torch.allclose(share[1][:, [0, 1, 4]], small[0], atol=1e-5)
+
+
+def test_matching_averages_over_the_matches(text_encoder, features, monkeypatch) -> None:
+    model = FINE_METHODS["matching"](text_encoder, MatchingConfig(width=32)).eval()
+    seen = model.look(features.batch(np.array([3])), text_encoder.embed(features.labels))
+    share = torch.full((1, 4, seen.mask.shape[1] + 1), 1e-6)
+    share[0, 0, 2], share[0, 1, 1], share[0, 2, 4] = 0.9, 0.8, 0.1  # the last is too unsure
+    offset = torch.tensor([[[0.1, 0.0], [0.0, -0.2], [5.0, 5.0]]])
+    monkeypatch.setattr(model, "match", lambda *_: (share.log(), offset))
+    found = model.locate(torch.zeros(1, 3, 32), torch.ones(1, 3, dtype=torch.bool), seen)
+    assert torch.allclose(found[0], ((seen.center[0, 2] + offset[0, 0]) + (seen.center[0, 1] + offset[0, 1])) / 2)
+    monkeypatch.setattr(model, "match", lambda *_: ((share * 0.1).log(), offset))
+    assert model.locate(torch.zeros(1, 3, 32), torch.ones(1, 3, dtype=torch.bool), seen).tolist() == [[0.5, 0.5]]
+
+
+def test_the_instances_meant_survive_the_choice_of_the_nearest(fine_model, fine_set) -> None:
+    batch = fine_set.batch(16, np.random.default_rng(3))
+    seen = fine_model.look(batch.cells, fine_set.training.label_embeddings)
+    meant = seen.meant_by(Truth(batch.truth.offset, batch.truth.match), batch.hint_mask)
+    assert meant.any()
+    for b, h, i in meant.nonzero().tolist():
+        column = int(batch.truth.match[b, h])
+        expected = batch.cells.geometry[b, column, :2] / 2 + 0.5
+        assert torch.equal(seen.center[b, i], expected)
+
+
+def test_a_hint_is_read_once_while_it_is_remembered() -> None:
+    read = []
+
+    def lengths(sentences):
+        read.extend(sentences)
+        return torch.tensor([[float(len(s))] for s in sentences])
+
+    cache = HintCache(lengths, 2)
+    assert {k: v.item() for k, v in cache(["a", "bb", "a"]).items()} == {"a": 1, "bb": 2}
+    assert [v.item() for v in cache(["ccc", "a"]).values()] == [3, 1]
+    cache(["bb"])
+    assert read == ["a", "bb", "ccc", "bb"], "the oldest was forgotten"
+    assert len(cache) == 2
+
+
+def test_saved_and_loaded_is_the_same(fine_model, features, tmp_path) -> None:
+    save_fine(fine_model, tmp_path, {"note": "x"})
+    again = load_fine(tmp_path)
+    assert (again.fingerprint, again.config) == (fine_model.fingerprint, fine_model.config)
+    assert np.array_equal(again.predict(TEXTS, features, ROWS), fine_model.predict(TEXTS, features, ROWS))
+
+
+@pytest.mark.parametrize(
+    ("spoil", "message"),
+    [
+        (lambda d: (d / "config.json").unlink(), "config.json is missing"),
+        (lambda d: (d / "model.safetensors").write_bytes(b"junk"), "cannot be read"),
+        (lambda d: (d / "config.json").write_text("[]"), "cannot be read"),
+        (lambda d: (d / "config.json").write_text('{"method": "guess", "fine": {}}'), "cannot be read"),
+        (
+            lambda d: (d / "config.json").write_text('{"method": "regressor", "fine": {"width": 64}}'),
+            "not of the model",
+        ),
+        (lambda d: (d / "config.json").write_text('{"method": "regressor", "fine": {"depth": 2}}'), "cannot be read"),
+    ],
+)
+def test_broken_weights_are_refused(fine_model, tmp_path, spoil, message) -> None:
+    save_fine(fine_model, tmp_path, {})
+    spoil(tmp_path)
+    with pytest.raises(WeightsError, match=message):
+        load_fine(tmp_path)

@@ -1,0 +1,202 @@
+import json
+
+import numpy as np
+import pytest
+import torch
+
+from models.city.kitti360_job import prepare_data
+from models.city.pose_files import load_data
+from models.localization.checkpoint import FINE_METHODS, load_fine
+from models.localization.fine_model import FineConfig, FineModel
+from models.localization.regressor import Regressor, RegressorConfig
+from models.training.data import SYMMETRIES, TrainingSet, turn
+from models.training.fine import FineSource, FineTask, fine_source_of_map, load_fine_source, train_fine
+from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, turn_offset
+from models.training.loop import LoopConfig
+from tests.models.city.raw_scenes import write_town
+
+FOLDERS = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0002_sync", "2013_05_28_drive_0010_sync")
+
+
+@pytest.fixture(scope="module")
+def data_set(tmp_path_factory):
+    """Two scenes to train on, which lie over each other, and one to choose by."""
+    raw, prepared = (tmp_path_factory.mktemp("fine") / name for name in ("raw", "prepared"))
+    for seed, folder in enumerate(FOLDERS):
+        write_town(raw, folder, seed)
+    prepare_data(raw, prepared)
+    return prepared
+
+
+@pytest.fixture(scope="module")
+def store_set(data_set, text_encoder):
+    store = load_data(data_set, "train")
+    return FineSet.of_store(TrainingSet.of_store(store, text_encoder), store)
+
+
+@pytest.fixture(scope="module", params=["map", "store"])
+def either(request, fine_set, store_set):
+    return {"map": fine_set, "store": store_set}[request.param]
+
+
+def test_cloned_cells_contain_the_position_and_are_of_its_scene(either) -> None:
+    cells, training = either.cells, either.training
+    assert len(either.neighbours) > len(training)
+    for n in range(0, len(training.best), 7):
+        found = either.neighbours[either.neighbour_starts[n] : either.neighbour_starts[n + 1]]
+        best = int(training.best[n])
+        away = np.abs(cells.center_m[:, :2] - training.positions[n, :2]).max(axis=1)
+        naive = [c for c in range(len(cells)) if away[c] <= cells.size_m / 2 and cells.scenes[c] == cells.scenes[best]]
+        assert sorted([best, *found.tolist()]) == naive
+
+
+def test_half_of_the_cells_are_cloned_or_none(either) -> None:
+    training = either.training
+    positions = np.random.default_rng(0).choice(training.usable, 4000)
+    drawn = either.draw_cells(positions, np.random.default_rng(1))
+    has_other = (np.diff(either.neighbour_starts) > 0)[positions]
+    assert np.mean(drawn[has_other] != training.best[positions][has_other]) == pytest.approx(0.5, abs=0.03)
+    plain = FineSet(training, either.cells, either.part_number, either.said_number, pmc=False)
+    assert (plain.draw_cells(positions, np.random.default_rng(1)) == training.best[positions]).all()
+
+
+def test_targets_turn_with_the_cell(either) -> None:
+    rows = np.arange(8)
+    positions = either.cells.center_m[rows, :2] + np.random.default_rng(0).uniform(-9, 9, (8, 2))
+    offset = torch.from_numpy(offsets_in(either.cells, rows, positions).astype(np.float32))
+    assert torch.allclose(offset, (torch.from_numpy(positions - either.cells.center_m[rows, :2]) / 30 + 0.5).float())
+    matrix = torch.from_numpy(SYMMETRIES)
+    before = either.training.features.batch(rows)
+    after, moved = turn(before, matrix), turn_offset(offset, matrix)
+    # From the closest point of every instance to the position: the same way, turned.
+    way, turned = (2 * o[:, None] - 1 - cells.geometry[..., 3:5] for o, cells in ((offset, before), (moved, after)))
+    expected = torch.einsum("bij,bnj->bni", matrix, way)
+    assert torch.allclose(turned[before.mask], expected[before.mask], atol=1e-5)
+
+
+class Told(FineModel):
+    """Says what it was told."""
+
+    def __init__(self, truth):
+        torch.nn.Module.__init__(self)
+        self.truth, self.config = truth, FineConfig()
+
+    def predict(self, descriptions, cells, rows):
+        return self.truth
+
+
+def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(either) -> None:
+    batch = either.batch(64, np.random.default_rng(2))
+    assert ((batch.truth.offset >= -1e-5) & (batch.truth.offset <= 1 + 1e-5)).all()
+    assert (batch.sentences[batch.hint_mask] >= 0).all()
+    vocabulary = either.training.vocabulary
+    sentence = vocabulary.sentence
+    labels, colours = (np.arange(n) for n in vocabulary._pair.shape)
+    direction_of = {}
+    for d in range(5):
+        for t in range(8):
+            said = sentence(labels[:, None], colours[None, :], d, t)
+            direction_of |= dict.fromkeys(said[vocabulary._pair >= 0].tolist(), d)
+    agree = []
+    for b, h in (batch.truth.match >= 0).nonzero().tolist():
+        geometry = batch.cells.geometry[b, batch.truth.match[b, h]]
+        middle, half = geometry[:2] / 2 + 0.5, geometry[8:10] / 2
+        way = batch.truth.offset[b] - middle
+        x, y = (way / half.clamp(min=0.02)).tolist()
+        d = direction_of[int(batch.sentences[b, h])]
+        if max(abs(x), abs(y)) > 1.5:  # clearly outside the instance's box
+            agree.append({0: y > 0, 1: y < 0, 2: x > 0, 3: x < 0, 4: True}[d])
+    assert len(agree) > 20
+    assert np.mean(agree) > 0.9
+
+
+def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(either) -> None:
+    cells, training = either.cells, either.training
+    queries = training.usable[:40]
+    total = len(queries)
+    positions = training.positions[queries, :2]
+    labels = np.array(["thing"] * (int(cells.parts.instance.max()) + 1))
+    asked = FineValidation.of(cells, labels, [["I am here."]] * total, positions, training.best[queries])
+    assert set(asked.figures(Told(asked.offset)).values()) == {1.0}
+    away = np.linalg.norm(positions - cells.center_m[training.best[queries], :2], axis=1)
+    figures = asked.center_figures()
+    assert figures == asked.figures(Told(np.full((total, 2, 2), 0.5)))
+    assert (figures["within_5m"], figures["within_10m"]) == (np.mean(away <= 5), np.mean(away <= 10))
+    starts, rows = containing_cells(cells, positions, training.best[queries])
+    for q in range(total):
+        others = rows[starts[q] : starts[q + 1]]
+        assert asked.rows[q, 1] in others if len(others) else asked.rows[q, 1] == -1
+
+
+def test_matches_name_the_instances_that_the_store_says(store_set, data_set) -> None:
+    store = load_data(data_set, "train")
+    poses, parts = store.poses, store.cell_table().parts
+    right = known = 0
+    for n in store_set.training.usable[::5]:
+        hints = np.arange(poses.starts[n], poses.starts[n + 1])
+        match = store_set._match(hints, int(poses.cell[n]), poses.positions_m[n, :2])
+        row = poses.instance[hints]
+        assert ((match >= 0) == (row >= 0)).all()
+        known += int((row >= 0).sum())
+        right += int((match[row >= 0] + parts.starts[poses.cell[n]] == row[row >= 0]).sum())
+    assert known > 20
+    assert right / known > 0.9, "parts of one instance may be told apart wrongly, others not"
+
+
+def test_both_methods_overfit_a_few_positions(city, points, cells, text_encoder) -> None:
+    positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 24, replace=False)]
+    few = FineSet.of_map(TrainingSet.of_map(city, points, cells, positions, text_encoder), cells, pmc=False)
+    examples = few.batch(24, np.random.default_rng(0))
+    for method, config in (
+        ("regressor", RegressorConfig(width=64, dropout=0.0)),
+        ("matching", FINE_METHODS["matching"].config_type(width=64, dropout=0.0, refine=True)),
+    ):
+        torch.manual_seed(0)
+        task = FineTask(FINE_METHODS[method](text_encoder, config), [FineSource(few, None, {})], 24)
+        optimizer = torch.optim.Adam(task.model.parameters(), 2e-3)
+        losses = []
+        for _ in range(60):
+            loss = task.loss((0, examples))
+            optimizer.zero_grad()
+            loss.backward()
+            optimizer.step()
+            losses.append(loss.item())
+        assert losses[-1] < losses[0] / 2, method
+        if method == "regressor":
+            with torch.no_grad():
+                task.model.config = config.model_copy(update={"match_weight": 0.0})
+                error_m = 15 * (2 * task.loss((0, examples)).item()) ** 0.5
+            assert error_m < 3
+
+
+def test_training_is_seeded_saved_and_says_how_far_it_errs(city, tmp_path) -> None:
+    config = LoopConfig(steps=4, batch_size=8, validate_every=2)
+    seen = []
+
+    def load(encoder, rng):
+        return [fine_source_of_map(city, encoder, 20.0, rng)]
+
+    figures = [
+        train_fine(load, tmp_path / name, "regressor", RegressorConfig(width=32), config, progress=seen.append)
+        for name in "ab"
+    ]
+    assert figures[0] == figures[1]
+    models = [load_fine(tmp_path / name) for name in "ab"]
+    assert isinstance(models[0], Regressor)
+    assert models[0].fingerprint == models[1].fingerprint
+    assert models[0].error_m is not None
+    assert 0 < models[0].error_m < 15
+    assert [p.step for p in seen if p.figures] == [2, 4, 2, 4]
+    source = json.loads((tmp_path / "a" / "config.json").read_text())["training"]["sources"][0]
+    assert source["validation"]["cell_center"]["within_5m"] > 0
+
+
+def test_a_data_set_trains_either_method(data_set, tmp_path) -> None:
+    def load(encoder, rng):
+        return [load_fine_source(data_set, encoder, 4.0, rng, ("train", "val"), pmc=False)] * 2
+
+    for method, kind in FINE_METHODS.items():
+        config = LoopConfig(steps=2, batch_size=8, validate_every=2)
+        figures = train_fine(load, tmp_path / method, method, kind.config_type(width=32), config)
+        assert 0 <= figures["within_5m"] <= figures["within_10m"] <= 1
+        assert load_fine(tmp_path / method).method == method

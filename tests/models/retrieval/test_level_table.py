@@ -1,0 +1,64 @@
+import numpy as np
+import pytest
+import torch
+
+from models.errors import IndexBroken
+from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.level_table import LevelTable
+from models.retrieval.levels import LEVELS, level_scores
+
+TEXTS = [
+    ["I am north of a red building.", "A bench is west of me.", "There is a tree to my east."],
+    ["I stand on a road."],
+]
+
+
+@pytest.fixture(scope="module")
+def model(mncl):
+    return mncl
+
+
+@pytest.fixture(scope="module")
+def features(city, cells):
+    return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+
+
+@pytest.fixture(scope="module")
+def table(model, features):
+    return LevelTable.of(model, features)
+
+
+@pytest.fixture(scope="module")
+def texts(model):
+    return [model.encode_description(text) for text in TEXTS]
+
+
+def test_scores_are_those_of_the_padded_form(model, features, table, texts) -> None:
+    rows = np.array([5, 0, 17, len(features) - 1])
+    found = table.scores(texts, rows)
+    assert set(found) == {"instance", "relation"}
+    with torch.inference_mode():
+        cells = model.look(features.batch(rows), model.text_encoder.embed(features.labels))
+        for n, text in enumerate(texts):
+            expected = level_scores(text, cells, LEVELS)
+            for level, scores in found.items():
+                assert scores[n] == pytest.approx(expected[level][0].numpy(), abs=1e-5)
+
+
+def test_saved_and_mapped_is_the_same_in_half_precision(model, table, texts, tmp_path) -> None:
+    table.save(tmp_path)
+    again, rows = LevelTable.load(tmp_path, model.levels), np.arange(9)
+    expected = table.scores(texts, rows)
+    for level, scores in again.scores(texts, rows).items():
+        assert scores == pytest.approx(expected[level], abs=2e-3)
+    size = sum((tmp_path / f"levels.{level}.npy").stat().st_size for level in expected)
+    assert table.bytes_a_cell * (len(table.starts) - 1) == pytest.approx(size, abs=300), "but for the headers"
+
+
+def test_missing_or_mixed_levels_are_refused(model, table, tmp_path) -> None:
+    with pytest.raises(IndexBroken, match="cannot be read"):
+        LevelTable.load(tmp_path, model.levels)
+    table.save(tmp_path)
+    np.save(tmp_path / "levels.relation.npy", table.vectors["relation"][:-1])
+    with pytest.raises(IndexBroken, match="different sizes"):
+        LevelTable.load(tmp_path, model.levels)

@@ -1,0 +1,44 @@
+import numpy as np
+import pytest
+
+from models.city.hints import describe_poses, sample_positions
+from models.training.calibration import calibrate, most_likely
+from models.training.sources import Validation
+
+
+@pytest.fixture(scope="module")
+def model(mncl):
+    return mncl
+
+
+def true_scores(rng, hints: int, levels: int):
+    """Similarities for which softmax of (s_1 + 2 s_2 ...) / (0.3 hints^-0.8) is the truth, drawn until it comes out."""
+    truth = rng.integers(20, size=4000)
+    scores = rng.normal(size=(levels, 4000, 20)) * 0.5 * hints**-0.8
+    logits = np.tensordot(np.arange(1, levels + 1), scores, axes=1) / (0.3 * hints**-0.8)
+    answer = np.array([rng.choice(20, p=np.exp(row) / np.exp(row).sum()) for row in logits])
+    row = np.arange(4000)
+    scores[:, row, answer], scores[:, row, truth] = scores[:, row, truth].copy(), scores[:, row, answer].copy()
+    return hints, scores, truth
+
+
+@pytest.mark.parametrize("levels", [1, 2])
+def test_what_is_found_is_what_made_the_answers(levels) -> None:
+    rng = np.random.default_rng(0)
+    weights, temperature, decay = most_likely([true_scores(rng, hints, levels) for hints in (1, 2, 4)])
+    assert (temperature, decay) == pytest.approx((0.3, 0.8), rel=0.1)
+    assert weights == pytest.approx(tuple(range(1, levels + 1)), rel=0.1)
+
+
+def test_every_level_gets_a_weight(model, region_queries) -> None:
+    found = calibrate(model, [region_queries], np.random.default_rng(0))
+    assert len(found["level_weights"]) == len(model.levels) == 3
+    assert found["level_weights"][0] == 1
+    weighted = model.combine(region_queries.level_scores(model))
+    assert weighted.shape == (len(region_queries.truth), len(region_queries.features))
+
+
+@pytest.fixture(scope="module")
+def region_queries(city, points, cells):
+    positions = sample_positions(city.locations_m, 40.0, np.random.default_rng(0))
+    return Validation.of_map(city, cells, describe_poses(city, points, cells, positions))

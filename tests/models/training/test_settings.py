@@ -1,0 +1,52 @@
+import pytest
+
+from models.errors import TrainingError
+from models.retrieval.checkpoint import METHODS
+from models.training.settings import TrainingConfig, load_settings
+
+
+@pytest.mark.parametrize("method", list(METHODS))
+def test_every_method_has_settings(method) -> None:
+    model, training = load_settings(method)
+    assert isinstance(model, METHODS[method].config_type)
+    assert training == TrainingConfig()
+
+
+def test_settings_are_changed_one_by_one() -> None:
+    changes = [
+        "model.levels=global, instance",
+        "model.dropout=0",
+        "training.steps=500",
+        "training.patience=3",
+        "training.learning_rate=1e-4",
+        "training.schedule=step",
+        "training.steps=600",
+    ]
+    model, training = load_settings("mncl", changes)
+    assert (model.levels, model.dropout) == (("global", "instance"), 0.0)
+    assert (training.steps, training.patience, training.learning_rate) == (600, 3, 1e-4)
+    assert training.schedule == "step"
+    assert load_settings("mncl", ["training.patience=none"])[1].patience is None
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("steps=5", "training.NAME=VALUE"),
+        ("training.steps", "training.NAME=VALUE"),
+        ("training.stepz=5", "it has seed, steps"),
+        ("model.margin=1", "model has no 'margin'"),
+        ("training.steps=many", r"training.steps='many': input should be a valid integer"),
+        ("training.steps=0", "greater than or equal to 1"),
+        ("training.steps=none", "valid integer"),
+        ("model.levels=global,street", "'global', 'instance' or 'relation'"),
+    ],
+)
+def test_what_is_wrong_with_a_setting_is_said(change, said) -> None:
+    with pytest.raises(TrainingError, match=said):
+        load_settings("mncl", [change])
+
+
+def test_an_unknown_method() -> None:
+    with pytest.raises(TrainingError, match="text2loc"):
+        load_settings("bm25")
