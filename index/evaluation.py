@@ -103,8 +103,8 @@ def predict(
             "model": retriever.name,
             "model_fingerprint": retriever.fingerprint,
             "method": refiner.method if refiner else "cell_center",
-            "refiner_fingerprint": refiner.fingerprint if refiner else None,
-        },
+        }
+        | ({"refiner_fingerprint": refiner.fingerprint} if refiner else {}),
         cell_ids=np.array(data.cells.ids),
         cell_scenes=np.array(data.cells.scenes),
         cell_centers_m=centers,

@@ -21,6 +21,7 @@ RESAMPLES = 1000
 RESAMPLE_SEED = 0
 LEVEL = (2.5, 97.5)  # percentiles of a 95 % interval
 BINS = 10
+DIGITS = 6  # of what depends on the last bits of a model's output, which differ with the number of threads
 
 
 def score(predictions: Predictions) -> dict[str, Any]:
@@ -68,14 +69,15 @@ def calibration(probability: Floats, hit: npt.NDArray[np.bool_]) -> dict[str, An
         {
             "from": b / BINS,
             "queries": int((of == b).sum()),
-            "claimed": float(probability[of == b].mean()),
+            "claimed": round(float(probability[of == b].mean()), DIGITS),
             "true": float(hit[of == b].mean()),
         }
         for b in range(BINS)
         if (of == b).any()
     ]
     error = sum(abs(b["claimed"] - b["true"]) * b["queries"] for b in bins) / len(hit)
-    return {"mean_probability": float(probability.mean()), "expected_calibration_error": float(error), "bins": bins}
+    mean = round(float(probability.mean()), DIGITS)
+    return {"mean_probability": mean, "expected_calibration_error": round(float(error), DIGITS), "bins": bins}
 
 
 def _intervals(p: Predictions, errors_m: Floats) -> dict[str, Any]:
@@ -114,7 +116,8 @@ def _quantiles(errors_m: Floats) -> dict[str, float | None]:
     """Quantiles of the first prediction's error, metres; None where it is in another scene."""
     quantiles = np.quantile(errors_m, [0.25, 0.5, 0.75, 0.9], method="higher")
     return {
-        f"p{share}": float(q) if np.isfinite(q) else None for share, q in zip((25, 50, 75, 90), quantiles, strict=True)
+        f"p{share}": round(float(q), DIGITS) if np.isfinite(q) else None
+        for share, q in zip((25, 50, 75, 90), quantiles, strict=True)
     }
 
 

@@ -72,6 +72,9 @@ def tiny_osm(seed: int = 0) -> str:
     return "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>" + "".join(nodes + ways) + "</osm>"
 
 
+torch.set_num_threads(1)  # the tests' models are small: on a busy machine a second thread waits more than it works
+
+
 @pytest.fixture(scope="session")
 def osm_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("map") / "tinytown.osm"

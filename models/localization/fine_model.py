@@ -30,7 +30,8 @@ class FineConfig(BaseModel):
     Attributes:
         text_encoder: "minilm", a directory or a hub id.
         width: D.
-        max_instances: of a cell, those nearest to its centre; None for all of them.
+        max_instances: of a cell, those nearest to its centre; None for all of them, which measures better than the
+            paper's 16.
         rounds: of cross-attention between hints and instances.
         heads: of the attention.
         dropout: in the attention layers, while training.
@@ -41,7 +42,7 @@ class FineConfig(BaseModel):
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
     width: int = 128
-    max_instances: int | None = Field(default=16, ge=1)
+    max_instances: int | None = Field(default=None, ge=1)
     rounds: int = Field(default=2, ge=1)
     heads: int = 4
     dropout: float = 0.1

@@ -1,7 +1,6 @@
 """What turns similarities into probabilities, fitted to validation queries by maximum likelihood."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,7 @@ from scipy.optimize import minimize
 from scipy.special import logsumexp
 
 from models.retrieval.retriever import Retriever
-from models.training.sources import Validation
+from models.training.sources import Encoded, Validation
 
 QUERIES = 500  # of each source
 Asked = tuple[int, npt.NDArray[np.floating[Any]], npt.NDArray[np.intp]]
@@ -58,12 +57,12 @@ def most_likely(asked: Sequence[Asked]) -> tuple[tuple[float, ...], float, float
 
 
 def _ask(retriever: Retriever, validation: Validation, rng: np.random.Generator) -> list[Asked]:
+    gallery = Encoded(retriever, validation.features)
     longest = min(len(hints) for hints in validation.descriptions)
     rows = np.arange(0, len(validation.truth), max(1, len(validation.truth) // QUERIES))
     asked: list[Asked] = []
     for count in range(1, longest + 1):
         texts = [rng.permutation(list(validation.descriptions[int(row)]))[:count].tolist() for row in rows]
-        part = replace(validation, descriptions=texts, truth=validation.truth[rows])
-        by_level = part.level_scores(retriever)
-        asked.append((count, np.stack([by_level[level] for level in retriever.levels]), part.truth))
+        by_level = gallery.level_scores(texts)
+        asked.append((count, np.stack([by_level[level] for level in retriever.levels]), validation.truth[rows]))
     return asked

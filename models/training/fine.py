@@ -22,9 +22,10 @@ from models.language.hints_text import render_hint
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.localization.checkpoint import FINE_METHODS, save_fine
 from models.localization.fine_model import FineConfig, FineModel, Truth
+from models.training import distributed
 from models.training.data import HintVocabulary, TrainingSet
 from models.training.fine_data import FineBatch, FineSet, FineValidation
-from models.training.loop import LoopConfig, Progress, run_training
+from models.training.loop import History, LoopConfig, Progress, run_training
 from models.training.sources import VALIDATION_SPACING_M
 
 
@@ -48,41 +49,47 @@ class FineTask:
     Args:
         model: trained in place.
         sources: drawn from in turn, by their numbers of positions.
-        batch_size: examples a step.
+        batch_size: examples a step, of all processes together.
+
+    Raises:
+        TrainingError: the batch cannot be split over the processes.
     """
 
     criterion = "within_5m"
 
     def __init__(self, model: FineModel, sources: Sequence[FineSource], batch_size: int) -> None:
-        self.model, self.sources, self.batch_size = model, sources, batch_size
+        self.model, self.sources, self.share = model, sources, distributed.share_of(batch_size)
         sizes = np.array([len(source.training) for source in sources])
-        self._share = sizes / sizes.sum()
+        self._probability = sizes / sizes.sum()
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
         """Which source, and examples of it."""
-        drawn = int(rng.choice(len(self.sources), p=self._share)) if len(self.sources) > 1 else 0
-        return drawn, self.sources[drawn].training.batch(self.batch_size, rng, self.model.needs_matches)
+        drawn = int(rng.choice(len(self.sources), p=self._probability)) if len(self.sources) > 1 else 0
+        return drawn, self.sources[drawn].training.batch(self.share, rng, self.model.needs_matches)
 
     def loss(self, batch: tuple[int, FineBatch]) -> Tensor:
         """Scalar to make small."""
         training, examples, device = self.sources[batch[0]].training.training, batch[1], self.model.device
+        training.to(device)
         hints = hint_features(self.model, training.vocabulary, examples)
-        instances = self.model.look(examples.cells.to(device), training.label_embeddings.to(device))
+        instances = self.model.look(examples.cells.to(device), training.label_embeddings)
         truth = Truth(examples.truth.offset.to(device), examples.truth.match.to(device))
         return self.model.loss(hints, examples.hint_mask.to(device), instances, truth)
 
     def validate(self) -> dict[str, float]:
         """`FineValidation.figures`, the mean over the sources."""
+        self.model.text_encoder.to(self.model.device)
         return _mean([source.validation.figures(self.model) for source in self.sources])
 
 
 def hint_features(model: FineModel, vocabulary: HintVocabulary, batch: FineBatch) -> Tensor:
     """[B, H, D] on the model's device; each different sentence of the batch is read once."""
     device = model.device
-    sentences, inverse = torch.unique(batch.sentences[batch.hint_mask], return_inverse=True)
+    mask = batch.hint_mask.to(device)
+    sentences, inverse = torch.unique(batch.sentences.to(device)[mask], return_inverse=True)
     features = model.read(vocabulary.tokens(sentences))
-    hints = features.new_zeros(*batch.sentences.shape, features.shape[-1])
-    hints[batch.hint_mask.to(device)] = features[inverse.to(device)]
+    hints = features.new_zeros(*mask.shape, features.shape[-1])
+    hints[mask] = features[inverse]
     return hints
 
 
@@ -98,6 +105,8 @@ def train_fine(
 ) -> dict[str, float]:
     """Train a model of the fine stage, keep what is best on validation queries, save.
 
+    Of several processes (`distributed.process_group`), all call this with the same arguments, and the first saves.
+
     Args:
         load: reads what to train on.
         out: directory for model.safetensors and config.json.
@@ -110,6 +119,9 @@ def train_fine(
 
     Returns:
         Figures on the validation queries, the mean over the sources.
+
+    Raises:
+        TrainingError: see `run_training`.
     """
     rng = np.random.default_rng(config.seed)
     torch.manual_seed(config.seed)
@@ -117,23 +129,41 @@ def train_fine(
     sources = load(encoder, rng)
     fine = FINE_METHODS[method](encoder, model)
     task = FineTask(fine, sources, config.batch_size)
-    history = run_training(task, config, run_dir, resume, progress)
-    residuals = np.concatenate([s.validation.residuals_m(fine)[:, 0].ravel() for s in sources])
-    fine.config = model.model_copy(update={"error_m": float(np.sqrt(np.mean(residuals**2)))})
+    record = {
+        "method": method,
+        "model": model.model_dump(mode="json"),
+        "training": config.model_dump(mode="json"),
+        "sources": [source.facts | {"pmc": source.training.pmc} for source in sources],
+    }
+    record = json.loads(json.dumps(record))
+    try:
+        history = run_training(task, config, run_dir, resume, progress, rng, record)
+        return distributed.from_first(lambda: _finish(task, out, config, history))
+    finally:
+        encoder.to("cpu")  # it is shared with whatever this process does next
+
+
+def _finish(task: FineTask, out: Path, config: LoopConfig, history: History) -> dict[str, float]:
+    """Measure, save; the figures that `train_fine` returns."""
+    fine, sources = task.model, task.sources
+    figures = [source.validation.figures(fine) for source in sources]
+    residuals = np.concatenate([source.validation.residuals_m(fine)[:, 0].ravel() for source in sources])
+    fine.config = fine.config.model_copy(update={"error_m": float(np.sqrt(np.mean(residuals**2)))})
     training = {
         "config": config.model_dump(mode="json"),
-        "pmc": [source.training.pmc for source in sources],
-        "sources": [
-            source.facts
-            | {"positions": len(source.training)}
-            | {"validation": {"queries": len(v.rows), **v.figures(fine), "cell_center": v.center_figures()}}
-            for source in sources
-            for v in [source.validation]
-        ],
+        "sources": [_facts(source, found) for source, found in zip(sources, figures, strict=True)],
+        "history": [{"step": row.step, "loss": row.loss} | row.figures for row in history.rows],
         "best_step": history.best_step,
     }
-    save_fine(fine, out, json.loads(json.dumps(training)))
-    return task.validate()
+    save_fine(fine.cpu(), out, json.loads(json.dumps(training)))
+    return _mean(figures)
+
+
+def _facts(source: FineSource, figures: dict[str, float]) -> dict[str, Any]:
+    size = {"positions": len(source.training), "pmc": source.training.pmc}
+    asked = source.validation
+    measured = {"queries": len(asked.rows), "cell_center": asked.center_figures()} | figures
+    return source.facts | size | {"validation": measured}
 
 
 def load_fine_source(

@@ -61,18 +61,28 @@ class Validation:
             poses.cell.astype(np.intp),
         )
 
-    def level_scores(self, retriever: Retriever) -> dict[Level, npt.NDArray[np.float32]]:
-        """[Q, N] similarities by level."""
-        whole = retriever.encode_descriptions(self.descriptions) @ retriever.encode_cells(self.features).T
-        table = LevelTable.of(retriever, self.features)
-        if not table.vectors:
-            return {"global": whole}
-        texts = [retriever.encode_description(said) for said in self.descriptions]
-        return {**table.scores(texts, np.arange(len(self.features))), "global": whole}
-
     def scores(self, retriever: Retriever) -> npt.NDArray[np.float32]:
         """[Q, N] scores by which cells are ranked."""
-        return retriever.combine(self.level_scores(retriever))
+        return retriever.combine(Encoded(retriever, self.features).level_scores(self.descriptions))
+
+
+class Encoded:
+    """A gallery at all levels of a retriever.
+
+    Args:
+        retriever: the model.
+        features: the cells.
+    """
+
+    def __init__(self, retriever: Retriever, features: CellFeatures) -> None:
+        self.retriever, self.vectors = retriever, retriever.encode_cells(features)
+        self.table = LevelTable.of(retriever, features)
+
+    def level_scores(self, descriptions: Sequence[Sequence[str]]) -> dict[Level, npt.NDArray[np.float32]]:
+        """[Q, N] similarities of descriptions with all cells, by level."""
+        texts = self.retriever.encode_texts(descriptions)
+        whole = np.concatenate([text.whole.cpu().numpy() for text in texts]) @ self.vectors.T
+        return {**self.table.scores(texts, np.arange(len(self.vectors))), "global": whole}
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,6 +11,7 @@ from app import cli
 from app.main import create_app
 from app.settings import Settings
 from index.map_data import load_queries
+from index.ranking import Ranker
 
 TIMEOUT_S = 120
 
@@ -83,7 +84,8 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
     data = localizer.map_data()
     _, asked = load_queries(osm_file)
     mine = ask(data.cells, asked.sentences[::40], asked.positions_m[::40])
-    stored, anew = (run(data, mine, localizer.retriever, store=store) for store in (localizer.store, None))
+    made = Ranker.of(localizer.retriever, data.cells, data.gallery.labels)
+    stored, anew = (run(data, mine, ranker) for ranker in (localizer.ranker, made))
     assert stored == anew
 
 

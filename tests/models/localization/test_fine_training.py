@@ -144,18 +144,18 @@ def test_matches_name_the_instances_that_the_store_says(store_set, data_set) -> 
 
 
 def test_both_methods_overfit_a_few_positions(city, points, cells, text_encoder) -> None:
-    positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 24, replace=False)]
+    positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 12, replace=False)]
     few = FineSet.of_map(TrainingSet.of_map(city, points, cells, positions, text_encoder), cells, pmc=False)
-    examples = few.batch(24, np.random.default_rng(0))
+    examples = few.batch(12, np.random.default_rng(0))
     for method, config in (
-        ("regressor", RegressorConfig(width=64, dropout=0.0)),
-        ("matching", FINE_METHODS["matching"].config_type(width=64, dropout=0.0, refine=True)),
+        ("regressor", RegressorConfig(width=32, dropout=0.0)),
+        ("matching", FINE_METHODS["matching"].config_type(width=32, dropout=0.0, refine=True, iterations=10)),
     ):
         torch.manual_seed(0)
-        task = FineTask(FINE_METHODS[method](text_encoder, config), [FineSource(few, None, {})], 24)
-        optimizer = torch.optim.Adam(task.model.parameters(), 2e-3)
+        task = FineTask(FINE_METHODS[method](text_encoder, config), [FineSource(few, None, {})], 12)
+        optimizer = torch.optim.Adam(task.model.parameters(), 5e-3)
         losses = []
-        for _ in range(60):
+        for _ in range(40):
             loss = task.loss((0, examples))
             optimizer.zero_grad()
             loss.backward()

@@ -34,7 +34,7 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
     found = calibrate(model, [region_queries], np.random.default_rng(0))
     assert len(found["level_weights"]) == len(model.levels) == 3
     assert found["level_weights"][0] == 1
-    weighted = model.combine(region_queries.level_scores(model))
+    weighted = region_queries.scores(model)
     assert weighted.shape == (len(region_queries.truth), len(region_queries.features))
 
 

@@ -60,10 +60,11 @@ def test_a_batch_must_split_evenly(monkeypatch) -> None:
 def test_alone_nothing_is_gathered_and_batch_norm_is_torchs() -> None:
     x = torch.randn(6, 4, generator=torch.Generator().manual_seed(0))
     assert distributed.gather(x) is x
-    model = nn.Sequential(nn.Linear(4, 4), nn.Sequential(nn.BatchNorm1d(4)))
+    inner = nn.Sequential(nn.BatchNorm1d(4))
+    model = nn.Sequential(nn.Linear(4, 4), inner)
     expected = model(x)
     names = list(model.state_dict())
     distributed._synchronise_batch_norm(model)
-    assert isinstance(model[1][0], distributed.SynchronisedBatchNorm)
+    assert isinstance(inner[0], distributed.SynchronisedBatchNorm)
     assert list(model.state_dict()) == names
     assert torch.equal(model(x), expected)

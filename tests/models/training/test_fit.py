@@ -9,11 +9,12 @@ from models.city.hints import direction_index, sample_positions
 from models.city.kitti360_job import prepare_data
 from models.city.types import DIRECTIONS
 from models.errors import DataError
-from models.retrieval.checkpoint import load_retriever
+from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, turn
 from models.training.fit import train_retriever
+from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
 from models.training.sources import load_source, source_of_map
 from tests.models.city.raw_scenes import write_town
@@ -82,6 +83,41 @@ def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
     assert np.mean(losses[-3:]) < np.mean(losses[:3])
     assert [p.step for p in seen if p.figures] == [6, 12, 6, 12]
     assert load_retriever(tmp_path / "a").temperature(6) > 0
+
+
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_every_method_trains_in_half_precision(city, text_encoder, method) -> None:
+    source = source_of_map(city, text_encoder, 30.0, np.random.default_rng(0))
+    torch.manual_seed(0)
+    task = RetrievalTask(method(text_encoder, method.config_type(width=32)), [source], batch_size=16, cluster=4)
+    task.model.eval()  # no dropout
+    batch = task.batch(np.random.default_rng(1))
+    whole = task.loss(batch)
+    with torch.autocast("cpu", dtype=torch.bfloat16):
+        half = task.loss(batch)
+    half.backward()
+    assert half.dtype == torch.float32
+    assert half.item() == pytest.approx(whole.item(), rel=0.05)
+
+
+def test_a_run_directory_goes_on(city, tmp_path) -> None:
+    config = TrainingConfig(steps=6, batch_size=16, spacing_m=30.0, validate_every=2)
+
+    def load(encoder, rng):
+        return [source_of_map(city, encoder, config.spacing_m, rng) for _ in range(2)]
+
+    def kill(at):
+        if at.step == 5:
+            raise KeyboardInterrupt
+
+    model = MnclConfig(width=32, levels=("global", "instance"))
+    train_retriever(load, tmp_path / "a", Mncl, model, config)
+    with pytest.raises(KeyboardInterrupt):
+        train_retriever(load, tmp_path / "b", Mncl, model, config, tmp_path / "run", progress=kill)
+    train_retriever(load, tmp_path / "b", Mncl, model, config, tmp_path / "run", resume=True)
+    unbroken, resumed = ((tmp_path / name / "config.json").read_text() for name in "ab")
+    assert unbroken == resumed, "the fingerprint of the weights is in it, and the temperature"
+    assert json.loads((tmp_path / "run" / "config.json").read_text())["model"]["levels"] == ["global", "instance"]
 
 
 def test_a_data_set_trains_as_a_map_does(tmp_path) -> None:

@@ -1,6 +1,7 @@
 """What the processes of test_distributed.py run; a module of its own, because each of them imports it."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import torch
@@ -33,6 +34,20 @@ class Vocabulary:
         return TokenFeatures(self.values[sentences], torch.ones(shape, dtype=torch.bool), torch.zeros(shape).long())
 
 
+class Training:
+    """What a task looks up while training."""
+
+    def __init__(self) -> None:
+        self.vocabulary = Vocabulary()
+        self.label_embeddings = torch.randn(LABELS, WIDTH, generator=torch.Generator().manual_seed(2))
+
+    def __len__(self) -> int:
+        return 1
+
+    def to(self, device) -> None:
+        pass
+
+
 class Task(RetrievalTask):
     """Random examples; in training, each process draws its own."""
 
@@ -40,12 +55,9 @@ class Task(RetrievalTask):
         torch.manual_seed(distributed.rank())  # so that broadcasting is needed
         if not dist.is_initialized():
             torch.manual_seed(0)
-        embeddings = torch.randn(LABELS, WIDTH, generator=torch.Generator().manual_seed(2))
-        training = SimpleNamespace(vocabulary=Vocabulary(), label_embeddings=embeddings, to=lambda device: None)
-        training = type("Training", (), {"__len__": lambda self: 1, **vars(training)})()
-        training.to = lambda device: None
+        sources: Any = [SimpleNamespace(training=Training())]
         model = Mncl(SimpleNamespace(width=WIDTH, source="random", fingerprint=""), CONFIG)
-        super().__init__(model, [SimpleNamespace(training=training)], LOOP.batch_size, 1)
+        super().__init__(model, sources, LOOP.batch_size, 1)
         self.validations = 0
 
     def batch(self, rng):
@@ -109,19 +121,19 @@ def train(out) -> None:
     class Killed(Exception):
         pass
 
-    broken, drawn = Task(), []
+    class Broken(Task):
+        drawn = 0
 
-    def draw(rng):
-        drawn.append(rng)
-        if len(drawn) == 4:
-            raise Killed
-        return Task.batch(broken, rng)
+        def batch(self, rng):
+            self.drawn += 1
+            if self.drawn == 4:
+                raise Killed
+            return super().batch(rng)
 
-    broken.batch = draw
     try:
-        run_training(broken, LOOP, out / "killed")
+        run_training(Broken(), LOOP, out / "killed")
     except Killed:
-        distributed.gather_objects(None)
+        distributed.gather_objects(None)  # the first has written what stands at step 2
     resumed = Task()
     run_training(resumed, LOOP, out / "killed", resume=True)
     weights(resumed, "resumed")

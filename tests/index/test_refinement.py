@@ -1,0 +1,125 @@
+import dataclasses
+
+import numpy as np
+import pytest
+import torch
+
+from index.answers import Query
+from index.evaluation import evaluate
+from index.localizer import Localizer
+from index.map_data import load_queries
+from index.predictions import FILE, Predictions
+from index.ranking import Ranker
+from index.refinement import Refinement
+from models.errors import WeightsError
+from models.localization.regressor import Regressor, RegressorConfig
+
+HINTS = ("I am north of a red building.", "A bench is to my west.", "I stand on the road.")
+
+
+class Told:
+    """A refiner that knows where each description was said."""
+
+    method, fingerprint, error_m = "regressor", "told", 0.5
+
+    def __init__(self, cells, positions_m):
+        self.cells, self.positions_m, self.asked = cells, positions_m, []
+
+    def predict(self, descriptions, cells, rows):
+        assert len(cells) == len(self.cells)
+        assert len(descriptions) == len(rows) == len(self.positions_m)
+        self.asked.append(rows)
+        return (self.positions_m[:, None] - self.cells.center_m[rows, :2]) / self.cells.size_m + 0.5
+
+
+@pytest.fixture(scope="module")
+def asked(osm_file):
+    return load_queries(osm_file)
+
+
+@pytest.fixture(scope="module")
+def ranker(asked, model):
+    return Ranker.of(model, asked[0].cells, asked[0].gallery.labels)
+
+
+@pytest.fixture
+def regressor(text_encoder):
+    torch.manual_seed(0)
+    return Regressor(text_encoder, RegressorConfig(width=32, error_m=2.0)).eval()
+
+
+def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> None:
+    data, queries = asked
+    report = evaluate(*asked, ranker, tmp_path, refiner=Told(data.cells, queries.positions_m))
+    plain = evaluate(*asked, ranker)
+    assert {v for row in report["localization"].values() for v in row.values()} == {1.0}
+    assert report["method"] == "regressor"
+    assert report["refiner_fingerprint"] == "told"
+    assert plain["method"] == "cell_center"
+    for row in ("cell_center", "oracle", "chance", "retrieval"):
+        assert report[row] == plain[row], "what does not depend on the position stays"
+    assert plain["localization"] == plain["cell_center"]
+    assert "retrieved cell's centre" in (tmp_path / "report.md").read_text()
+
+
+def test_refined_positions_are_saved_and_lie_in_their_cells(asked, ranker, regressor, tmp_path) -> None:
+    data, queries = asked
+    part = dataclasses.replace(
+        queries,
+        sentences=queries.sentences[:9],
+        positions_m=queries.positions_m[:9],
+        truth=queries.truth[:9],
+        scenes=queries.scenes[:9],
+        strategies=queries.strategies[:9],
+        hints=None,
+    )
+    evaluate(data, part, ranker, tmp_path, refiner=regressor)
+    saved = Predictions.load(tmp_path / FILE)
+    first = saved.ranked[:, : saved.predicted_m.shape[1]]
+    away = np.abs(saved.predicted_m - saved.cell_centers_m[first])
+    assert 0 < away.max() <= data.cells.size_m / 2 + 1e-6
+    again = Refinement(regressor, data.gallery).positions_m(part.sentences[4:5], first[4:5])
+    assert again[0] == pytest.approx(saved.predicted_m[4], abs=1e-3)
+
+
+def refining(localizer, load):
+    return Localizer(localizer.ranker, localizer.gallery, localizer.manifest, load)
+
+
+def test_a_query_may_ask_for_positions_inside_the_cells(localizer, regressor) -> None:
+    fine = refining(localizer, lambda: regressor)
+    plain, refined = fine.localize([Query(HINTS, top_k=3), Query(HINTS, top_k=3, refine="regressor")])
+    assert plain == dataclasses.replace(localizer.localize([Query(HINTS, top_k=3)])[0], timings_ms=plain.timings_ms)
+    assert [c.cell_id for c in plain.candidates] == [c.cell_id for c in refined.candidates]
+    assert [c.probability for c in plain.candidates] == [c.probability for c in refined.candidates]
+    assert (plain.estimate.method, refined.estimate.method) == ("cell_center", "regressor")
+    assert refined.estimate.position == refined.candidates[0].position != refined.candidates[0].center
+    for candidate in refined.candidates:
+        west, south, east, north = candidate.bbox
+        x, y = candidate.position
+        assert west <= x <= east
+        assert south <= y <= north
+        back = fine.frame.from_wgs84(candidate.wgs84.lat, candidate.wgs84.lon)
+        assert back == pytest.approx(candidate.position, abs=0.02)
+
+
+def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
+    center = localizer.gallery.cells.center_m[:, :2]
+    told = Told(localizer.gallery.cells, center[:1] + 4)
+    sure = Query(HINTS, top_k=1, prior=None)
+    fine = refining(localizer, lambda: told)
+    fine._posterior = lambda query, rows, scores, unseen: np.eye(len(rows))[0]
+    plain, refined = fine.localize([sure, dataclasses.replace(sure, refine="regressor")])
+    assert refined.estimate.position == pytest.approx(tuple(center[0] + 4))
+    assert np.diag(refined.estimate.covariance) == pytest.approx(told.error_m**2)
+    assert np.diag(plain.estimate.covariance) == pytest.approx(localizer.manifest.grid_m**2 / 12)
+    assert refined.estimate.radius_m.p90 < plain.estimate.radius_m.p90
+
+
+def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path) -> None:
+    fine = Localizer.open(index_dir, weights_dir, tmp_path)
+    estimate = fine.localize([Query(HINTS)])[0].estimate
+    assert estimate is not None
+    assert estimate.method == "cell_center"
+    with pytest.raises(WeightsError, match="no weights of the fine stage"):
+        fine.localize([Query(HINTS, refine="regressor")])
