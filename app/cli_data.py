@@ -44,9 +44,8 @@ def synth(
     seed: Seed = 0,
 ) -> None:
     """Make up towns, as raw KITTI-360 files: nine scenes under KITTI-360's names, so that the standard splits work."""
-    from models.city.synthetic import write_towns
-
     from app.progress import stage_bars
+    from models.city.synthetic import write_towns
 
     with stage_bars() as show:
         scenes = write_towns(out, scale, seed, lambda done, total: show("towns", done, total))

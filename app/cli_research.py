@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from app.options import DATA_HELP, INDEX_DIR, IndexDir, Split
+from index.answers import Refine
 from models.errors import DataError
 
 if TYPE_CHECKING:
@@ -23,7 +24,9 @@ if TYPE_CHECKING:
 def train(
     out: Annotated[Path, typer.Option(help="directory for the weights")],
     data: Annotated[list[Path], typer.Option(help=DATA_HELP + "; may be given several times")],
-    method: Annotated[str, typer.Option(help="which retriever: mncl, text2loc, ret or text2pos")] = "mncl",
+    method: Annotated[
+        str, typer.Option(help="a retriever (mncl, text2loc, ret, text2pos) or a fine stage (regressor, matching)")
+    ] = "mncl",
     change: Annotated[
         list[str] | None,
         typer.Option("--set", help="a setting: model.levels=global,instance or training.batch_size=64; repeatable"),
@@ -38,39 +41,54 @@ def train(
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="go on with the run in --run-dir, if there is one")] = False,
 ) -> None:
-    """Train a retriever: on the train scenes of a data set, or the west of an OpenStreetMap file.
+    """Train a model: on the train scenes of a data set, or the west of an OpenStreetMap file.
 
     For several processes or GPUs: torchrun --nproc-per-node 2 -m app.cli train ...
     """
     from models.errors import TrainingError
-    from models.retrieval.checkpoint import METHODS
+    from models.localization.checkpoint import FINE_METHODS
     from models.training import distributed
-    from models.training.fit import train_retriever
     from models.training.settings import load_settings
-    from models.training.sources import load_source
 
     if resume and run_dir is None:
         raise TrainingError("--resume goes on with the run in --run-dir; name that directory")
     options = {"training.seed": seed, "training.steps": steps, "model.text_encoder": text_encoder}
     named = [f"{name}={value}" for name, value in options.items() if value is not None]
     model, config = load_settings(method, [*(change or []), *named])
+    given = data, (split, val_split), method, model, config, out, run_dir, resume
 
     with distributed.process_group(), _training_bar(distributed.is_first()) as show:
-        recall = train_retriever(
-            lambda encoder, rng: [
-                load_source(path, encoder, config.spacing_m, rng, (split, val_split)) for path in data
-            ],
-            out,
-            METHODS[method],
-            model,
-            config,
-            run_dir,
-            resume,
-            show,
-        )
+        found = (_train_fine if method in FINE_METHODS else _train_retriever)(*given, show)
         if distributed.is_first():
-            found = f"{recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
-            typer.echo(f"weights are in {out}; validation recall@1/3/5: {found}")
+            typer.echo(f"weights are in {out}; validation {found}")
+
+
+def _train_retriever(
+    data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any
+) -> str:
+    """Train a retriever; its figures in words."""
+    from models.retrieval.checkpoint import METHODS
+    from models.training.fit import train_retriever
+    from models.training.sources import load_source
+
+    out, *rest = where
+    recall = train_retriever(
+        lambda encoder, rng: [load_source(path, encoder, config.spacing_m, rng, splits) for path in data],
+        out, METHODS[method], model, config, *rest,
+    )  # fmt: skip
+    return f"recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
+
+
+def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
+    """Train a model of the fine stage; its figures in words."""
+    from models.training.fine import load_fine_source, train_fine
+
+    out, *rest = where
+    figures = train_fine(
+        lambda encoder, rng: [load_fine_source(path, encoder, config.spacing_m, rng, splits) for path in data],
+        out, method, model, config, *rest,
+    )  # fmt: skip
+    return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 
 @contextmanager
@@ -106,6 +124,7 @@ def evaluate(
     index_dir: IndexDir = INDEX_DIR,
     report: Annotated[Path | None, typer.Option(help="directory for predictions, report.json, tables, plots")] = None,
     grow: Annotated[str | None, typer.Option(help="radii in metres of a growing gallery: 200,300,400,500")] = None,
+    refine: Annotated[Refine, typer.Option(help="what finds positions inside the retrieved cells")] = "none",
     rescore: Annotated[Path | None, typer.Option(help="score the predictions of this report's directory again")] = None,
 ) -> None:
     """Recall on queries with known positions, beside chance, an oracle and exact matching of the hints."""
@@ -125,6 +144,7 @@ def evaluate(
         asked = read_evaluation(data, settings, split, radii)
     else:
         asked = Evaluation(weights_dir=settings.weights_dir, data=data, split=split, grow_m=radii)
+    asked = asked.model_copy(update={"refine": refine, "fine_weights_dir": settings.fine_weights_dir})
     with stage_bars() as show:
         found = asked.run(report, show)
     _print_report(found)

@@ -12,6 +12,7 @@ from app.errors import Problem, field_name
 from app.middleware import check_json
 from app.schemas import EvaluateQuery, EvaluateRequest, evaluate_model
 from app.settings import Settings
+from index.answers import Refine
 from index.artifact import open_version
 from models.city.frame import Frame
 from models.errors import DataError
@@ -27,6 +28,8 @@ class Evaluation(BaseModel):
     Attributes:
         weights_dir: the model; None for the weights that ship with the package.
         grow_m: radii of a growing gallery.
+        refine: what finds positions inside the retrieved cells.
+        fine_weights_dir: its model, as weights_dir.
         data, split: as `index.map_data.load_queries`; None for queries of one's own.
         index_dir: an index directory or a version of it, which queries of one's own are asked of.
         sentences, positions_m: each query's hint sentences, and where they were said, map frame.
@@ -36,6 +39,8 @@ class Evaluation(BaseModel):
 
     weights_dir: Path | None
     grow_m: list[float] = []
+    refine: Refine = "none"
+    fine_weights_dir: Path | None = None
     data: Path | None = None
     split: str | None = None
     index_dir: Path | None = None
@@ -56,23 +61,25 @@ class Evaluation(BaseModel):
         from index.localizer import Localizer  # noqa: PLC0415
         from index.map_data import ask, load_queries  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
+        from models.localization.checkpoint import load_fine  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
+        refiner = load_fine(self.fine_weights_dir) if self.refine != "none" else None
         if self.data is not None:
             data, queries = load_queries(self.data, self.split, progress)
             progress("encode cells", 0, 0)
             ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
-            return evaluate(data, queries, ranker, report_dir, self.grow_m, progress)
+            return evaluate(data, queries, ranker, report_dir, self.grow_m, progress, refiner)
         assert self.index_dir is not None
         progress("open index", 0, 0)
         localizer = Localizer.open(self.index_dir, self.weights_dir)
         data = localizer.map_data()
         queries = ask(data.cells, self.sentences, np.array(self.positions_m))
-        return evaluate(data, queries, localizer.ranker, report_dir, self.grow_m, progress)
+        return evaluate(data, queries, localizer.ranker, report_dir, self.grow_m, progress, refiner)
 
     def public(self, message: str) -> str:
         """A message without the directories of the machine."""
-        for path in (self.data, self.index_dir, self.weights_dir):
+        for path in (self.data, self.index_dir, self.weights_dir, self.fine_weights_dir):
             message = message.replace(str(path), path.name) if path else message
         return message
 

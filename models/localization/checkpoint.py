@@ -49,7 +49,7 @@ def load_fine(directory: Path | None = None) -> FineModel:
         WeightsError: a file is missing or broken, or the weights do not fit the configuration.
     """
     directory = directory or DEFAULT_WEIGHTS
-    advice = "train some with 'hereabouts train --stage fine', or leave the position at the cell's centre"
+    advice = "train some with 'hereabouts train --method regressor', or leave the position at the cell's centre"
     for name in (CONFIG_FILE, WEIGHTS_FILE):
         if not (directory / name).is_file():
             raise WeightsError(f"no weights of the fine stage in {directory} ({name} is missing); {advice}")

@@ -9,10 +9,14 @@ from pydantic import BaseModel, Field, ValidationError
 from pydantic.fields import FieldInfo
 
 from models.errors import TrainingError
+from models.localization.checkpoint import FINE_METHODS
 from models.retrieval.checkpoint import METHODS
-from models.retrieval.retriever import RetrieverConfig
 from models.training.loop import LoopConfig
 
+CONFIG_TYPES: dict[str, type[BaseModel]] = {
+    **{name: method.config_type for name, method in METHODS.items()},
+    **{name: method.config_type for name, method in FINE_METHODS.items()},
+}
 CONFIGS = Path(__file__).parent / "configs"
 C = TypeVar("C", bound=BaseModel)
 EXAMPLE = "--set training.steps=500"
@@ -30,25 +34,25 @@ class TrainingConfig(LoopConfig):
     spacing_m: float = Field(default=4.0, gt=0)
 
 
-def load_settings(method: str, changes: Sequence[str] = ()) -> tuple[RetrieverConfig, TrainingConfig]:
-    """Settings of a method.
+def load_settings(method: str, changes: Sequence[str] = ()) -> tuple[BaseModel, TrainingConfig]:
+    """Settings of a method: (of its `config_type`, how to train it).
 
     Args:
-        method: key of METHODS.
+        method: key of METHODS or of FINE_METHODS.
         changes: "model.FIELD=VALUE" or "training.FIELD=VALUE"; lists are separated by commas, "none" is no value;
             a later one wins.
 
     Raises:
         TrainingError: there is no such method or field, or a value does not fit.
     """
-    if method not in METHODS:
-        raise TrainingError(f"there is no method '{method}'; take one of {', '.join(METHODS)}")
-    types: dict[str, type[BaseModel]] = {"model": METHODS[method].config_type, "training": TrainingConfig}
+    if method not in CONFIG_TYPES:
+        raise TrainingError(f"there is no method '{method}'; take one of {', '.join(CONFIG_TYPES)}")
+    types: dict[str, type[BaseModel]] = {"model": CONFIG_TYPES[method], "training": TrainingConfig}
     tables = tomllib.loads((CONFIGS / f"{method}.toml").read_text())
     for change in changes:
         part, field, value = _parse(change, types)
         tables.setdefault(part, {})[field] = value
-    model = _validated(METHODS[method].config_type, tables.get("model", {}), "model")
+    model = _validated(CONFIG_TYPES[method], tables.get("model", {}), "model")
     return model, _validated(TrainingConfig, tables.get("training", {}), "training")
 
 
