@@ -57,13 +57,16 @@ class Evaluation(BaseModel):
         Raises:
             HereaboutsError: the data, the index or the model cannot be used.
         """
-        from index.evaluation import evaluate  # noqa: PLC0415  # bring torch, which takes seconds
+        import torch  # noqa: PLC0415  # takes seconds
+
+        from index.evaluation import evaluate  # noqa: PLC0415
         from index.localizer import Localizer  # noqa: PLC0415
         from index.map_data import ask, load_queries  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
         from models.localization.checkpoint import load_fine  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
+        torch.set_num_threads(1)  # a model's last bits differ with their number; sentences are too short to need more
         refiner = load_fine(self.fine_weights_dir) if self.refine != "none" else None
         if self.data is not None:
             data, queries = load_queries(self.data, self.split, progress)

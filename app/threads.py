@@ -19,6 +19,13 @@ def set_thread_env(environ: MutableMapping[str, str] = os.environ) -> int:
     return cpus
 
 
+def halve_thread_env(environ: MutableMapping[str, str] = os.environ) -> None:
+    """Half the threads, for work beside a service: two processes that each use all CPUs wait for each other."""
+    half = max(1, set_thread_env(environ) // 2)
+    for name in THREAD_VARIABLES:
+        environ[name] = str(half)
+
+
 def usable_cpus(root: Path = Path("/")) -> int:
     """CPUs by affinity and by the cgroup's quota, whichever is less; at least 1.
 

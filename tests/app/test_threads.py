@@ -2,7 +2,7 @@ import os
 
 import pytest
 
-from app.threads import set_thread_env, usable_cpus
+from app.threads import THREAD_VARIABLES, halve_thread_env, set_thread_env, usable_cpus
 
 MANY = 64
 
@@ -63,3 +63,11 @@ def test_what_the_operator_has_set_stays():
     environ = {"OMP_NUM_THREADS": "7"}
     cpus = set_thread_env(environ)
     assert environ == {"OMP_NUM_THREADS": "7", "MKL_NUM_THREADS": str(cpus), "OPENBLAS_NUM_THREADS": str(cpus)}
+
+
+def test_work_beside_the_service_takes_half(monkeypatch):
+    for cpus, expected in ((1, "1"), (2, "1"), (8, "4")):
+        monkeypatch.setattr("app.threads.usable_cpus", lambda cpus=cpus: cpus)
+        environ = {"OMP_NUM_THREADS": "8"}
+        halve_thread_env(environ)
+        assert environ == dict.fromkeys(THREAD_VARIABLES, expected)
