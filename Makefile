@@ -46,6 +46,7 @@ format: install  ## let ruff format and fix
 train: install  ## make the shipped weights again (west of Helsinki)
 	$(BIN)/hereabouts train --data models/maps/helsinki.osm.pbf --out models/weights/retriever \
 		--set model.levels=global --set model.loss=contrastive
+	$(BIN)/hereabouts train --method regressor --data models/maps/helsinki.osm.pbf --out models/weights/regressor
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
 	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-test

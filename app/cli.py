@@ -15,6 +15,7 @@ from typer.core import TyperGroup
 
 from app import cli_data, cli_research
 from app.options import DATA_HELP, INDEX_DIR, IndexDir, Split
+from index.answers import Refine
 from models.errors import HereaboutsError
 
 if TYPE_CHECKING:
@@ -90,6 +91,7 @@ def localize(
     text: Annotated[str, typer.Argument(help="what is around you, for example 'I am north of a gray building.'")],
     index_dir: IndexDir = INDEX_DIR,
     top_k: Annotated[int, typer.Option(min=1, max=40, help="candidates to list")] = 5,
+    refine: Annotated[Refine, typer.Option(help="what finds the position inside a cell")] = "none",
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
     picture: Annotated[Path | None, typer.Option(help="PNG to draw the answer into")] = None,
 ) -> None:
@@ -99,9 +101,9 @@ def localize(
     from index.localizer import Localizer
     from models.language.hints_text import split_hints
 
-    query = Query(hints=split_hints(text), top_k=top_k)
+    query = Query(hints=split_hints(text), top_k=top_k, refine=refine)
     settings = load_settings(index_dir=index_dir)
-    localizer = Localizer.open(settings.index_dir, settings.weights_dir)
+    localizer = Localizer.open(settings.index_dir, settings.weights_dir, settings.fine_weights_dir)
     [answer] = localizer.localize([query])
     if picture:
         from index.picture import draw_answer

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException as StarletteHTTPException
 from starlette.responses import JSONResponse, Response
 
-from models.errors import DescriptionError
+from models.errors import DescriptionError, WeightsError
 
 PROBLEM_JSON = "application/problem+json"
 MAX_LISTED_ERRORS = 20
@@ -129,6 +129,7 @@ def add_error_handlers(app: FastAPI) -> None:
     app.add_exception_handler(StarletteHTTPException, _on_http_exception)
     app.add_exception_handler(RequestValidationError, _on_validation_error)
     app.add_exception_handler(DescriptionError, _on_description_error)
+    app.add_exception_handler(WeightsError, _on_weights_error)
 
 
 async def _on_http_exception(_request: Request, error: Exception) -> Response:
@@ -157,6 +158,11 @@ async def _on_validation_error(_request: Request, error: Exception) -> Response:
 
 async def _on_description_error(_request: Request, error: Exception) -> Response:
     return Problem.of_field("description", str(error)).response()
+
+
+async def _on_weights_error(_request: Request, _error: Exception) -> Response:
+    """The retriever is loaded before anything is asked, so it is the fine stage that is missing."""
+    return Problem.of_field("refine", "this service has no usable model for it; leave it out").response()
 
 
 def field_name(location: Sequence[str | int], context: Mapping[str, Any]) -> str:

@@ -17,7 +17,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
-from index.answers import Box, Circle, Crs, Prior
+from index.answers import Box, Circle, Crs, Prior, Refine
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
 EVALUATE_EXAMPLE: JsonValue = {
@@ -136,6 +136,7 @@ class LocalizeRequest(Told):
     within: Within | None = None
     prior: PriorPosition | None = None
     crs: Crs = Field("map", description="what the coordinates of within and prior mean")
+    refine: Refine = Field("none", description="what finds the position inside a cell; none: the cell's centre")
     deadline_ms: int
     index: Literal["default"] = "default"
 

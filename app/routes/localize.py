@@ -76,6 +76,7 @@ def to_query(asked: LocalizeRequest, max_hints: int, frame: Frame) -> Query:
         within=asked.within.filter() if asked.within else None,
         prior=asked.prior.prior() if asked.prior else None,
         crs=asked.crs,
+        refine=asked.refine,
     )
 
 

@@ -8,6 +8,7 @@ from fake_localizer import FakeLocalizer
 
 from index.answers import Box, Circle, Prior, Query
 from models.city.frame import Frame
+from models.errors import WeightsError
 
 
 def test_answer_has_exactly_the_names_of_the_api(api, text):
@@ -105,7 +106,7 @@ def test_model_runs_on_the_inference_thread_only(api, fake, text):
         ({"deadline_ms": 60_001}, "deadline_ms"),
         ({"crs": "utm"}, "crs"),
         ({"index": "other"}, "index"),
-        ({"refine": "none"}, "refine"),
+        ({"refine": "guess"}, "refine"),
         ({"heat": False}, "heat"),
         ({"explain": True}, "explain"),
         ({"within": {}}, "within"),
@@ -260,3 +261,21 @@ def test_full_queue_is_429_with_retry_after(settings, fake, start, until, proble
         for thread in threads:
             thread.join(5)
     assert statuses == [200, 200]
+
+
+def test_refine_reaches_the_localizer_and_is_a_known_word(api, fake, text):
+    assert api.post("/localize", json={"description": text, "refine": "regressor"}).status_code == 200
+    assert api.post("/localize", json={"description": text}).status_code == 200
+    assert [batch[0].refine for batch in fake.batches] == ["regressor", "none"]
+    answer = api.post("/localize", json={"description": text, "refine": "magic"})
+    assert (answer.status_code, answer.json()["errors"][0]["field"]) == (422, "refine")
+
+
+def test_a_service_without_a_fine_stage_says_so(api, fake, text, monkeypatch):
+    def missing(queries):
+        raise WeightsError("no weights in /secret/place")
+
+    monkeypatch.setattr(fake, "localize", missing)
+    answer = api.post("/localize", json={"description": text, "refine": "regressor"})
+    assert (answer.status_code, answer.json()["errors"][0]["field"]) == (422, "refine")
+    assert "secret" not in answer.text
