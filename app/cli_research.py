@@ -93,7 +93,7 @@ def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: A
 
 @contextmanager
 def _training_bar(shown: bool) -> "Iterator[Callable[[Progress], None]]":
-    """A progress bar with the loss, the last validation's recall@5 and the speed."""
+    """A progress bar with the loss, the last validation and the speed."""
     from rich import progress as bars
 
     columns = (
@@ -104,12 +104,12 @@ def _training_bar(shown: bool) -> "Iterator[Callable[[Progress], None]]":
     )
     with bars.Progress(*columns, console=Console(stderr=True), disable=not shown) as bar:
         task = bar.add_task("preparing", total=None)
-        recall = "-"
+        measured = ""
 
         def show(at: "Progress") -> None:
-            nonlocal recall
-            recall = f"{at.figures['recall@5']:.3f}" if at.figures else recall
-            text = f"loss {at.loss:.3f}  recall@5 {recall}  {at.descriptions_per_second:.0f} descriptions/s"
+            nonlocal measured
+            measured = "  ".join(f"{name} {value:.3f}" for name, value in (at.figures or {}).items()) or measured
+            text = f"loss {at.loss:.3f}  {measured}  {at.descriptions_per_second:.0f} descriptions/s"
             bar.update(task, total=at.steps, completed=at.step, description=text)
 
         yield show

@@ -27,6 +27,19 @@ def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_pa
     assert record["training"]["sources"][0]["validation"]["queries"] > 0
 
 
+def test_a_fine_stage_is_trained_and_refines_what_is_evaluated(run, osm_file, tmp_path, monkeypatch) -> None:
+    small = ("--set", "model.width=16", "--set", "training.batch_size=8", "--set", "training.validate_every=1")
+    result = run("train", "--method", "regressor", "--data", osm_file, "--out", tmp_path / "w", "--steps", "2", *small)
+    assert result.exit_code == 0, result.output
+    assert "within_5m" in result.output
+    monkeypatch.setenv("HEREABOUTS_FINE_WEIGHTS_DIR", str(tmp_path / "w"))
+    args = ("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r", "--refine", "regressor")
+    assert run(*args).exit_code == 0
+    report = json.loads((tmp_path / "r" / "report.json").read_text())
+    assert report["method"] == "regressor"
+    assert report["localization"] != report["cell_center"]
+
+
 def test_evaluate_prints_what_it_writes(run, osm_file, tmp_path) -> None:
     results = [run("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r") for _ in range(2)]
     assert results[0].exit_code == 0, results[0].output
