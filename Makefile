@@ -50,6 +50,7 @@ train: install  ## make the shipped weights again (west of Helsinki)
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
 	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-test
+	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-refined --refine regressor
 	$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --report reports/alexanderplatz
 
 benchmark: index  ## seconds, memory and latency on this machine
