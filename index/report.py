@@ -154,7 +154,7 @@ def _draw_maps(path: Path, p: Predictions, report: dict[str, Any]) -> None:
     figure = Figure(figsize=(1.5 + 5 * columns, 0.6 + 5 * rows), layout="constrained", dpi=DPI)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     errors = p.errors_m()[:, 0]
-    for axes, scene in zip(panels, scenes, strict=False):
+    for axes, scene in zip(panels[: len(scenes)], scenes, strict=True):
         _draw_map(axes, p, scene, errors)
     for axes in panels[len(scenes) :]:
         axes.set_axis_off()

@@ -104,6 +104,16 @@ def test_gzipped_and_big_endian_tiles_are_the_same(root) -> None:
         assert np.array_equal(mine.rgb, theirs.rgb)
 
 
+def test_tiles_may_lie_in_train_and_test_folders(root) -> None:
+    before = load_raw_scene(root, "0042")
+    folder = root / "data_3d_semantics"
+    (folder / "train").mkdir()
+    (folder / FOLDER).rename(folder / "train" / FOLDER)
+    assert list_raw_scenes(root) == (FOLDER,)
+    after = load_raw_scene(root, "0042")
+    assert [len(i.points_m) for i in after.instances] == [len(i.points_m) for i in before.instances]
+
+
 def test_a_missing_scene_or_no_tiles(root) -> None:
     assert list_raw_scenes(root) == (FOLDER,)
     with pytest.raises(DataError, match=r"no scene '0007'; there are: .*0042"):
