@@ -73,7 +73,7 @@ def _train_retriever(
 
     out, *rest = where
     recall = train_retriever(
-        lambda encoder, rng: [load_source(path, encoder, config.spacing_m, rng, splits) for path in data],
+        lambda encoder, rng: [load_source(path, encoder, config, rng, splits) for path in data],
         out, METHODS[method], model, config, *rest,
     )  # fmt: skip
     return f"recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
@@ -81,11 +81,12 @@ def _train_retriever(
 
 def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
     """Train a model of the fine stage; its figures in words."""
-    from models.training.fine import load_fine_source, train_fine
+    from models.training.fine import train_fine
+    from models.training.sources import load_source
 
     out, *rest = where
     figures = train_fine(
-        lambda encoder, rng: [load_fine_source(path, encoder, config.spacing_m, rng, splits) for path in data],
+        lambda encoder, rng: [load_source(path, encoder, config, rng, splits) for path in data],
         out, method, model, config, *rest,
     )  # fmt: skip
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())

@@ -19,6 +19,21 @@ def masked_max(x: Tensor, mask: Tensor) -> Tensor:
     return x.masked_fill(~mask[..., None], float("-inf")).amax(dim=-2)
 
 
+def groups_by_size(mask: Tensor, size: int = 8) -> list[tuple[Tensor, int]]:
+    """Rows of a padded batch in groups of about equally many real entries, so that little is computed for padding.
+
+    Args:
+        mask: [B, K] bool, True where an entry is real.
+        size: rows a group.
+
+    Returns:
+        (rows [up to `size`], length that holds all their real entries) of each group.
+    """
+    length = (mask * torch.arange(1, mask.shape[1] + 1, device=mask.device)).amax(dim=1)
+    order = length.argsort(stable=True)
+    return [(rows, int(length[rows[-1]])) for rows in order.split(size)]
+
+
 def mlp(*widths: int) -> nn.Sequential:
     """Linear layers with ReLU between them; the last is linear."""
     layers: list[nn.Module] = []

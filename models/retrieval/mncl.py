@@ -8,7 +8,7 @@ from torch import Tensor, nn
 from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.retrieval.hint_encoder import HintEncoder
 from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
-from models.retrieval.layers import SetTransformer, masked_max, mlp
+from models.retrieval.layers import SetTransformer, groups_by_size, masked_max, mlp
 from models.retrieval.levels import Level, Levels, level_scores
 from models.retrieval.losses import contrastive_loss, negative_contrastive_loss
 from models.retrieval.retriever import Retriever, RetrieverConfig
@@ -93,11 +93,20 @@ class Mncl(Retriever):
         features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])  # real ones only
         whole = nn.functional.normalize(masked_max(self.cell(features, mask), mask), dim=-1)
         if "relation" in self.levels:
-            edges = self.cell_edges(batch.geometry[..., :3])
-            return self._with_graph(whole, mask, self.cell_graph(features, edges, mask))
+            return self._with_graph(whole, mask, self._graph_of_cells(features, batch.geometry[..., :3], mask))
         if "instance" in self.levels:
             return Levels(whole, mask, instance=_unit(self.cell_subspace(features), mask))
         return Levels(whole, mask)
+
+    def _graph_of_cells(self, features: Tensor, centers: Tensor, mask: Tensor) -> tuple[Tensor, Tensor]:
+        """Nodes and relations [B, I, D]: cells of like size together, as the edges grow with its square."""
+        nodes, relations = torch.zeros_like(features), torch.zeros_like(features)
+        for rows, longest in groups_by_size(mask):
+            edges = self.cell_edges(centers[rows, :longest])
+            nodes[rows, :longest], relations[rows, :longest] = self.cell_graph(
+                features[rows, :longest], edges, mask[rows, :longest]
+            )
+        return nodes, relations
 
     def _with_graph(self, whole: Tensor, mask: Tensor, graph: tuple[Tensor, Tensor]) -> Levels:
         """Levels from a scene graph's nodes (the code's instance level) and relations."""

@@ -9,7 +9,7 @@ from scipy.optimize import minimize
 from scipy.special import logsumexp
 
 from models.retrieval.retriever import Retriever
-from models.training.sources import Encoded, Validation
+from models.training.validation import Encoded, Validation
 
 QUERIES = 500  # of each source
 Asked = tuple[int, npt.NDArray[np.floating[Any]], npt.NDArray[np.intp]]

@@ -1,7 +1,7 @@
 """Training examples: positions of a map or a data set, whatever can be said there, and the cells around."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from torch import Tensor
 
 from models.city.cells import CellTable, cut_cubes
-from models.city.hints import BEST_CELL_REACH_M, STRATEGIES, HintTable, choose_hints, hint_table
+from models.city.hints import BEST_CELL_REACH_M, NUM_HINTS, STRATEGIES, HintTable, choose_hints, hint_table
 from models.city.points import PointTable
 from models.city.pose_store import PoseStore
 from models.city.types import DIRECTIONS, CityMap, Floats, Hint
@@ -21,6 +21,8 @@ from models.retrieval.instance_encoder import CellBatch, CellFeatures
 from models.training.feature_cache import frozen_features
 
 MIN_HINTS, MAX_HINTS = 2, 8
+KNOWS_COLOUR, CANONICAL = 0.8, 0.5  # shares of the hints of varied wording: people leave colours out
+Wording = Literal["varied", "published"]
 NEIGHBOUR_M = 40.0  # hard negatives are drawn this near
 APART_M = 1e6  # between scenes, on an axis of their own
 # The 8 symmetries of the compass: each [2, 2] matrix moves (east, north); directions move along.
@@ -54,6 +56,21 @@ class Batch:
     def same_cell(self) -> Tensor:
         """[B, B] bool, True where two rows belong to one cell."""
         return self.cell[:, None] == self.cell[None, :]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Said:
+    """What is said at B positions.
+
+    Attributes:
+        sentences: [B, H] index into the vocabulary, 0 where nothing is said.
+        mask: [B, H] bool, True where a hint is real.
+        hints: [B, H] row of the hint table, -1 where nothing is said.
+    """
+
+    sentences: npt.NDArray[np.int64]
+    mask: npt.NDArray[np.bool_]
+    hints: npt.NDArray[np.int64]
 
 
 class HintVocabulary:
@@ -96,66 +113,89 @@ class HintVocabulary:
         return index
 
 
-class TrainingSet:
-    """Positions to train on, with everything that can be said at each of them.
+@dataclass(frozen=True, slots=True, eq=False)
+class Taught:
+    """What a part of a map or a data set teaches.
 
-    Args:
-        features: the cells.
+    Attributes:
+        cells: its cells.
+        cell_labels: [I] label of each instance that the cells' parts name.
         positions_m: [N, 2 or more] positions; those of different scenes are far from each other.
-        best: [N] best cell of each position, row in `features`.
+        best: [N] best cell of each position.
         table: what can be said there.
-        labels: [I] label of each instance that the table names.
+        labels: label of each instance that the table names.
         words: colour words that the table numbers.
-        encoder: the frozen text encoder.
-
-    Raises:
-        DataError: no position has hints enough.
+        part_number: [R] number of each instance, in rows of the cells' parts; parts of one instance share it.
+        said_number: [H] number of the instance that each row of the table means, -1 if unknown.
     """
 
-    def __init__(
-        self,
-        features: CellFeatures,
-        positions_m: Floats,
-        best: npt.NDArray[np.intp],
-        table: HintTable,
-        labels: npt.NDArray[np.str_],
-        words: tuple[str, ...],
-        encoder: TextEncoder,
-    ) -> None:
-        self.features, self.positions, self.best, self.table = features, positions_m, best, table
-        self.usable = np.flatnonzero(np.diff(table.starts) >= MIN_HINTS)
-        if not len(self.usable):
-            raise DataError(f"none of {len(positions_m)} positions has {MIN_HINTS} things around it; take a larger map")
-        self._tree = cKDTree(positions_m[self.usable])
-        names, self.label_of = np.unique(labels, return_inverse=True)
-        said = np.column_stack([self.label_of[table.instance], table.colour])
-        pairs = np.unique(np.concatenate([said, np.column_stack([said[:, 0], np.full(len(said), -1)])]), axis=0)
-        self.vocabulary = HintVocabulary(encoder, tuple(names.tolist()), words, pairs)
-        self.label_embeddings = encoder.embed(features.labels)
+    cells: CellTable
+    cell_labels: npt.NDArray[np.str_]
+    positions_m: Floats
+    best: npt.NDArray[np.intp]
+    table: HintTable
+    labels: npt.NDArray[np.str_]
+    words: tuple[str, ...]
+    part_number: npt.NDArray[Any]
+    said_number: npt.NDArray[Any]
 
     @classmethod
-    def of_map(
-        cls, city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats, encoder: TextEncoder
-    ) -> "TrainingSet":
+    def of_map(cls, city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats) -> "Taught":
         """Positions of a map, [N, 3] metres; those further than 15 m from every centre are left out."""
         distance, best = cKDTree(cells.center_m).query(positions_m)
         near = distance <= BEST_CELL_REACH_M
         positions = positions_m[near]
         table = hint_table(city_map.palette, cut_cubes(points, positions, city_map.rules), positions)
         labels = np.array([i.label for i in city_map.instances])
-        features = CellFeatures.of(cells, labels)
-        return cls(features, positions[:, :2], best[near], table, labels, city_map.palette.words, encoder)
+        words = city_map.palette.words
+        part_number = cells.parts.instance
+        return cls(cells, labels, positions[:, :2], best[near], table, labels, words, part_number, table.instance)
 
     @classmethod
-    def of_store(cls, store: PoseStore, encoder: TextEncoder) -> "TrainingSet":
+    def of_store(cls, store: PoseStore) -> "Taught":
         """The poses of a data set; what is said there is what their descriptions say."""
         cells, poses = store.cell_table(), store.poses
         scene = np.unique(cells.scenes, return_inverse=True)[1][poses.cell]
-        positions = np.column_stack([poses.positions_m[:, :2], scene * APART_M])
-        order = np.arange(len(poses.label), dtype=np.float64)  # as they were said
-        table = HintTable(poses.starts, poses.label, poses.direction, poses.colour, order)
-        features = CellFeatures.of(cells, np.array(store.labels))
-        return cls(features, positions, poses.cell.astype(np.intp), table, np.array(poses.words), poses.words, encoder)
+        said = poses.instance
+        return cls(
+            cells=cells,
+            cell_labels=np.array(store.labels),
+            positions_m=np.column_stack([poses.positions_m[:, :2], scene * APART_M]),
+            best=poses.cell.astype(np.intp),
+            # in the order in which they were said
+            table=HintTable(poses.starts, poses.label, poses.direction, poses.colour, np.arange(float(len(said)))),
+            labels=np.array(poses.words),
+            words=poses.words,
+            part_number=store.instance_ids,
+            said_number=np.where(said >= 0, store.instance_ids[said], -1),
+        )
+
+
+class TrainingSet:
+    """Positions to train on, with everything that can be said at each of them.
+
+    Args:
+        taught: the positions.
+        encoder: the frozen text encoder.
+        wording: "varied" draws which hints are said, how many, in which words, and leaves colours out now and then;
+            "published" says what the data set says (of a map: the nearest six), in the benchmark's words.
+
+    Raises:
+        DataError: no position has hints enough.
+    """
+
+    def __init__(self, taught: Taught, encoder: TextEncoder, wording: Wording = "varied") -> None:
+        self.taught, self.table, self.best, self.wording = taught, taught.table, taught.best, wording
+        self.features = CellFeatures.of(taught.cells, taught.cell_labels)
+        self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)
+        if not len(self.usable):
+            raise DataError(f"none of {len(self.best)} positions has {MIN_HINTS} things around it; take a larger map")
+        self._tree = cKDTree(taught.positions_m[self.usable])
+        names, self.label_of = np.unique(taught.labels, return_inverse=True)
+        said = np.column_stack([self.label_of[self.table.instance], self.table.colour])
+        pairs = np.unique(np.concatenate([said, np.column_stack([said[:, 0], np.full(len(said), -1)])]), axis=0)
+        self.vocabulary = HintVocabulary(encoder, tuple(names.tolist()), taught.words, pairs)
+        self.label_embeddings = encoder.embed(self.features.labels)
 
     def __len__(self) -> int:
         return len(self.usable)
@@ -170,36 +210,48 @@ class TrainingSet:
         """Positions for a batch: groups of `cluster` near each other, whose cells are hard to tell apart."""
         groups = max(1, size // cluster)
         seeds = rng.choice(self.usable, groups, replace=len(self.usable) < groups)
-        near = self._tree.query_ball_point(self.positions[seeds], NEIGHBOUR_M)
+        near = self._tree.query_ball_point(self.taught.positions_m[seeds], NEIGHBOUR_M)
         drawn: npt.NDArray[np.intp] = self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
         return drawn
 
     def batch(self, positions: npt.NDArray[np.intp], rng: np.random.Generator) -> Batch:
         """Examples at some positions, with hints, wording and orientation drawn at random."""
         symmetry = rng.integers(len(SYMMETRIES), size=len(positions))
-        sentences = np.zeros((len(positions), MAX_HINTS), dtype=np.int64)
-        mask = np.zeros(sentences.shape, dtype=bool)
-        for row, position in enumerate(positions):
-            hints = _draw_hints(self.table, int(position), self.label_of, rng)
-            direction = DIRECTION_UNDER_SYMMETRY[symmetry[row]][self.table.direction[hints]]
-            colour = np.where(rng.random(len(hints)) < 0.8, self.table.colour[hints], -1)  # people leave colours out
-            canonical = rng.random(len(hints)) < 0.5
-            template = np.where(canonical, 0, rng.integers(len(TEMPLATES), size=len(hints)))
-            label = self.label_of[self.table.instance[hints]]
-            sentences[row, : len(hints)] = self.vocabulary.sentence(label, colour, direction, template)
-            mask[row, : len(hints)] = True
+        said = self.say(positions, symmetry, rng)
         best = self.best[positions]
         return Batch(
             cells=turn(self.features.batch(best), torch.from_numpy(SYMMETRIES[symmetry])),
-            sentences=torch.from_numpy(sentences),
-            hint_mask=torch.from_numpy(mask),
+            sentences=torch.from_numpy(said.sentences),
+            hint_mask=torch.from_numpy(said.mask),
             cell=torch.from_numpy(best.astype(np.int64)),
         )
 
+    def say(self, positions: npt.NDArray[np.intp], symmetry: npt.NDArray[Any], rng: np.random.Generator) -> Said:
+        """Hints at some positions, each position turned by one of SYMMETRIES, worded as `wording` says."""
+        varied = self.wording == "varied"
+        hints = np.zeros((len(positions), MAX_HINTS), dtype=np.int64)
+        mask = np.zeros(hints.shape, dtype=bool)
+        for row, position in enumerate(positions):
+            drawn = self._draw(int(position), rng) if varied else self._first(int(position))
+            hints[row, : len(drawn)], mask[row, : len(drawn)] = drawn, True
+        colour, template = self.table.colour[hints], np.zeros_like(hints)
+        if varied:
+            colour = np.where(rng.random(hints.shape) < KNOWS_COLOUR, colour, -1)
+            drawn_template = rng.integers(len(TEMPLATES), size=hints.shape)
+            template = np.where(rng.random(hints.shape) < CANONICAL, 0, drawn_template)
+        direction = DIRECTION_UNDER_SYMMETRY[symmetry[:, None], self.table.direction[hints]]
+        label = self.label_of[self.table.instance[hints]]
+        sentences = np.where(mask, self.vocabulary.sentence(label, colour, direction, template), 0)
+        return Said(sentences, mask, np.where(mask, hints, -1))
 
-def _draw_hints(table: HintTable, n: int, labels: npt.NDArray[Any], rng: np.random.Generator) -> npt.NDArray[Any]:
-    count = int(rng.integers(MIN_HINTS, MAX_HINTS + 1)) if rng.random() < 0.5 else 6
-    return choose_hints(table, n, labels, STRATEGIES[rng.integers(len(STRATEGIES))], count)
+    def _draw(self, position: int, rng: np.random.Generator) -> npt.NDArray[Any]:
+        count = int(rng.integers(MIN_HINTS, MAX_HINTS + 1)) if rng.random() < 0.5 else NUM_HINTS
+        strategy = STRATEGIES[rng.integers(len(STRATEGIES))]
+        return choose_hints(self.table, position, self.label_of, strategy, count)
+
+    def _first(self, position: int) -> npt.NDArray[Any]:
+        start, end = self.table.starts[position], self.table.starts[position + 1]
+        return np.arange(start, min(end, start + NUM_HINTS))
 
 
 def turn(batch: CellBatch, matrix: Tensor) -> CellBatch:

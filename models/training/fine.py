@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -10,37 +10,15 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from models.city.cells import cut_cells
-from models.city.hints import describe_poses, sample_positions
-from models.city.osm import load_osm
-from models.city.points import PointTable
-from models.city.pose_files import load_data
-from models.city.pose_store import PoseStore
-from models.city.regions import split_regions
-from models.city.types import CityMap
-from models.language.hints_text import render_hint
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.localization.checkpoint import FINE_METHODS, save_fine
 from models.localization.fine_model import FineConfig, FineModel, Truth
 from models.training import distributed
-from models.training.data import HintVocabulary, TrainingSet
+from models.training.data import HintVocabulary
 from models.training.fine_data import FineBatch, FineSet, FineValidation
-from models.training.loop import History, LoopConfig, Progress, run_training
-from models.training.sources import VALIDATION_SPACING_M
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FineSource:
-    """One map or data set to train the fine stage on.
-
-    Attributes:
-        training, validation: parts of it that share no cell.
-        facts: what it is, for the record beside the weights.
-    """
-
-    training: FineSet
-    validation: FineValidation
-    facts: dict[str, Any]
+from models.training.loop import History, Progress, run_training
+from models.training.settings import TrainingConfig
+from models.training.sources import Source
 
 
 class FineTask:
@@ -50,6 +28,7 @@ class FineTask:
         model: trained in place.
         sources: drawn from in turn, by their numbers of positions.
         batch_size: examples a step, of all processes together.
+        pmc: see FineSet.
 
     Raises:
         TrainingError: the batch cannot be split over the processes.
@@ -57,19 +36,25 @@ class FineTask:
 
     criterion = "within_5m"
 
-    def __init__(self, model: FineModel, sources: Sequence[FineSource], batch_size: int) -> None:
+    def __init__(self, model: FineModel, sources: Sequence[Source], batch_size: int, pmc: bool = True) -> None:
         self.model, self.sources, self.share = model, sources, distributed.share_of(batch_size)
+        self.sets = [FineSet(source.training, pmc) for source in sources]
         sizes = np.array([len(source.training) for source in sources])
         self._probability = sizes / sizes.sum()
+
+    @cached_property
+    def validations(self) -> list[FineValidation]:
+        """Of each source; the first process alone asks for them."""
+        return [FineValidation.of(source.asked) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
         """Which source, and examples of it."""
         drawn = int(rng.choice(len(self.sources), p=self._probability)) if len(self.sources) > 1 else 0
-        return drawn, self.sources[drawn].training.batch(self.share, rng, self.model.needs_matches)
+        return drawn, self.sets[drawn].batch(self.share, rng, self.model.needs_matches)
 
     def loss(self, batch: tuple[int, FineBatch]) -> Tensor:
         """Scalar to make small."""
-        training, examples, device = self.sources[batch[0]].training.training, batch[1], self.model.device
+        training, examples, device = self.sources[batch[0]].training, batch[1], self.model.device
         training.to(device)
         hints = hint_features(self.model, training.vocabulary, examples)
         instances = self.model.look(examples.cells.to(device), training.label_embeddings)
@@ -79,7 +64,7 @@ class FineTask:
     def validate(self) -> dict[str, float]:
         """`FineValidation.figures`, the mean over the sources."""
         self.model.text_encoder.to(self.model.device)
-        return _mean([source.validation.figures(self.model) for source in self.sources])
+        return _mean([validation.figures(self.model) for validation in self.validations])
 
 
 def hint_features(model: FineModel, vocabulary: HintVocabulary, batch: FineBatch) -> Tensor:
@@ -94,11 +79,11 @@ def hint_features(model: FineModel, vocabulary: HintVocabulary, batch: FineBatch
 
 
 def train_fine(
-    load: Callable[[TextEncoder, np.random.Generator], Sequence[FineSource]],
+    load: Callable[[TextEncoder, np.random.Generator], Sequence[Source]],
     out: Path,
     method: str,
     model: FineConfig,
-    config: LoopConfig,
+    config: TrainingConfig,
     run_dir: Path | None = None,
     resume: bool = False,
     progress: Callable[[Progress], None] | None = None,
@@ -128,12 +113,12 @@ def train_fine(
     encoder = load_text_encoder(model.text_encoder)
     sources = load(encoder, rng)
     fine = FINE_METHODS[method](encoder, model)
-    task = FineTask(fine, sources, config.batch_size)
+    task = FineTask(fine, sources, config.batch_size, config.pmc)
     record = {
         "method": method,
         "model": model.model_dump(mode="json"),
         "training": config.model_dump(mode="json"),
-        "sources": [source.facts | {"pmc": source.training.pmc} for source in sources],
+        "sources": [source.facts for source in sources],
     }
     record = json.loads(json.dumps(record))
     try:
@@ -143,15 +128,15 @@ def train_fine(
         encoder.to("cpu")  # it is shared with whatever this process does next
 
 
-def _finish(task: FineTask, out: Path, config: LoopConfig, history: History) -> dict[str, float]:
+def _finish(task: FineTask, out: Path, config: TrainingConfig, history: History) -> dict[str, float]:
     """Measure, save; the figures that `train_fine` returns."""
-    fine, sources = task.model, task.sources
-    figures = [source.validation.figures(fine) for source in sources]
-    residuals = np.concatenate([source.validation.residuals_m(fine)[:, 0].ravel() for source in sources])
+    fine, validations = task.model, task.validations
+    figures = [validation.figures(fine) for validation in validations]
+    residuals = np.concatenate([validation.residuals_m(fine)[:, 0].ravel() for validation in validations])
     fine.config = fine.config.model_copy(update={"error_m": float(np.sqrt(np.mean(residuals**2)))})
     training = {
         "config": config.model_dump(mode="json"),
-        "sources": [_facts(source, found) for source, found in zip(sources, figures, strict=True)],
+        "sources": [_facts(*part) for part in zip(task.sources, validations, figures, strict=True)],
         "history": [{"step": row.step, "loss": row.loss} | row.figures for row in history.rows],
         "best_step": history.best_step,
     }
@@ -159,67 +144,9 @@ def _finish(task: FineTask, out: Path, config: LoopConfig, history: History) -> 
     return _mean(figures)
 
 
-def _facts(source: FineSource, figures: dict[str, float]) -> dict[str, Any]:
-    size = {"positions": len(source.training), "pmc": source.training.pmc}
-    asked = source.validation
-    measured = {"queries": len(asked.rows), "cell_center": asked.center_figures()} | figures
-    return source.facts | size | {"validation": measured}
-
-
-def load_fine_source(
-    data: Path,
-    encoder: TextEncoder,
-    spacing_m: float,
-    rng: np.random.Generator,
-    splits: tuple[str, str],
-    pmc: bool = True,
-) -> FineSource:
-    """Read a map or a data set; arguments and errors as `models.training.sources.load_source`, pmc as `FineSet`."""
-    if not data.is_dir():
-        return fine_source_of_map(load_osm(data), encoder, spacing_m, rng, pmc)
-    training, validation = (load_data(data, split) for split in splits)
-    facts = {
-        "data": data.resolve().name,
-        "scenes": {s: [n.name for n in p.scenes] for s, p in zip(splits, (training, validation), strict=True)},
-    }
-    return fine_source_of_stores(training, validation, encoder, facts, pmc)
-
-
-def fine_source_of_stores(
-    training: PoseStore, validation: PoseStore, encoder: TextEncoder, facts: dict[str, Any], pmc: bool = True
-) -> FineSource:
-    """Some scenes of a data set to train on, others to choose by."""
-    poses = validation.poses
-    said = [[render_hint(hint) for hint in poses.hints(q)] for q in range(len(poses))]
-    asked = FineValidation.of(
-        validation.cell_table(), np.array(validation.labels), said, poses.positions_m, poses.cell.astype(np.intp)
-    )
-    return FineSource(FineSet.of_store(TrainingSet.of_store(training, encoder), training, pmc), asked, facts)
-
-
-def fine_source_of_map(
-    city_map: CityMap, encoder: TextEncoder, spacing_m: float, rng: np.random.Generator, pmc: bool = True
-) -> FineSource:
-    """The west of a map to train on, the strip beside it to choose by (`models.training.sources.source_of_map`)."""
-    points = PointTable.of(city_map, city_map.rules.eps_m)
-    cells = cut_cells(city_map, points)
-    regions = split_regions(cells)
-    west, strip = regions["train"], regions["val"]
-    positions = sample_positions(west.locations(city_map.locations_m), spacing_m, rng)
-    asked = sample_positions(strip.locations(city_map.locations_m), VALIDATION_SPACING_M, np.random.default_rng(0))
-    gallery, taught = strip.cells(cells), west.cells(cells)
-    poses = describe_poses(city_map, points, gallery, asked)
-    row = {cell_id: n for n, cell_id in enumerate(gallery.ids)}
-    validation = FineValidation.of(
-        gallery,
-        np.array([i.label for i in city_map.instances]),
-        [[render_hint(hint) for hint in pose.description.hints] for pose in poses],
-        np.array([pose.position_m for pose in poses]),
-        np.array([row[pose.cell_id] for pose in poses]),
-    )
-    facts = {"data": city_map.name, "attribution": city_map.attribution}
-    training = TrainingSet.of_map(city_map, points, taught, positions, encoder)
-    return FineSource(FineSet.of_map(training, taught, pmc), validation, facts)
+def _facts(source: Source, validation: FineValidation, figures: dict[str, float]) -> dict[str, Any]:
+    measured = {"queries": len(validation.rows), "cell_center": validation.center_figures()} | figures
+    return source.facts | {"positions": len(source.training), "validation": measured}
 
 
 def _mean(figures: Sequence[dict[str, float]]) -> dict[str, float]:

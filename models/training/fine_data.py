@@ -11,25 +11,14 @@ from scipy.spatial import cKDTree
 from torch import Tensor
 
 from models.city.cells import CellTable
-from models.city.hints import STRATEGIES, choose_hints
 from models.city.points import Ints
-from models.city.pose_store import PoseStore
 from models.city.types import Floats
-from models.language.hints_text import TEMPLATES
 from models.localization.fine_model import FineModel, Truth
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
-from models.training.data import (
-    APART_M,
-    DIRECTION_UNDER_SYMMETRY,
-    MAX_HINTS,
-    MIN_HINTS,
-    SYMMETRIES,
-    TrainingSet,
-    turn,
-)
+from models.training.data import APART_M, SYMMETRIES, TrainingSet, turn
+from models.training.sources import Asked
 
 CLONED = 0.5  # share of the examples whose cell is a neighbour
-KNOWS_COLOUR, CANONICAL = 0.8, 0.5  # shares of the hints, as the retriever is trained
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,32 +43,14 @@ class FineSet:
 
     Args:
         training: positions and what can be said there.
-        cells: those of `training.features`, in the same rows.
-        part_number: [R] number of each instance, in rows of the cells' parts; parts of one instance share it.
-        said_number: [H] number of the instance that each row of `training.table` means, -1 if unknown.
         pmc: prototype-based map cloning (Text2Loc): half of the time the cell is not the best one but another that
             contains the position.
     """
 
-    def __init__(
-        self, training: TrainingSet, cells: CellTable, part_number: Ints, said_number: Ints, pmc: bool = True
-    ) -> None:
-        self.training, self.cells = training, cells
-        self.part_number, self.said_number, self.pmc = part_number, said_number, pmc
-        starts, rows = containing_cells(cells, training.positions[:, :2], training.best)
+    def __init__(self, training: TrainingSet, pmc: bool = True) -> None:
+        self.training, self.taught, self.pmc = training, training.taught, pmc
+        starts, rows = containing_cells(self.taught.cells, self.taught.positions_m[:, :2], training.best)
         self.neighbour_starts, self.neighbours = starts, rows
-
-    @classmethod
-    def of_map(cls, training: TrainingSet, cells: CellTable, pmc: bool = True) -> "FineSet":
-        """Of positions of a map (`TrainingSet.of_map`)."""
-        return cls(training, cells, cells.parts.instance, training.table.instance, pmc)
-
-    @classmethod
-    def of_store(cls, training: TrainingSet, store: PoseStore, pmc: bool = True) -> "FineSet":
-        """Of the poses of a data set (`TrainingSet.of_store`); numbers are the data set's own."""
-        row = store.poses.instance
-        said = np.where(row >= 0, store.instance_ids[row], -1)
-        return cls(training, store.cell_table(), store.instance_ids, said, pmc)
 
     def __len__(self) -> int:
         return len(self.training)
@@ -104,46 +75,28 @@ class FineSet:
         positions = rng.choice(self.training.usable, size)
         cells = self.draw_cells(positions, rng)
         symmetry = rng.integers(len(SYMMETRIES), size=size)
-        sentences = np.zeros((size, MAX_HINTS), dtype=np.int64)
-        mask = np.zeros(sentences.shape, dtype=bool)
-        match = np.full(sentences.shape, -1, dtype=np.int64)
-        for row, position in enumerate(positions):
-            hints = self._draw_hints(int(position), rng)
-            sentences[row, : len(hints)] = self._say(hints, symmetry[row], rng)
-            mask[row, : len(hints)] = True
-            if with_matches:
-                match[row, : len(hints)] = self._match(hints, int(cells[row]), self.training.positions[position, :2])
+        said = self.training.say(positions, symmetry, rng)
+        match = np.full(said.mask.shape, -1, dtype=np.int64)
+        for row in range(size) if with_matches else ():
+            hints = said.hints[row, said.mask[row]]
+            match[row, : len(hints)] = self._match(hints, int(cells[row]), self.taught.positions_m[positions[row], :2])
         matrix = torch.from_numpy(SYMMETRIES[symmetry])
-        offset = offsets_in(self.cells, cells, self.training.positions[positions, :2]).astype(np.float32)
+        offset = offsets_in(self.taught.cells, cells, self.taught.positions_m[positions, :2]).astype(np.float32)
         return FineBatch(
             cells=turn(self.training.features.batch(cells), matrix),
-            sentences=torch.from_numpy(sentences),
-            hint_mask=torch.from_numpy(mask),
+            sentences=torch.from_numpy(said.sentences),
+            hint_mask=torch.from_numpy(said.mask),
             truth=Truth(turn_offset(torch.from_numpy(offset), matrix), torch.from_numpy(match)),
         )
 
-    def _draw_hints(self, position: int, rng: np.random.Generator) -> Ints:
-        count = int(rng.integers(MIN_HINTS, MAX_HINTS + 1)) if rng.random() < 0.5 else 6
-        strategy = STRATEGIES[rng.integers(len(STRATEGIES))]
-        return choose_hints(self.training.table, position, self.training.label_of, strategy, count)
-
-    def _say(self, hints: Ints, symmetry: int, rng: np.random.Generator) -> Ints:
-        """Sentences of some rows of the table, worded at random, as said under a symmetry of the compass."""
-        table, drawn = self.training.table, rng.random((2, len(hints)))
-        direction = DIRECTION_UNDER_SYMMETRY[symmetry][table.direction[hints]]
-        colour = np.where(drawn[0] < KNOWS_COLOUR, table.colour[hints], -1)  # people leave colours out
-        template = np.where(drawn[1] < CANONICAL, 0, rng.integers(len(TEMPLATES), size=len(hints)))
-        label = self.training.label_of[table.instance[hints]]
-        return self.training.vocabulary.sentence(label, colour, direction, template)
-
     def _match(self, hints: Ints, cell: int, position_m: Floats) -> Ints:
         """[H] which instance of a cell each hint means; of several parts of one, that nearest to the position."""
-        parts = self.cells.parts
+        parts = self.taught.cells.parts
         rows = slice(parts.starts[cell], parts.starts[cell + 1])
         low, high = parts.low_m[rows, :2], parts.high_m[rows, :2]
         distance = np.linalg.norm(np.maximum(0, np.maximum(low - position_m, position_m - high)), axis=1)
-        said = self.said_number[hints]
-        is_meant = (self.part_number[rows] == said[:, None]) & (said >= 0)[:, None]
+        said = self.taught.said_number[hints]
+        is_meant = (self.taught.part_number[rows] == said[:, None]) & (said >= 0)[:, None]
         nearest: Ints = np.where(is_meant, distance, np.inf).argmin(axis=1)
         return np.where(is_meant.any(axis=1), nearest, -1)
 
@@ -167,31 +120,18 @@ class FineValidation:
     offset: Floats
 
     @classmethod
-    def of(
-        cls,
-        cells: CellTable,
-        labels: npt.NDArray[Any],
-        descriptions: Sequence[Sequence[str]],
-        positions_m: Floats,
-        truth: npt.NDArray[np.intp],
-    ) -> "FineValidation":
-        """Queries against a gallery.
-
-        Args:
-            cells: the gallery.
-            labels: [I] label of each instance that its parts name.
-            descriptions: Q lists of sentences.
-            positions_m: [Q, 2 or 3] where they were said.
-            truth: [Q] the best cell of each.
-        """
-        starts, neighbours = containing_cells(cells, positions_m[:, :2], truth)
+    def of(cls, asked: Asked) -> "FineValidation":
+        """Of queries, each in its best cell and in another that contains its position."""
+        positions = asked.positions_m[:, :2]
+        starts, neighbours = containing_cells(asked.cells, positions, asked.truth)
         count = np.diff(starts)
         # The same at every run, and another from query to query.
         pick = starts[:-1] + np.random.default_rng(0).integers(np.maximum(count, 1))
         other = np.where(count > 0, np.append(neighbours, -1)[np.minimum(pick, len(neighbours))], -1)
-        rows = np.column_stack([truth, other])
-        offset = offsets_in(cells, rows, positions_m[:, None, :2])
-        return cls(CellFeatures.of(cells, labels), cells.size_m, descriptions, rows, offset)
+        rows = np.column_stack([asked.truth, other])
+        offset = offsets_in(asked.cells, rows, positions[:, None])
+        features = CellFeatures.of(asked.cells, asked.labels)
+        return cls(features, asked.cells.size_m, asked.descriptions, rows, offset)
 
     def residuals_m(self, model: FineModel) -> Floats:
         """[Q, 2, 2] metres from the truth to what a model predicts, (east, north), in each of the two cells."""

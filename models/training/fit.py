@@ -14,9 +14,10 @@ from models.retrieval.retriever import Retriever, RetrieverConfig
 from models.training import distributed
 from models.training.calibration import calibrate
 from models.training.loop import History, Progress, run_training
-from models.training.retrieval_task import RetrievalTask, mean_recall, recall_of
+from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
 from models.training.sources import Source
+from models.training.validation import Validation, mean_recall
 
 
 def train_retriever(
@@ -63,26 +64,22 @@ def train_retriever(
     }
     history = run_training(task, config, run_dir, resume, progress, rng, json.loads(json.dumps(record)))
     try:
-        return distributed.from_first(lambda: _finish(retriever, sources, out, config, history, rng))
+        return distributed.from_first(lambda: _finish(task, out, config, history, rng))
     finally:
         encoder.to("cpu")  # it is shared with whatever this process does next
 
 
 def _finish(
-    retriever: Retriever,
-    sources: Sequence[Source],
-    out: Path,
-    config: TrainingConfig,
-    history: History,
-    rng: np.random.Generator,
+    task: RetrievalTask, out: Path, config: TrainingConfig, history: History, rng: np.random.Generator
 ) -> dict[int, float]:
     """Calibrate, measure, save; the recall that `train_retriever` returns."""
-    calibrated = calibrate(retriever, [source.validation for source in sources], rng)
-    retriever.config = retriever.config.model_copy(update=calibrated)
-    recalls = [recall_of(retriever, source.validation) for source in sources]
+    retriever, validations = task.model, task.validations
+    retriever.config = retriever.config.model_copy(update=calibrate(retriever, validations, rng))
+    recalls = [validation.recall(retriever) for validation in validations]
+    facts = [_facts(*part) for part in zip(task.sources, validations, recalls, strict=True)]
     training = {
         "config": config.model_dump(mode="json"),
-        "sources": [_facts(source, recall) for source, recall in zip(sources, recalls, strict=True)],
+        "sources": facts,
         "history": [{"step": row.step, "loss": row.loss} | row.figures for row in history.rows],
         "best_step": history.best_step,
     }
@@ -91,10 +88,6 @@ def _finish(
     return mean_recall(recalls)
 
 
-def _facts(source: Source, recall: dict[int, float]) -> dict[str, Any]:
-    validation = source.validation
+def _facts(source: Source, validation: Validation, recall: dict[int, float]) -> dict[str, Any]:
     size = {"cells": len(validation.features), "queries": len(validation.truth)}
-    return source.facts | {
-        "positions": len(source.training),
-        "validation": size | {"retrieval": recall},
-    }
+    return source.facts | {"positions": len(source.training), "validation": size | {"retrieval": recall}}

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import torch
@@ -11,8 +12,8 @@ from models.retrieval.levels import Levels
 from models.retrieval.retriever import Retriever
 from models.training import distributed
 from models.training.data import Batch, HintVocabulary
-from models.training.metrics import RETRIEVAL_KS, retrieval_recall
-from models.training.sources import Source, Validation
+from models.training.sources import Source
+from models.training.validation import Validation, mean_recall
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +49,11 @@ class RetrievalTask:
         self.sources, self.cluster, self.share = sources, cluster, distributed.share_of(batch_size)
         sizes = np.array([len(source.training) for source in sources])
         self._probability = sizes / sizes.sum()
+
+    @cached_property
+    def validations(self) -> list[Validation]:
+        """Of each source; the first process alone asks for them."""
+        return [Validation(source.asked) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> SourceBatch:
         """See Task; all processes draw from the first one's choice of source."""
@@ -86,19 +92,8 @@ class RetrievalTask:
     def validate(self) -> dict[str, float]:
         """See Task: recall@1, 3 and 5, the mean over the sources."""
         self.model.text_encoder.to(next(self.model.parameters()).device)
-        recalls = [recall_of(self.model, source.validation) for source in self.sources]
+        recalls = [validation.recall(self.model) for validation in self.validations]
         return {f"recall@{k}": recall for k, recall in mean_recall(recalls).items()}
-
-
-def recall_of(retriever: Retriever, validation: Validation) -> dict[int, float]:
-    """Retrieval recall@k on validation queries."""
-    ranked = np.argsort(-validation.scores(retriever), axis=1, kind="stable")[:, : max(RETRIEVAL_KS)]
-    return retrieval_recall(ranked, validation.truth)
-
-
-def mean_recall(recalls: Sequence[dict[int, float]]) -> dict[int, float]:
-    """The mean over sources, for each k."""
-    return {k: float(np.mean([recall[k] for recall in recalls])) for k in RETRIEVAL_KS}
 
 
 def _in_float32(levels: Levels) -> Levels:

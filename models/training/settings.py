@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 from models.errors import TrainingError
 from models.localization.checkpoint import FINE_METHODS
 from models.retrieval.checkpoint import METHODS
+from models.training.data import Wording
 from models.training.loop import LoopConfig
 
 CONFIG_TYPES: dict[str, type[BaseModel]] = {
@@ -23,15 +24,20 @@ EXAMPLE = "--set training.steps=500"
 
 
 class TrainingConfig(LoopConfig):
-    """How to train a retriever.
+    """How to train a retriever or a fine stage.
 
     Attributes:
         cluster: of the descriptions of a batch, how many lie near each other (hard negatives).
         spacing_m: of an OpenStreetMap file: one training position a square of this size.
+        wording: "varied" teaches any number of hints in many words; "published" those of the benchmark alone.
+        pmc: of the fine stage: prototype-based map cloning (Text2Loc): half of the time the cell is not the best one
+            but another that contains the position.
     """
 
     cluster: int = Field(default=4, ge=1)
     spacing_m: float = Field(default=4.0, gt=0)
+    wording: Wording = "varied"
+    pmc: bool = True
 
 
 def load_settings(method: str, changes: Sequence[str] = ()) -> tuple[BaseModel, TrainingConfig]:

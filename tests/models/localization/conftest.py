@@ -5,14 +5,14 @@ import torch
 from models.city.hints import sample_positions
 from models.localization.checkpoint import FINE_METHODS
 from models.retrieval.instance_encoder import CellFeatures
-from models.training.data import TrainingSet
+from models.training.data import Taught, TrainingSet
 from models.training.fine_data import FineSet
 
 
 @pytest.fixture(scope="session")
 def fine_set(city, points, cells, text_encoder):
     positions = sample_positions(city.locations_m, 30.0, np.random.default_rng(0))
-    return FineSet.of_map(TrainingSet.of_map(city, points, cells, positions, text_encoder), cells)
+    return FineSet(TrainingSet(Taught.of_map(city, points, cells, positions), text_encoder))
 
 
 @pytest.fixture(scope="session")

@@ -9,10 +9,11 @@ from models.city.pose_files import load_data
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineConfig, FineModel
 from models.localization.regressor import Regressor, RegressorConfig
-from models.training.data import SYMMETRIES, TrainingSet, turn
-from models.training.fine import FineSource, FineTask, fine_source_of_map, load_fine_source, train_fine
+from models.training.data import SYMMETRIES, Taught, TrainingSet, turn
+from models.training.fine import FineTask, train_fine
 from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, turn_offset
-from models.training.loop import LoopConfig
+from models.training.settings import TrainingConfig
+from models.training.sources import Asked, Source, load_source, source_of_map
 from tests.models.city.raw_scenes import write_town
 
 FOLDERS = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0002_sync", "2013_05_28_drive_0010_sync")
@@ -30,8 +31,7 @@ def data_set(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def store_set(data_set, text_encoder):
-    store = load_data(data_set, "train")
-    return FineSet.of_store(TrainingSet.of_store(store, text_encoder), store)
+    return FineSet(TrainingSet(Taught.of_store(load_data(data_set, "train")), text_encoder))
 
 
 @pytest.fixture(scope="module", params=["map", "store"])
@@ -40,12 +40,12 @@ def either(request, fine_set, store_set):
 
 
 def test_cloned_cells_contain_the_position_and_are_of_its_scene(either) -> None:
-    cells, training = either.cells, either.training
+    cells, training = either.taught.cells, either.training
     assert len(either.neighbours) > len(training)
     for n in range(0, len(training.best), 7):
         found = either.neighbours[either.neighbour_starts[n] : either.neighbour_starts[n + 1]]
         best = int(training.best[n])
-        away = np.abs(cells.center_m[:, :2] - training.positions[n, :2]).max(axis=1)
+        away = np.abs(cells.center_m[:, :2] - training.taught.positions_m[n, :2]).max(axis=1)
         naive = [c for c in range(len(cells)) if away[c] <= cells.size_m / 2 and cells.scenes[c] == cells.scenes[best]]
         assert sorted([best, *found.tolist()]) == naive
 
@@ -56,15 +56,17 @@ def test_half_of_the_cells_are_cloned_or_none(either) -> None:
     drawn = either.draw_cells(positions, np.random.default_rng(1))
     has_other = (np.diff(either.neighbour_starts) > 0)[positions]
     assert np.mean(drawn[has_other] != training.best[positions][has_other]) == pytest.approx(0.5, abs=0.03)
-    plain = FineSet(training, either.cells, either.part_number, either.said_number, pmc=False)
+    plain = FineSet(training, pmc=False)
     assert (plain.draw_cells(positions, np.random.default_rng(1)) == training.best[positions]).all()
 
 
 def test_targets_turn_with_the_cell(either) -> None:
     rows = np.arange(8)
-    positions = either.cells.center_m[rows, :2] + np.random.default_rng(0).uniform(-9, 9, (8, 2))
-    offset = torch.from_numpy(offsets_in(either.cells, rows, positions).astype(np.float32))
-    assert torch.allclose(offset, (torch.from_numpy(positions - either.cells.center_m[rows, :2]) / 30 + 0.5).float())
+    positions = either.taught.cells.center_m[rows, :2] + np.random.default_rng(0).uniform(-9, 9, (8, 2))
+    offset = torch.from_numpy(offsets_in(either.taught.cells, rows, positions).astype(np.float32))
+    assert torch.allclose(
+        offset, (torch.from_numpy(positions - either.taught.cells.center_m[rows, :2]) / 30 + 0.5).float()
+    )
     matrix = torch.from_numpy(SYMMETRIES)
     before = either.training.features.batch(rows)
     after, moved = turn(before, matrix), turn_offset(offset, matrix)
@@ -111,12 +113,12 @@ def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(eith
 
 
 def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(either) -> None:
-    cells, training = either.cells, either.training
+    cells, training = either.taught.cells, either.training
     queries = training.usable[:40]
     total = len(queries)
-    positions = training.positions[queries, :2]
+    positions = training.taught.positions_m[queries, :2]
     labels = np.array(["thing"] * (int(cells.parts.instance.max()) + 1))
-    asked = FineValidation.of(cells, labels, [["I am here."]] * total, positions, training.best[queries])
+    asked = FineValidation.of(Asked(cells, labels, [["I am here."]] * total, positions, training.best[queries]))
     assert set(asked.figures(Told(asked.offset)).values()) == {1.0}
     away = np.linalg.norm(positions - cells.center_m[training.best[queries], :2], axis=1)
     figures = asked.center_figures()
@@ -145,14 +147,14 @@ def test_matches_name_the_instances_that_the_store_says(store_set, data_set) -> 
 
 def test_both_methods_overfit_a_few_positions(city, points, cells, text_encoder) -> None:
     positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 12, replace=False)]
-    few = FineSet.of_map(TrainingSet.of_map(city, points, cells, positions, text_encoder), cells, pmc=False)
-    examples = few.batch(12, np.random.default_rng(0))
+    training = TrainingSet(Taught.of_map(city, points, cells, positions), text_encoder)
+    examples = FineSet(training, pmc=False).batch(12, np.random.default_rng(0))
     for method, config in (
         ("regressor", RegressorConfig(width=32, dropout=0.0)),
         ("matching", FINE_METHODS["matching"].config_type(width=32, dropout=0.0, refine=True, iterations=10)),
     ):
         torch.manual_seed(0)
-        task = FineTask(FINE_METHODS[method](text_encoder, config), [FineSource(few, None, {})], 12)
+        task = FineTask(FINE_METHODS[method](text_encoder, config), [Source(training, None, {})], 12, pmc=False)
         optimizer = torch.optim.Adam(task.model.parameters(), 5e-3)
         losses = []
         for _ in range(40):
@@ -170,11 +172,11 @@ def test_both_methods_overfit_a_few_positions(city, points, cells, text_encoder)
 
 
 def test_training_is_seeded_saved_and_says_how_far_it_errs(city, tmp_path) -> None:
-    config = LoopConfig(steps=4, batch_size=8, validate_every=2)
+    config = TrainingConfig(steps=4, batch_size=8, validate_every=2, spacing_m=20.0)
     seen = []
 
     def load(encoder, rng):
-        return [fine_source_of_map(city, encoder, 20.0, rng)]
+        return [source_of_map(city, encoder, config, rng)]
 
     figures = [
         train_fine(load, tmp_path / name, "regressor", RegressorConfig(width=32), config, progress=seen.append)
@@ -193,10 +195,10 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(city, tmp_path) -> No
 
 def test_a_data_set_trains_either_method(data_set, tmp_path) -> None:
     def load(encoder, rng):
-        return [load_fine_source(data_set, encoder, 4.0, rng, ("train", "val"), pmc=False)] * 2
+        return [load_source(data_set, encoder, TrainingConfig(), rng, ("train", "val"))] * 2
 
     for method, kind in FINE_METHODS.items():
-        config = LoopConfig(steps=2, batch_size=8, validate_every=2)
+        config = TrainingConfig(steps=2, batch_size=8, validate_every=2, pmc=False)
         figures = train_fine(load, tmp_path / method, method, kind.config_type(width=32), config)
         assert 0 <= figures["within_5m"] <= figures["within_10m"] <= 1
         assert load_fine(tmp_path / method).method == method

@@ -3,7 +3,8 @@ import pytest
 
 from models.city.hints import describe_poses, sample_positions
 from models.training.calibration import calibrate, most_likely
-from models.training.sources import Validation
+from models.training.sources import Asked
+from models.training.validation import Validation
 
 
 @pytest.fixture(scope="module")
@@ -41,4 +42,4 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
 @pytest.fixture(scope="module")
 def region_queries(city, points, cells):
     positions = sample_positions(city.locations_m, 40.0, np.random.default_rng(0))
-    return Validation.of_map(city, cells, describe_poses(city, points, cells, positions))
+    return Validation(Asked.of_map(city, cells, describe_poses(city, points, cells, positions)))

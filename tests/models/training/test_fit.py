@@ -12,7 +12,7 @@ from models.errors import DataError
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
-from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, turn
+from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, Taught, TrainingSet, turn
 from models.training.fit import train_retriever
 from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
@@ -23,7 +23,7 @@ from tests.models.city.raw_scenes import write_town
 @pytest.fixture(scope="module")
 def region(city, points, cells, text_encoder):
     positions = sample_positions(city.locations_m, 30.0, np.random.default_rng(0))
-    return TrainingSet.of_map(city, points, cells, positions, text_encoder)
+    return TrainingSet(Taught.of_map(city, points, cells, positions), text_encoder)
 
 
 def test_directions_turn_with_the_map() -> None:
@@ -54,6 +54,20 @@ def test_batches_are_seeded_and_say_what_is_true(region, city) -> None:
     assert batch.same_cell.diagonal().all()
 
 
+def test_published_wording_says_what_is_there_in_the_benchmarks_words(city, points, cells, text_encoder) -> None:
+    positions = sample_positions(city.locations_m, 60.0, np.random.default_rng(0))
+    region = TrainingSet(Taught.of_map(city, points, cells, positions), text_encoder, "published")
+    chosen = region.usable[:20]
+    said = region.say(chosen, np.zeros(len(chosen), int), np.random.default_rng(0))
+    vocabulary, table = region.vocabulary, region.table
+    for row, position in enumerate(chosen):
+        hints = np.arange(table.starts[position], min(table.starts[position + 1], table.starts[position] + 6))
+        label = region.label_of[table.instance[hints]]
+        expected = vocabulary.sentence(label, table.colour[hints], table.direction[hints], 0)
+        assert said.sentences[row, said.mask[row]].tolist() == expected.tolist()
+        assert said.hints[row, said.mask[row]].tolist() == hints.tolist()
+
+
 def test_the_vocabulary_numbers_its_sentences(region) -> None:
     vocabulary = region.vocabulary
     said = [
@@ -71,7 +85,7 @@ def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
     seen = []
 
     def load(encoder, rng):
-        return [source_of_map(city, encoder, config.spacing_m, rng)]
+        return [source_of_map(city, encoder, config, rng)]
 
     recalls = [
         train_retriever(load, tmp_path / name, Mncl, MnclConfig(width=32), config, progress=seen.append)
@@ -87,7 +101,7 @@ def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
 
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_every_method_trains_in_half_precision(city, text_encoder, method) -> None:
-    source = source_of_map(city, text_encoder, 30.0, np.random.default_rng(0))
+    source = source_of_map(city, text_encoder, TrainingConfig(spacing_m=30.0), np.random.default_rng(0))
     torch.manual_seed(0)
     task = RetrievalTask(method(text_encoder, method.config_type(width=32)), [source], batch_size=16, cluster=4)
     task.model.eval()  # no dropout
@@ -104,7 +118,7 @@ def test_a_run_directory_goes_on(city, tmp_path) -> None:
     config = TrainingConfig(steps=6, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
-        return [source_of_map(city, encoder, config.spacing_m, rng) for _ in range(2)]
+        return [source_of_map(city, encoder, config, rng) for _ in range(2)]
 
     def kill(at):
         if at.step == 5:
@@ -129,9 +143,9 @@ def test_a_data_set_trains_as_a_map_does(tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=16, validate_every=4)
 
     def load(encoder, rng):
-        source = load_source(prepared, encoder, config.spacing_m, rng, ("train", "val"))
+        source = load_source(prepared, encoder, config, rng, ("train", "val"))
         with pytest.raises(DataError, match="0042"):
-            load_source(prepared, encoder, config.spacing_m, rng, ("0042", "val"))
+            load_source(prepared, encoder, config, rng, ("0042", "val"))
         batch = source.training.batch(source.training.draw(16, 4, rng), rng)
         assert batch.hint_mask.sum(dim=1).min() >= 2
         assert (batch.sentences[batch.hint_mask] >= 0).all()

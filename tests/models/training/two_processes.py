@@ -58,14 +58,14 @@ class Task(RetrievalTask):
         sources: Any = [SimpleNamespace(training=Training())]
         model = Mncl(SimpleNamespace(width=WIDTH, source="random", fingerprint=""), CONFIG)
         super().__init__(model, sources, LOOP.batch_size, 1)
-        self.validations = 0
+        self.times_validated = 0
 
     def batch(self, rng):
         return SourceBatch(0, part(whole_batch(rng), slice(0, self.share)))
 
     def validate(self):
-        self.validations += 1
-        return {"recall@5": float(self.validations)}
+        self.times_validated += 1
+        return {"recall@5": float(self.times_validated)}
 
 
 def whole_batch(rng) -> Batch:
@@ -113,7 +113,7 @@ def train(out) -> None:
     shown = []
     history = run_training(task, LOOP, out / "run", progress=lambda at: shown.append(at.step))
     first = distributed.is_first()
-    assert task.validations == (3 if first else 0)
+    assert task.times_validated == (3 if first else 0)
     assert shown == (list(range(1, 7)) if first else [])
     assert (history.best_step, history.best) == (6, 3.0), "every process knows"
     weights(task, "unbroken")
