@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 from typer.core import TyperGroup
 
-from app import cli_data, cli_research
+from app import cli_data, cli_reproduce, cli_research
 from app.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from index.answers import Refine
 from models.errors import HereaboutsError
@@ -153,6 +153,7 @@ for command in (
     cli_research.train,
     cli_research.evaluate,
     cli_research.benchmark,
+    cli_reproduce.reproduce,
 ):
     app.command()(command)
 

@@ -10,12 +10,14 @@ THREAD_VARIABLES = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"
 def set_thread_env(environ: MutableMapping[str, str] = os.environ) -> int:
     """Set the thread variables to the CPUs this process may use; what the operator has set stays.
 
+    OMP_NUM_THREADS, where it is set, speaks for the others too.
+
     Returns:
         The CPUs this process may use, at least 1.
     """
     cpus = usable_cpus()
     for name in THREAD_VARIABLES:
-        environ.setdefault(name, str(cpus))
+        environ.setdefault(name, environ.get("OMP_NUM_THREADS", str(cpus)))
     return cpus
 
 

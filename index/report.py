@@ -76,22 +76,23 @@ def markdown(report: dict[str, Any]) -> str:
     lines = [
         f"# {report['data']}, {report['split']}",
         f"{report['queries']} queries, {report['cells']} cells; {report['model']} ({report['method']})",
-        _table(main_table(report)),
+        as_markdown(main_table(report)),
         "95 % intervals (bootstrap over queries): "
         + ", ".join(f"R@{k} {low:.3f}-{high:.3f}" for k, (low, high) in intervals.items())
         + f". Calibration error of the probability: {report['calibration']['expected_calibration_error']:.3f}.",
     ]
     for title, key in (("scene", "by_scene"), ("strategy", "by_strategy")):
         if report[key]:
-            lines.append(_table(group_table(title, report[key])))
+            lines.append(as_markdown(group_table(title, report[key])))
     if "growth" in report:
-        lines.append(_table(growth_table(report["growth"])))
+        lines.append(as_markdown(growth_table(report["growth"])))
     plots = ["recall", "errors", "map", *(["growth"] if "growth" in report else [])]
     lines += [f"![{name}]({name}.png)" for name in plots]
     return "\n\n".join(lines) + "\n"
 
 
-def _table(table: Table) -> str:
+def as_markdown(table: Table) -> str:
+    """A table in Markdown."""
     head, rows = table
     return "\n".join("| " + " | ".join(row) + " |" for row in (head, ("---",) * len(head), *rows))
 

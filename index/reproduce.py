@@ -1,0 +1,237 @@
+"""The paper's tables and figures on a data set: what is missing is trained and measured, what is done is kept."""
+
+import hashlib
+import json
+import multiprocessing
+import resource
+import shutil
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from index.ambiguity import ambiguity
+from index.evaluation import evaluate
+from index.map_data import MapData, Progress, Queries, fingerprint, load_queries
+from index.ranking import RERANKED, Ranker
+from models.localization.checkpoint import FINE_METHODS, load_fine
+from models.retrieval.checkpoint import METHODS, load_retriever
+from models.retrieval.retriever import Retriever
+from models.training.experiments import FINE, GROWTH, MNCL, Run, Scale, all_runs
+from models.training.fine import train_fine
+from models.training.fit import train_retriever
+from models.training.run_dir import METRICS_FILE, replace_file
+from models.training.settings import load_settings
+from models.training.sources import load_source
+
+RESULT_FILE, WEIGHTS_DIR, RUN_DIR = "result.json", "weights", "run"
+RANKINGS = {"global level alone": 0, f"global, then all levels on {RERANKED}": RERANKED, "all levels on all cells": -1}
+TEST, CHOSEN_BY = "test", "val"
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One training with its measurements, in a directory of its own.
+
+    Attributes:
+        run: what is trained.
+        seed: of all that is drawn.
+        data: a data set.
+        directory: where it goes.
+        scale: how much is trained.
+        key: of everything that the result depends on.
+    """
+
+    run: Run
+    seed: int
+    data: Path
+    directory: Path
+    scale: Scale
+    key: str
+
+    @classmethod
+    def of(cls, run: Run, seed: int, data: Path, out: Path, scale: Scale) -> "Job":
+        """A job in `out`."""
+        model, training = load_settings(run.method, [*_changes(run, scale), f"training.seed={seed}"])
+        facts = [run.method, model.model_dump(mode="json"), training.model_dump(mode="json"), fingerprint(data)]
+        key = hashlib.sha256(json.dumps([*facts, scale.growth_radii_m]).encode()).hexdigest()
+        return cls(run, seed, data, out / "runs" / run.name / f"seed-{seed}", scale, key)
+
+    def result(self) -> dict[str, Any] | None:
+        """What was measured; None if that is still to do."""
+        path = self.directory / RESULT_FILE
+        found: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
+        return found if found.get("key") == self.key else None
+
+
+def reproduce(
+    data: Path, out: Path, scale: Scale, seeds: Sequence[int], workers: int, progress: Progress
+) -> dict[str, Any]:
+    """Train what is missing, measure it, and gather the figures.
+
+    Args:
+        data: a directory in KITTI360Pose's layout or a converted store, with train, val and test scenes.
+        out: where runs go, one directory each; those of an earlier call that fit are kept.
+        scale: how much is trained.
+        seeds: each training is done with each.
+        workers: trainings at once.
+        progress: called as the work goes on.
+
+    Returns:
+        "seeds", and "runs": for each run's name its results, one a seed.
+
+    Raises:
+        DataError: the data cannot be read.
+    """
+    jobs = [Job.of(run, seed, data, out, scale) for seed in seeds for run in all_runs()]
+    for done, _ in enumerate(_all_done(jobs, workers), start=1):
+        progress("train and measure", done, len(jobs))
+    found: dict[str, list[dict[str, Any]]] = {}
+    for job in jobs:
+        result = job.result()
+        assert result is not None
+        found.setdefault(job.run.name, []).append(result)
+    for n, seed in enumerate(seeds):
+        for run, fine in _localizers():
+            stages = [Job.of(stage, seed, data, out, scale) for stage in (run, fine)]
+            found[run.name][n]["localization"] = _localization(*stages)
+            progress("localize", n, len(seeds))
+    return {"seeds": list(seeds), "data": _facts(data), "runs": found}
+
+
+def _changes(run: Run, scale: Scale) -> tuple[str, ...]:
+    return (*(scale.fine if run.method in FINE_METHODS else scale.retriever), *run.settings)
+
+
+def _localizers() -> Iterator[tuple[Run, Run]]:
+    """Retriever and fine stage of the methods of table 1."""
+    for method, fine in FINE.items():
+        yield Run(method), fine
+
+
+def _all_done(jobs: Sequence[Job], workers: int) -> Iterator[None]:
+    """One item a job that is done; each is done in a process of its own, so that its memory is its own."""
+    missing = [job for job in jobs if job.result() is None]
+    yield from (None for _ in range(len(jobs) - len(missing)))
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, mp_context=spawn, max_tasks_per_child=1) as pool:
+        for future in as_completed([pool.submit(_do, job) for job in missing]):
+            future.result()
+            yield None
+
+
+def _do(job: Job) -> None:
+    """Train and measure; what an earlier call with other settings left is removed."""
+    torch.set_num_threads(1)  # so that a run's weights do not depend on the machine's number of processors
+    if job.directory.is_dir() and not _goes_on(job):
+        shutil.rmtree(job.directory)
+    job.directory.mkdir(parents=True, exist_ok=True)
+    (job.directory / "key").write_text(job.key)
+    weights = job.directory / WEIGHTS_DIR
+    model, config = load_settings(job.run.method, [*_changes(job.run, job.scale), f"training.seed={job.seed}"])
+    given: Any = model, config, job.directory / RUN_DIR, True
+
+    def load(encoder: Any, rng: np.random.Generator) -> list[Any]:
+        return [load_source(job.data, encoder, config, rng, ("train", CHOSEN_BY))]
+
+    is_fine = job.run.method in FINE_METHODS
+    if is_fine:
+        train_fine(load, weights, job.run.method, *given)
+    else:
+        train_retriever(load, weights, METHODS[job.run.method], *given)
+    result = {"key": job.key, "seed": job.seed, "training": _training_facts(job)}
+    result |= _of_fine(weights) if is_fine else _of_retriever(job, weights)
+    replace_file(job.directory / RESULT_FILE, (json.dumps(result, indent=2) + "\n").encode())
+
+
+def _goes_on(job: Job) -> bool:
+    path = job.directory / "key"
+    return path.is_file() and path.read_text() == job.key
+
+
+def _training_facts(job: Job) -> dict[str, float]:
+    """Throughput, time to the best epoch, memory."""
+    rows = np.genfromtxt(job.directory / RUN_DIR / METRICS_FILE, delimiter=",", names=True, ndmin=1)
+    best_step = json.loads((job.directory / WEIGHTS_DIR / "config.json").read_text())["training"]["best_step"]
+    return {
+        "descriptions_per_second": float(np.median(rows["descriptions_per_second"])),
+        "seconds_to_best": float(rows["seconds"][rows["step"] == best_step][0]),
+        "peak_memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+    }
+
+
+def _of_fine(weights: Path) -> dict[str, Any]:
+    """Validation figures of a fine stage, given the true cell."""
+    training = json.loads((weights / "config.json").read_text())["training"]
+    return {"validation": training["sources"][0]["validation"]}
+
+
+def _of_retriever(job: Job, weights: Path) -> dict[str, Any]:
+    """Retrieval on the test scenes; of MNCL each ranking on the validation scenes; growth where the paper has it."""
+    retriever = load_retriever(weights)
+    data, queries = _queries(job.data, TEST)
+    ranker = Ranker.of(retriever, data.cells, data.gallery.labels)
+    grown = any(job.run == run for run, _ in GROWTH.values())
+    report = evaluate(data, queries, ranker, grow_m=job.scale.growth_radii_m if grown else ())
+    found = {
+        "retrieval": report["retrieval"],
+        "calibration_error": report["calibration"]["expected_calibration_error"],
+        "bytes_a_cell": 4 * retriever.config.width + ranker.table.bytes_a_cell,
+        "parameters": sum(p.numel() for p in retriever.parameters()),
+    }
+    if grown:
+        found["growth"] = [
+            {
+                "radius_m": row["radius_m"],
+                "cells": row["cells"],
+                "queries": row["queries"],
+                "R@1": row["retrieval"]["1"],
+            }
+            for row in report["growth"]
+        ]
+    if job.run == MNCL:
+        found["rankings"] = _rankings(retriever, job.data)
+    return found
+
+
+def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
+    """Retrieval recall on the validation scenes, by how cells are ranked."""
+    asked, queries = _queries(data, CHOSEN_BY)
+    recalls: dict[str, dict[str, float]] = {}
+    for name, depth in RANKINGS.items():
+        depth_here = len(asked.cells) if depth < 0 else depth
+        ranker = Ranker.of(retriever, asked.cells, asked.gallery.labels, depth_here)
+        recalls[name] = evaluate(asked, queries, ranker)["retrieval"]
+    return recalls
+
+
+def _localization(retriever_job: Job, fine_job: Job) -> dict[str, Any]:
+    """Localization recall on the test scenes, kept beside the retriever's result."""
+    path = retriever_job.directory / f"localization-{fine_job.run.name}.json"
+    key = retriever_job.key + fine_job.key
+    if path.is_file() and (known := json.loads(path.read_text()))["key"] == key:
+        return dict(known["localization"])
+    data, queries = _queries(retriever_job.data, TEST)
+    ranker = Ranker.of(load_retriever(retriever_job.directory / WEIGHTS_DIR), data.cells, data.gallery.labels)
+    refiner = load_fine(fine_job.directory / WEIGHTS_DIR)
+    localization: dict[str, Any] = evaluate(data, queries, ranker, refiner=refiner)["localization"]
+    replace_file(path, json.dumps({"key": key, "localization": localization}).encode())
+    return localization
+
+
+def _queries(data: Path, split: str) -> tuple[MapData, Queries]:
+    """A split without the hints behind its sentences: exact matching is measured once, in `_facts`."""
+    found, queries = load_queries(data, split)
+    return found, replace(queries, hints=None)
+
+
+def _facts(data: Path) -> dict[str, Any]:
+    """What the test scenes are, and what can be had there at all."""
+    found, queries = load_queries(data, TEST)
+    assert queries.hints is not None
+    exact = ambiguity(found, queries, queries.hints)
+    return {"cells": len(found.cells), "queries": len(queries), "exact_matching": exact["exact_matching"]}
