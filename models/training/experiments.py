@@ -173,7 +173,7 @@ SCALES = {
     "demo": Scale(
         (*_ALL, "model.width=128", "training.steps=400", "training.validate_every=100"),
         (*_ALL, "training.steps=400", "training.validate_every=100"),
-        (150.0, 200.0, 250.0, 300.0),
+        (80.0, 110.0, 140.0, 200.0),
     ),
     # 32 epochs of KITTI360Pose's 28,807 training poses.
     "full": Scale(
