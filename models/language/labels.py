@@ -1,0 +1,118 @@
+"""What a noun means in a map: any words compared with any labels, through the many names that things go by."""
+
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import torch
+from torch import Tensor, nn
+
+from models.language.paraphrase import GRAMMARS, Wording
+from models.language.text_encoder import TextEncoder
+
+RANK = 64
+
+
+@cache
+def related_labels() -> tuple[tuple[str, ...], ...]:
+    """Groups of classes that go by one another's names, see grammar/related.toml."""
+    groups = tomllib.loads((GRAMMARS / "related.toml").read_text())["groups"]
+    return tuple(tuple(group) for group in groups)
+
+
+def meaning_in(label: str, map_labels: Sequence[str]) -> str | None:
+    """The label of a map that a class goes by there: itself, or the closest relative; None if the map has neither."""
+    if label in map_labels:
+        return label
+    groups = sorted((g for g in related_labels() if label in g), key=lambda group: group.index(label))
+    return next((other for group in groups for other in group if other in map_labels), None)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BoundLabels:
+    """A map's labels with all names that lead to them.
+
+    Attributes:
+        names: [N, W] unit vectors of names.
+        label: [N] the map's label that each leads to; the number of labels for names of what the map has not.
+        count: number of labels.
+    """
+
+    names: Tensor
+    label: Tensor
+    count: int
+
+
+class LabelMatcher(nn.Module):
+    """Similarity of a noun with every name of every label, in the frozen text encoder's space, slightly bent.
+
+    A label's score is the soft maximum over its names; names of things that the map has not compete, so that a bench is
+    no building where there are no benches.
+    """
+
+    def __init__(self, text_encoder: TextEncoder) -> None:
+        super().__init__()
+        self._text = (text_encoder,)
+        width = text_encoder.width
+        self.down, self.up = nn.Linear(width, RANK, bias=False), nn.Linear(RANK, width, bias=False)
+        nn.init.zeros_(self.up.weight)
+        self.scale = nn.Parameter(torch.tensor(20.0).log())
+        self.unknown = nn.Parameter(torch.tensor(0.4))  # similarity that a noun must exceed to mean anything
+        self._known: dict[str, Tensor] = {}
+
+    def embed(self, phrases: Sequence[str]) -> Tensor:
+        """[S, W] unit vectors of the frozen text encoder; those of phrases seen before are kept."""
+        plain = [phrase.lower().replace("-", " ") for phrase in phrases]
+        if missing := [phrase for phrase in dict.fromkeys(plain) if phrase not in self._known]:
+            # In one order and one at a time within a length, what stands beside a phrase does not change it.
+            self._known.update(zip(missing, self._text[0].embed(missing), strict=True))
+        return torch.stack([self._known[phrase] for phrase in plain])
+
+    def bend(self, vectors: Tensor) -> Tensor:
+        """[S, W] unit vectors in which names of one thing lie together."""
+        return nn.functional.normalize(vectors + self.up(torch.tanh(4 * self.down(vectors))), dim=-1)
+
+    def bind(self, map_labels: Sequence[str]) -> BoundLabels:
+        """Prepare for a map.
+
+        Args:
+            map_labels: its labels, each once.
+        """
+        phrases, label = bound_names(tuple(map_labels))
+        return BoundLabels(self.embed(phrases), torch.tensor(label), len(map_labels))
+
+    def forward(self, nouns: Tensor, bound: BoundLabels, left_out: Tensor | None = None) -> Tensor:
+        """[S, L + 1] log-probability of each label for nouns [S, W]; the last, of none of them.
+
+        Args:
+            nouns: of `embed`.
+            bound: the map's labels.
+            left_out: [S, N] bool, names not to be looked at (in training, the noun itself).
+        """
+        similarity = self.bend(nouns) @ self.bend(bound.names).T
+        if left_out is not None:
+            similarity = similarity.masked_fill(left_out, -1.0)
+        logits = self.scale.exp() * similarity
+        buckets = [
+            logits[:, bound.label == n].logsumexp(dim=1)
+            if bool((bound.label == n).any())
+            else torch.full((len(nouns),), -1e4)
+            for n in range(bound.count + 1)
+        ]
+        none = torch.logaddexp(buckets[-1], (self.scale.exp() * self.unknown).expand(len(nouns)))
+        return torch.stack([*buckets[:-1], none], dim=1).log_softmax(dim=1)
+
+
+@cache
+def bound_names(map_labels: tuple[str, ...]) -> tuple[list[str], list[int]]:
+    """Every known name, and the number of the map's label that it leads to; the number of labels if to none."""
+    lexicon = Wording("train").labels
+    phrases, numbers = [], []
+    for label in dict.fromkeys([*map_labels, *lexicon]):
+        meant = meaning_in(label, map_labels)
+        number = len(map_labels) if meant is None else map_labels.index(meant)
+        for phrase in (label, *lexicon.get(label, ())):
+            phrases.append(phrase)
+            numbers.append(number)
+    return phrases, numbers

@@ -1,0 +1,190 @@
+"""The reader: from a description in any wording to hints, each a distribution over what may be meant."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import torch
+from pydantic import BaseModel, ConfigDict
+from torch import Tensor, nn
+
+from models.language.paraphrase import RELATIONS
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures
+from models.retrieval.layers import SetTransformer
+
+TAGS: Final = 3  # outside, first token of a noun, further token of it
+COLOURS: Final = (
+    "dark-green", "gray", "gray-green", "bright-gray", "black", "green", "beige", "white", "red", "brown", "orange",
+    "yellow", "blue", "purple", "pink",
+)  # fmt: skip
+MAX_POSITIONS = 512
+_UNITS = {"m": 1.0, "met": 1.0, "ft": 0.3048, "f": 0.3048, "y": 0.9144, "s": 0.75, "p": 0.75}
+_NUMBERS = {
+    word: n
+    for n, word in enumerate(
+        "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen".split()
+    )
+} | {"twenty": 20, "thirty": 30, "forty": 40, "fifty": 50}
+_DISTANCE = re.compile(
+    rf"(?<![\w.])(\d+(?:[.,]\d+)?|{'|'.join(_NUMBERS)})\s*-?\s*(m|met(?:re|er)s?|ft|feet|foot|yards?|steps?|paces?)\b",
+    re.I,
+)
+_SENTENCE_END = re.compile(r"[.!?;\n](?:\s|$)")
+
+
+class ReaderConfig(BaseModel):
+    """Shape of the reader.
+
+    Attributes:
+        text_encoder: as of the retriever.
+        width: of the layers above the text encoder.
+        layers: of them.
+        dropout: while training.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    text_encoder: str = DEFAULT_TEXT_ENCODER
+    width: int = 192
+    layers: int = 2
+    dropout: float = 0.1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Noticed:
+    """One thing that a description names.
+
+    Attributes:
+        noun: the words for it.
+        start, end: where they stand in the text.
+        relation: [10] probability of each of RELATIONS: where the speaker is, seen from it.
+        colour: [C + 1] probability of each of COLOURS; the last, that none is said.
+        absent: probability that the text says there is none.
+        distance_m: said distance, None if none is.
+    """
+
+    noun: str
+    start: int
+    end: int
+    relation: Tensor
+    colour: Tensor
+    absent: float
+    distance_m: float | None
+
+
+class Reader(nn.Module):
+    """Tags the nouns of a text, and says of each its direction, its colour and whether there is none of it.
+
+    Attention layers on the frozen text encoder's token features, over the whole description, so that pronouns, joined
+    clauses and colours said apart find their noun. Trained on the paraphrase grammar (`models.language.paraphrase`).
+    """
+
+    def __init__(self, text_encoder: TextEncoder, config: ReaderConfig) -> None:
+        super().__init__()
+        self.config = config
+        self._text = (text_encoder,)  # a tuple hides it from state_dict
+        width = config.width
+        self.project = nn.Linear(text_encoder.width, width)
+        self.position = nn.Embedding(MAX_POSITIONS, width)
+        self.context = SetTransformer(width, config.layers, num_heads=4, dropout=config.dropout)
+        self.tag = nn.Linear(width, TAGS)
+        self.relation = _head(width, len(RELATIONS))
+        self.colour = _head(width, len(COLOURS) + 1)
+        self.absent = _head(width, 1)
+
+    @property
+    def text_encoder(self) -> TextEncoder:
+        """The frozen language model."""
+        return self._text[0]
+
+    def forward(self, tokens: TokenFeatures, shift: int = 0) -> Tensor:
+        """[B, T, D] features of tokens in their text; training shifts the positions, so that none is rare."""
+        places = torch.arange(shift, shift + tokens.mask.shape[1], device=tokens.mask.device)
+        return self.context(self.project(tokens.values) + self.position(places), tokens.mask)
+
+    def attributes(self, spans: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Logits of nouns from their features [S, D]: relation [S, 10], colour [S, C + 1], absent [S]."""
+        return self.relation(spans), self.colour(spans), self.absent(spans).squeeze(-1)
+
+    @torch.inference_mode()
+    def read(self, texts: Sequence[str]) -> list[list[Noticed]]:
+        """What each text names, in its order."""
+        tokens, characters = self.text_encoder.read(texts)
+        features = self(tokens)
+        tags = self.tag(features).argmax(dim=-1)
+        found = []
+        for n, text in enumerate(texts):
+            spans = _spans(tags[n], characters[n], tokens.mask[n], text)
+            if not spans:
+                found.append([])
+                continue
+            pooled = torch.stack([features[n, a:b].mean(dim=0) for a, b in spans])
+            relation, colour, absent = self.attributes(pooled)
+            places = [(int(characters[n, a, 0]), int(characters[n, b - 1, 1])) for a, b in spans]
+            distances = said_distances(text, places)
+            rows = zip(
+                places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), distances, strict=True
+            )
+            found.append([Noticed(text[a:b], a, b, *rest) for (a, b), *rest in rows])
+        return found
+
+
+def _head(width: int, outputs: int) -> nn.Sequential:
+    return nn.Sequential(nn.Linear(width, width), nn.GELU(), nn.Linear(width, outputs))
+
+
+def _spans(tags: Tensor, characters: Tensor, mask: Tensor, text: str) -> list[tuple[int, int]]:
+    """Token ranges of the nouns; a word is taken whole, though the tokenizer may have split it."""
+    spans: list[list[int]] = []
+    real = (mask & (characters[:, 1] > characters[:, 0])).tolist()
+    for t, tag in enumerate(tags.tolist()):
+        if not real[t]:
+            continue
+        same_word = t > 0 and real[t - 1] and int(characters[t, 0]) == int(characters[t - 1, 1])
+        inside = bool(spans) and spans[-1][1] == t
+        if inside and (tag == 2 or (same_word and text[int(characters[t, 0])].isalnum())):
+            spans[-1][1] = t + 1
+        elif tag == 1:
+            spans.append([t, t + 1])
+    return [(a, b) for a, b in spans]
+
+
+def said_distances(text: str, places: Sequence[tuple[int, int]]) -> list[float | None]:
+    """The distance said of each noun: of a sentence's measures, each goes to the noun that is nearest to it.
+
+    Args:
+        text: the description.
+        places: characters of each noun.
+    """
+    distances: list[float | None] = [None] * len(places)
+    ends = [m.start() for m in _SENTENCE_END.finditer(text)]
+    for found in _DISTANCE.finditer(text):
+        low = max((e for e in ends if e < found.start()), default=-1)
+        high = min((e for e in ends if e >= found.end()), default=len(text))
+        inside = [n for n, (a, b) in enumerate(places) if low < a and b <= high]
+        if inside:
+            nearest = min(inside, key=lambda n: max(places[n][0] - found.end(), found.start() - places[n][1]))
+            number = found[1].lower()
+            value = _NUMBERS[number] if number in _NUMBERS else float(number.replace(",", "."))
+            distances[nearest] = value * _metres(found[2])
+    return distances
+
+
+def _metres(unit: str) -> float:
+    key = max((k for k in _UNITS if unit.lower().startswith(k)), key=len)
+    return _UNITS[key]
+
+
+def example_targets(mentions: Sequence[Any], characters: Tensor, mask: Tensor) -> tuple[Tensor, list[tuple[int, int]]]:
+    """What training wants of one text: tags [T] and the token range of each mention (empty if it was cut off)."""
+    tags = torch.zeros(len(mask), dtype=torch.long)
+    ranges = []
+    for mention in mentions:
+        inside = (characters[:, 0] < mention.end) & (characters[:, 1] > mention.start) & mask
+        tokens = inside.nonzero().flatten().tolist()
+        if tokens:
+            tags[tokens] = 2
+            tags[tokens[0]] = 1
+        ranges.append((tokens[0], tokens[-1] + 1) if tokens else (0, 0))
+    return tags, ranges

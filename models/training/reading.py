@@ -1,0 +1,196 @@
+"""Training the reader of free language on texts from the paraphrase grammar."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from models.language.paraphrase import RELATIONS, WINDS, Fact, Grammar, Said, Wording
+from models.language.reader import COLOURS, Reader, example_targets
+from models.language.text_encoder import TextEncoder, TokenFeatures
+
+ENCODED_AT_ONCE = 32
+MOST_FACTS = 8
+CARDINAL = (0, 2, 4, 6)  # of WINDS; people and the benchmark say them most
+NAMES = (
+    "Stockmann", "Cafe Aroma", "the Grand Hotel", "Lidl", "Esplanadi", "Saint Mary's", "K-Market", "Burger Corner",
+    "the Old Town Hall", "Central Pharmacy", "Hotel Kamp", "Alexa", "Galeria", "Sokos", "Karl-Marx-Allee",
+    "the National Library", "Pizzeria Roma", "Bar Nine", "Subway", "Tesco", "Main Street", "Museum of Design",
+)  # fmt: skip
+
+
+def draw_facts(wording: Wording, rng: np.random.Generator, labels: Sequence[str] | None = None) -> list[Fact]:
+    """Made-up facts of a text: what a reader must be ready for, not what a place looks like."""
+    names = labels or tuple(wording.labels)
+    return [_draw_fact(names, rng) for _ in range(int(rng.integers(1, MOST_FACTS + 1)))]
+
+
+def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> Fact:
+    label = labels[int(rng.integers(len(labels)))]
+    colour = COLOURS[int(rng.integers(len(COLOURS)))] if rng.random() < 0.65 else None
+    drawn, special = rng.random(2)
+    if drawn < 0.68:
+        relation = WINDS[CARDINAL[int(rng.integers(4))]]
+    elif drawn < 0.8:
+        relation = WINDS[int(rng.integers(8))]
+    else:
+        relation = "on-top" if drawn < 0.9 else "near"
+    if special < 0.06:
+        return Fact(label, absent=True, colour=colour)
+    if special < 0.12:
+        return Fact(label, relation if relation in WINDS else "near", name=NAMES[int(rng.integers(len(NAMES)))])
+    distance = float(rng.integers(2, 40)) if special > 0.86 and relation in WINDS else None
+    return Fact(label, relation, colour, distance)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ReadingBatch:
+    """B texts and their S mentions.
+
+    Attributes:
+        tokens: of the texts.
+        tags: [B, T] -100 where there is no token.
+        text: [S] text of each mention.
+        start, end: [S] its tokens.
+        relation, colour, absent: [S] what is said; -100 where the text does not settle it.
+    """
+
+    tokens: TokenFeatures
+    tags: Tensor
+    text: Tensor
+    start: Tensor
+    end: Tensor
+    relation: Tensor
+    colour: Tensor
+    absent: Tensor
+
+
+class ReadingSet:
+    """Texts of a grammar with their token features, encoded once.
+
+    Args:
+        encoder: the frozen text encoder.
+        grammar: which wording.
+        size: how many texts.
+        seed: of facts and words.
+        progress: called with (texts encoded, texts in all).
+    """
+
+    def __init__(
+        self,
+        encoder: TextEncoder,
+        grammar: Grammar,
+        size: int,
+        seed: int,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> None:
+        wording, rng = Wording(grammar), np.random.default_rng(seed)
+        self.facts = [draw_facts(wording, rng) for _ in range(size)]
+        self.said: list[Said] = [wording.write(facts, rng) for facts in self.facts]
+        self._values: list[Tensor] = [torch.empty(0)] * size
+        self._targets: list[tuple[Tensor, list[tuple[int, int]]]] = [(torch.empty(0), [])] * size
+        order = np.argsort([len(s.text) for s in self.said], kind="stable")  # texts of like length together
+        for start in range(0, size, ENCODED_AT_ONCE):
+            rows = order[start : start + ENCODED_AT_ONCE]
+            tokens, characters = encoder.read([self.said[n].text for n in rows])
+            for k, n in enumerate(rows.tolist()):
+                length = int(tokens.mask[k].sum())
+                self._values[n] = tokens.values[k, :length].half()
+                whole = torch.ones(length, dtype=torch.bool)
+                self._targets[n] = example_targets(self.said[n].mentions, characters[k, :length], whole)
+            if progress:
+                progress(min(start + ENCODED_AT_ONCE, size), size)
+
+    def __len__(self) -> int:
+        return len(self.said)
+
+    def batch(self, rows: Sequence[int]) -> ReadingBatch:
+        """Some of the texts."""
+        longest = max(len(self._values[n]) for n in rows)
+        values = torch.zeros(len(rows), longest, self._values[rows[0]].shape[1])
+        tags = torch.full((len(rows), longest), -100)
+        spans: list[tuple[int, ...]] = []
+        for k, n in enumerate(rows):
+            length = len(self._values[n])
+            values[k, :length] = self._values[n].float()
+            tags[k, :length] = self._targets[n][0]
+            for mention, (a, b) in zip(self.said[n].mentions, self._targets[n][1], strict=True):
+                if b > a:
+                    spans.append((k, a, b, *_wanted(self.facts[n][mention.fact])))
+        mask = tags != -100
+        columns = torch.tensor(spans, dtype=torch.long).reshape(-1, 6).T
+        return ReadingBatch(TokenFeatures(values, mask, torch.zeros_like(tags)), tags, *columns)
+
+
+def _wanted(fact: Fact) -> tuple[int, int, int]:
+    """Relation, colour and absence that a text settles of a fact."""
+    relation = -100 if fact.absent else RELATIONS.index(fact.relation)
+    unsaid = fact.colour is None or fact.name is not None
+    return relation, len(COLOURS) if unsaid else COLOURS.index(str(fact.colour)), int(fact.absent)
+
+
+class ReadingTask:
+    """What `run_training` makes of the reader (models.training.loop.Task).
+
+    Args:
+        model: trained in place.
+        training, validation: texts of two grammars.
+        batch_size: texts a step.
+    """
+
+    criterion = "hints"
+
+    def __init__(self, model: Reader, training: ReadingSet, validation: ReadingSet, batch_size: int) -> None:
+        self.model, self.training, self.validation, self.batch_size = model, training, validation, batch_size
+
+    def batch(self, rng: np.random.Generator) -> tuple[ReadingBatch, int]:
+        """Texts, and how far their positions are shifted."""
+        rows = rng.choice(len(self.training), self.batch_size, replace=False).tolist()
+        return self.training.batch(rows), int(rng.integers(0, 128))
+
+    def loss(self, batch: tuple[ReadingBatch, int]) -> Tensor:
+        """Cross-entropies of tags and attributes, added."""
+        examples, shift = batch
+        features = self.model(examples.tokens, shift)
+        tags = nn.functional.cross_entropy(self.model.tag(features).flatten(0, 1), examples.tags.flatten())
+        relation, colour, absent = self.model.attributes(pooled(features, examples))
+        said = nn.functional.cross_entropy(relation, examples.relation)
+        said = said + nn.functional.cross_entropy(colour, examples.colour)
+        return tags * 3 + said + nn.functional.binary_cross_entropy_with_logits(absent, examples.absent.float())
+
+    def validate(self) -> dict[str, float]:
+        """Shares of validation mentions that are read right, see `reading_figures`."""
+        return reading_figures(self.model, self.validation)
+
+
+def pooled(features: Tensor, batch: ReadingBatch) -> Tensor:
+    """[S, D] mean features of the mentions' tokens."""
+    sums = torch.cat([torch.zeros_like(features[:, :1]), features.cumsum(dim=1)], dim=1)
+    width = (batch.end - batch.start)[:, None]
+    mean: Tensor = (sums[batch.text, batch.end] - sums[batch.text, batch.start]) / width
+    return mean
+
+
+@torch.no_grad()
+def reading_figures(model: Reader, texts: ReadingSet) -> dict[str, float]:
+    """Shares of mentions: noun found, relation, colour, absence right; "hints" all four; "extra" nouns a text too many."""
+    rows: dict[str, list[Any]] = {"noun": [], "relation": [], "colour": [], "absent": []}
+    extra = 0
+    for start in range(0, len(texts), 64):
+        batch = texts.batch(range(start, min(start + 64, len(texts))))
+        features = model(batch.tokens)
+        tags = model.tag(features).argmax(dim=-1)
+        extra += int(((tags == 1) & (batch.tags == 0)).sum())
+        relation, colour, absent = model.attributes(pooled(features, batch))
+        found = tags[batch.text, batch.start] == 1
+        rows["noun"].append(found)
+        rows["relation"].append((relation.argmax(-1) == batch.relation) | (batch.relation < 0))
+        rows["colour"].append(colour.argmax(-1) == batch.colour)
+        rows["absent"].append((absent > 0) == (batch.absent > 0))
+    columns = {name: torch.cat(parts) for name, parts in rows.items()}
+    whole = torch.stack(list(columns.values())).all(dim=0)
+    figures = {name: float(column.float().mean()) for name, column in columns.items()}
+    return figures | {"hints": float(whole.float().mean()), "extra": extra / len(texts)}
