@@ -25,7 +25,7 @@ from models.city.processes import map_forked
 from models.city.types import CityMap, Floats
 from models.errors import IndexBroken
 
-SPACING_M = 2.0
+SPACING_M = 1.5
 STEP_M = HINT_REACH_M / 127  # of the stored ways
 FILE = "surroundings.safetensors"
 CHUNK = 64  # instances a task

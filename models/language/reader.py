@@ -11,14 +11,14 @@ from torch import Tensor, nn
 
 from models.language.paraphrase import RELATIONS
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures
-from models.retrieval.layers import SetTransformer
 
 TAGS: Final = 3  # outside, first token of a noun, further token of it
 COLOURS: Final = (
     "dark-green", "gray", "gray-green", "bright-gray", "black", "green", "beige", "white", "red", "brown", "orange",
     "yellow", "blue", "purple", "pink",
 )  # fmt: skip
-MAX_POSITIONS = 512
+REACH, HEADS = 5, 4
+FURTHEST = 32  # tokens further apart than this are equally far
 _UNITS = {"m": 1.0, "met": 1.0, "ft": 0.3048, "f": 0.3048, "y": 0.9144, "s": 0.75, "p": 0.75}
 _NUMBERS = {
     word: n
@@ -39,7 +39,8 @@ class ReaderConfig(BaseModel):
     Attributes:
         text_encoder: as of the retriever.
         width: of the layers above the text encoder.
-        layers: of them.
+        local_layers: convolutions over neighbouring tokens.
+        layers: attention layers over the whole text, after them.
         dropout: while training.
     """
 
@@ -47,6 +48,7 @@ class ReaderConfig(BaseModel):
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
     width: int = 192
+    local_layers: int = 2
     layers: int = 2
     dropout: float = 0.1
 
@@ -86,8 +88,8 @@ class Reader(nn.Module):
         self._text = (text_encoder,)  # a tuple hides it from state_dict
         width = config.width
         self.project = nn.Linear(text_encoder.width, width)
-        self.position = nn.Embedding(MAX_POSITIONS, width)
-        self.context = SetTransformer(width, config.layers, num_heads=4, dropout=config.dropout)
+        self.near = nn.ModuleList(_Near(width, config.dropout) for _ in range(config.local_layers))
+        self.far = nn.ModuleList(_Far(width, config.dropout) for _ in range(config.layers))
         self.tag = nn.Linear(width, TAGS)
         self.relation = _head(width, len(RELATIONS))
         self.colour = _head(width, len(COLOURS) + 1)
@@ -98,10 +100,12 @@ class Reader(nn.Module):
         """The frozen language model."""
         return self._text[0]
 
-    def forward(self, tokens: TokenFeatures, shift: int = 0) -> Tensor:
-        """[B, T, D] features of tokens in their text; training shifts the positions, so that none is rare."""
-        places = torch.arange(shift, shift + tokens.mask.shape[1], device=tokens.mask.device)
-        return self.context(self.project(tokens.values) + self.position(places), tokens.mask)
+    def forward(self, tokens: TokenFeatures) -> Tensor:
+        """[B, T, D] features of tokens in their text."""
+        x: Tensor = self.project(tokens.values)
+        for layer in (*self.near, *self.far):
+            x = layer(x, tokens.mask)
+        return x
 
     def attributes(self, spans: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Logits of nouns from their features [S, D]: relation [S, 10], colour [S, C + 1], absent [S]."""
@@ -113,7 +117,7 @@ class Reader(nn.Module):
         tokens, characters = self.text_encoder.read(texts)
         features = self(tokens)
         tags = self.tag(features).argmax(dim=-1)
-        found = []
+        found: list[list[Noticed]] = []
         for n, text in enumerate(texts):
             spans = _spans(tags[n], characters[n], tokens.mask[n], text)
             if not spans:
@@ -128,6 +132,43 @@ class Reader(nn.Module):
             )
             found.append([Noticed(text[a:b], a, b, *rest) for (a, b), *rest in rows])
         return found
+
+
+class _Near(nn.Module):
+    """What a token's neighbours say: a convolution."""
+
+    def __init__(self, width: int, dropout: float) -> None:
+        super().__init__()
+        self.mix = nn.Conv1d(width, width, REACH, padding=REACH // 2)
+        self.norm, self.dropout = nn.LayerNorm(width), nn.Dropout(dropout)
+
+    def forward(self, x: Tensor, mask: Tensor) -> Tensor:
+        mixed = self.mix((x * mask[..., None]).transpose(1, 2)).transpose(1, 2)
+        normed: Tensor = self.norm(x + self.dropout(nn.functional.gelu(mixed)))
+        return normed
+
+
+class _Far(nn.Module):
+    """What the whole text says: attention that knows how far apart two tokens are."""
+
+    def __init__(self, width: int, dropout: float) -> None:
+        super().__init__()
+        self.project, self.merge = nn.Linear(width, 3 * width), nn.Linear(width, width)
+        self.bias = nn.Parameter(torch.zeros(HEADS, 2 * FURTHEST + 1))
+        self.feed_forward = nn.Sequential(nn.Linear(width, 2 * width), nn.GELU(), nn.Linear(2 * width, width))
+        self.norms = nn.ModuleList(nn.LayerNorm(width) for _ in range(2))
+        self.dropout = nn.Dropout(dropout)
+
+    def forward(self, x: Tensor, mask: Tensor) -> Tensor:
+        b, t, d = x.shape
+        query, key, value = self.project(x).view(b, t, 3, HEADS, -1).permute(2, 0, 3, 1, 4)
+        place = torch.arange(t, device=x.device)
+        apart = (place[None] - place[:, None]).clamp(-FURTHEST, FURTHEST) + FURTHEST
+        bias = self.bias[:, apart][None].masked_fill(~mask[:, None, None], float("-inf"))
+        mixed = nn.functional.scaled_dot_product_attention(query, key, value, attn_mask=bias)
+        x = self.norms[0](x + self.dropout(self.merge(mixed.transpose(1, 2).reshape(b, t, d))))
+        updated: Tensor = self.norms[1](x + self.dropout(self.feed_forward(x)))
+        return updated
 
 
 def _head(width: int, outputs: int) -> nn.Sequential:

@@ -3,26 +3,26 @@
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 
+from models.city.colours import Palette
 from models.city.hints import ON_TOP_M
 from models.city.surroundings import STEP_M
+from models.language.paraphrase import RELATIONS
 
-# Where the speaker is, seen from the thing: the eight winds, right at it, or not said.
-WINDS: Final = ("north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest")
-RELATIONS: Final = (*WINDS, "on-top", "near")
 TURNS: Final = (16, 4, 4)  # numbers beyond these are as their last
 _OFFSET = 128  # ways are int8; a pair of them numbers a row of the tables
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reading:
-    """What H hints say.
+    """What H hints say, in a map's own labels and colours.
 
     Attributes:
-        relation: [H, 10] probability of each of RELATIONS.
-        label: [H, L] how well each of the map's labels fits what is named, 0..1.
+        relation: [H, 10] probability of each of RELATIONS: where the speaker is, seen from the thing.
+        label: [H, L] probability of each of the map's labels; what is missing to 1, of none of them.
         colour: [H, W + 1] probability of each of the palette's words; the last, that none was said.
         distance_m: [H] said distance, NaN if none was.
         absent: [H] probability that the hint says there is none of it.
@@ -43,8 +43,8 @@ class Around:
         node: [R] node of each row, ascending.
         way: [R] number of the way from the instance's closest point, see `way_number`.
         whole: [R] bool, see `models.city.surroundings.Surroundings`.
-        turn: [R, 3] how many nearer instances there are: in all, of its class, in its direction; see TURNS.
-        part: [R] row of `label` and `rgb`.
+        turn: [R, 3] how many nearer instances there are, see `turns_of`.
+        part: [R] row of `label` and `word`.
         label: [P] label of each part.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
         nodes: M.
@@ -92,74 +92,103 @@ def _earlier(key: Tensor) -> Tensor:
 
 
 class Likelihood(nn.Module):
-    """log p(T | x) = sum over hints of log(eps + (1 - eps) * sum over instances of pi * p(class) p(colour) p(direction)).
+    """log p(T | x) = sum over hints of log(eps + sum over instances of pi * p(class) * p(colour) * p(direction)).
 
-    pi falls with distance and is shared among what is near; at most one hint an instance, softly. All weights are few,
-    and fitted by maximum likelihood on training towns (`models.training.posterior`).
+    pi falls with distance and rank and is shared among what is near; an instance that explains several hints counts
+    less for each (at most one hint an instance, softly). About forty weights, fitted by maximum likelihood on training
+    towns (`models.training.posterior`).
     """
 
-    def __init__(self, palette_rgb: Tensor) -> None:
+    def __init__(self) -> None:
         super().__init__()
-        self.palette_rgb = palette_rgb  # [C, 3] and the word of each
-        self.background = nn.Parameter(torch.tensor(-5.0))  # log eps, in units of one symbol's chance
-        self.border_m = nn.Parameter(torch.tensor(0.7).log())  # softness of the borders between winds
-        self.on_top_m = nn.Parameter(torch.tensor([1.6, 0.5]).log())  # radius and softness of "on-top"
-        self.distance = nn.Parameter(torch.tensor([-0.1, -0.1]))  # log pi falls with metres / 10, and its square
+        self.background = nn.Parameter(torch.tensor(-5.5))  # log eps
+        self.border_m = nn.Parameter(torch.tensor(-0.7))  # log softness of the borders between winds
+        self.on_top_m = nn.Parameter(torch.tensor([0.46, -1.4]))  # log radius and softness of "on-top"
+        self.distance = nn.Parameter(torch.tensor([-0.33, -0.33]))  # log pi by metres / 10, and by their square / 100
         self.turns = nn.ParameterList(nn.Parameter(torch.zeros(size)) for size in TURNS)
-        self.partly = nn.Parameter(torch.tensor(-3.0))  # log weight of a thing of which little is near
-        self.crowding = nn.Parameter(torch.tensor(0.5))  # power of the sum of pi that each is divided by
-        self.colour_spread = nn.Parameter(torch.tensor(0.04).log())
-        self.colour_slip = nn.Parameter(torch.tensor(-3.0))  # log chance of any other colour word
-        self.unknown_colour = nn.Parameter(torch.tensor(-2.0))
-        self.label_slip = nn.Parameter(torch.tensor(-6.0))
-        self.twice = nn.Parameter(torch.tensor(0.0))  # how much an instance that explains much is discounted
-        self.temper = nn.Parameter(torch.tensor(0.0))  # log power of the whole
+        self.partly = nn.Parameter(torch.tensor(-3.1))  # log weight of a thing of which little is near
+        self.crowding = nn.Parameter(torch.tensor(0.7))  # power of the sum of pi that each is divided by
+        self.colour_spread = nn.Parameter(torch.tensor(-4.0))  # log, in units of rgb
+        self.colour_slip = nn.Parameter(torch.tensor(-4.1))  # log chance of a wrong colour word
+        self.unknown_colour = nn.Parameter(torch.tensor(-2.0))  # log chance of a word for what has no known colour
+        self.label_slip = nn.Parameter(torch.tensor(-7.0))
+        self.twice = nn.Parameter(torch.tensor(1.0))  # log power of the discount on what explains several hints
+        self.near = nn.Parameter(torch.tensor(-1.5))  # log of 1 / metres that "near" falls over
+        self.measured = nn.Parameter(torch.tensor(-1.2))  # log of the relative error of a said distance
+        self.temper = nn.Parameter(torch.tensor(0.3))  # log power of the whole
         x = (torch.arange(256) - _OFFSET) * STEP_M
         self._way = (x[:, None].expand(256, 256).reshape(-1), x[None].expand(256, 256).reshape(-1))
 
-    def tables(self) -> tuple[Tensor, Tensor, Tensor]:
-        """For every way [65536]: log pi, p of each relation [65536, 10], and the distance in metres."""
+    def share_of(self, way: Tensor, whole: Tensor, turn: Tensor, node: Tensor, nodes: int) -> Tensor:
+        """[R] pi of each row of M nodes, shared among what is near; the same for every text; arguments as Around's."""
+        radius = torch.hypot(*self._way)
+        log_pi = (self.distance[0] * radius + self.distance[1] * radius**2 / 10) / 10
+        turned = torch.stack([weight[turn[:, n]] for n, weight in enumerate(self.turns)]).sum(dim=0)
+        pi = (log_pi[way] + turned + torch.where(whole, 0.0, self.partly)).exp()
+        mass = torch.zeros(nodes).index_add(0, node, pi) + 1e-3
+        return pi / mass[node] ** self.crowding
+
+    def words(self, rgb: Tensor, palette: Palette) -> Tensor:
+        """[P, W] chance of each of the palette's words for colours [P, 3]."""
+        centers = torch.tensor(np.asarray(palette.centers) / 255, dtype=torch.float32)
+        names = colour_words(palette)
+        column = torch.tensor([names.index(word) for word in palette.words])
+        distance = torch.cdist(rgb.nan_to_num(), centers) ** 2
+        word = torch.softmax(-distance / (2 * self.colour_spread.exp() ** 2), dim=1)
+        chance = torch.zeros(len(rgb), len(names)).index_add(1, column, word) + self.colour_slip.exp()
+        return torch.where(rgb.isnan().any(dim=1, keepdim=True), self.unknown_colour.exp(), chance)
+
+    def parts(self, reading: Reading, label: Tensor, words: Tensor) -> Tensor:
+        """[P, H] p(class) p(colour) of parts with labels [P] and words [P, W]."""
+        count = words.shape[1]
+        colour = words @ reading.colour[:, :count].T + reading.colour[:, count]
+        return (reading.label.T[label] + self.label_slip.exp()) * colour
+
+    def places(self, reading: Reading) -> Tensor:
+        """[65536, H] p(direction) p(distance) for every way from an instance."""
         east, north = self._way
         radius = torch.hypot(east, north)
         on_top = torch.sigmoid((self.on_top_m[0].exp() - radius) / self.on_top_m[1].exp())
-        border = self.border_m.exp()
         half = 2**-0.5
-        # North, say, is where north exceeds east and west; northeast the same a turn of 45 degrees on.
+        # North, say, is where north exceeds east and west; northeast the same, half a quarter turn on.
         axes = torch.stack([north, (north + east) * half, east, (east - north) * half])
-        axes = torch.cat([axes, -axes])  # [8, 65536] along each wind
-        across = axes.roll(2, 0).abs()
-        winds = torch.sigmoid((axes - across) / border) * (1 - on_top)
-        log_pi = (self.distance[0] * radius + self.distance[1] * radius**2 / 10) / 10
-        return log_pi, torch.cat([winds, on_top[None], torch.ones_like(on_top)[None]]).T, radius
+        axes = torch.cat([axes, -axes])
+        winds = torch.sigmoid((axes - axes.roll(2, 0).abs()) / self.border_m.exp()) * (1 - on_top)
+        near = torch.exp(-self.near.exp() * radius)
+        place = torch.cat([winds, on_top[None], near[None]]).T @ reading.relation.T
+        said = reading.distance_m
+        if bool((~said.isnan()).any()):
+            spread = self.measured.exp() * said + 1.0
+            fits = torch.exp(-((radius[:, None] - said) ** 2) / (2 * spread**2))
+            place = torch.where(said.isnan(), place, place * fits)
+        return place
 
-    def parts(self, reading: Reading, around: Around) -> Tensor:
-        """[P, H] p(class) p(colour) of each part."""
-        label = reading.label.T[around.label]
-        slip = self.label_slip.exp()
-        known = ~around.rgb.isnan().any(dim=1)
-        distance = torch.cdist(around.rgb.nan_to_num(), self.palette_rgb) ** 2
-        word = torch.softmax(-distance / (2 * self.colour_spread.exp() ** 2), dim=1)  # [P, C]
-        words = word.shape[1]
-        word = word + self.colour_slip.exp()
-        word = torch.where(known[:, None], word, self.unknown_colour.exp())
-        said = reading.colour[:, :words]
-        colour = word @ said.T + reading.colour[:, words]
-        return (label + slip) * colour
-
-    def forward(self, reading: Reading, around: Around) -> Tensor:
-        """[M] log p(T | x), up to a constant."""
-        log_pi, relations, _radius = self.tables()
-        place = relations @ reading.relation.T  # [65536, H]
-        turn = torch.stack([weight[around.turn[:, n]] for n, weight in enumerate(self.turns)]).sum(dim=0)
-        pi = (log_pi[around.way] + turn + torch.where(around.whole, 0.0, self.partly)).exp()
-        mass = torch.zeros(around.nodes).index_add(0, around.node, pi) + 1e-3
-        share = pi / mass[around.node] ** self.crowding
-        terms = self.parts(reading, around)[around.part] * place[around.way] * share[:, None]  # [R, H]
-        empty = torch.zeros(around.nodes, terms.shape[1])
+    def combine(self, reading: Reading, node: Tensor, nodes: int, terms: Tensor) -> Tensor:
+        """[M] log p(T | x) from what each row contributes to each hint, [R, H]."""
         eps = self.background.exp()
-        first = empty.index_add(0, around.node, terms) + eps
-        # At most one hint an instance: what explains several hints counts less for each.
-        load = (terms / first[around.node]).sum(dim=1, keepdim=True)
-        terms = terms * (1 + (load - 1).clamp(min=0)) ** (-self.twice.exp())
-        total = empty.index_add(0, around.node, terms) + eps
-        return self.temper.exp() * total.log().sum(dim=1)
+        empty = torch.zeros(nodes, terms.shape[1])
+        first = empty.index_add(0, node, terms)
+        load = (terms / (first + eps)[node]).sum(dim=1, keepdim=True)
+        single = terms * (1 + (load - 1).clamp(min=0)) ** (-self.twice.exp())
+        total = empty.index_add(0, node, single)
+        said = (total + eps).log()
+        if bool((reading.absent > 0.05).any()):
+            # "There is none": the less there is of it, the likelier.
+            none = (eps.detach() + torch.exp(-3 * first / eps.detach().clamp(min=1e-2))).log()
+            said = said * (1 - reading.absent) + none.clamp(min=-4) * reading.absent
+        return self.temper.exp() * said.sum(dim=1)
+
+    def forward(self, reading: Reading, around: Around, palette: Palette) -> Tensor:
+        """[M] log p(T | x), up to a constant."""
+        fits = self.parts(reading, around.label, self.words(around.rgb, palette))
+        share = self.share_of(around.way, around.whole, around.turn, around.node, around.nodes)
+        terms = fits[around.part] * self.places(reading)[around.way] * share[:, None]
+        return self.combine(reading, around.node, around.nodes, terms)
+
+
+def colour_words(palette: Palette) -> list[str]:
+    """A palette's words, each once, in order."""
+    return list(dict.fromkeys(palette.words))
+
+
+__all__ = ["RELATIONS", "Around", "Likelihood", "Reading", "colour_words", "turns_of", "way_number"]

@@ -146,15 +146,14 @@ class ReadingTask:
     def __init__(self, model: Reader, training: ReadingSet, validation: ReadingSet, batch_size: int) -> None:
         self.model, self.training, self.validation, self.batch_size = model, training, validation, batch_size
 
-    def batch(self, rng: np.random.Generator) -> tuple[ReadingBatch, int]:
-        """Texts, and how far their positions are shifted."""
-        rows = rng.choice(len(self.training), self.batch_size, replace=False).tolist()
-        return self.training.batch(rows), int(rng.integers(0, 128))
+    def batch(self, rng: np.random.Generator) -> ReadingBatch:
+        """Texts."""
+        return self.training.batch(rng.choice(len(self.training), self.batch_size, replace=False).tolist())
 
-    def loss(self, batch: tuple[ReadingBatch, int]) -> Tensor:
+    def loss(self, batch: ReadingBatch) -> Tensor:
         """Cross-entropies of tags and attributes, added."""
-        examples, shift = batch
-        features = self.model(examples.tokens, shift)
+        examples = batch
+        features = self.model(examples.tokens)
         tags = nn.functional.cross_entropy(self.model.tag(features).flatten(0, 1), examples.tags.flatten())
         relation, colour, absent = self.model.attributes(pooled(features, examples))
         said = nn.functional.cross_entropy(relation, examples.relation)

@@ -1,0 +1,71 @@
+"""What a reader noticed, in a map's own words."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
+from models.language.labels import BoundLabels, LabelMatcher
+from models.language.reader import COLOURS, Noticed
+from models.posterior.likelihood import Reading, colour_words
+
+_ALIKE = 0.15  # in units of rgb: how far a colour may be from one that the palette has
+
+
+class Binding:
+    """A map's labels and colours, ready to take what is said.
+
+    Args:
+        matcher: compares nouns with labels.
+        labels: the map's, each once.
+        palette: its colour words.
+    """
+
+    def __init__(self, matcher: LabelMatcher, labels: Sequence[str], palette: Palette) -> None:
+        self.matcher, self.labels, self.palette = matcher, tuple(labels), palette
+        with torch.inference_mode():
+            self._bound: BoundLabels = matcher.bind(self.labels)
+        self._colours = colour_table(palette)
+
+    @torch.inference_mode()
+    def reading(self, noticed: Sequence[Noticed]) -> Reading:
+        """Hints as distributions over what the map has."""
+        nouns = self.matcher.embed([thing.noun for thing in noticed])
+        said = [float("nan") if thing.distance_m is None else thing.distance_m for thing in noticed]
+        return Reading(
+            relation=torch.stack([thing.relation for thing in noticed]),
+            label=self.matcher(nouns, self._bound).exp()[:, :-1],
+            colour=torch.stack([thing.colour for thing in noticed]) @ self._colours,
+            distance_m=torch.tensor(said),
+            absent=torch.tensor([thing.absent for thing in noticed]),
+        )
+
+
+def colour_table(palette: Palette) -> Tensor:
+    """[C + 1, W + 1] from the reader's colours to a palette's words; the last of both, that none is said.
+
+    A colour that the palette has no word for goes to the words of the most alike.
+    """
+    words = colour_words(palette)
+    centers = np.asarray(palette.centers)
+    table = torch.zeros(len(COLOURS) + 1, len(words) + 1)
+    table[-1, -1] = 1.0
+    for row, colour in enumerate(COLOURS):
+        if colour in words:
+            table[row, words.index(colour)] = 1.0
+            continue
+        distance = np.linalg.norm(centers[:, None] - centers_of(colour), axis=-1).min(axis=1) / 255
+        weight = np.exp(-(distance**2) / (2 * _ALIKE**2))
+        for word, value in zip(palette.words, weight / weight.sum(), strict=True):
+            table[row, words.index(word)] += float(value)
+    return table
+
+
+def centers_of(colour: str) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    """[n, 3] rgb centres (0..255) of a colour of the reader."""
+    for palette in (BASIC_PALETTE, KITTI360_PALETTE):
+        if colour in palette.words:
+            return np.array([c for word, c in zip(palette.words, palette.centers, strict=True) if word == colour])
+    raise ValueError(f"no palette has '{colour}'")

@@ -1,0 +1,148 @@
+"""From a posterior over nodes to an answer: cells in order, positions, how far the truth may be, evidence."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from scipy.special import logsumexp
+
+from models.city.points import Ints
+from models.city.types import Floats
+from models.posterior.likelihood import Reading
+from models.posterior.posterior import CANDIDATES, HEAVY, Field, HintPosterior, LogPrior
+
+HIT_M = 5.0  # positions are chosen to have most of the mass this near
+MEAN_M = 3.0  # and are then the mean of the mass this near
+_TAIL = 30  # candidates at the end, from which the mass of the cells behind them is guessed
+Mask = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Located:
+    """What is known of where a description was said.
+
+    Attributes:
+        rows: [K] cells, likeliest first.
+        log_mass: [K] log of p(T | x) summed over each cell's nodes, not normalised.
+        probability: [K] that the speaker is in the part of the map that each cell owns.
+        other: probability of all other cells.
+        positions: [K, 2] the best position in each, metres, map frame.
+        nodes_m, weight: [M, 2] and [M] the distribution behind it; the weights add up to 1 - other.
+    """
+
+    rows: Ints
+    log_mass: Floats
+    probability: Floats
+    other: float
+    positions: Floats
+    nodes_m: Floats
+    weight: Floats
+
+    def radii_m(self, shares: tuple[float, ...], extent_m: float, spacing_m: float) -> list[float]:
+        """Circles around the first position that hold some shares of the distribution.
+
+        Args:
+            shares: such as (.5, .9).
+            extent_m: radius that holds the whole map.
+            spacing_m: of the nodes.
+        """
+        corner = np.array([[i, j] for i in (-1, 1) for j in (-1, 1)]) * spacing_m / 4
+        offset = self.nodes_m - self.positions[0]
+        distance = np.linalg.norm(offset[:, None] + corner, axis=2).ravel()
+        order = np.argsort(distance)
+        mass = np.cumsum(np.repeat(self.weight / 4, 4)[order])
+        found: list[float] = np.append(distance[order], extent_m)[np.searchsorted(mass, shares)].tolist()
+        return found
+
+    def covariance(self, extent_m: float, spacing_m: float) -> Floats:
+        """[2, 2] square metres, of the truth around the first position; arguments as `radii_m`."""
+        offset = self.nodes_m - self.positions[0]
+        covariance: Floats = (offset * self.weight[:, None]).T @ offset
+        return covariance + np.eye(2) * (spacing_m**2 + self.other * extent_m**2) / 12
+
+
+def locate(
+    posterior: HintPosterior,
+    reading: Reading,
+    log_prior: LogPrior | None = None,
+    inside: Mask | None = None,
+    also: Ints | None = None,
+    candidates: int = CANDIDATES,
+) -> Located | None:
+    """Find where a description was said.
+
+    Args:
+        posterior: of the gallery.
+        reading: what was said, at least one hint.
+        log_prior: log-density of positions [M, 2], any constant.
+        inside: [nodes] bool, False where it cannot be.
+        also: cells to look at besides those that the statements lead to.
+        candidates: cells to look at; all cells of `inside` if they are not many more.
+
+    Returns:
+        None if nothing is inside.
+    """
+    scores = _cell_scores(posterior, reading, log_prior, inside)
+    possible = np.flatnonzero(scores > -np.inf)
+    if not len(possible):
+        return None
+    chosen = possible[np.argsort(-scores[possible], kind="stable")[:candidates]]
+    if also is not None:
+        chosen = np.concatenate([chosen, np.setdiff1d(also[scores[also] > -np.inf], chosen)])
+    field = posterior.field(reading, chosen, log_prior, inside)
+    mass = np.full(len(chosen), -np.inf)
+    for k, part in enumerate(np.split(field.log_p, np.flatnonzero(np.diff(field.cell)) + 1)):
+        mass[np.unique(field.cell)[k]] = logsumexp(part)
+    left_out = np.setdiff1d(possible, chosen)
+    rest = -np.inf
+    if len(left_out):
+        tail = slice(max(0, min(candidates, len(chosen)) - _TAIL), min(candidates, len(chosen)))
+        gap = np.median(mass[tail] - scores[chosen][tail])
+        rest = float(logsumexp(scores[left_out] + gap))
+    total = np.logaddexp(logsumexp(mass), rest)
+    order = np.lexsort((chosen, -mass))
+    weight = np.exp(field.log_p - total)
+    nodes_m = posterior.nodes_m[field.nodes]
+    return Located(
+        rows=chosen[order],
+        log_mass=mass[order],
+        probability=np.exp(mass[order] - total),
+        other=float(np.exp(rest - total)),
+        positions=_positions(field, nodes_m, weight, order),
+        nodes_m=nodes_m,
+        weight=weight,
+    )
+
+
+def _cell_scores(posterior: HintPosterior, reading: Reading, log_prior: LogPrior | None, inside: Mask | None) -> Floats:
+    """[N] about the log mass of each cell, up to one constant; -inf where none of its nodes is inside."""
+    scores = posterior.cell_scores(reading) * float(posterior.likelihood.temper.exp())
+    if log_prior is not None:
+        scores = scores + log_prior(posterior.cells.center_m[:, :2])
+    if inside is not None:
+        starts = posterior.surroundings.cell_starts
+        count = np.concatenate([[0], np.cumsum(inside)])
+        scores = np.where(count[starts[1:]] > count[starts[:-1]], scores, -np.inf)
+    return scores
+
+
+def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints) -> Floats:
+    """[K, 2] in each cell, in the given order, the place with most mass within reach."""
+    first = np.searchsorted(field.cell, np.arange(len(field.cells) + 1))
+    best = np.array([a + int(np.argmax(weight[a:b])) if b > a else -1 for a, b in pairwise(first)])
+    heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
+    centers = np.union1d(heavy, best[best >= 0])
+    with torch.inference_mode():
+        at, around = (torch.from_numpy(nodes_m[rows]) for rows in (centers, heavy))
+        distance = torch.cdist(at, around)
+        share = torch.from_numpy(weight[heavy])
+        near_mass = (torch.exp(-((distance / (0.9 * HIT_M)) ** 6)) @ share).numpy()
+        close = torch.exp(-((distance / MEAN_M) ** 6)) * share + 1e-300
+        mean = ((close @ around) / close.sum(dim=1, keepdim=True)).numpy()
+    owner = field.cell[centers]
+    positions = np.zeros((len(field.cells), 2))
+    ascending = np.lexsort((near_mass, owner))
+    positions[owner[ascending]] = mean[ascending]  # the last of a cell, that with most mass, stays
+    return positions[order]

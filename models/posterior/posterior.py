@@ -1,0 +1,189 @@
+"""Where a description was said: candidates, a distribution over their nodes, and what explains each hint."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from scipy.sparse import csr_array
+from torch import Tensor
+
+from models.city.cells import CellTable
+from models.city.colours import Palette
+from models.city.points import Ints, ranges
+from models.city.surroundings import STEP_M, Surroundings
+from models.city.types import Floats
+from models.posterior.likelihood import Likelihood, Reading, turns_of, way_number
+
+CANDIDATES = 100  # cells whose nodes are looked at
+SECTORS = 9  # of a statement: the eight winds and "on-top"
+HEAVY = 400  # nodes that positions and radii are made from: the likeliest
+FLOOR = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
+LogPrior = Callable[[Floats], Floats]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Field:
+    """A distribution over the nodes of some cells.
+
+    Attributes:
+        cells: [K] rows, as they were given.
+        nodes: [M] rows of the surroundings' nodes.
+        cell: [M] which of `cells` owns each.
+        log_p: [M] log p(T | x) + log prior, not normalised.
+    """
+
+    cells: Ints
+    nodes: Ints
+    cell: Ints
+    log_p: Floats
+
+
+class HintPosterior:
+    """The posterior of one gallery.
+
+    Args:
+        likelihood: fitted.
+        surroundings: of the gallery.
+        cells: the gallery.
+        label: [R] label of each of the cells' parts, a number.
+        num_labels: how many there are.
+        palette: the map's colour words.
+    """
+
+    @torch.inference_mode()
+    def __init__(
+        self,
+        likelihood: Likelihood,
+        surroundings: Surroundings,
+        cells: CellTable,
+        label: npt.NDArray[np.int64],
+        num_labels: int,
+        palette: Palette,
+    ) -> None:
+        self.likelihood, self.surroundings, self.cells = likelihood, surroundings, cells
+        s = surroundings
+        self._label = torch.from_numpy(label)
+        self._words = likelihood.words(torch.from_numpy(cells.parts.rgb.astype(np.float32)), palette)
+        self._way = way_number(torch.from_numpy(s.way)).int()
+        self._share = self._shares()
+        self._statements, self._columns = self._tabulate(num_labels)
+        self.nodes_m = s.nodes_m.astype(np.float64)
+
+    def _shares(self) -> Tensor:
+        """[R] pi of each row, a block of nodes at a time."""
+        s, blocks = self.surroundings, []
+        for begin in range(0, len(s.nodes_m), 100_000):
+            end = min(begin + 100_000, len(s.nodes_m))
+            rows = slice(int(s.starts[begin]), int(s.starts[end]))
+            node = torch.from_numpy(np.repeat(np.arange(end - begin), np.diff(s.starts[begin : end + 1])))
+            way, part = torch.from_numpy(s.way[rows]), torch.from_numpy(s.part[rows]).long()
+            turn = turns_of(node, way, self._label[part]) if len(node) else torch.zeros(0, 3, dtype=torch.long)
+            whole = torch.from_numpy(s.whole[rows])
+            blocks.append(self.likelihood.share_of(way_number(way), whole, turn, node, end - begin))
+        return torch.cat(blocks)
+
+    def _tabulate(self, num_labels: int) -> tuple[csr_array, Tensor]:
+        """[N, F] how much of each cell's nodes a statement (label, colour, sector) holds at, and the F statements."""
+        s = self.surroundings
+        sizes = np.diff(s.starts)
+        cell = np.repeat(np.repeat(np.arange(len(self.cells)), np.diff(s.cell_starts)), sizes)
+        east, north = s.way[:, 0].astype(np.float32), s.way[:, 1].astype(np.float32)
+        sector = np.round(np.arctan2(east, north) / (np.pi / 4)).astype(np.int64) % 8
+        sector[np.hypot(east, north) * STEP_M < 1.5] = 8
+        word = self._words.argmax(dim=1).numpy()
+        known = (self.cells.parts.rgb == self.cells.parts.rgb).all(axis=1)
+        word = np.where(known, word, self._words.shape[1])
+        key = (self._label.numpy() * (self._words.shape[1] + 1) + word)[s.part] * SECTORS + sector
+        width = num_labels * (self._words.shape[1] + 1) * SECTORS
+        number, column = np.unique(key, return_inverse=True)
+        value = self._share.numpy() / np.maximum(1, np.diff(s.cell_starts))[cell]
+        table = csr_array((value, (cell, column)), shape=(len(self.cells), len(number)), dtype=np.float32)
+        assert width > int(number.max(initial=0))
+        return table, torch.from_numpy(number)
+
+    @torch.inference_mode()
+    def cell_scores(self, reading: Reading) -> Floats:
+        """[N] about log p(T | cell), of every cell of the gallery: the inverted list over statements."""
+        words = self._words.shape[1]
+        sector, pair = self._columns % SECTORS, self._columns // SECTORS
+        label, word = pair // (words + 1), pair % (words + 1)
+        place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
+        colour = torch.cat(
+            [reading.colour[:, :words] + reading.colour[:, words:], torch.ones(len(place), 1) * 0.3], dim=1
+        )
+        weight = reading.label[:, label] * colour[:, word] * place[:, sector]  # [H, F]
+        holds = self._statements @ weight.T.numpy()
+        present = np.log(holds + FLOOR)
+        absent = reading.absent.numpy()
+        scores: Floats = (present * (1 - absent)).sum(axis=1)
+        return scores
+
+    @torch.inference_mode()
+    def field(self, reading: Reading, cells: Ints, log_prior: LogPrior | None = None, inside: Any = None) -> Field:
+        """The posterior over the nodes of some cells.
+
+        Args:
+            reading: what was said.
+            cells: [K] rows.
+            log_prior: log-density of positions [M, 2]; None for none.
+            inside: [M of all] bool, False where it cannot be; None for everywhere.
+        """
+        s = self.surroundings
+        begin, end = s.cell_starts[cells], s.cell_starts[cells + 1]
+        nodes, cell = ranges(begin, end), np.repeat(np.arange(len(cells)), end - begin)
+        if inside is not None:
+            kept = inside[nodes]
+            nodes, cell = nodes[kept], cell[kept]
+        rows, node, fits, part = self._rows(reading, nodes)
+        terms = fits[part] * self.likelihood.places(reading)[self._way[rows].long()] * self._share[rows][:, None]
+        log_p = self.likelihood.combine(reading, node, len(nodes), terms).double().numpy()
+        if log_prior is not None:
+            log_p = log_p + log_prior(self.nodes_m[nodes])
+        return Field(cells, nodes, cell, log_p)
+
+    @torch.inference_mode()
+    def explain(self, reading: Reading, node: int) -> list[tuple[int, float]]:
+        """For each hint the part that explains it best at a node (-1 for none), and how likely it is that one does."""
+        rows, _, fits, part = self._rows(reading, np.array([node]))
+        terms = fits[part] * self.likelihood.places(reading)[self._way[rows].long()] * self._share[rows][:, None]
+        eps = float(self.likelihood.background.exp())
+        if not len(rows):
+            return [(-1, 0.0)] * len(reading.label)
+        best = terms.argmax(dim=0)
+        total = terms.sum(dim=0)
+        parts = self.surroundings.part[rows.numpy()]
+        return [(int(parts[int(b)]), float(t / (t + eps))) for b, t in zip(best.tolist(), total.tolist(), strict=True)]
+
+    def _rows(self, reading: Reading, nodes: Ints) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """Rows of some nodes, the node of each, p(class) p(colour) [P, H] of the parts seen, and the part of each row."""
+        s = self.surroundings
+        begin, end = s.starts[nodes], s.starts[nodes + 1]
+        rows = torch.from_numpy(ranges(begin, end))
+        node = torch.from_numpy(np.repeat(np.arange(len(nodes)), end - begin))
+        seen = np.zeros(len(self._label), np.bool_)
+        part = s.part[rows.numpy()]
+        seen[part] = True
+        different = np.flatnonzero(seen)
+        number = np.zeros(len(self._label), np.int64)
+        number[different] = np.arange(len(different))
+        chosen = torch.from_numpy(different)
+        fits = self.likelihood.parts(reading, self._label[chosen], self._words[chosen])
+        return rows, node, fits, torch.from_numpy(number[part])
+
+
+def _sectors_of_relations() -> Tensor:
+    """[10, 9] how much of each relation a sector (a wind's eighth, or "on-top") is."""
+    table = torch.zeros(10, SECTORS)
+    for wind in range(8):
+        table[wind, wind] = 1.0
+        if wind % 2 == 0:  # "north" is said of a quarter
+            table[wind, [(wind + 1) % 8, (wind - 1) % 8]] = 0.5
+    table[8, 8] = 1.0
+    table[9] = 1.0
+    return table
+
+
+_SECTOR_OF_RELATION = _sectors_of_relations()

@@ -1,0 +1,139 @@
+"""Fitting the hint posterior's few weights by maximum likelihood on training towns (method.md, the hint posterior)."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from scipy.spatial import cKDTree
+from torch import Tensor
+
+from models.city.cells import CellTable
+from models.city.colours import Palette
+from models.city.points import Ints, ranges
+from models.city.surroundings import Surroundings
+from models.city.types import Floats
+from models.posterior.likelihood import Around, Likelihood, Reading, turns_of, way_number
+from models.posterior.posterior import HintPosterior
+
+NEAR_M = 25.0  # cells this near to the truth are always looked at
+HARD, RANDOM = 40, 40  # and so many that fit the text, and others
+BLUR_M = 1.5  # the truth is a normal distribution of this width, so that no node is right alone
+BATCH = 16
+LEARNING_RATE = 0.05
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Place:
+    """A map (or a part of it) with what was said in it.
+
+    Attributes:
+        surroundings, cells: of the gallery.
+        label: [R] number of the label of each of the cells' parts.
+        labels: all labels.
+        palette: colour words.
+        readings: Q texts as they were read.
+        positions_m: [Q, 2] where they were said.
+        truth: [Q] cells.
+    """
+
+    surroundings: Surroundings
+    cells: CellTable
+    label: npt.NDArray[np.int64]
+    labels: tuple[str, ...]
+    palette: Palette
+    readings: Sequence[Reading]
+    positions_m: Floats
+    truth: Ints
+
+    def posterior(self, likelihood: Likelihood) -> HintPosterior:
+        """The posterior of this gallery."""
+        return HintPosterior(likelihood, self.surroundings, self.cells, self.label, len(self.labels), self.palette)
+
+
+def fit_likelihood(
+    likelihood: Likelihood,
+    places: Sequence[Place],
+    steps: int,
+    rng: np.random.Generator,
+    progress: Callable[[int, int, float], None] | None = None,
+) -> None:
+    """Make what was said likely where it was said, in place.
+
+    Args:
+        likelihood: from where to start.
+        places: what to fit to, drawn from in turn by their numbers of texts.
+        steps: of Adam, `BATCH` texts each.
+        rng: draws texts and cells.
+        progress: called with (steps done, steps, mean loss of the last ones).
+    """
+    sizes = np.array([len(place.readings) for place in places], dtype=np.float64)
+    start = [place.posterior(likelihood) for place in places]  # only for choosing cells
+    trees = [_tree(place.cells) for place in places]
+    optimizer = torch.optim.Adam(likelihood.parameters(), LEARNING_RATE)
+    losses: list[float] = []
+    for step in range(steps):
+        for group in optimizer.param_groups:
+            group["lr"] = LEARNING_RATE * (1 - 0.9 * step / steps)
+        optimizer.zero_grad()
+        for _ in range(BATCH):
+            n = int(rng.choice(len(places), p=sizes / sizes.sum()))
+            query = int(rng.integers(len(places[n].readings)))
+            loss = surprise(likelihood, places[n], query, _cells(places[n], start[n], trees[n], query, rng))
+            (loss / BATCH).backward()
+            losses.append(loss.item())
+        torch.nn.utils.clip_grad_norm_(likelihood.parameters(), 5.0)
+        optimizer.step()
+        if progress:
+            progress(step + 1, steps, float(np.mean(losses[-20 * BATCH :])))
+
+
+def surprise(likelihood: Likelihood, place: Place, query: int, cells: Ints) -> Tensor:
+    """-log of the posterior density at the truth, among the nodes of some cells."""
+    nodes, around = around_cells(place, cells)
+    log_p = likelihood(place.readings[query], around, place.palette)
+    scene = np.unique(place.cells.scenes, return_inverse=True)[1]
+    owner = np.repeat(cells, np.diff(place.surroundings.cell_starts)[cells])
+    away = ((place.surroundings.nodes_m[nodes] - place.positions_m[query]) ** 2).sum(axis=1)
+    away = np.where(scene[owner] == scene[place.truth[query]], away, np.inf)
+    blur = torch.from_numpy(-away / (2 * BLUR_M**2)).float()
+    return log_p.logsumexp(0) - (log_p + blur).logsumexp(0)
+
+
+def around_cells(place: Place, cells: Ints) -> tuple[Ints, Around]:
+    """The nodes of some cells, and their surroundings."""
+    s = place.surroundings
+    nodes = ranges(s.cell_starts[cells], s.cell_starts[cells + 1])
+    rows = ranges(s.starts[nodes], s.starts[nodes + 1])
+    node = torch.from_numpy(np.repeat(np.arange(len(nodes)), np.diff(s.starts)[nodes]))
+    parts, part = np.unique(s.part[rows], return_inverse=True)
+    way, label = torch.from_numpy(s.way[rows]), torch.from_numpy(place.label)
+    rgb = torch.from_numpy(place.cells.parts.rgb[parts].astype(np.float32))
+    turn = turns_of(node, way, label[torch.from_numpy(s.part[rows]).long()])
+    around = Around(
+        node=node,
+        way=way_number(way),
+        whole=torch.from_numpy(s.whole[rows]),
+        turn=turn,
+        part=torch.from_numpy(part),
+        label=label[torch.from_numpy(parts).long()],
+        rgb=rgb,
+        nodes=len(nodes),
+    )
+    return nodes, around
+
+
+def _tree(cells: CellTable) -> cKDTree:
+    scene = np.unique(cells.scenes, return_inverse=True)[1]
+    return cKDTree(np.column_stack([cells.center_m[:, :2], scene * 1e6]))
+
+
+def _cells(
+    place: Place, start: HintPosterior, tree: cKDTree, query: int, rng: np.random.Generator
+) -> npt.NDArray[np.int64]:
+    """Cells to tell the truth from: those around it, those that fit, and any."""
+    scores = start.cell_scores(place.readings[query])
+    hard = np.argpartition(-scores, min(HARD, len(scores) - 1))[:HARD]
+    near = tree.query_ball_point(tree.data[place.truth[query]], NEAR_M)
+    return np.unique(np.concatenate([near, hard, rng.choice(len(scores), min(RANDOM, len(scores)), replace=False)]))
