@@ -5,7 +5,7 @@ import json
 import multiprocessing
 import resource
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -28,7 +28,7 @@ from models.training.run_dir import METRICS_FILE, replace_file
 from models.training.settings import load_settings
 from models.training.sources import load_source
 
-RESULT_FILE, WEIGHTS_DIR, RUN_DIR = "result.json", "weights", "run"
+RESULT_FILE, LOCALIZATION_FILE, WEIGHTS_DIR, RUN_DIR = "result.json", "localization.json", "weights", "run"
 RANKINGS = {"global level alone": 0, f"global, then all levels on {RERANKED}": RERANKED, "all levels on all cells": -1}
 TEST, CHOSEN_BY = "test", "val"
 
@@ -88,18 +88,23 @@ def reproduce(
         DataError: the data cannot be read.
     """
     jobs = [Job.of(run, seed, data, out, scale) for seed in seeds for run in all_runs()]
-    for done, _ in enumerate(_all_done(jobs, workers), start=1):
-        progress("train and measure", done, len(jobs))
+    missing = [(job,) for job in jobs if job.result() is None]
+    for done in _all_done(_do, missing, workers):
+        progress("train and measure", len(jobs) - len(missing) + done, len(jobs))
     found: dict[str, list[dict[str, Any]]] = {}
     for job in jobs:
         result = job.result()
         assert result is not None
         found.setdefault(job.run.name, []).append(result)
-    for n, seed in enumerate(seeds):
-        for run, fine in _localizers():
-            stages = [Job.of(stage, seed, data, out, scale) for stage in (run, fine)]
-            found[run.name][n]["localization"] = _localization(*stages)
-            progress("localize", n, len(seeds))
+    pairs = [
+        (Job.of(Run(method), seed, data, out, scale), Job.of(fine, seed, data, out, scale))
+        for method, fine in FINE.items()
+        for seed in seeds
+    ]
+    for done in _all_done(_localize, pairs, workers):
+        progress("localize", done, len(pairs))
+    for job, fine_job in pairs:
+        found[job.run.name][list(seeds).index(job.seed)]["localization"] = _localized(job, fine_job)
     return {"seeds": list(seeds), "data": _facts(data), "runs": found}
 
 
@@ -107,21 +112,13 @@ def _changes(run: Run, scale: Scale) -> tuple[str, ...]:
     return (*(scale.fine if run.method in FINE_METHODS else scale.retriever), *run.settings)
 
 
-def _localizers() -> Iterator[tuple[Run, Run]]:
-    """Retriever and fine stage of the methods of table 1."""
-    for method, fine in FINE.items():
-        yield Run(method), fine
-
-
-def _all_done(jobs: Sequence[Job], workers: int) -> Iterator[None]:
-    """One item a job that is done; each is done in a process of its own, so that its memory is its own."""
-    missing = [job for job in jobs if job.result() is None]
-    yield from (None for _ in range(len(jobs) - len(missing)))
+def _all_done(work: Callable[..., None], tasks: Sequence[tuple[Job, ...]], workers: int) -> Iterator[int]:
+    """How many are done; each is done in a process of its own, so that its memory is its own."""
     spawn = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(workers, mp_context=spawn, max_tasks_per_child=1) as pool:
-        for future in as_completed([pool.submit(_do, job) for job in missing]):
+        for done, future in enumerate(as_completed([pool.submit(work, *task) for task in tasks]), start=1):
             future.result()
-            yield None
+            yield done
 
 
 def _do(job: Job) -> None:
@@ -209,18 +206,24 @@ def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
     return recalls
 
 
-def _localization(retriever_job: Job, fine_job: Job) -> dict[str, Any]:
+def _localize(job: Job, fine_job: Job) -> None:
     """Localization recall on the test scenes, kept beside the retriever's result."""
-    path = retriever_job.directory / f"localization-{fine_job.run.name}.json"
-    key = retriever_job.key + fine_job.key
-    if path.is_file() and (known := json.loads(path.read_text()))["key"] == key:
-        return dict(known["localization"])
-    data, queries = _queries(retriever_job.data, TEST)
-    ranker = Ranker.of(load_retriever(retriever_job.directory / WEIGHTS_DIR), data.cells, data.gallery.labels)
+    if _localized(job, fine_job) is not None:
+        return
+    torch.set_num_threads(1)
+    data, queries = _queries(job.data, TEST)
+    ranker = Ranker.of(load_retriever(job.directory / WEIGHTS_DIR), data.cells, data.gallery.labels)
     refiner = load_fine(fine_job.directory / WEIGHTS_DIR)
     localization: dict[str, Any] = evaluate(data, queries, ranker, refiner=refiner)["localization"]
-    replace_file(path, json.dumps({"key": key, "localization": localization}).encode())
-    return localization
+    record = {"key": job.key + fine_job.key, "localization": localization}
+    replace_file(job.directory / LOCALIZATION_FILE, json.dumps(record).encode())
+
+
+def _localized(job: Job, fine_job: Job) -> dict[str, Any] | None:
+    """What `_localize` kept; None if that is still to do."""
+    path = job.directory / LOCALIZATION_FILE
+    found: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
+    return found["localization"] if found.get("key") == job.key + fine_job.key else None
 
 
 def _queries(data: Path, split: str) -> tuple[MapData, Queries]:

@@ -12,6 +12,7 @@ from models.city.hints import ON_TOP_M
 from models.city.surroundings import STEP_M
 from models.language.paraphrase import RELATIONS
 
+HABITS: Final = 3
 TURNS: Final = (16, 4, 4)  # numbers beyond these are as their last
 _OFFSET = 128  # ways are int8; a pair of them numbers a row of the tables
 
@@ -105,7 +106,9 @@ class Likelihood(nn.Module):
         self.border_m = nn.Parameter(torch.tensor(-0.7))  # log softness of the borders between winds
         self.on_top_m = nn.Parameter(torch.tensor([0.46, -1.4]))  # log radius and softness of "on-top"
         self.distance = nn.Parameter(torch.tensor([-0.33, -0.33]))  # log pi by metres / 10, and by their square / 100
-        self.turns = nn.ParameterList(nn.Parameter(torch.zeros(size)) for size in TURNS)
+        # People tell of the nearest things, of one of each kind, or of one in each direction: a mixture of habits.
+        self.turns = nn.ParameterList(nn.Parameter(_falling(size, n)) for n, size in enumerate(TURNS))
+        self.habit = nn.Parameter(torch.zeros(HABITS))  # log weights of the mixture
         self.partly = nn.Parameter(torch.tensor(-3.1))  # log weight of a thing of which little is near
         self.crowding = nn.Parameter(torch.tensor(0.7))  # power of the sum of pi that each is divided by
         self.colour_spread = nn.Parameter(torch.tensor(-4.0))  # log, in units of rgb
@@ -120,12 +123,12 @@ class Likelihood(nn.Module):
         self._way = (x[:, None].expand(256, 256).reshape(-1), x[None].expand(256, 256).reshape(-1))
 
     def share_of(self, way: Tensor, whole: Tensor, turn: Tensor, node: Tensor, nodes: int) -> Tensor:
-        """[R] pi of each row of M nodes, shared among what is near; the same for every text; arguments as Around's."""
+        """[R, 3] pi of each row of M nodes by habit, shared among what is near, the same for every text; see Around."""
         radius = torch.hypot(*self._way)
         log_pi = (self.distance[0] * radius + self.distance[1] * radius**2 / 10) / 10
         turned = torch.stack([weight[turn[:, n]] for n, weight in enumerate(self.turns)]).sum(dim=0)
-        pi = (log_pi[way] + turned + torch.where(whole, 0.0, self.partly)).exp()
-        mass = torch.zeros(nodes).index_add(0, node, pi) + 1e-3
+        pi = ((log_pi[way] + torch.where(whole, 0.0, self.partly))[:, None] + turned).exp()
+        mass = torch.zeros(nodes, HABITS).index_add(0, node, pi) + 1e-3
         return pi / mass[node] ** self.crowding
 
     def words(self, rgb: Tensor, palette: Palette) -> Tensor:
@@ -163,27 +166,46 @@ class Likelihood(nn.Module):
             place = torch.where(said.isnan(), place, place * fits)
         return place
 
-    def combine(self, reading: Reading, node: Tensor, nodes: int, terms: Tensor) -> Tensor:
-        """[M] log p(T | x) from what each row contributes to each hint, [R, H]."""
+    def combine(self, reading: Reading, node: Tensor, nodes: int, fits: Tensor, share: Tensor) -> Tensor:
+        """[M] log p(T | x).
+
+        Args:
+            reading: the text.
+            node: [R] node of each row.
+            nodes: M.
+            fits: [R, H] p(class) p(colour) p(direction) of each row's instance.
+            share: [R, 3] of `share_of`.
+        """
         eps = self.background.exp()
-        empty = torch.zeros(nodes, terms.shape[1])
+        hints = fits.shape[1]
+        empty = torch.zeros(nodes, hints * HABITS)
+        terms = (fits[:, :, None] * share[:, None]).flatten(1)
         first = empty.index_add(0, node, terms)
-        load = (terms / (first + eps)[node]).sum(dim=1, keepdim=True)
-        single = terms * (1 + (load - 1).clamp(min=0)) ** (-self.twice.exp())
-        total = empty.index_add(0, node, single)
-        said = (total + eps).log()
+        load = (terms / (first + eps)[node]).view(-1, hints, HABITS).sum(dim=1)
+        single = (1 + (load - 1).clamp(min=0)) ** (-self.twice.exp())
+        total = empty.index_add(0, node, (terms.view(-1, hints, HABITS) * single[:, None]).flatten(1))
+        said = (total + eps).log().view(nodes, hints, HABITS)
         if bool((reading.absent > 0.05).any()):
             # "There is none": the less there is of it, the likelier.
-            none = (eps.detach() + torch.exp(-3 * first / eps.detach().clamp(min=1e-2))).log()
-            said = said * (1 - reading.absent) + none.clamp(min=-4) * reading.absent
-        return self.temper.exp() * said.sum(dim=1)
+            absent = reading.absent[:, None]
+            none = torch.exp(-3 * first.view_as(said) / eps.detach().clamp(min=1e-2)).clamp(min=1e-2).log()
+            said = said * (1 - absent) + none * absent
+        mixed = (said.sum(dim=1) + self.habit.log_softmax(0)).logsumexp(dim=1)
+        return self.temper.exp() * mixed
 
     def forward(self, reading: Reading, around: Around, palette: Palette) -> Tensor:
         """[M] log p(T | x), up to a constant."""
         fits = self.parts(reading, around.label, self.words(around.rgb, palette))
         share = self.share_of(around.way, around.whole, around.turn, around.node, around.nodes)
-        terms = fits[around.part] * self.places(reading)[around.way] * share[:, None]
-        return self.combine(reading, around.node, around.nodes, terms)
+        here = fits[around.part] * self.places(reading)[around.way]
+        return self.combine(reading, around.node, around.nodes, here, share)
+
+
+def _falling(size: int, habit: int) -> Tensor:
+    """[size, 3] weights by how many come before, of which one habit heeds those of this kind."""
+    weights = torch.zeros(size, HABITS)
+    weights[6 if habit == 0 else 1 :, habit] = -1.0
+    return weights
 
 
 def colour_words(palette: Palette) -> list[str]:

@@ -8,6 +8,7 @@ import numpy.typing as npt
 import torch
 from scipy.special import logsumexp
 
+from models.city.cells import CellTable
 from models.city.points import Ints
 from models.city.types import Floats
 from models.posterior.likelihood import Reading
@@ -110,7 +111,7 @@ def locate(
         log_mass=mass[order],
         probability=np.exp(mass[order] - total),
         other=float(np.exp(rest - total)),
-        positions=_positions(field, nodes_m, weight, order),
+        positions=_positions(field, nodes_m, weight, order, posterior.cells),
         nodes_m=nodes_m,
         weight=weight,
     )
@@ -118,7 +119,7 @@ def locate(
 
 def _cell_scores(posterior: HintPosterior, reading: Reading, log_prior: LogPrior | None, inside: Mask | None) -> Floats:
     """[N] about the log mass of each cell, up to one constant; -inf where none of its nodes is inside."""
-    scores = posterior.cell_scores(reading) * float(posterior.likelihood.temper.exp())
+    scores = posterior.cell_scores(reading) * float(posterior.likelihood.temper.detach().exp())
     if log_prior is not None:
         scores = scores + log_prior(posterior.cells.center_m[:, :2])
     if inside is not None:
@@ -128,8 +129,12 @@ def _cell_scores(posterior: HintPosterior, reading: Reading, log_prior: LogPrior
     return scores
 
 
-def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints) -> Floats:
-    """[K, 2] in each cell, in the given order, the place with most mass within reach."""
+def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable) -> Floats:
+    """[K, 2] for each cell, in the given order, the place with most mass within reach.
+
+    Of the first cell anywhere in its cube, which the cells beside it share; of the others in the part that each owns, so
+    that they differ.
+    """
     first = np.searchsorted(field.cell, np.arange(len(field.cells) + 1))
     best = np.array([a + int(np.argmax(weight[a:b])) if b > a else -1 for a, b in pairwise(first)])
     heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
@@ -145,4 +150,7 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints) -> Fl
     positions = np.zeros((len(field.cells), 2))
     ascending = np.lexsort((near_mass, owner))
     positions[owner[ascending]] = mean[ascending]  # the last of a cell, that with most mass, stays
+    apart = np.abs(nodes_m[centers] - cells.center_m[field.cells[order[0]], :2]).max(axis=1)
+    first_choice = np.where(apart <= cells.size_m / 2, near_mass, -1.0).argmax()
+    positions[order[0]] = mean[first_choice]
     return positions[order]

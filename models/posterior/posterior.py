@@ -73,7 +73,7 @@ class HintPosterior:
         self.nodes_m = s.nodes_m.astype(np.float64)
 
     def _shares(self) -> Tensor:
-        """[R] pi of each row, a block of nodes at a time."""
+        """[R, 3] pi of each row, a block of nodes at a time."""
         s, blocks = self.surroundings, []
         for begin in range(0, len(s.nodes_m), 100_000):
             end = min(begin + 100_000, len(s.nodes_m))
@@ -99,7 +99,7 @@ class HintPosterior:
         key = (self._label.numpy() * (self._words.shape[1] + 1) + word)[s.part] * SECTORS + sector
         width = num_labels * (self._words.shape[1] + 1) * SECTORS
         number, column = np.unique(key, return_inverse=True)
-        value = self._share.numpy() / np.maximum(1, np.diff(s.cell_starts))[cell]
+        value = self._share.mean(dim=1).numpy() / np.maximum(1, np.diff(s.cell_starts))[cell]
         table = csr_array((value, (cell, column)), shape=(len(self.cells), len(number)), dtype=np.float32)
         assert width > int(number.max(initial=0))
         return table, torch.from_numpy(number)
@@ -138,8 +138,8 @@ class HintPosterior:
             kept = inside[nodes]
             nodes, cell = nodes[kept], cell[kept]
         rows, node, fits, part = self._rows(reading, nodes)
-        terms = fits[part] * self.likelihood.places(reading)[self._way[rows].long()] * self._share[rows][:, None]
-        log_p = self.likelihood.combine(reading, node, len(nodes), terms).double().numpy()
+        here = fits[part] * self.likelihood.places(reading)[self._way[rows].long()]
+        log_p = self.likelihood.combine(reading, node, len(nodes), here, self._share[rows]).double().numpy()
         if log_prior is not None:
             log_p = log_p + log_prior(self.nodes_m[nodes])
         return Field(cells, nodes, cell, log_p)
@@ -148,7 +148,8 @@ class HintPosterior:
     def explain(self, reading: Reading, node: int) -> list[tuple[int, float]]:
         """For each hint the part that explains it best at a node (-1 for none), and how likely it is that one does."""
         rows, _, fits, part = self._rows(reading, np.array([node]))
-        terms = fits[part] * self.likelihood.places(reading)[self._way[rows].long()] * self._share[rows][:, None]
+        share = self._share[rows].mean(dim=1, keepdim=True)
+        terms = fits[part] * self.likelihood.places(reading)[self._way[rows].long()] * share
         eps = float(self.likelihood.background.exp())
         if not len(rows):
             return [(-1, 0.0)] * len(reading.label)
