@@ -2,7 +2,7 @@
 
 <root>/aliases.json            {"default": "<version>"}
 <root>/<version>/manifest.json written last; names every other file with its sha256
-<root>/<version>/vectors.faiss, cells.safetensors, cells.json
+<root>/<version>/vectors.faiss, cells.safetensors, cells.json, surroundings.safetensors
 """
 
 import hashlib
@@ -22,7 +22,7 @@ from models.errors import IndexBroken, IndexMismatch
 
 MANIFEST = "manifest.json"
 ALIASES = "aliases.json"
-FORMAT = 1
+FORMAT = 2
 ADVICE = "build it with 'hereabouts index --map MAP --out DIR'"
 
 

@@ -54,11 +54,13 @@ def build_index(
     data = load_map(map_path, split, report)
     report("encode cells", 0, 0)
     ranker = Ranker.of(retriever, data.cells, data.gallery.labels)
+    surroundings = data.around(report)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
     with write_version(out_dir, origin["version"]) as directory:
         ranker.save(directory)
         data.gallery.save(directory)
+        surroundings.save(directory)
         manifest = Manifest(
             **origin, **_describe(data), model=retriever.name, dim=ranker.store.dim, files=file_records(directory)
         )

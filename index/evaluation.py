@@ -13,6 +13,7 @@ from scipy.special import logsumexp
 
 from index.ambiguity import ambiguity
 from index.map_data import MapData, Progress, Queries
+from index.map_posterior import MapPosterior
 from index.predictions import FILE, Predictions
 from index.ranking import Ranker
 from index.refinement import Refinement, Refiner
@@ -30,7 +31,7 @@ CHUNK = 64  # queries ranked at once
 def evaluate(
     data: MapData,
     queries: Queries,
-    ranker: Ranker,
+    ranker: Ranker | MapPosterior,
     report_dir: Path | None = None,
     grow_m: Sequence[float] = (),
     progress: Progress | None = None,
@@ -41,11 +42,11 @@ def evaluate(
     Args:
         data: the gallery.
         queries: what is asked.
-        ranker: the model, with its vectors of the gallery (`Ranker.of`, or an index's).
+        ranker: the model, with its vectors of the gallery (`Ranker.of`, or an index's); or the hint posterior of it.
         report_dir: where predictions.npz, report.json, report.md and the plots go; None to write nothing.
         grow_m: radii of a growing gallery (`grow`); predictions for each are saved beside the others.
         progress: called as the work goes on.
-        refiner: gives the positions inside the retrieved cells; None for the cells' centres.
+        refiner: gives the positions inside the retrieved cells; None for the cells' centres, or the posterior's own.
 
     Returns:
         The report (`index.scoring.score`).
@@ -66,7 +67,11 @@ def evaluate(
 
 
 def predict(
-    data: MapData, queries: Queries, ranker: Ranker, progress: Progress, refiner: Refiner | None = None
+    data: MapData,
+    queries: Queries,
+    ranker: Ranker | MapPosterior,
+    progress: Progress,
+    refiner: Refiner | None = None,
 ) -> Predictions:
     """Rank the gallery for each query.
 
@@ -77,6 +82,8 @@ def predict(
         progress: called as the work goes on.
         refiner: as `evaluate`.
     """
+    if isinstance(ranker, MapPosterior):
+        return _predict_by_posterior(data, queries, ranker, progress)
     retriever = ranker.retriever
     total, cells = len(queries), len(data.cells)
     listed = min(LISTED, cells)
@@ -116,6 +123,44 @@ def predict(
         scores=scores,
         predicted_m=predicted,
         probability=probability,
+        radius_m=np.full((total, 2), np.nan),
+    )
+
+
+def _predict_by_posterior(data: MapData, queries: Queries, posterior: MapPosterior, progress: Progress) -> Predictions:
+    total, listed = len(queries), min(LISTED, len(data.cells))
+    ranked, scores = np.full((total, listed), -1, np.int32), np.full((total, listed), -np.inf, np.float32)
+    positions, radius_m = np.zeros((total, min(PREDICTED, listed), 2)), np.full((total, 2), posterior.extent_m)
+    probability = np.zeros(total)
+    for q, sentences in enumerate(queries.sentences):
+        if q % CHUNK == 0:
+            progress("ask", q, total)
+        located = posterior.locate(posterior.reading(posterior.notice(sentences)))
+        if located is None:
+            continue
+        count = min(listed, len(located.rows))
+        ranked[q, :count], scores[q, :count] = located.rows[:count], located.log_mass[:count]
+        near = located.positions[: positions.shape[1]]
+        positions[q, : len(near)] = near
+        probability[q], radius_m[q] = located.probability[0], posterior.radii_m(located)
+    progress("ask", total, total)
+    model = {"model": posterior.model.method, "model_fingerprint": posterior.model.fingerprint}
+    return Predictions(
+        facts={"data": data.name, "split": data.split, "attribution": data.attribution}
+        | model
+        | {"method": posterior.model.method},
+        cell_ids=np.array(data.cells.ids),
+        cell_scenes=np.array(data.cells.scenes),
+        cell_centers_m=data.cells.center_m[:, :2].astype(np.float64),
+        queried_cells=queries.truth,
+        positions_m=queries.positions_m,
+        scenes=np.array(queries.scenes),
+        strategies=np.array(queries.strategies),
+        ranked=ranked,
+        scores=scores,
+        predicted_m=positions,
+        probability=probability,
+        radius_m=radius_m,
     )
 
 

@@ -22,13 +22,18 @@ from models.city.points import PointTable
 from models.city.pose_files import MANIFEST, load_data
 from models.city.pose_store import PoseStore
 from models.city.regions import SPLITS, split_regions
-from models.city.types import CityMap, Floats, Hint
+from models.city.surroundings import Bodies, Surroundings
+from models.city.types import CityMap, CutRules, Floats, Hint
 from models.errors import DataError, MapError
 from models.language.hints_text import render_hint
 
 POSE_SPACING_M = 10.0
 POSE_SEED = 1  # evaluation draws nothing: the positions are the same at every run
 Progress = Callable[[str, int, int], None]  # stage, done, to do (0 if that is not known)
+
+
+def _no_surroundings(progress: Progress) -> Surroundings:
+    raise DataError("this gallery has no surroundings; ask without the posterior")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,6 +48,7 @@ class MapData:
         frame: what its metres mean on Earth.
         grid_m: distance between neighbouring cells.
         attribution: what the data's licence asks to show.
+        around: makes or reads its surroundings, which only the hint posterior needs.
     """
 
     name: str
@@ -52,6 +58,7 @@ class MapData:
     frame: Frame = field(default_factory=Frame)
     grid_m: float = 10.0
     attribution: str = ""
+    around: "Callable[[Progress], Surroundings]" = field(default=_no_surroundings, repr=False)
 
     @property
     def cells(self) -> CellTable:
@@ -113,8 +120,8 @@ def load_map(data: Path, split: str | None = None, progress: Progress | None = N
     """
     if data.is_dir():
         return _of_store(load_data(data, split), data, split)
-    city_map, _points, cells = _cut(data, progress)
-    return _of_city(city_map, _region(cells, city_map, split)[0], split)
+    city_map, points, cells = _cut(data, progress)
+    return _of_city(city_map, points, _region(cells, city_map, split)[0], split)
 
 
 def load_queries(data: Path, split: str | None = None, progress: Progress | None = None) -> tuple[MapData, Queries]:
@@ -150,7 +157,7 @@ def load_queries(data: Path, split: str | None = None, progress: Progress | None
         strategies=[pose.strategy for pose in poses],
         hints=hints,
     )
-    return _of_city(city_map, cells, split), queries
+    return _of_city(city_map, points, cells, split), queries
 
 
 def ask(cells: CellTable, sentences: Sequence[tuple[str, ...]], positions_m: Floats) -> Queries:
@@ -187,7 +194,13 @@ def _region(cells: CellTable, city_map: CityMap, split: str | None) -> tuple[Cel
     raise MapError(f"'{split}' is no split of a map; choose one of {', '.join(SPLITS)}, or none for the whole map")
 
 
-def _of_city(city_map: CityMap, cells: CellTable, split: str | None) -> MapData:
+def _of_city(city_map: CityMap, points: PointTable, cells: CellTable, split: str | None) -> MapData:
+    def around(progress: Progress) -> Surroundings:
+        bodies = Bodies.of_map(city_map, points, cells)
+        return Surroundings.of(
+            bodies, cells, city_map.rules.thing_share, lambda done, total: progress("measure surroundings", done, total)
+        )
+
     return MapData(
         name=city_map.name,
         split=split or "all",
@@ -196,6 +209,7 @@ def _of_city(city_map: CityMap, cells: CellTable, split: str | None) -> MapData:
         frame=city_map.frame,
         grid_m=city_map.rules.grid_m,
         attribution=city_map.attribution,
+        around=around,
     )
 
 
@@ -203,7 +217,18 @@ def _of_store(store: PoseStore, data: Path, split: str | None) -> MapData:
     cells = store.cell_table()
     names = tuple(str(number) for number in store.instance_ids)
     gallery = Gallery(cells, store.labels, (None,) * len(names), names)
-    return MapData(data.resolve().name, split or "all", gallery, KITTI360_PALETTE, grid_m=_grid_of(cells))
+
+    def around(progress: Progress) -> Surroundings:
+        share = CutRules().thing_share
+        return Surroundings.of(
+            Bodies.of_store(store, cells),
+            cells,
+            share,
+            lambda done, total: progress("measure surroundings", done, total),
+        )
+
+    name, grid_m = data.resolve().name, _grid_of(cells)
+    return MapData(name, split or "all", gallery, KITTI360_PALETTE, grid_m=grid_m, around=around)
 
 
 def _grid_of(cells: CellTable) -> float:

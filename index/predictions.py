@@ -32,6 +32,8 @@ class Predictions:
         scores: [Q, K] float32 of them.
         predicted_m: [Q, J] position predicted in each of the first J, [Q, J, 2] float64.
         probability: [Q] of the first cell to be the true one.
+        radius_m: [Q, 2] circles round the first prediction that are to hold the truth with probability .5 and .9; NaN
+            where none were given.
     """
 
     facts: dict[str, Any]
@@ -46,6 +48,7 @@ class Predictions:
     scores: Floats
     predicted_m: Floats
     probability: Floats
+    radius_m: Floats
 
     def save(self, path: Path) -> None:
         """Write one .npz file, whole or not at all."""
@@ -83,7 +86,16 @@ class Predictions:
             "cell_centers_m": (self.cell_centers_m, cells),
             **{
                 name: (getattr(self, name), queries)
-                for name in ("positions_m", "scenes", "strategies", "ranked", "scores", "predicted_m", "probability")
+                for name in (
+                    "positions_m",
+                    "scenes",
+                    "strategies",
+                    "ranked",
+                    "scores",
+                    "predicted_m",
+                    "probability",
+                    "radius_m",
+                )
             },
         }
         for name, (array, length) in lengths.items():

@@ -51,7 +51,20 @@ def score(predictions: Predictions) -> dict[str, Any]:
         "by_strategy": _by(p.strategies, p, errors),
         "calibration": calibration(p.probability, p.ranked[:, 0] == p.queried_cells),
     }
+    if not np.isnan(p.radius_m).any():
+        report["coverage"] = _coverage(p.radius_m, errors[:, 0])
     return dict(_with_text_keys(report))
+
+
+def _coverage(radius_m: Floats, error_m: Floats) -> dict[str, Any]:
+    """Share of the queries inside the circles that are to hold .5 and .9 of them, and the circles' median radius."""
+    return {
+        name: {
+            "true": float((error_m <= radius_m[:, n]).mean()),
+            "median_m": round(float(np.median(radius_m[:, n])), 3),
+        }
+        for n, name in enumerate(("p50", "p90"))
+    }
 
 
 def calibration(probability: Floats, hit: npt.NDArray[np.bool_]) -> dict[str, Any]:

@@ -117,6 +117,16 @@ class Wording:
             said = _join(said, sentence, rng)
         return _spoil(said, rng) if noise else said
 
+    def published(self, facts: Sequence[Fact]) -> Said:
+        """The benchmark's sentences, one a fact (kitti360pose.md, rule 8), in the order of the facts."""
+        said = Said("", ())
+        for n, fact in enumerate(facts):
+            before = f"The pose is {fact.relation} of a {fact.colour + ' ' if fact.colour else ''}"
+            end = len(before) + len(fact.label)
+            sentence = Said(f"{before}{fact.label}.", (Mention(n, len(before), end, fact.label),))
+            said = said.then(sentence, " ") if said.text else sentence
+        return said
+
     def _sentences(self, facts: Sequence[Fact], order: list[int], rng: np.random.Generator) -> list[Said]:
         left, sentences = list(order), []
         while left:
@@ -223,6 +233,9 @@ def opposite(wind: str) -> str:
 @cache
 def _load(grammar: Grammar) -> dict[str, Any]:
     tables = tomllib.loads((GRAMMARS / f"{grammar}.toml").read_text())
+    for more in sorted(GRAMMARS.glob(f"{grammar}_*.toml")):
+        for name, table in tomllib.loads(more.read_text()).items():
+            tables[name]["phrases"] = list(dict.fromkeys([*tables[name]["phrases"], *table["phrases"]]))
     if grammar == "train":
         return tables
     known = _load("train")

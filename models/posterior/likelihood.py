@@ -1,6 +1,6 @@
 """How likely a description is at a position (method.md, the hint posterior)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -27,6 +27,7 @@ class Reading:
         colour: [H, W + 1] probability of each of the palette's words; the last, that none was said.
         distance_m: [H] said distance, NaN if none was.
         absent: [H] probability that the hint says there is none of it.
+        named: for hints that name a landmark, by their number: [R] bool, the cells' parts that bear the name.
     """
 
     relation: Tensor
@@ -34,6 +35,7 @@ class Reading:
     colour: Tensor
     distance_m: Tensor
     absent: Tensor
+    named: dict[int, Tensor] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

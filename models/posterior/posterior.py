@@ -21,6 +21,7 @@ CANDIDATES = 100  # cells whose nodes are looked at
 SECTORS = 9  # of a statement: the eight winds and "on-top"
 HEAVY = 400  # nodes that positions and radii are made from: the likeliest
 FLOOR = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
+NAMED = 0.05  # share of the nodes of a cell with a landmark where it is taken to be mentioned
 LogPrior = Callable[[Floats], Floats]
 
 
@@ -116,6 +117,9 @@ class HintPosterior:
         )
         weight = reading.label[:, label] * colour[:, word] * place[:, sector]  # [H, F]
         holds = self._statements @ weight.T.numpy()
+        for hint, bears in reading.named.items():
+            holds[:, hint] = 0.0
+            holds[self.cells.parts.cube[bears.numpy()], hint] = NAMED
         present = np.log(holds + FLOOR)
         absent = reading.absent.numpy()
         scores: Floats = (present * (1 - absent)).sum(axis=1)
@@ -172,6 +176,8 @@ class HintPosterior:
         number[different] = np.arange(len(different))
         chosen = torch.from_numpy(different)
         fits = self.likelihood.parts(reading, self._label[chosen], self._words[chosen])
+        for hint, bears in reading.named.items():
+            fits[:, hint] = bears[chosen]
         return rows, node, fits, torch.from_numpy(number[part])
 
 

@@ -14,6 +14,7 @@ from models.language.text_encoder import TextEncoder, TokenFeatures
 
 ENCODED_AT_ONCE = 32
 MOST_FACTS = 8
+PUBLISHED = 0.3  # share of the texts in the benchmark's words, of those that it can say
 CARDINAL = (0, 2, 4, 6)  # of WINDS; people and the benchmark say them most
 NAMES = (
     "Stockmann", "Cafe Aroma", "the Grand Hotel", "Lidl", "Esplanadi", "Saint Mary's", "K-Market", "Burger Corner",
@@ -44,6 +45,11 @@ def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> Fact:
         return Fact(label, relation if relation in WINDS else "near", name=NAMES[int(rng.integers(len(NAMES)))])
     distance = float(rng.integers(2, 40)) if special > 0.86 and relation in WINDS else None
     return Fact(label, relation, colour, distance)
+
+
+def _say(wording: Wording, facts: Sequence[Fact], rng: np.random.Generator) -> Said:
+    plain = all(f.relation != "near" and not f.absent and f.name is None and f.distance_m is None for f in facts)
+    return wording.published(facts) if plain and rng.random() < PUBLISHED else wording.write(facts, rng)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,7 +95,7 @@ class ReadingSet:
     ) -> None:
         wording, rng = Wording(grammar), np.random.default_rng(seed)
         self.facts = [draw_facts(wording, rng) for _ in range(size)]
-        self.said: list[Said] = [wording.write(facts, rng) for facts in self.facts]
+        self.said: list[Said] = [_say(wording, facts, rng) for facts in self.facts]
         self._values: list[Tensor] = [torch.empty(0)] * size
         self._targets: list[tuple[Tensor, list[tuple[int, int]]]] = [(torch.empty(0), [])] * size
         order = np.argsort([len(s.text) for s in self.said], kind="stable")  # texts of like length together
