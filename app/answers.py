@@ -12,7 +12,7 @@ EXAMPLE: JsonValue = {
     "status": "ok",
     "estimate": {
         "position": [105.0, -35.0],
-        "method": "cell_center",
+        "method": "posterior",
         "covariance": [[144.0, 0.0], [0.0, 144.0]],
         "radius_m": {"p50": 14.1, "p90": 25.8},
         "probability": 0.62,
@@ -31,6 +31,22 @@ EXAMPLE: JsonValue = {
         }
     ],
     "other_probability": 0.38,
+    "evidence": [
+        {
+            "text": "building",
+            "label": "building",
+            "colour": "gray",
+            "relation": "north",
+            "distance_m": None,
+            "absent": False,
+            "explained": 0.97,
+            "instance": "building",
+            "name": "Stockmann",
+            "source_id": "way/1234",
+            "away_m": 6.2,
+        }
+    ],
+    "heat_map": None,
     "crs": {
         "frame_id": "map",
         "epsg": None,
@@ -93,6 +109,29 @@ class CandidateOut(_Out):
     wgs84: LatLon | None
 
 
+class EvidenceOut(_Out):
+    """How one hint was understood, and what on the map explains it."""
+
+    text: str = Field(description="the words for the thing")
+    label: str | None = Field(description="the map's class that fits them best")
+    colour: str | None
+    relation: str = Field(description="where the speaker is, seen from the thing; near: no direction was said")
+    distance_m: float | None = Field(description="as it was said")
+    absent: bool = Field(description="the text says that there is none")
+    explained: float = Field(description="probability that something on the map explains the hint")
+    instance: str | None = Field(description="class of what explains it at the estimate")
+    name: str | None
+    source_id: str | None
+    away_m: float | None = Field(description="from its closest point to the estimate")
+
+
+class HeatMapOut(_Out):
+    """The distribution behind an answer."""
+
+    spacing_m: float = Field(description="edge of the square that each point stands for")
+    points: list[tuple[float, float, float]] = Field(description="x, y, probability, likeliest first, map frame")
+
+
 class CrsOut(_Out):
     """What the metres of an answer mean."""
 
@@ -143,6 +182,8 @@ class LocalizeResponse(_Out):
     estimate: EstimateOut | None = Field(description="null only with status no_match")
     candidates: list[CandidateOut] = Field(description="best first")
     other_probability: float = Field(description="mass outside the listed candidates")
+    evidence: list[EvidenceOut] = Field(description="one a hint; empty unless refine is posterior")
+    heat_map: HeatMapOut | None = Field(description="if it was asked for")
     crs: CrsOut
     provenance: Provenance
     timings_ms: dict[str, float]
@@ -166,6 +207,8 @@ class LocalizeResponse(_Out):
             estimate=None if answer.estimate is None else EstimateOut.model_validate(answer.estimate),
             candidates=[CandidateOut.model_validate(candidate) for candidate in answer.candidates],
             other_probability=answer.other_probability,
+            evidence=[EvidenceOut.model_validate(hint) for hint in answer.evidence],
+            heat_map=None if answer.heat_map is None else HeatMapOut.model_validate(answer.heat_map),
             crs=CrsOut.of(localizer.frame),
             provenance=Provenance.of(localizer),
             timings_ms={**answer.timings_ms, **timings_ms},

@@ -91,7 +91,7 @@ def localize(
     text: Annotated[str, typer.Argument(help="what is around you, for example 'I am north of a gray building.'")],
     index_dir: IndexDir = INDEX_DIR,
     top_k: Annotated[int, typer.Option(min=1, max=40, help="candidates to list")] = 5,
-    refine: Annotated[Refine, typer.Option(help="what finds the position inside a cell")] = "none",
+    refine: Annotated[Refine, typer.Option(help="how the position is found")] = "posterior",
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
     picture: Annotated[Path | None, typer.Option(help="PNG to draw the answer into")] = None,
 ) -> None:
@@ -103,7 +103,9 @@ def localize(
 
     query = Query(hints=split_hints(text), top_k=top_k, refine=refine)
     settings = load_settings(index_dir=index_dir)
-    localizer = Localizer.open(settings.index_dir, settings.weights_dir, settings.fine_weights_dir)
+    localizer = Localizer.open(
+        settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
+    )
     [answer] = localizer.localize([query])
     if picture:
         from index.picture import draw_answer

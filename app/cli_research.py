@@ -25,7 +25,10 @@ def train(
     out: Annotated[Path, typer.Option(help="directory for the weights")],
     data: Annotated[list[Path], typer.Option(help=DATA_HELP + "; may be given several times")],
     method: Annotated[
-        str, typer.Option(help="a retriever (mncl, text2loc, ret, text2pos) or a fine stage (regressor, matching)")
+        str,
+        typer.Option(
+            help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching) or posterior"
+        ),
     ] = "mncl",
     change: Annotated[
         list[str] | None,
@@ -58,7 +61,9 @@ def train(
     given = data, (split, val_split), method, model, config, out, run_dir, resume
 
     with distributed.process_group(), _training_bar(distributed.is_first()) as show:
-        found = (_train_fine if method in FINE_METHODS else _train_retriever)(*given, show)
+        train_it = _train_posterior if method == "posterior" else None
+        train_it = train_it or (_train_fine if method in FINE_METHODS else _train_retriever)
+        found = train_it(*given, show)
         if distributed.is_first():
             typer.echo(f"weights are in {out}; validation {found}")
 
@@ -89,6 +94,17 @@ def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: A
         lambda encoder, rng: [load_source(path, encoder, config, rng, splits) for path in data],
         out, method, model, config, *rest,
     )  # fmt: skip
+    return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
+
+
+def _train_posterior(
+    data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any
+) -> str:
+    """Train the hint posterior; its figures in words."""
+    from models.training.fit_posterior import train_posterior
+
+    out, *rest = where
+    figures = train_posterior(data, splits, out, model, config, *rest)
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 
@@ -145,7 +161,13 @@ def evaluate(
         asked = read_evaluation(data, settings, split, radii)
     else:
         asked = Evaluation(weights_dir=settings.weights_dir, data=data, split=split, grow_m=radii)
-    asked = asked.model_copy(update={"refine": refine, "fine_weights_dir": settings.fine_weights_dir})
+    asked = asked.model_copy(
+        update={
+            "refine": refine,
+            "fine_weights_dir": settings.fine_weights_dir,
+            "posterior_weights_dir": settings.posterior_weights_dir,
+        }
+    )
     with stage_bars() as show:
         found = asked.run(report, show)
     _print_report(found)

@@ -29,7 +29,7 @@ class Evaluation(BaseModel):
         weights_dir: the model; None for the weights that ship with the package.
         grow_m: radii of a growing gallery.
         refine: what finds positions inside the retrieved cells.
-        fine_weights_dir: its model, as weights_dir.
+        fine_weights_dir, posterior_weights_dir: its model, as weights_dir.
         data, split: as `index.map_data.load_queries`; None for queries of one's own.
         index_dir: an index directory or a version of it, which queries of one's own are asked of.
         sentences, positions_m: each query's hint sentences, and where they were said, map frame.
@@ -41,6 +41,7 @@ class Evaluation(BaseModel):
     grow_m: list[float] = []
     refine: Refine = "none"
     fine_weights_dir: Path | None = None
+    posterior_weights_dir: Path | None = None
     data: Path | None = None
     split: str | None = None
     index_dir: Path | None = None
@@ -62,27 +63,35 @@ class Evaluation(BaseModel):
         from index.evaluation import evaluate  # noqa: PLC0415
         from index.localizer import Localizer  # noqa: PLC0415
         from index.map_data import ask, load_queries  # noqa: PLC0415
+        from index.map_posterior import MapPosterior  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
         from models.localization.checkpoint import load_fine  # noqa: PLC0415
+        from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         torch.set_num_threads(1)  # a model's last bits differ with their number; sentences are too short to need more
-        refiner = load_fine(self.fine_weights_dir) if self.refine != "none" else None
+        refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
         if self.data is not None:
             data, queries = load_queries(self.data, self.split, progress)
+            if self.refine == "posterior":
+                model = load_posterior(self.posterior_weights_dir)
+                answerer = MapPosterior(model, data.gallery, data.palette, data.around(progress))
+                return evaluate(data, queries, answerer, report_dir, self.grow_m, progress)
             progress("encode cells", 0, 0)
             ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
             return evaluate(data, queries, ranker, report_dir, self.grow_m, progress, refiner)
         assert self.index_dir is not None
         progress("open index", 0, 0)
-        localizer = Localizer.open(self.index_dir, self.weights_dir)
+        localizer = Localizer.open(self.index_dir, self.weights_dir, posterior_weights_dir=self.posterior_weights_dir)
         data = localizer.map_data()
         queries = ask(data.cells, self.sentences, np.array(self.positions_m))
-        return evaluate(data, queries, localizer.ranker, report_dir, self.grow_m, progress, refiner)
+        answering = localizer.map_posterior if self.refine == "posterior" else localizer.ranker
+        return evaluate(data, queries, answering, report_dir, self.grow_m, progress, refiner)
 
     def public(self, message: str) -> str:
         """A message without the directories of the machine."""
-        for path in (self.data, self.index_dir, self.weights_dir, self.fine_weights_dir):
+        weights = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
+        for path in (self.data, self.index_dir, *weights):
             message = message.replace(str(path), path.name) if path else message
         return message
 

@@ -72,4 +72,6 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
 def _open_localizer(settings: Settings) -> LocalizerLike:
     from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
 
-    return Localizer.open(settings.index_dir, settings.weights_dir, settings.fine_weights_dir)
+    return Localizer.open(
+        settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
+    )

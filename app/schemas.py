@@ -136,7 +136,12 @@ class LocalizeRequest(Told):
     within: Within | None = None
     prior: PriorPosition | None = None
     crs: Crs = Field("map", description="what the coordinates of within and prior mean")
-    refine: Refine = Field("none", description="what finds the position inside a cell; none: the cell's centre")
+    refine: Refine = Field(
+        "posterior",
+        description="posterior: hints are matched with the map; regressor: vector search, then a regressor; "
+        "none: vector search alone, cells' centres",
+    )
+    heat_map: Annotated[bool, Strict()] = Field(False, description="the distribution behind the answer; with posterior")
     deadline_ms: int
     index: Literal["default"] = "default"
 

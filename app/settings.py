@@ -17,6 +17,9 @@ class Settings(BaseSettings):
     index_dir: Path = Field(Path("data/index"), description="directory that `hereabouts index` wrote")
     weights_dir: Path | None = Field(None, description="model weights; None: the ones shipped in the package")
     fine_weights_dir: Path | None = Field(None, description="weights of the fine stage; None: the ones in the package")
+    posterior_weights_dir: Path | None = Field(
+        None, description="weights of the hint posterior; None: the ones in the package"
+    )
     host: str = "127.0.0.1"
     port: int = Field(8000, ge=0, le=65535)
     data_dir: Path | None = Field(None, description="maps and data sets that POST /evaluate takes by name; None: none")

@@ -5,8 +5,8 @@ from typing import Literal
 
 Crs = Literal["map", "wgs84"]
 Status = Literal["ok", "ambiguous", "no_match"]
-Refine = Literal["none", "regressor"]
-Method = Literal["cell_center", "regressor", "matching"]
+Refine = Literal["none", "regressor", "posterior"]
+Method = Literal["cell_center", "regressor", "matching", "posterior"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,9 @@ class Query:
         within: filter, or None.
         prior: bias, or None.
         crs: what the coordinates of `within` and `prior` mean.
-        refine: what finds positions inside the candidates; "none" leaves them at the centres.
+        refine: what finds positions inside the candidates; "none" leaves them at the centres; "posterior" ranks the
+            candidates too, by the hint posterior.
+        heat_map: whether the answer shall have the distribution behind it; the posterior alone has one.
     """
 
     hints: tuple[str, ...]
@@ -54,6 +56,7 @@ class Query:
     prior: Prior | None = None
     crs: Crs = "map"
     refine: Refine = "none"
+    heat_map: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +81,8 @@ class Estimate:
 
     Attributes:
         position: (x, y) metres, map frame.
-        method: what made it; "cell_center" is the centre of the best cell, the others are models of the fine stage.
+        method: what made it; "cell_center" is the centre of the best cell, "posterior" the hint posterior, the others
+            are models of the fine stage.
         covariance: 2 x 2, square metres, of the true position around `position`; finite, wide when unsure.
         radius_m: circles that hold the true position.
         probability: that the best candidate is the right cell.
@@ -119,16 +123,62 @@ class Candidate:
 
 
 @dataclass(frozen=True, slots=True)
+class Evidence:
+    """How one hint was understood, and what explains it at the estimate.
+
+    Attributes:
+        text: the words for the thing.
+        label: the map's label that fits best, None if none does.
+        colour: word, None if none was said.
+        relation: where the speaker is, seen from the thing; one of RELATIONS.
+        distance_m: said distance, None if none was.
+        absent: whether the text says that there is none.
+        explained: probability that something on the map explains it.
+        instance: its label, None if nothing explains it.
+        name, source_id: of the instance, where the map has them.
+        away_m: from the instance's closest point to the estimate.
+    """
+
+    text: str
+    label: str | None
+    colour: str | None
+    relation: str
+    distance_m: float | None
+    absent: bool
+    explained: float
+    instance: str | None = None
+    name: str | None = None
+    source_id: str | None = None
+    away_m: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class HeatMap:
+    """A distribution over positions.
+
+    Attributes:
+        spacing_m: edge of the square that each point stands for.
+        points: (x, y, probability), likeliest first; metres, map frame.
+    """
+
+    spacing_m: float
+    points: tuple[tuple[float, float, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Answer:
     """What the localizer found for one query.
 
     Attributes:
-        status: "ok"; "ambiguous" when the text fits several places; "no_match" when `within` holds no cell.
+        status: "ok"; "ambiguous" when the text fits several places; "no_match" when `within` holds no cell, or nothing
+            that is said is on the map.
         estimate: None only with "no_match".
         candidates: best first.
         other_probability: mass of all cells that are not listed.
         warnings: what the caller should know, in sentences.
         timings_ms: "encode", "search", "estimate".
+        evidence: how each hint was understood, and what explains it; the posterior alone says.
+        heat_map: if it was asked for.
     """
 
     status: Status
@@ -137,6 +187,8 @@ class Answer:
     other_probability: float
     warnings: tuple[str, ...] = ()
     timings_ms: dict[str, float] = field(default_factory=dict)
+    evidence: tuple[Evidence, ...] = ()
+    heat_map: HeatMap | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,12 +25,17 @@ from index.answers import (
 from index.artifact import Manifest, check_model, open_version
 from index.gallery import Gallery
 from index.map_data import MapData
+from index.map_posterior import MapPosterior
+from index.posterior_answers import PosteriorAnswers
 from index.ranking import Ranker
 from index.refinement import Refinement, Refiner
 from index.uncertainty import covariance_of, radius_of
 from models.city.colours import PALETTES
 from models.city.frame import Frame
+from models.city.surroundings import Surroundings
+from models.errors import WeightsError
 from models.localization.checkpoint import load_fine
+from models.posterior.model import load_posterior
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.levels import Levels
 
@@ -46,6 +51,7 @@ class Localizer:
         gallery: the cells.
         manifest: what the index says of itself.
         load_refiner: reads a model of the fine stage; called when the first query asks for one.
+        load_map_posterior: the same of the hint posterior; None if there is none.
     """
 
     def __init__(
@@ -54,8 +60,10 @@ class Localizer:
         gallery: Gallery,
         manifest: Manifest,
         load_refiner: Callable[[], Refiner] = load_fine,
+        load_map_posterior: Callable[[], MapPosterior] | None = None,
     ) -> None:
         self.ranker, self.gallery, self.manifest, self._load_refiner = ranker, gallery, manifest, load_refiner
+        self._load_map_posterior = load_map_posterior
         self.retriever, self.store = ranker.retriever, ranker.store
         self.frame = Frame(**manifest.frame.model_dump())
         self._centers = gallery.cells.center_m[:, :2]
@@ -109,7 +117,11 @@ class Localizer:
 
     @classmethod
     def open(
-        cls, index_dir: Path, weights_dir: Path | None = None, fine_weights_dir: Path | None = None
+        cls,
+        index_dir: Path,
+        weights_dir: Path | None = None,
+        fine_weights_dir: Path | None = None,
+        posterior_weights_dir: Path | None = None,
     ) -> "Localizer":
         """Open an index directory (what its alias "default" names) or one version of it.
 
@@ -117,6 +129,7 @@ class Localizer:
             index_dir: as it says.
             weights_dir: the retriever's; None for those that ship with the package.
             fine_weights_dir: the same of the fine stage; read when the first query asks for it.
+            posterior_weights_dir: the same of the hint posterior.
 
         Raises:
             IndexBroken: the index is missing, incomplete or changed.
@@ -126,8 +139,14 @@ class Localizer:
         directory, manifest = open_version(index_dir)
         retriever = load_retriever(weights_dir)
         check_model(manifest, retriever.fingerprint)
+        gallery = Gallery.load(directory)
+
+        def load_map_posterior() -> MapPosterior:
+            palette = PALETTES[manifest.palette]
+            return MapPosterior(load_posterior(posterior_weights_dir), gallery, palette, Surroundings.load(directory))
+
         load_refiner = partial(load_fine, fine_weights_dir)
-        return cls(Ranker.load(retriever, directory), Gallery.load(directory), manifest, load_refiner)
+        return cls(Ranker.load(retriever, directory), gallery, manifest, load_refiner, load_map_posterior)
 
     def map_data(self) -> MapData:
         """The map of the index, as the evaluation takes it."""
@@ -150,16 +169,38 @@ class Localizer:
         """
         return Refinement(self._load_refiner(), self.gallery)
 
+    @cached_property
+    def map_posterior(self) -> MapPosterior:
+        """The hint posterior on this gallery.
+
+        Raises:
+            WeightsError: its model cannot be loaded.
+            IndexBroken: nor can the surroundings.
+        """
+        if self._load_map_posterior is None:
+            raise WeightsError("this localizer has no posterior; ask with refine none")
+        return self._load_map_posterior()
+
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
         """Answer queries, in order; the text encoder runs once for all that is new to it.
 
         Raises:
-            WeightsError: a query asks for the fine stage, which cannot be loaded.
+            WeightsError: a query asks for a model that cannot be loaded.
         """
+        by_vectors = [query for query in queries if query.refine != "posterior"]
         start = time.perf_counter()
-        texts = self.retriever.encode_texts([query.hints for query in queries])
+        texts = iter(self.retriever.encode_texts([query.hints for query in by_vectors]) if by_vectors else ())
         encode_ms = (time.perf_counter() - start) * 1000
-        return [self._answer(query, text, encode_ms) for query, text in zip(queries, texts, strict=True)]
+        return [
+            self._posterior_answers.answer(query)
+            if query.refine == "posterior"
+            else self._answer(query, next(texts), encode_ms)
+            for query in queries
+        ]
+
+    @cached_property
+    def _posterior_answers(self) -> PosteriorAnswers:
+        return PosteriorAnswers(self.map_posterior, self.frame, self.manifest.cell_size_m)
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""

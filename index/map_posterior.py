@@ -2,13 +2,14 @@
 
 from collections import OrderedDict
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import torch
 
+from index.answers import Evidence
 from index.gallery import Gallery
 from models.city.colours import Palette
 from models.city.points import ranges
@@ -26,36 +27,6 @@ from models.posterior.posterior import HintPosterior, LogPrior
 LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
 KEPT_TEXTS = 2000
 EXPLAINED = 0.5  # a hint counts as explained from this probability on
-
-
-@dataclass(frozen=True, slots=True)
-class Evidence:
-    """How one hint was understood, and what explains it at the estimate.
-
-    Attributes:
-        text: the words for the thing.
-        label: the map's label that fits best, None if none does.
-        colour: word, None if none was said.
-        relation: where the speaker is, seen from the thing; one of RELATIONS.
-        distance_m: said distance, None if none was.
-        absent: whether the text says that there is none.
-        explained: probability that something on the map explains it.
-        instance: its label, None if nothing explains it.
-        name, source_id: of the instance, where the map has them.
-        away_m: from the instance's closest point to the estimate.
-    """
-
-    text: str
-    label: str | None
-    colour: str | None
-    relation: str
-    distance_m: float | None
-    absent: bool
-    explained: float
-    instance: str | None = None
-    name: str | None = None
-    source_id: str | None = None
-    away_m: float | None = None
 
 
 class MapPosterior:

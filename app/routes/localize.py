@@ -77,6 +77,7 @@ def to_query(asked: LocalizeRequest, max_hints: int, frame: Frame) -> Query:
         prior=asked.prior.prior() if asked.prior else None,
         crs=asked.crs,
         refine=asked.refine,
+        heat_map=asked.heat_map,
     )
 
 

@@ -1,11 +1,11 @@
 """Facts about a position in many wordings: what the reader of free language is trained and tested on.
 
-A grammar is a TOML file in grammar/, data only: ways to name each class (`labels`) and colour, the eight winds
-(`compass`), and phrases by kind: one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`), a thing
-and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`), and what surrounds them (`opener`,
-`closer`, `irrelevant`, `link`, `leads`). Slots: {d} where the speaker is as seen from the thing, {o} the opposite; {a}, {A},
-{the}, {The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour; {dist}, {name}; numbered with several things.
-Validation and test leave out every phrase and name that training has.
+A grammar is a TOML file in grammar/, data only (training's is spread over several). Ways to name each class (`labels`)
+and colour, the eight winds (`compass`), and phrases by kind: one thing (`one`, `on_top`, `near`, `far_one`, `absent`,
+`named`, `named_near`), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`),
+and what surrounds them (`opener`, `closer`, `irrelevant`, `link`, `leads`). Slots: {d} where the speaker is as seen from
+the thing, {o} the opposite; {a}, {A}, {the}, {The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour;
+{dist}, {name}; numbered with several things. Validation and test leave out every phrase and name that training has.
 """
 
 import re
@@ -139,14 +139,8 @@ class Wording:
         """A kind of phrase, and the facts that it takes."""
         first = left[0]
         fact = facts[first]
-        if fact.name is not None:
-            return ("named" if fact.relation in WINDS else "named_near"), [first]
-        if fact.absent:
-            return "absent", [first]
-        if fact.relation not in WINDS:
-            return ("on_top" if fact.relation == "on-top" else "near"), [first]
-        if fact.distance_m is not None:
-            return "far_one", [first]
+        if not _is_plain(fact):
+            return _kind_alone(fact), [first]
         plain = [n for n in left if _is_plain(facts[n])]
         same = [n for n in plain[1:] if facts[n].relation == fact.relation]
         drawn = rng.random()
@@ -156,9 +150,8 @@ class Wording:
             return "three", plain[:3]
         if len(plain) > 1 and drawn < 0.7:
             return "two", plain[:2]
-        if fact.colour and drawn > 0.94:
-            return "colour_apart", [first]
-        return ("pronoun" if drawn > 0.84 else "one"), [first]
+        apart = fact.colour is not None and drawn > 0.94
+        return "colour_apart" if apart else "pronoun" if drawn > 0.84 else "one", [first]
 
     def _pick(self, kind: str, rng: np.random.Generator) -> str:
         return _one_of(self._phrases[kind], rng)
@@ -255,6 +248,17 @@ def _plain(word: str) -> str:
 def _is_plain(fact: Fact) -> bool:
     has_more = fact.absent or fact.name is not None or fact.distance_m is not None
     return fact.relation in WINDS and not has_more
+
+
+def _kind_alone(fact: Fact) -> str:
+    """The kind of phrase for a fact that is more than a thing and a direction."""
+    if fact.name is not None:
+        return "named" if fact.relation in WINDS else "named_near"
+    if fact.absent:
+        return "absent"
+    if fact.relation in WINDS:
+        return "far_one"
+    return "on_top" if fact.relation == "on-top" else "near"
 
 
 def _one_of(options: Sequence[str], rng: np.random.Generator) -> str:

@@ -20,12 +20,11 @@ COLOURS: Final = (
 REACH, HEADS = 5, 4
 FURTHEST = 32  # tokens further apart than this are equally far
 _UNITS = {"m": 1.0, "met": 1.0, "ft": 0.3048, "f": 0.3048, "y": 0.9144, "s": 0.75, "p": 0.75}
-_NUMBERS = {
-    word: n
-    for n, word in enumerate(
-        "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen".split()
-    )
-} | {"twenty": 20, "thirty": 30, "forty": 40, "fifty": 50}
+_WORDS = (
+    "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve",
+    "thirteen", "fourteen", "fifteen",
+)  # fmt: skip
+_NUMBERS = {word: n for n, word in enumerate(_WORDS)} | {"twenty": 20, "thirty": 30, "forty": 40, "fifty": 50}
 _DISTANCE = re.compile(
     rf"(?<![\w.])(\d+(?:[.,]\d+)?|{'|'.join(_NUMBERS)})\s*-?\s*(m|met(?:re|er)s?|ft|feet|foot|yards?|steps?|paces?)\b",
     re.I,

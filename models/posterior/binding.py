@@ -8,6 +8,7 @@ from torch import Tensor
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
 from models.language.labels import BoundLabels, LabelMatcher
+from models.language.paraphrase import RELATIONS
 from models.language.reader import COLOURS, Noticed
 from models.posterior.likelihood import Reading, colour_words
 
@@ -41,6 +42,15 @@ class Binding:
             distance_m=torch.tensor(said),
             absent=torch.tensor([thing.absent for thing in noticed]),
         )
+
+    def nothing(self) -> Reading:
+        """A text that names nothing: one hint that anything fits."""
+        colour = torch.zeros(1, self._colours.shape[1])
+        colour[0, -1] = 1.0
+        label = torch.full((1, len(self.labels)), 1 / len(self.labels))
+        relation = torch.zeros(1, len(RELATIONS))
+        relation[0, -1] = 1.0
+        return Reading(relation, label, colour, torch.tensor([float("nan")]), torch.zeros(1))
 
 
 def colour_table(palette: Palette) -> Tensor:

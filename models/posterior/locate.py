@@ -132,8 +132,8 @@ def _cell_scores(posterior: HintPosterior, reading: Reading, log_prior: LogPrior
 def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable) -> Floats:
     """[K, 2] for each cell, in the given order, the place with most mass within reach.
 
-    Of the first cell anywhere in its cube, which the cells beside it share; of the others in the part that each owns, so
-    that they differ.
+    Of the first cell anywhere in its cube, which the cells beside it share; of the others in the part that each owns,
+    so that they differ.
     """
     first = np.searchsorted(field.cell, np.arange(len(field.cells) + 1))
     best = np.array([a + int(np.argmax(weight[a:b])) if b > a else -1 for a, b in pairwise(first)])

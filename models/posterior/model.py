@@ -8,7 +8,6 @@ from typing import Any, ClassVar
 import pydantic
 import safetensors
 import torch
-from pydantic import BaseModel, ConfigDict
 from safetensors.torch import load_file, save_file
 from torch import nn
 
@@ -23,17 +22,13 @@ WEIGHTS_FILE = "model.safetensors"
 CONFIG_FILE = "config.json"
 
 
-class PosteriorConfig(BaseModel):
+class PosteriorConfig(ReaderConfig):
     """Shape and calibration.
 
     Attributes:
-        reader: of the reader.
         radius_scale: what the radii are multiplied with; fitted on validation data.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    reader: ReaderConfig = ReaderConfig()
     radius_scale: float = 1.0
 
 
@@ -45,7 +40,7 @@ class PosteriorModel(nn.Module):
     def __init__(self, text_encoder: TextEncoder, config: PosteriorConfig) -> None:
         super().__init__()
         self.config = config
-        self.reader = Reader(text_encoder, config.reader)
+        self.reader = Reader(text_encoder, config)
         self.matcher = LabelMatcher(text_encoder)
         self.likelihood = Likelihood()
 
@@ -97,7 +92,7 @@ def load_posterior(directory: Path | None = None) -> PosteriorModel:
         weights = load_file(directory / WEIGHTS_FILE)
     except (safetensors.SafetensorError, ValueError, KeyError, TypeError, pydantic.ValidationError) as error:
         raise WeightsError(f"the weights in {directory} cannot be read ({type(error).__name__}); {advice}") from error
-    model = PosteriorModel(load_text_encoder(config.reader.text_encoder), config)
+    model = PosteriorModel(load_text_encoder(config.text_encoder), config)
     try:
         model.load_state_dict({name: t.float() if t.dtype is torch.float16 else t for name, t in weights.items()})
     except RuntimeError as error:

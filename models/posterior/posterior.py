@@ -163,7 +163,7 @@ class HintPosterior:
         return [(int(parts[int(b)]), float(t / (t + eps))) for b, t in zip(best.tolist(), total.tolist(), strict=True)]
 
     def _rows(self, reading: Reading, nodes: Ints) -> tuple[Tensor, Tensor, Tensor, Tensor]:
-        """Rows of some nodes, the node of each, p(class) p(colour) [P, H] of the parts seen, and the part of each row."""
+        """Rows of some nodes, the node of each, p(class) p(colour) [P, H] of the parts seen, and each row's part."""
         s = self.surroundings
         begin, end = s.starts[nodes], s.starts[nodes + 1]
         rows = torch.from_numpy(ranges(begin, end))

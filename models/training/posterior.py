@@ -10,12 +10,10 @@ from scipy.spatial import cKDTree
 from torch import Tensor
 
 from models.city.cells import CellTable
-from models.city.colours import Palette
 from models.city.points import Ints, ranges
-from models.city.surroundings import Surroundings
-from models.city.types import Floats
 from models.posterior.likelihood import Around, Likelihood, Reading, turns_of, way_number
 from models.posterior.posterior import HintPosterior
+from models.training.places import Place
 
 NEAR_M = 25.0  # cells this near to the truth are always looked at
 HARD, RANDOM = 40, 40  # and so many that fit the text, and others
@@ -25,36 +23,23 @@ LEARNING_RATE = 0.05
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Place:
-    """A map (or a part of it) with what was said in it.
+class Texts:
+    """Texts about a place, as they were read.
 
     Attributes:
-        surroundings, cells: of the gallery.
-        label: [R] number of the label of each of the cells' parts.
-        labels: all labels.
-        palette: colour words.
-        readings: Q texts as they were read.
-        positions_m: [Q, 2] where they were said.
-        truth: [Q] cells.
+        place: where.
+        rows: [Q] their positions among the place's.
+        readings: Q of them.
     """
 
-    surroundings: Surroundings
-    cells: CellTable
-    label: npt.NDArray[np.int64]
-    labels: tuple[str, ...]
-    palette: Palette
+    place: Place
+    rows: Ints
     readings: Sequence[Reading]
-    positions_m: Floats
-    truth: Ints
-
-    def posterior(self, likelihood: Likelihood) -> HintPosterior:
-        """The posterior of this gallery."""
-        return HintPosterior(likelihood, self.surroundings, self.cells, self.label, len(self.labels), self.palette)
 
 
 def fit_likelihood(
     likelihood: Likelihood,
-    places: Sequence[Place],
+    texts: Sequence[Texts],
     steps: int,
     rng: np.random.Generator,
     progress: Callable[[int, int, float], None] | None = None,
@@ -63,14 +48,14 @@ def fit_likelihood(
 
     Args:
         likelihood: from where to start.
-        places: what to fit to, drawn from in turn by their numbers of texts.
+        texts: what to fit to, drawn from in turn by their numbers.
         steps: of Adam, `BATCH` texts each.
         rng: draws texts and cells.
         progress: called with (steps done, steps, mean loss of the last ones).
     """
-    sizes = np.array([len(place.readings) for place in places], dtype=np.float64)
-    start = [place.posterior(likelihood) for place in places]  # only for choosing cells
-    trees = [_tree(place.cells) for place in places]
+    sizes = np.array([len(part.readings) for part in texts], dtype=np.float64)
+    start = [part.place.posterior(likelihood) for part in texts]  # only for choosing cells
+    trees = [_tree(part.place.cells) for part in texts]
     optimizer = torch.optim.Adam(likelihood.parameters(), LEARNING_RATE)
     losses: list[float] = []
     for step in range(steps):
@@ -78,9 +63,9 @@ def fit_likelihood(
             group["lr"] = LEARNING_RATE * (1 - 0.9 * step / steps)
         optimizer.zero_grad()
         for _ in range(BATCH):
-            n = int(rng.choice(len(places), p=sizes / sizes.sum()))
-            query = int(rng.integers(len(places[n].readings)))
-            loss = surprise(likelihood, places[n], query, _cells(places[n], start[n], trees[n], query, rng))
+            n = int(rng.choice(len(texts), p=sizes / sizes.sum()))
+            query = int(rng.integers(len(texts[n].readings)))
+            loss = surprise(likelihood, texts[n], query, _cells(texts[n], start[n], trees[n], query, rng))
             (loss / BATCH).backward()
             losses.append(loss.item())
         torch.nn.utils.clip_grad_norm_(likelihood.parameters(), 5.0)
@@ -89,16 +74,18 @@ def fit_likelihood(
             progress(step + 1, steps, float(np.mean(losses[-20 * BATCH :])))
 
 
-def surprise(likelihood: Likelihood, place: Place, query: int, cells: Ints) -> Tensor:
+def surprise(likelihood: Likelihood, texts: Texts, query: int, cells: Ints) -> Tensor:
     """-log of the posterior density at the truth, among the nodes of some cells."""
+    place, row = texts.place, int(texts.rows[query])
     nodes, around = around_cells(place, cells)
-    log_p = likelihood(place.readings[query], around, place.palette)
+    log_p = likelihood(texts.readings[query], around, place.palette)
     scene = np.unique(place.cells.scenes, return_inverse=True)[1]
     owner = np.repeat(cells, np.diff(place.surroundings.cell_starts)[cells])
-    away = ((place.surroundings.nodes_m[nodes] - place.positions_m[query]) ** 2).sum(axis=1)
-    away = np.where(scene[owner] == scene[place.truth[query]], away, np.inf)
+    away = ((place.surroundings.nodes_m[nodes] - place.positions_m[row]) ** 2).sum(axis=1)
+    away = np.where(scene[owner] == scene[place.truth[row]], away, np.inf)
     blur = torch.from_numpy(-away / (2 * BLUR_M**2)).float()
-    return log_p.logsumexp(0) - (log_p + blur).logsumexp(0)
+    loss: Tensor = log_p.logsumexp(0) - (log_p + blur).logsumexp(0)
+    return loss
 
 
 def around_cells(place: Place, cells: Ints) -> tuple[Ints, Around]:
@@ -130,10 +117,10 @@ def _tree(cells: CellTable) -> cKDTree:
 
 
 def _cells(
-    place: Place, start: HintPosterior, tree: cKDTree, query: int, rng: np.random.Generator
+    texts: Texts, start: HintPosterior, tree: cKDTree, query: int, rng: np.random.Generator
 ) -> npt.NDArray[np.int64]:
     """Cells to tell the truth from: those around it, those that fit, and any."""
-    scores = start.cell_scores(place.readings[query])
+    scores = start.cell_scores(texts.readings[query])
     hard = np.argpartition(-scores, min(HARD, len(scores) - 1))[:HARD]
-    near = tree.query_ball_point(tree.data[place.truth[query]], NEAR_M)
+    near = tree.query_ball_point(tree.data[texts.place.truth[texts.rows[query]]], NEAR_M)
     return np.unique(np.concatenate([near, hard, rng.choice(len(scores), min(RANDOM, len(scores)), replace=False)]))

@@ -181,7 +181,7 @@ def pooled(features: Tensor, batch: ReadingBatch) -> Tensor:
 
 @torch.no_grad()
 def reading_figures(model: Reader, texts: ReadingSet) -> dict[str, float]:
-    """Shares of mentions: noun found, relation, colour, absence right; "hints" all four; "extra" nouns a text too many."""
+    """Shares of mentions: noun found, relation, colour, absence right; "hints" all four; "extra" nouns a text."""
     rows: dict[str, list[Any]] = {"noun": [], "relation": [], "colour": [], "absent": []}
     extra = 0
     for start in range(0, len(texts), 64):

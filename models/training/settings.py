@@ -10,6 +10,7 @@ from pydantic.fields import FieldInfo
 
 from models.errors import TrainingError
 from models.localization.checkpoint import FINE_METHODS
+from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.retrieval.checkpoint import METHODS
 from models.training.data import Wording
 from models.training.loop import LoopConfig
@@ -17,6 +18,7 @@ from models.training.loop import LoopConfig
 CONFIG_TYPES: dict[str, type[BaseModel]] = {
     **{name: method.config_type for name, method in METHODS.items()},
     **{name: method.config_type for name, method in FINE_METHODS.items()},
+    PosteriorModel.method: PosteriorConfig,
 }
 CONFIGS = Path(__file__).parent / "configs"
 C = TypeVar("C", bound=BaseModel)

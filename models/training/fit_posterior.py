@@ -1,0 +1,129 @@
+"""Training the hint posterior: the reader on the paraphrase grammar, then the likelihood on training towns."""
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from models.city.surroundings import SPACING_M
+from models.language.paraphrase import Grammar
+from models.language.text_encoder import load_text_encoder
+from models.posterior.likelihood import Likelihood
+from models.posterior.locate import locate
+from models.posterior.model import PosteriorConfig, PosteriorModel, save_posterior
+from models.training.loop import Progress, run_training
+from models.training.places import Place, load_place
+from models.training.posterior import Texts, fit_likelihood
+from models.training.reading import ReadingSet, ReadingTask, reading_figures
+from models.training.settings import TrainingConfig
+
+TEXTS, VALIDATION_TEXTS = 20_000, 500  # that the reader is trained on, and chosen by
+FITTED_TEXTS, CALIBRATED_TEXTS = 4000, 1200  # of each place
+FIT_STEPS, CALIBRATION_STEPS = 200, 60
+CALIBRATED = ("temper", "background")  # weights that validation places decide
+
+_FIT_WORDING: tuple[Grammar | None, ...] = (
+    None,
+    "train",
+    "val",
+)  # the reader is less sure of itself where it was not trained
+
+
+def train_posterior(
+    data: Sequence[Path],
+    splits: tuple[str, str],
+    out: Path,
+    model: PosteriorConfig,
+    config: TrainingConfig,
+    run_dir: Path | None = None,
+    resume: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+) -> dict[str, float]:
+    """Train, calibrate on validation places, save.
+
+    Args:
+        data: maps and data sets, see `load_place`; nothing of them is needed to train the reader.
+        splits: what the likelihood is fitted to, and what it is calibrated on.
+        out: directory for model.safetensors and config.json.
+        model: shape of the reader.
+        config: how to train it.
+        run_dir: as `run_training`, for the reader.
+        resume: as `run_training`.
+        progress: called at every step of the reader.
+
+    Returns:
+        Figures on validation.
+
+    Raises:
+        TrainingError: see `run_training`.
+        MapError, DataError: see `load_place`.
+    """
+    torch.manual_seed(config.seed)
+    encoder = load_text_encoder(model.text_encoder)
+    trained = PosteriorModel(encoder, model)
+    training = ReadingSet(encoder, "train", TEXTS, config.seed)
+    validation = ReadingSet(encoder, "val", VALIDATION_TEXTS, config.seed + 1)
+    task = ReadingTask(trained.reader, training, validation, config.batch_size)
+    record = {"method": "posterior", "model": model.model_dump(), "training": config.model_dump(mode="json")}
+    history = run_training(task, config, run_dir, resume, progress, record=json.loads(json.dumps(record)))
+    trained.eval()
+    rng = np.random.default_rng(config.seed)
+    fitted = fit_places(trained, [load_place(path, splits[0]) for path in data], rng)
+    measured = calibrate_places(trained, [load_place(path, splits[1]) for path in data], rng)
+    figures = reading_figures(trained.reader, validation) | measured
+    facts: dict[str, Any] = {
+        "config": config.model_dump(mode="json"),
+        "data": [path.resolve().name for path in data],
+        "best_step": history.best_step,
+        "surprise": fitted,
+        "validation": figures,
+    }
+    save_posterior(trained, out, json.loads(json.dumps(facts)))
+    return figures
+
+
+def fit_places(model: PosteriorModel, places: Sequence[Place], rng: np.random.Generator) -> float:
+    """Fit the likelihood to places, in place; the mean surprise at the end."""
+    texts = [_texts(model, place, FITTED_TEXTS, rng) for place in places]
+    last = [0.0]
+    fit_likelihood(model.likelihood, texts, FIT_STEPS, rng, lambda _done, _steps, loss: last.append(loss))
+    return last[-1]
+
+
+def calibrate_places(model: PosteriorModel, places: Sequence[Place], rng: np.random.Generator) -> dict[str, float]:
+    """Fit to other places what makes probabilities and radii honest; figures there."""
+    texts = [_texts(model, place, CALIBRATED_TEXTS, rng) for place in places]
+    for name, parameter in model.likelihood.named_parameters():
+        parameter.requires_grad_(name in CALIBRATED)
+    fit_likelihood(model.likelihood, texts, CALIBRATION_STEPS, rng)
+    for parameter in model.likelihood.parameters():
+        parameter.requires_grad_(True)
+    rows = np.concatenate([_answers(model.likelihood, part) for part in texts])
+    error, p90, hit = rows.T
+    scale = float(np.quantile(error / p90, 0.9))
+    model.config = model.config.model_copy(update={"radius_scale": scale})
+    return {"recall@1": float(hit.mean()), "within_5m": float((error <= 5).mean()), "radius_scale": scale}
+
+
+def _texts(model: PosteriorModel, place: Place, count: int, rng: np.random.Generator) -> Texts:
+    rows = rng.choice(len(place.hints), min(count, len(place.hints)), replace=False)
+    return Texts(place, rows, place.read(model, rows, _FIT_WORDING, rng))
+
+
+def _answers(likelihood: Likelihood, texts: Texts) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    """[Q, 3] error in metres, unscaled radius p90, and whether the best cell is the first."""
+    place, posterior = texts.place, texts.place.posterior(likelihood)
+    extent_m = float(np.linalg.norm(np.ptp(place.cells.center_m[:, :2], axis=0)) + place.cells.size_m)
+    scenes = np.array(place.cells.scenes)
+    found = []
+    for row, reading in zip(texts.rows, texts.readings, strict=True):
+        located = locate(posterior, reading)
+        assert located is not None
+        same = scenes[located.rows[0]] == scenes[place.truth[row]]
+        error = float(np.linalg.norm(located.positions[0] - place.positions_m[row])) if same else np.inf
+        [p90] = located.radii_m((0.9,), extent_m, SPACING_M)
+        found.append((error, p90, float(located.rows[0] == place.truth[row])))
+    return np.array(found)
