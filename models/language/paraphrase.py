@@ -3,7 +3,7 @@
 A grammar is a TOML file in grammar/, data only (training's is spread over several). Ways to name each class (`labels`)
 and colour, the eight winds (`compass`), and phrases by kind: one thing (`one`, `on_top`, `near`, `far_one`, `absent`,
 `named`, `named_near`), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`),
-and what surrounds them (`opener`, `closer`, `irrelevant`, `link`, `leads`). Slots: {d} where the speaker is as seen from
+and what surrounds them (`opener`, `closer`, `irrelevant`, `link`, `leads`). Slots: {d} where the speaker is, seen from
 the thing, {o} the opposite; {a}, {A}, {the}, {The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour;
 {dist}, {name}; numbered with several things. Validation and test leave out every phrase and name that training has.
 """

@@ -1,0 +1,210 @@
+import math
+
+import numpy as np
+import pytest
+import torch
+
+from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
+from models.city.surroundings import STEP_M
+from models.posterior.likelihood import (
+    HABITS,
+    RELATIONS,
+    Around,
+    Likelihood,
+    Reading,
+    colour_words,
+    turns_of,
+    way_number,
+)
+
+WORDS = len(colour_words(KITTI360_PALETTE))
+
+
+def reading(rng, hints, labels, absent=0.0, distance=math.nan):
+    def shares(size):
+        return torch.from_numpy(rng.dirichlet(np.full(size, 0.3), hints).astype(np.float32))
+
+    return Reading(
+        shares(len(RELATIONS)),
+        shares(labels),
+        shares(WORDS + 1),
+        torch.full((hints,), distance),
+        torch.full((hints,), absent),
+    )
+
+
+def around(rng, nodes=5, labels=4, parts=9):
+    sizes = rng.integers(0, 5, nodes)
+    node = np.repeat(np.arange(nodes), sizes)
+    way = torch.from_numpy(rng.integers(-120, 121, (len(node), 2)).astype(np.int8))
+    part = torch.from_numpy(rng.integers(0, parts, len(node)))
+    label = torch.from_numpy(rng.integers(0, labels, parts))
+    rgb = torch.from_numpy(rng.random((parts, 3)).astype(np.float32))
+    rgb[0] = math.nan
+    whole = torch.from_numpy(rng.random(len(node)) < 0.8)
+    turn = turns_of(torch.from_numpy(node), way, label[part])
+    return Around(torch.from_numpy(node), way_number(way), whole, turn, part, label, rgb, nodes), way
+
+
+def place_of(model, relation, east, north):
+    radius = math.hypot(east, north)
+    e = {name: float(p.exp()) for name, p in model.named_parameters() if p.ndim == 0}
+    top, soft = (float(x) for x in model.on_top_m.exp())
+    on_top = 1 / (1 + math.exp(-(top - radius) / soft))
+    total = 0.0
+    for n, name in enumerate(RELATIONS):
+        if name == "on-top":
+            fits = on_top
+        elif name == "near":
+            fits = math.exp(-e["near"] * radius)
+        else:
+            angle = math.radians(45 * n)
+            along = east * math.sin(angle) + north * math.cos(angle)
+            across = abs(east * math.cos(angle) - north * math.sin(angle))
+            fits = (1 - on_top) / (1 + math.exp(-(along - across) / e["border_m"]))
+        total += float(relation[n]) * fits
+    return total
+
+
+@torch.no_grad()
+def naive(model, said, here, way, palette):
+    """log p(T | x) of each node by loops."""
+    eps = math.exp(float(model.background))
+    words = model.words(here.rgb, palette)
+    found = []
+    for m in range(here.nodes):
+        rows = [r for r in range(len(here.node)) if int(here.node[r]) == m]
+        mixed = []
+        for k in range(HABITS):
+            pi = []
+            for r in rows:
+                radius = float((way[r].double() * STEP_M).norm())
+                log_pi = (float(model.distance[0]) * radius + float(model.distance[1]) * radius**2 / 10) / 10
+                log_pi += sum(float(w[int(here.turn[r, n]), k]) for n, w in enumerate(model.turns))
+                pi.append(math.exp(log_pi + (0.0 if here.whole[r] else float(model.partly))))
+            mass = sum(pi) + 1e-3
+            terms = []
+            for r, weight in zip(rows, pi, strict=True):
+                east, north = (way[r].double() * STEP_M).tolist()
+                part = int(here.part[r])
+                row = []
+                for h in range(len(said.label)):
+                    label = float(said.label[h, here.label[part]]) + math.exp(float(model.label_slip))
+                    colour = float(words[part] @ said.colour[h, :-1]) + float(said.colour[h, -1])
+                    place = place_of(model, said.relation[h], east, north)
+                    row.append(label * colour * place * weight / mass ** float(model.crowding))
+                terms.append(row)
+            first = [sum(t[h] for t in terms) for h in range(len(said.label))]
+            power = math.exp(float(model.twice))
+            singles = []
+            for t in terms:
+                load = sum(t[h] / (first[h] + eps) for h in range(len(t)))
+                singles.append((1 + max(0.0, load - 1)) ** -power)
+            total = [sum(t[h] * s for t, s in zip(terms, singles, strict=True)) for h in range(len(said.label))]
+            habit = float(model.habit.log_softmax(0)[k])
+            mixed.append(habit + sum(math.log(x + eps) for x in total))
+        found.append(math.exp(float(model.temper)) * float(torch.tensor(mixed, dtype=torch.float64).logsumexp(0)))
+    return found
+
+
+@pytest.fixture
+def model():
+    torch.manual_seed(0)
+    model = Likelihood()
+    with torch.no_grad():
+        for p in model.parameters():
+            p.add_(0.1 * torch.randn_like(p))
+    return model
+
+
+def test_the_likelihood_is_that_of_a_naive_loop(model) -> None:
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        here, way = around(rng)
+        said = reading(rng, 3, 4)
+        assert model(said, here, KITTI360_PALETTE).tolist() == pytest.approx(
+            naive(model, said, here, way, KITTI360_PALETTE), abs=2e-3
+        )
+
+
+def test_its_gradients_are_those_of_finite_differences(model) -> None:
+    rng = np.random.default_rng(1)
+    here, _ = around(rng)
+    said = reading(rng, 3, 4, distance=6.0)
+    loss = model(said, here, KITTI360_PALETTE).sum()
+    loss.backward()
+    for name in ("background", "crowding", "colour_spread", "twice", "measured", "near"):
+        parameter = dict(model.named_parameters())[name]
+        with torch.no_grad():
+            values = []
+            for step in (1e-2, -1e-2):
+                parameter.add_(step)
+                values.append(float(model(said, here, KITTI360_PALETTE).sum()))
+                parameter.sub_(step)
+        assert float(parameter.grad) == pytest.approx((values[0] - values[1]) / 2e-2, rel=0.05, abs=0.02), name
+
+
+def test_the_order_of_hints_does_not_matter(model) -> None:
+    rng = np.random.default_rng(2)
+    here, _ = around(rng)
+    said = reading(rng, 5, 4)
+    turned = Reading(
+        *(column.flip(0) for column in (said.relation, said.label, said.colour, said.distance_m, said.absent))
+    )
+    assert torch.allclose(model(said, here, KITTI360_PALETTE), model(turned, here, KITTI360_PALETTE), atol=1e-4)
+
+
+def test_the_winds_share_the_compass(model) -> None:
+    one = torch.eye(len(RELATIONS))
+    said = Reading(one, torch.ones(10, 1), torch.ones(10, WORDS + 1), torch.full((10,), math.nan), torch.zeros(10))
+    place = model.places(said)
+    number = {
+        name: int(way_number(torch.tensor([way], dtype=torch.int8)))
+        for name, way in {
+            "north": (0, 80),
+            "northeast": (57, 57),
+            "south": (0, -80),
+            "west": (-80, 0),
+            "here": (1, 2),
+        }.items()
+    }
+    for name in ("north", "northeast", "south", "west"):
+        assert RELATIONS[int(place[number[name], :9].argmax())] == name
+        assert place[number[name], RELATIONS.index(name)] > 0.9
+    assert RELATIONS[int(place[number["here"], :9].argmax())] == "on-top"
+    four = place[:, [0, 2, 4, 6, 8]].sum(dim=1)
+    assert (four - 1).abs().max() < 0.3, "north, east, south, west and on-top are all there is"
+
+
+def test_what_is_absent_is_not_near(model) -> None:
+    way = torch.tensor([[0, 40]], dtype=torch.int8)
+    node = torch.zeros(1, dtype=torch.long)
+    label = torch.zeros(1, dtype=torch.long)
+    here = Around(
+        node, way_number(way), torch.ones(1, dtype=torch.bool), turns_of(node, way, label),
+        torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4), 2,
+    )  # fmt: skip
+    relation = torch.zeros(1, len(RELATIONS))
+    relation[0, -1] = 1.0
+    colour = torch.zeros(1, WORDS + 1)
+    colour[0, -1] = 1.0
+    for absent, better in ((0.0, 0), (1.0, 1)):
+        said = Reading(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.tensor([absent]))
+        log_p = model(said, here, KITTI360_PALETTE)
+        assert int(log_p.argmax()) == better, "node 0 has the thing, node 1 has nothing"
+
+
+def test_turns_count_what_is_nearer() -> None:
+    node = torch.tensor([0, 0, 0, 0, 1])
+    way = torch.tensor([[0, 2], [0, 20], [0, 40], [50, 0], [0, 30]], dtype=torch.int8)
+    label = torch.tensor([1, 0, 1, 0, 0])
+    assert turns_of(node, way, label).tolist() == [[0, 0, 0], [1, 0, 0], [2, 1, 1], [3, 1, 0], [0, 0, 0]]
+
+
+def test_colours_are_named_by_their_nearest_word(model) -> None:
+    centers = torch.tensor(BASIC_PALETTE.centers, dtype=torch.float32) / 255
+    names = colour_words(BASIC_PALETTE)
+    found = model.words(centers, BASIC_PALETTE).argmax(dim=1)
+    assert [names[i] for i in found] == list(BASIC_PALETTE.words)
+    unknown = model.words(torch.full((1, 3), math.nan), BASIC_PALETTE)
+    assert len(set(unknown[0].tolist())) == 1

@@ -1,0 +1,171 @@
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+
+from models.city.hints import describe_poses, sample_positions
+from models.city.surroundings import Bodies, Surroundings
+from models.city.types import DIRECTIONS
+from models.posterior.likelihood import RELATIONS, Likelihood, Reading, colour_words
+from models.posterior.locate import locate
+from models.posterior.posterior import HintPosterior
+from models.training.places import Place
+from models.training.posterior import Texts, around_cells, fit_likelihood
+
+
+@dataclass
+class Town:
+    place: Place
+    posterior: HintPosterior
+    readings: list[Reading]
+
+    def texts(self) -> Texts:
+        return Texts(self.place, np.arange(len(self.readings)), self.readings)
+
+
+def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> Reading:
+    """A reading that knows what was said."""
+    relation, label = torch.zeros(len(hints), len(RELATIONS)), torch.zeros(len(hints), len(labels))
+    colour = torch.zeros(len(hints), len(words) + 1)
+    for n, hint in enumerate(hints):
+        relation[n, RELATIONS.index(hint.direction)] = 1.0
+        label[n, labels.index(hint.label)] = 1.0
+        colour[n, words.index(hint.colour) if hint.colour else -1] = 1.0
+    return Reading(relation, label, colour, torch.full((len(hints),), math.nan), torch.zeros(len(hints)))
+
+
+@pytest.fixture(scope="module")
+def town(city, points, cells) -> Town:
+    surroundings = Surroundings.of(Bodies.of_map(city, points, cells), cells, city.rules.thing_share)
+    names, number = np.unique([i.label for i in city.instances], return_inverse=True)
+    positions = sample_positions(city.locations_m, 25.0, np.random.default_rng(0))
+    poses = describe_poses(city, points, cells, positions)
+    row = {cell_id: n for n, cell_id in enumerate(cells.ids)}
+    place = Place(
+        surroundings, cells, number.astype(np.int64)[cells.parts.instance], tuple(names.tolist()), city.palette,
+        [pose.description.hints for pose in poses], np.array([pose.position_m[:2] for pose in poses]),
+        np.array([row[pose.cell_id] for pose in poses]),
+    )  # fmt: skip
+    words = colour_words(city.palette)
+    readings = [exact(hints, place.labels, words) for hints in place.hints]
+    return Town(place, place.posterior(Likelihood()), readings)
+
+
+def test_the_field_is_the_likelihood_of_its_nodes(town) -> None:
+    cells = np.array([3, 40, 11])
+    for reading in town.readings[:3]:
+        field = town.posterior.field(reading, cells)
+        nodes, around = around_cells(town.place, cells)
+        assert (field.nodes == nodes).all()
+        with torch.no_grad():
+            direct = town.posterior.likelihood(reading, around, town.place.palette)
+        assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
+
+
+def test_descriptions_are_found_where_they_were_said(town) -> None:
+    assert DIRECTIONS
+    hits, near, candidates = [], [], []
+    for q, reading in enumerate(town.readings[:60]):
+        found = locate(town.posterior, reading)
+        hits.append(found.rows[0] == town.place.truth[q])
+        near.append(np.linalg.norm(found.positions[0] - town.place.positions_m[q]) <= 5)
+        scores = town.posterior.cell_scores(reading)
+        candidates.append((scores > scores[town.place.truth[q]]).sum() < 50)
+    assert np.mean(candidates) > 0.95
+    assert np.mean(hits) > 0.4, "a repetitive toy town; chance is 1 in some hundreds"
+    assert np.mean(near) > 0.5
+
+
+def test_probabilities_add_up_and_radii_are_in_order(town) -> None:
+    for reading in town.readings[:20]:
+        found = locate(town.posterior, reading, candidates=30)
+        assert found.probability.sum() + found.other == pytest.approx(1.0)
+        assert found.weight.sum() + found.other == pytest.approx(1.0)
+        assert (np.diff(found.log_mass) <= 1e-12).all()
+        p50, p90 = found.radii_m((0.5, 0.9), 500.0, 1.5)
+        assert 0 < p50 <= p90 <= 500.0
+        eigenvalues = np.linalg.eigvalsh(found.covariance(500.0, 1.5))
+        assert (eigenvalues > 0).all()
+
+
+def test_one_hint_leaves_much_open(town) -> None:
+    whole = town.readings[0]
+    one = Reading(whole.relation[:1], whole.label[:1], whole.colour[:1], whole.distance_m[:1], whole.absent[:1])
+    wide, narrow = (locate(town.posterior, reading) for reading in (one, whole))
+    assert wide.probability[0] < narrow.probability[0]
+    assert wide.other > narrow.other
+    assert wide.radii_m((0.9,), 500.0, 1.5) > narrow.radii_m((0.9,), 500.0, 1.5)
+
+
+def test_a_filter_is_exact(town) -> None:
+    nodes_m = town.posterior.nodes_m
+    for q in range(0, 30, 3):
+        truth = town.place.positions_m[q]
+        inside = np.abs(nodes_m - truth).max(axis=1) <= 20.0
+        found = locate(town.posterior, town.readings[q], inside=inside, candidates=10)
+        assert (np.abs(found.nodes_m - truth).max(axis=1) <= 20.0).all()
+        every = locate(town.posterior, town.readings[q], inside=inside, candidates=10_000)
+        assert found.rows[0] == every.rows[0]
+        cells = np.unique(
+            np.repeat(np.arange(len(town.place.cells)), np.diff(town.place.surroundings.cell_starts))[inside]
+        )
+        assert set(every.rows.tolist()) == set(cells.tolist()), "nothing inside is lost"
+    nowhere = np.zeros(len(nodes_m), dtype=bool)
+    assert locate(town.posterior, town.readings[0], inside=nowhere) is None
+
+
+def test_a_prior_is_multiplied_in(town) -> None:
+    center = town.place.positions_m[5] + 4.0
+
+    def log_prior(positions_m):
+        return -((positions_m - center) ** 2).sum(axis=1) / (2 * 6.0**2)
+
+    cells = np.arange(len(town.place.cells))
+    plain, biased = (town.posterior.field(town.readings[5], cells, prior) for prior in (None, log_prior))
+    assert np.allclose(biased.log_p - plain.log_p, log_prior(town.posterior.nodes_m[plain.nodes]))
+    found = locate(town.posterior, town.readings[5], log_prior)
+    assert np.linalg.norm(found.positions[0] - center) < 20.0
+
+
+def test_the_instance_that_was_meant_explains_a_hint(town, city, cells) -> None:
+    number = {instance.id: n for n, instance in enumerate(city.instances)}
+    right = total = 0
+    for q in range(0, 60, 3):
+        node = int(np.linalg.norm(town.posterior.nodes_m - town.place.positions_m[q], axis=1).argmin())
+        for hint, (part, explained) in zip(
+            town.place.hints[q], town.posterior.explain(town.readings[q], node), strict=True
+        ):
+            total += 1
+            right += part >= 0 and explained > 0.5 and cells.parts.instance[part] == number[hint.instance_id]
+    assert right / total > 0.7, "things alike stand side by side in this town"
+
+
+def test_a_named_landmark_binds_the_hint(town, cells) -> None:
+    reading = town.readings[2]
+    part = int(cells.parts.starts[town.place.truth[2]])
+    bears = torch.from_numpy(cells.parts.instance == cells.parts.instance[part])
+    named = Reading(reading.relation[:1] * 0 + torch.eye(10)[9], reading.label[:1], reading.colour[:1],
+                    reading.distance_m[:1], reading.absent[:1], {0: bears})  # fmt: skip
+    found = locate(town.posterior, named)
+    shown = {
+        c
+        for c in np.flatnonzero(np.diff(cells.parts.starts))
+        if bears[cells.parts.starts[c] : cells.parts.starts[c + 1]].any()
+    }
+    assert set(found.rows[:3].tolist()) <= shown
+
+
+def test_fitting_makes_the_truth_likelier(town) -> None:
+    torch.manual_seed(0)
+    likelihood = Likelihood()
+    losses = []
+    fit_likelihood(likelihood, [town.texts()], 6, np.random.default_rng(0), lambda _d, _s, loss: losses.append(loss))
+    again = Likelihood()
+    fit_likelihood(again, [town.texts()], 6, np.random.default_rng(0))
+    assert all(torch.equal(a, b) for a, b in zip(likelihood.parameters(), again.parameters(), strict=True)), "seeded"
+    changed = [not torch.equal(a, b) for a, b in zip(likelihood.parameters(), Likelihood().parameters(), strict=True)]
+    assert np.mean(changed) > 0.5
+    assert losses[-1] < losses[0] + 0.5
