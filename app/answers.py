@@ -37,7 +37,7 @@ EXAMPLE: JsonValue = {
             "label": "building",
             "colour": "gray",
             "relation": "north",
-            "distance_m": None,
+            "distance_m": 6.0,
             "absent": False,
             "explained": 0.97,
             "instance": "building",
@@ -46,7 +46,7 @@ EXAMPLE: JsonValue = {
             "away_m": 6.2,
         }
     ],
-    "heat_map": None,
+    "heat_map": {"spacing_m": 1.5, "points": [[105.0, -35.0, 0.08]]},
     "crs": {
         "frame_id": "map",
         "epsg": None,

@@ -231,7 +231,7 @@ def _measure(
         rows, tree = trees[int(bodies.scene[i])]
         low, high = xyz[:, :2].min(axis=0), xyz[:, :2].max(axis=0)
         reach = np.linalg.norm(high - low) / 2 + HINT_REACH_M
-        near = rows[np.sort(tree.query_ball_point((low + high) / 2, reach))]
+        near = rows[np.sort(np.array(tree.query_ball_point((low + high) / 2, reach), dtype=np.int64))]
         if not len(near):
             continue
         at = np.column_stack([nodes[near], height[near]])

@@ -110,7 +110,7 @@ class Reader(nn.Module):
         """Logits of nouns from their features [S, D]: relation [S, 10], colour [S, C + 1], absent [S]."""
         return self.relation(spans), self.colour(spans), self.absent(spans).squeeze(-1)
 
-    @torch.inference_mode()
+    @torch.no_grad()
     def read(self, texts: Sequence[str]) -> list[list[Noticed]]:
         """What each text names, in its order."""
         tokens, characters = self.text_encoder.read(texts)

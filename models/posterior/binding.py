@@ -26,11 +26,11 @@ class Binding:
 
     def __init__(self, matcher: LabelMatcher, labels: Sequence[str], palette: Palette) -> None:
         self.matcher, self.labels, self.palette = matcher, tuple(labels), palette
-        with torch.inference_mode():
+        with torch.no_grad():
             self._bound: BoundLabels = matcher.bind(self.labels)
         self._colours = colour_table(palette)
 
-    @torch.inference_mode()
+    @torch.no_grad()
     def reading(self, noticed: Sequence[Noticed]) -> Reading:
         """Hints as distributions over what the map has."""
         nouns = self.matcher.embed([thing.noun for thing in noticed])

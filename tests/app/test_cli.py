@@ -29,7 +29,7 @@ def opened(monkeypatch):
     calls = []
 
     def put(localizer):
-        def open_(index_dir, weights_dir, _fine_weights_dir):
+        def open_(index_dir, weights_dir, _fine_weights_dir, _posterior_weights_dir):
             calls.append((index_dir, weights_dir))
             if isinstance(localizer, Exception):
                 raise localizer

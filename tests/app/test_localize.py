@@ -15,7 +15,7 @@ def test_answer_has_exactly_the_names_of_the_api(api, text):
     body = api.post("/localize", json={"description": text, "top_k": 2}).json()
     assert set(body) == {
         *("request_id", "status", "estimate", "candidates", "other_probability"),
-        *("crs", "provenance", "timings_ms", "warnings"),
+        *("crs", "provenance", "timings_ms", "warnings", "evidence", "heat_map"),
     }
     estimate = body["estimate"]
     assert estimate["position"] == [0, 0]
@@ -50,7 +50,7 @@ def test_answer_has_exactly_the_names_of_the_api(api, text):
 
 def test_description_is_split_into_hints_and_defaults_are_the_apis(api, fake, text):
     api.post("/localize", json={"description": text})
-    assert fake.batches == [[Query(("I am north of a gray building.", "A black pole is to my west."), top_k=5)]]
+    assert fake.batches == [[Query(("I am north of a gray building.", "A black pole is to my west."), top_k=5, refine="posterior")]]
 
 
 def test_hints_filter_and_prior_reach_the_localizer(api, fake):
@@ -58,8 +58,8 @@ def test_hints_filter_and_prior_reach_the_localizer(api, fake):
     api.post("/localize", json={"hints": [" one tree ", "two trees"], "top_k": 1, **where})
     api.post("/localize", json={"hints": ["a tree"], "within": {"bbox": [24.9, 60.1, 25, 60.2]}, "crs": "wgs84"})
     assert fake.batches == [
-        [Query(("one tree", "two trees"), 1, Circle((1, 2.5), 30), Prior((3, 4), 50))],
-        [Query(("a tree",), 5, Box(24.9, 60.1, 25, 60.2), crs="wgs84")],
+        [Query(("one tree", "two trees"), 1, Circle((1, 2.5), 30), Prior((3, 4), 50), refine="posterior")],
+        [Query(("a tree",), 5, Box(24.9, 60.1, 25, 60.2), crs="wgs84", refine="posterior")],
     ]
 
 
@@ -266,7 +266,7 @@ def test_full_queue_is_429_with_retry_after(settings, fake, start, until, proble
 def test_refine_reaches_the_localizer_and_is_a_known_word(api, fake, text):
     assert api.post("/localize", json={"description": text, "refine": "regressor"}).status_code == 200
     assert api.post("/localize", json={"description": text}).status_code == 200
-    assert [batch[0].refine for batch in fake.batches] == ["regressor", "none"]
+    assert [batch[0].refine for batch in fake.batches] == ["regressor", "posterior"]
     answer = api.post("/localize", json={"description": text, "refine": "magic"})
     assert (answer.status_code, answer.json()["errors"][0]["field"]) == (422, "refine")
 

@@ -28,7 +28,7 @@ def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
     assert manifest.cells == len(cells)
     assert manifest.instances == len(city.instances)
     assert manifest.model_fingerprint == model.fingerprint
-    assert set(manifest.files) == {"vectors.faiss", "cells.safetensors", "cells.json"}
+    assert set(manifest.files) == {"vectors.faiss", "cells.safetensors", "cells.json", "surroundings.safetensors"}
     assert not list(index_dir.glob(".building-*"))
 
 

@@ -26,6 +26,7 @@ def made_up(queries: int, right: float, rng: np.random.Generator) -> Predictions
         scores=np.zeros(ranked.shape, np.float32),
         predicted_m=centers[ranked[:, :10]],
         probability=np.full(queries, right),
+        radius_m=np.full((queries, 2), np.nan),
     )
 
 

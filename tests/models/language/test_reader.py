@@ -1,0 +1,139 @@
+import pytest
+import torch
+
+from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
+from models.language.labels import LabelMatcher, bound_names, meaning_in
+from models.language.landmarks import Landmarks
+from models.language.paraphrase import RELATIONS, Fact, Wording
+from models.language.reader import COLOURS, Noticed, Reader, ReaderConfig, example_targets, said_distances
+from models.posterior.binding import Binding, colour_table
+from models.posterior.likelihood import colour_words
+from models.training.loop import LoopConfig, run_training
+from models.training.reading import ReadingSet, ReadingTask, draw_facts, reading_figures
+
+KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "vegetation")
+
+
+@pytest.fixture
+def reader(text_encoder):
+    torch.manual_seed(0)
+    return Reader(text_encoder, ReaderConfig(width=32)).eval()
+
+
+def test_padding_and_company_change_nothing(reader) -> None:
+    texts = ["A bench.", "I am north of a gray pole, and far to the west of me there is a long red fence, I think."]
+    alone = [reader.read([text])[0] for text in texts]
+    for one, other in zip(alone, reader.read(texts), strict=True):
+        assert [(n.start, n.end) for n in one] == [(n.start, n.end) for n in other]
+        for a, b in zip(one, other, strict=True):
+            assert torch.allclose(a.relation, b.relation, atol=1e-5)
+
+
+def test_targets_mark_the_tokens_of_the_noun(text_encoder) -> None:
+    said = Wording("train").published([Fact("vending machine", "north", "gray"), Fact("lamp", "east")])
+    tokens, characters = text_encoder.read([said.text])
+    tags, ranges = example_targets(said.mentions, characters[0], tokens.mask[0])
+    for mention, (a, b) in zip(said.mentions, ranges, strict=True):
+        start, end = int(characters[0, a, 0]), int(characters[0, b - 1, 1])
+        assert said.text[start:end] == mention.noun
+        assert tags[a:b].tolist() == [1] + [2] * (b - a - 1)
+    assert int((tags > 0).sum()) == sum(b - a for a, b in ranges)
+
+
+def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder) -> None:
+    torch.manual_seed(0)
+    texts = ReadingSet(text_encoder, "train", 96, 0)
+    task = ReadingTask(Reader(text_encoder, ReaderConfig(width=64, dropout=0.0)), texts, texts, 32)
+    before = reading_figures(task.model.eval(), texts)
+    run_training(task, LoopConfig(steps=40, batch_size=32, validate_every=40, learning_rate=3e-3))
+    after = reading_figures(task.model, texts)
+    assert after["noun"] > max(0.8, before["noun"])
+    assert after["relation"] > before["relation"] + 0.1
+
+
+def test_facts_are_varied() -> None:
+    import numpy as np
+
+    wording, rng = Wording("train"), np.random.default_rng(0)
+    facts = [fact for _ in range(300) for fact in draw_facts(wording, rng)]
+    assert {fact.relation for fact in facts} == set(RELATIONS)
+    assert {fact.colour for fact in facts} == {None, *COLOURS}
+    assert any(f.absent for f in facts)
+    assert any(f.distance_m for f in facts)
+    assert any(f.name for f in facts)
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "metres"),
+    [
+        ("About ten metres north of a bench.", "bench", 10.0),
+        ("A bench is 12.5 m to my east, a pole is north.", "bench", 12.5),
+        ("A bench is to my east. The pole is 20 feet away.", "pole", 6.096),
+        ("The bench is 5 steps from me.", "bench", 3.75),
+        ("Some 30 yards from the bench", "bench", 27.432),
+        ("A bench on line M10 near me.", "bench", None),
+        ("There are 3 more minutes to the bench.", "bench", None),
+    ],
+)
+def test_said_distances_go_to_the_nearest_noun(text, noun, metres) -> None:
+    places = [(text.index(word), text.index(word) + len(word)) for word in ("bench", "pole") if word in text]
+    found = dict(zip([text[a:b] for a, b in places], said_distances(text, places), strict=True))
+    assert found[noun] == (pytest.approx(metres) if metres else None)
+    assert all(value is None for word, value in found.items() if word != noun)
+
+
+def test_what_a_class_means_in_a_map() -> None:
+    assert meaning_in("lamp", KITTI) == "lamp"
+    assert meaning_in("street lamp", KITTI) == "lamp"
+    assert meaning_in("hedge", KITTI) == "vegetation"
+    assert meaning_in("lifebuoy", KITTI) is None
+    phrases, numbers = bound_names(KITTI)
+    meant = dict(zip(phrases, numbers, strict=True))
+    assert meant["bus stop"] == KITTI.index("stop")
+    assert meant["lifebuoy"] == len(KITTI)
+
+
+def test_nouns_find_their_label_untrained(text_encoder) -> None:
+    matcher = LabelMatcher(text_encoder)
+    with torch.no_grad():
+        bound = matcher.bind(KITTI)
+        found = matcher(
+            matcher.embed(["streetlight", "garbage can", "house", "office building", "lawn", "giraffe"]), bound
+        )
+    assert torch.allclose(found.exp().sum(dim=1), torch.ones(6), atol=1e-4)
+    names = [*KITTI, None]
+    assert [names[i] for i in found.argmax(dim=1)] == ["lamp", "trash bin", "building", "building", "terrain", None]
+
+
+@pytest.mark.parametrize("palette", [KITTI360_PALETTE, BASIC_PALETTE])
+def test_colours_keep_their_word_or_go_to_the_most_alike(palette) -> None:
+    table, words = colour_table(palette), colour_words(palette)
+    assert torch.allclose(table.sum(dim=1), torch.ones(len(COLOURS) + 1), atol=1e-5)
+    for word in words:
+        assert table[COLOURS.index(word), words.index(word)] == 1.0
+    if palette is KITTI360_PALETTE:
+        assert words[int(table[COLOURS.index("white")].argmax())] == "bright-gray"
+
+
+def test_a_binding_reads_what_was_noticed(text_encoder) -> None:
+    binding = Binding(LabelMatcher(text_encoder), KITTI, KITTI360_PALETTE)
+    sure = torch.eye(10)[2]
+    grey = torch.eye(len(COLOURS) + 1)[COLOURS.index("gray")]
+    reading = binding.reading(
+        [Noticed("lamp post", 0, 9, sure, grey, 0.0, 4.0), Noticed("tree", 0, 4, sure, grey, 1.0, None)]
+    )
+    assert KITTI[int(reading.label[0].argmax())] == "lamp"
+    assert KITTI[int(reading.label[1].argmax())] == "vegetation"
+    assert reading.colour[0].argmax() == colour_words(KITTI360_PALETTE).index("gray")
+    assert reading.distance_m[0] == 4.0
+    assert reading.distance_m[1].isnan()
+    assert binding.nothing().label.shape == (1, len(KITTI))
+
+
+def test_landmarks_are_found_whole_and_whatever_their_case() -> None:
+    landmarks = Landmarks(["Stockmann", None, "Stockmann Helsinki", "Bar", "Café Ekberg", "12345", "Stockmann"])
+    found = landmarks.find(
+        "I am next to stockmann helsinki, west of STOCKMANN and of café ekberg. Bar 12345 Stockmanns"
+    )
+    assert [instances for _, _, instances in found] == [[2], [0, 6], [4]]
+    assert Landmarks([None]).find("Stockmann") == []
