@@ -50,7 +50,9 @@ def test_answer_has_exactly_the_names_of_the_api(api, text):
 
 def test_description_is_split_into_hints_and_defaults_are_the_apis(api, fake, text):
     api.post("/localize", json={"description": text})
-    assert fake.batches == [[Query(("I am north of a gray building.", "A black pole is to my west."), top_k=5, refine="posterior")]]
+    assert fake.batches == [
+        [Query(("I am north of a gray building.", "A black pole is to my west."), top_k=5, refine="posterior")]
+    ]
 
 
 def test_hints_filter_and_prior_reach_the_localizer(api, fake):

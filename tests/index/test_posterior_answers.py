@@ -1,0 +1,170 @@
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch
+
+from index.answers import Box, Circle, Prior, Query
+from index.evaluation import evaluate
+from index.localizer import Localizer
+from index.map_data import load_queries
+from index.map_posterior import MapPosterior
+from index.posterior_answers import PosteriorAnswers
+from models.language.paraphrase import RELATIONS
+from models.language.reader import COLOURS, Noticed
+from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
+
+SENTENCE = re.compile(r"The pose is (\S+) of a ([^.]+)\.")
+
+
+def read_exactly(texts):
+    """The benchmark's sentences, understood."""
+    return [[_noticed(*m.groups(), m.start(2)) for m in SENTENCE.finditer(text)] for text in texts]
+
+
+def _noticed(relation, thing, start):
+    colour = next((c for c in COLOURS if thing.startswith(c + " ")), None)
+    noun = thing.removeprefix(f"{colour} ")
+    said = torch.eye(len(COLOURS) + 1)[COLOURS.index(colour) if colour else -1]
+    return Noticed(
+        noun, start, start + len(noun), torch.eye(len(RELATIONS))[RELATIONS.index(relation)], said, 0.0, None
+    )
+
+
+@pytest.fixture(scope="module")
+def posterior_model(text_encoder):
+    torch.manual_seed(0)
+    model = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
+    model.reader.read = read_exactly
+    return model
+
+
+@pytest.fixture(scope="module")
+def asked(osm_file):
+    return load_queries(osm_file, None)
+
+
+@pytest.fixture(scope="module")
+def posterior(posterior_model, asked):
+    data, _ = asked
+    return MapPosterior(posterior_model, data.gallery, data.palette, data.around(lambda *_: None))
+
+
+@pytest.fixture(scope="module")
+def answers(posterior, city):
+    return PosteriorAnswers(posterior, city.frame, 30.0)
+
+
+@pytest.fixture(scope="module")
+def surest(posterior, asked):
+    """Of some queries, that whose first candidate is the likeliest: the town repeats itself."""
+    found = [posterior.locate(posterior.reading(posterior.notice(s))) for s in asked[1].sentences[:30]]
+    return int(np.argmax([located.probability[0] for located in found]))
+
+
+@pytest.fixture(scope="module")
+def query(asked, surest):
+    return Query(tuple(asked[1].sentences[surest]), refine="posterior")
+
+
+def test_an_answer_is_whole_and_says_why(answers, query, asked, surest) -> None:
+    answer = answers.answer(replace(query, heat_map=True, top_k=3))
+    truth = asked[1].positions_m[surest]
+    assert answer.status == "ok"
+    assert answer.estimate.method == "posterior"
+    assert np.hypot(*(np.array(answer.estimate.position) - truth)) < 15
+    assert len(answer.candidates) == 3
+    total = sum(c.probability for c in answer.candidates) + answer.other_probability
+    assert total == pytest.approx(1.0)
+    assert answer.estimate.wgs84 is not None
+    assert 0 < answer.estimate.radius_m.p50 <= answer.estimate.radius_m.p90
+    assert len(answer.evidence) == len(query.hints)
+    assert np.mean([hint.explained > 0.5 for hint in answer.evidence]) > 0.6
+    shown = [hint for hint in answer.evidence if hint.instance]
+    assert shown
+    assert all(hint.away_m <= 15.1 for hint in shown)
+    points = np.array(answer.heat_map.points)
+    assert (np.diff(points[:, 2]) <= 0).all()
+    assert points[:, 2].sum() <= 1.0 + 1e-9
+
+
+def test_a_filter_holds_for_every_position(answers, query, city) -> None:
+    whole = answers.answer(query)
+    x, y = whole.estimate.position
+    boxed = answers.answer(replace(query, within=Box(x - 60, y - 60, x - 20, y + 60)))
+    for candidate in boxed.candidates:
+        assert x - 61 <= candidate.position[0] <= x - 19
+    lat, lon = city.frame.to_wgs84(np.array([x, y]))
+    round_it = answers.answer(replace(query, within=Circle((float(lon), float(lat)), 40.0), crs="wgs84"))
+    assert round_it.candidates[0].cell_id == whole.candidates[0].cell_id
+    off = answers.answer(replace(query, within=Box(1e6, 1e6, 2e6, 2e6)))
+    assert (off.status, off.estimate, off.other_probability) == ("no_match", None, 1.0)
+    assert "within" in off.warnings[0]
+
+
+def test_a_prior_pulls(answers, query) -> None:
+    x, y = answers.answer(query).estimate.position
+    pulled = answers.answer(replace(query, prior=Prior((x + 80, y), 8.0)))
+    assert abs(pulled.estimate.position[0] - x - 80) < 40
+
+
+def test_a_text_about_nothing_is_no_match(answers) -> None:
+    answer = answers.answer(Query(("It rains and I like it.",)))
+    assert (answer.status, answer.estimate) == ("no_match", None)
+    assert "north of a gray building" in answer.warnings[0]
+
+
+def test_things_that_the_map_has_not_are_no_match(answers) -> None:
+    answer = answers.answer(Query(("The pose is north of a pink giraffe.", "The pose is east of a purple elephant.")))
+    assert answer.status == "no_match" or answer.estimate.probability < 0.1
+
+
+def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_path) -> None:
+    data, queries = asked
+    rows = np.arange(0, len(queries), max(1, len(queries) // 40))
+    some = replace(
+        queries,
+        sentences=[queries.sentences[q] for q in rows],
+        positions_m=queries.positions_m[rows],
+        truth=queries.truth[rows],
+        scenes=[queries.scenes[q] for q in rows],
+        strategies=[queries.strategies[q] for q in rows],
+        hints=None,
+    )
+    report = evaluate(data, some, posterior, tmp_path, grow_m=[60, 120])
+    assert report["retrieval"]["1"] > 0.4
+    assert report["method"] == "posterior"
+    assert set(report["coverage"]) == {"p50", "p90"}
+    assert 0 < report["coverage"]["p50"]["median_m"] <= report["coverage"]["p90"]["median_m"]
+    assert [step["cells"] for step in report["growth"]] == sorted(step["cells"] for step in report["growth"])
+
+
+def test_long_descriptions_are_read_in_pieces(posterior) -> None:
+    hints = [f"The pose is north of a gray bench number{n}." for n in range(60)]
+    noticed = posterior.notice(hints)
+    assert len(noticed) == 60
+    assert posterior.notice(["no full stop"]) == ()
+
+
+def test_weights_are_saved_and_read_back(text_encoder, tmp_path) -> None:
+    torch.manual_seed(1)
+    model = PosteriorModel(text_encoder, PosteriorConfig(width=32, radius_scale=1.5)).eval()
+    save_posterior(model, tmp_path, {"note": "made up"})
+    again = load_posterior(tmp_path)
+    assert again.fingerprint == model.fingerprint
+    assert again.config.radius_scale == 1.5
+    text = "I am north of a gray pole."
+    for one, other in zip(model.reader.read([text])[0], again.reader.read([text])[0], strict=True):
+        assert torch.equal(one.relation, other.relation)
+
+
+def test_a_localizer_answers_by_either_way(index_dir, weights_dir, posterior_model, tmp_path, query) -> None:
+    encoder, config = posterior_model.reader.text_encoder, posterior_model.config
+    save_posterior(PosteriorModel(encoder, config), tmp_path, {})
+    localizer = Localizer.open(index_dir, weights_dir, posterior_weights_dir=tmp_path)
+    localizer.map_posterior.model.reader.read = read_exactly
+    by_vectors, by_posterior = localizer.localize([replace(query, refine="none"), query])
+    assert by_vectors.estimate.method == "cell_center"
+    assert by_posterior.estimate.method == "posterior"
+    assert by_posterior.timings_ms.keys() == {"encode", "search", "estimate"}
