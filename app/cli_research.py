@@ -142,6 +142,9 @@ def evaluate(
     report: Annotated[Path | None, typer.Option(help="directory for predictions, report.json, tables, plots")] = None,
     grow: Annotated[str | None, typer.Option(help="radii in metres of a growing gallery: 200,300,400,500")] = None,
     refine: Annotated[Refine, typer.Option(help="what finds positions inside the retrieved cells")] = "none",
+    hard: Annotated[
+        bool, typer.Option("--robustness", help="fewer, wrong and misspelt hints, free wording, an outdated map")
+    ] = False,
     rescore: Annotated[Path | None, typer.Option(help="score the predictions of this report's directory again")] = None,
 ) -> None:
     """Recall on queries with known positions, beside chance, an oracle and exact matching of the hints."""
@@ -169,8 +172,22 @@ def evaluate(
         }
     )
     with stage_bars() as show:
-        found = asked.run(report, show)
-    _print_report(found)
+        found = asked.run_robustness(report, show) if hard else asked.run(report, show)
+    if hard:
+        _print_robustness(found)
+    else:
+        _print_report(found)
+
+
+def _print_robustness(found: dict[str, Any]) -> None:
+    from index.robustness import robustness_table
+
+    head, rows = robustness_table(found["trials"])
+    table = Table(*head)
+    for row in rows:
+        table.add_row(*row)
+    Console(width=140).print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
+    Console(width=140).print(table)
 
 
 def _radii(grow: str | None) -> list[float]:

@@ -88,6 +88,44 @@ class Evaluation(BaseModel):
         answering = localizer.map_posterior if self.refine == "posterior" else localizer.ranker
         return evaluate(data, queries, answering, report_dir, self.grow_m, progress, refiner)
 
+    def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
+        """Retriever and posterior side by side under every trial of `index.robustness`.
+
+        Args:
+            report_dir: where robustness.json and robustness.md go; None to write nothing.
+            progress: called as the work goes on.
+
+        Raises:
+            HereaboutsError: as `run`; or there is text alone, whose hints nobody knows.
+        """
+        import torch  # noqa: PLC0415  # takes seconds
+
+        from index.map_data import load_queries  # noqa: PLC0415
+        from index.map_posterior import MapPosterior  # noqa: PLC0415
+        from index.ranking import Ranker  # noqa: PLC0415
+        from index.report import as_markdown  # noqa: PLC0415
+        from index.robustness import MOST_QUERIES, robustness, robustness_table  # noqa: PLC0415
+        from models.posterior.model import load_posterior  # noqa: PLC0415
+        from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
+
+        if self.data is None:
+            raise DataError(
+                "--robustness needs a data set or a map: nobody knows what the hints of one's own text mean"
+            )
+        torch.set_num_threads(1)
+        data, queries = load_queries(self.data, self.split, progress)
+        ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
+        model = load_posterior(self.posterior_weights_dir)
+        posterior = MapPosterior(model, data.gallery, data.palette, data.around(progress))
+        trials = robustness(data, queries, ranker, posterior, progress)
+        sizes = {"queries": min(len(queries), MOST_QUERIES), "cells": len(data.cells)}
+        found: dict[str, Any] = {"data": data.name, "split": data.split, **sizes, "trials": trials}
+        if report_dir:
+            report_dir.mkdir(parents=True, exist_ok=True)
+            (report_dir / "robustness.json").write_text(json.dumps(found, indent=1) + "\n")
+            (report_dir / "robustness.md").write_text(as_markdown(robustness_table(trials)) + "\n")
+        return found
+
     def public(self, message: str) -> str:
         """A message without the directories of the machine."""
         weights = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir

@@ -77,7 +77,9 @@ class MapPosterior:
         return self._noticed[text]
 
     def reading(self, noticed: Sequence[Noticed]) -> Reading:
-        """Hints in the map's own labels, colours and names."""
+        """Hints in the map's own labels, colours and names; of no hint, one that anything fits."""
+        if not noticed:
+            return self.binding.nothing()
         reading = self.binding.reading(noticed)
         for n, thing in enumerate(noticed):
             found = [instances for _, _, instances in self.landmarks.find(thing.noun)]

@@ -163,8 +163,9 @@ class Likelihood(nn.Module):
         place = torch.cat([winds, on_top[None], near[None]]).T @ reading.relation.T
         said = reading.distance_m
         if bool((~said.isnan()).any()):
-            spread = self.measured.exp() * said + 1.0
-            fits = torch.exp(-((radius[:, None] - said) ** 2) / (2 * spread**2))
+            known = said.nan_to_num(1.0)  # a NaN that is not chosen would still be in the gradients
+            spread = self.measured.exp() * known + 1.0
+            fits = torch.exp(-((radius[:, None] - known) ** 2) / (2 * spread**2))
             place = torch.where(said.isnan(), place, place * fits)
         return place
 

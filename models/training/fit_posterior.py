@@ -21,8 +21,8 @@ from models.training.reading import ReadingSet, ReadingTask, reading_figures
 from models.training.settings import TrainingConfig
 
 TEXTS, VALIDATION_TEXTS = 20_000, 500  # that the reader is trained on, and chosen by
-FITTED_TEXTS, CALIBRATED_TEXTS = 1500, 600  # of each place
-FIT_STEPS, CALIBRATION_STEPS = 150, 50
+FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
+FIT_STEPS, CALIBRATION_STEPS = 120, 40
 CALIBRATED = ("temper", "background")  # weights that validation places decide
 
 _FIT_WORDING: tuple[Grammar | None, ...] = (

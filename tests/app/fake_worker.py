@@ -34,5 +34,5 @@ def run(self, report_dir, progress):
     (report_dir / "report.json").write_text(json.dumps({"queries": len(self.sentences), "grow": self.grow_m}))
 
 
-Evaluation.run = run  # type: ignore[method-assign]
+Evaluation.run = run
 sys.exit(evaluation_worker.main(Path(sys.argv[1])))

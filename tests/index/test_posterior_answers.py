@@ -68,7 +68,7 @@ def query(asked, surest):
     return Query(tuple(asked[1].sentences[surest]), refine="posterior")
 
 
-def test_an_answer_is_whole_and_says_why(answers, query, asked, surest) -> None:
+def test_an_answer_is_whole_and_says_why(answers, query, asked, surest):
     answer = answers.answer(replace(query, heat_map=True, top_k=3))
     truth = asked[1].positions_m[surest]
     assert answer.status == "ok"
@@ -89,7 +89,7 @@ def test_an_answer_is_whole_and_says_why(answers, query, asked, surest) -> None:
     assert points[:, 2].sum() <= 1.0 + 1e-9
 
 
-def test_a_filter_holds_for_every_position(answers, query, city) -> None:
+def test_a_filter_holds_for_every_position(answers, query, city):
     whole = answers.answer(query)
     x, y = whole.estimate.position
     boxed = answers.answer(replace(query, within=Box(x - 60, y - 60, x - 20, y + 60)))
@@ -103,24 +103,24 @@ def test_a_filter_holds_for_every_position(answers, query, city) -> None:
     assert "within" in off.warnings[0]
 
 
-def test_a_prior_pulls(answers, query) -> None:
+def test_a_prior_pulls(answers, query):
     x, y = answers.answer(query).estimate.position
     pulled = answers.answer(replace(query, prior=Prior((x + 80, y), 8.0)))
     assert abs(pulled.estimate.position[0] - x - 80) < 40
 
 
-def test_a_text_about_nothing_is_no_match(answers) -> None:
+def test_a_text_about_nothing_is_no_match(answers):
     answer = answers.answer(Query(("It rains and I like it.",)))
     assert (answer.status, answer.estimate) == ("no_match", None)
     assert "north of a gray building" in answer.warnings[0]
 
 
-def test_things_that_the_map_has_not_are_no_match(answers) -> None:
+def test_things_that_the_map_has_not_are_no_match(answers):
     answer = answers.answer(Query(("The pose is north of a pink giraffe.", "The pose is east of a purple elephant.")))
     assert answer.status == "no_match" or answer.estimate.probability < 0.1
 
 
-def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_path) -> None:
+def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_path):
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 40))
     some = replace(
@@ -140,14 +140,14 @@ def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_
     assert [step["cells"] for step in report["growth"]] == sorted(step["cells"] for step in report["growth"])
 
 
-def test_long_descriptions_are_read_in_pieces(posterior) -> None:
+def test_long_descriptions_are_read_in_pieces(posterior):
     hints = [f"The pose is north of a gray bench number{n}." for n in range(60)]
     noticed = posterior.notice(hints)
     assert len(noticed) == 60
     assert posterior.notice(["no full stop"]) == ()
 
 
-def test_weights_are_saved_and_read_back(text_encoder, tmp_path) -> None:
+def test_weights_are_saved_and_read_back(text_encoder, tmp_path):
     torch.manual_seed(1)
     model = PosteriorModel(text_encoder, PosteriorConfig(width=32, radius_scale=1.5)).eval()
     save_posterior(model, tmp_path, {"note": "made up"})
@@ -159,7 +159,7 @@ def test_weights_are_saved_and_read_back(text_encoder, tmp_path) -> None:
         assert torch.equal(one.relation, other.relation)
 
 
-def test_a_localizer_answers_by_either_way(index_dir, weights_dir, posterior_model, tmp_path, query) -> None:
+def test_a_localizer_answers_by_either_way(index_dir, weights_dir, posterior_model, tmp_path, query):
     encoder, config = posterior_model.reader.text_encoder, posterior_model.config
     save_posterior(PosteriorModel(encoder, config), tmp_path, {})
     localizer = Localizer.open(index_dir, weights_dir, posterior_weights_dir=tmp_path)

@@ -20,7 +20,7 @@ def reader(text_encoder):
     return Reader(text_encoder, ReaderConfig(width=32)).eval()
 
 
-def test_padding_and_company_change_nothing(reader) -> None:
+def test_padding_and_company_change_nothing(reader):
     texts = ["A bench.", "I am north of a gray pole, and far to the west of me there is a long red fence, I think."]
     alone = [reader.read([text])[0] for text in texts]
     for one, other in zip(alone, reader.read(texts), strict=True):
@@ -29,7 +29,7 @@ def test_padding_and_company_change_nothing(reader) -> None:
             assert torch.allclose(a.relation, b.relation, atol=1e-5)
 
 
-def test_targets_mark_the_tokens_of_the_noun(text_encoder) -> None:
+def test_targets_mark_the_tokens_of_the_noun(text_encoder):
     said = Wording("train").published([Fact("vending machine", "north", "gray"), Fact("lamp", "east")])
     tokens, characters = text_encoder.read([said.text])
     tags, ranges = example_targets(said.mentions, characters[0], tokens.mask[0])
@@ -40,7 +40,7 @@ def test_targets_mark_the_tokens_of_the_noun(text_encoder) -> None:
     assert int((tags > 0).sum()) == sum(b - a for a, b in ranges)
 
 
-def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder) -> None:
+def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder):
     torch.manual_seed(0)
     texts = ReadingSet(text_encoder, "train", 96, 0)
     task = ReadingTask(Reader(text_encoder, ReaderConfig(width=64, dropout=0.0)), texts, texts, 32)
@@ -51,7 +51,7 @@ def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder) -> None:
     assert after["relation"] > before["relation"] + 0.1
 
 
-def test_facts_are_varied() -> None:
+def test_facts_are_varied():
     import numpy as np
 
     wording, rng = Wording("train"), np.random.default_rng(0)
@@ -75,14 +75,14 @@ def test_facts_are_varied() -> None:
         ("There are 3 more minutes to the bench.", "bench", None),
     ],
 )
-def test_said_distances_go_to_the_nearest_noun(text, noun, metres) -> None:
+def test_said_distances_go_to_the_nearest_noun(text, noun, metres):
     places = [(text.index(word), text.index(word) + len(word)) for word in ("bench", "pole") if word in text]
     found = dict(zip([text[a:b] for a, b in places], said_distances(text, places), strict=True))
     assert found[noun] == (pytest.approx(metres) if metres else None)
     assert all(value is None for word, value in found.items() if word != noun)
 
 
-def test_what_a_class_means_in_a_map() -> None:
+def test_what_a_class_means_in_a_map():
     assert meaning_in("lamp", KITTI) == "lamp"
     assert meaning_in("street lamp", KITTI) == "lamp"
     assert meaning_in("hedge", KITTI) == "vegetation"
@@ -93,7 +93,7 @@ def test_what_a_class_means_in_a_map() -> None:
     assert meant["lifebuoy"] == len(KITTI)
 
 
-def test_nouns_find_their_label_untrained(text_encoder) -> None:
+def test_nouns_find_their_label_untrained(text_encoder):
     matcher = LabelMatcher(text_encoder)
     with torch.no_grad():
         bound = matcher.bind(KITTI)
@@ -106,7 +106,7 @@ def test_nouns_find_their_label_untrained(text_encoder) -> None:
 
 
 @pytest.mark.parametrize("palette", [KITTI360_PALETTE, BASIC_PALETTE])
-def test_colours_keep_their_word_or_go_to_the_most_alike(palette) -> None:
+def test_colours_keep_their_word_or_go_to_the_most_alike(palette):
     table, words = colour_table(palette), colour_words(palette)
     assert torch.allclose(table.sum(dim=1), torch.ones(len(COLOURS) + 1), atol=1e-5)
     for word in words:
@@ -115,7 +115,7 @@ def test_colours_keep_their_word_or_go_to_the_most_alike(palette) -> None:
         assert words[int(table[COLOURS.index("white")].argmax())] == "bright-gray"
 
 
-def test_a_binding_reads_what_was_noticed(text_encoder) -> None:
+def test_a_binding_reads_what_was_noticed(text_encoder):
     binding = Binding(LabelMatcher(text_encoder), KITTI, KITTI360_PALETTE)
     sure = torch.eye(10)[2]
     grey = torch.eye(len(COLOURS) + 1)[COLOURS.index("gray")]
@@ -130,7 +130,7 @@ def test_a_binding_reads_what_was_noticed(text_encoder) -> None:
     assert binding.nothing().label.shape == (1, len(KITTI))
 
 
-def test_landmarks_are_found_whole_and_whatever_their_case() -> None:
+def test_landmarks_are_found_whole_and_whatever_their_case():
     landmarks = Landmarks(["Stockmann", None, "Stockmann Helsinki", "Bar", "Café Ekberg", "12345", "Stockmann"])
     found = landmarks.find(
         "I am next to stockmann helsinki, west of STOCKMANN and of café ekberg. Bar 12345 Stockmanns"

@@ -117,7 +117,7 @@ def model():
     return model
 
 
-def test_the_likelihood_is_that_of_a_naive_loop(model) -> None:
+def test_the_likelihood_is_that_of_a_naive_loop(model):
     for seed in range(4):
         rng = np.random.default_rng(seed)
         here, way = around(rng)
@@ -127,10 +127,11 @@ def test_the_likelihood_is_that_of_a_naive_loop(model) -> None:
         )
 
 
-def test_its_gradients_are_those_of_finite_differences(model) -> None:
+def test_its_gradients_are_those_of_finite_differences(model):
     rng = np.random.default_rng(1)
     here, _ = around(rng)
     said = reading(rng, 3, 4, distance=6.0)
+    said.distance_m[1] = math.nan
     loss = model(said, here, KITTI360_PALETTE).sum()
     loss.backward()
     for name in ("background", "crowding", "colour_spread", "twice", "measured", "near"):
@@ -144,7 +145,7 @@ def test_its_gradients_are_those_of_finite_differences(model) -> None:
         assert float(parameter.grad) == pytest.approx((values[0] - values[1]) / 2e-2, rel=0.05, abs=0.02), name
 
 
-def test_the_order_of_hints_does_not_matter(model) -> None:
+def test_the_order_of_hints_does_not_matter(model):
     rng = np.random.default_rng(2)
     here, _ = around(rng)
     said = reading(rng, 5, 4)
@@ -154,7 +155,7 @@ def test_the_order_of_hints_does_not_matter(model) -> None:
     assert torch.allclose(model(said, here, KITTI360_PALETTE), model(turned, here, KITTI360_PALETTE), atol=1e-4)
 
 
-def test_the_winds_share_the_compass(model) -> None:
+def test_the_winds_share_the_compass(model):
     one = torch.eye(len(RELATIONS))
     said = Reading(one, torch.ones(10, 1), torch.ones(10, WORDS + 1), torch.full((10,), math.nan), torch.zeros(10))
     place = model.places(said)
@@ -176,7 +177,7 @@ def test_the_winds_share_the_compass(model) -> None:
     assert (four - 1).abs().max() < 0.3, "north, east, south, west and on-top are all there is"
 
 
-def test_what_is_absent_is_not_near(model) -> None:
+def test_what_is_absent_is_not_near(model):
     way = torch.tensor([[0, 40]], dtype=torch.int8)
     node = torch.zeros(1, dtype=torch.long)
     label = torch.zeros(1, dtype=torch.long)
@@ -194,14 +195,14 @@ def test_what_is_absent_is_not_near(model) -> None:
         assert int(log_p.argmax()) == better, "node 0 has the thing, node 1 has nothing"
 
 
-def test_turns_count_what_is_nearer() -> None:
+def test_turns_count_what_is_nearer():
     node = torch.tensor([0, 0, 0, 0, 1])
     way = torch.tensor([[0, 2], [0, 20], [0, 40], [50, 0], [0, 30]], dtype=torch.int8)
     label = torch.tensor([1, 0, 1, 0, 0])
     assert turns_of(node, way, label).tolist() == [[0, 0, 0], [1, 0, 0], [2, 1, 1], [3, 1, 0], [0, 0, 0]]
 
 
-def test_colours_are_named_by_their_nearest_word(model) -> None:
+def test_colours_are_named_by_their_nearest_word(model):
     centers = torch.tensor(BASIC_PALETTE.centers, dtype=torch.float32) / 255
     names = colour_words(BASIC_PALETTE)
     found = model.words(centers, BASIC_PALETTE).argmax(dim=1)

@@ -54,7 +54,7 @@ def town(city, points, cells) -> Town:
     return Town(place, place.posterior(Likelihood()), readings)
 
 
-def test_the_field_is_the_likelihood_of_its_nodes(town) -> None:
+def test_the_field_is_the_likelihood_of_its_nodes(town):
     cells = np.array([3, 40, 11])
     for reading in town.readings[:3]:
         field = town.posterior.field(reading, cells)
@@ -65,7 +65,7 @@ def test_the_field_is_the_likelihood_of_its_nodes(town) -> None:
         assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
 
 
-def test_descriptions_are_found_where_they_were_said(town) -> None:
+def test_descriptions_are_found_where_they_were_said(town):
     assert DIRECTIONS
     hits, near, candidates = [], [], []
     for q, reading in enumerate(town.readings[:60]):
@@ -79,7 +79,7 @@ def test_descriptions_are_found_where_they_were_said(town) -> None:
     assert np.mean(near) > 0.5
 
 
-def test_probabilities_add_up_and_radii_are_in_order(town) -> None:
+def test_probabilities_add_up_and_radii_are_in_order(town):
     for reading in town.readings[:20]:
         found = locate(town.posterior, reading, candidates=30)
         assert found.probability.sum() + found.other == pytest.approx(1.0)
@@ -91,7 +91,7 @@ def test_probabilities_add_up_and_radii_are_in_order(town) -> None:
         assert (eigenvalues > 0).all()
 
 
-def test_one_hint_leaves_much_open(town) -> None:
+def test_one_hint_leaves_much_open(town):
     whole = town.readings[0]
     one = Reading(whole.relation[:1], whole.label[:1], whole.colour[:1], whole.distance_m[:1], whole.absent[:1])
     wide, narrow = (locate(town.posterior, reading) for reading in (one, whole))
@@ -100,7 +100,7 @@ def test_one_hint_leaves_much_open(town) -> None:
     assert wide.radii_m((0.9,), 500.0, 1.5) > narrow.radii_m((0.9,), 500.0, 1.5)
 
 
-def test_a_filter_is_exact(town) -> None:
+def test_a_filter_is_exact(town):
     nodes_m = town.posterior.nodes_m
     for q in range(0, 30, 3):
         truth = town.place.positions_m[q]
@@ -117,7 +117,7 @@ def test_a_filter_is_exact(town) -> None:
     assert locate(town.posterior, town.readings[0], inside=nowhere) is None
 
 
-def test_a_prior_is_multiplied_in(town) -> None:
+def test_a_prior_is_multiplied_in(town):
     center = town.place.positions_m[5] + 4.0
 
     def log_prior(positions_m):
@@ -130,7 +130,7 @@ def test_a_prior_is_multiplied_in(town) -> None:
     assert np.linalg.norm(found.positions[0] - center) < 20.0
 
 
-def test_the_instance_that_was_meant_explains_a_hint(town, city, cells) -> None:
+def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
     number = {instance.id: n for n, instance in enumerate(city.instances)}
     right = total = 0
     for q in range(0, 60, 3):
@@ -143,7 +143,7 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells) -> None:
     assert right / total > 0.7, "things alike stand side by side in this town"
 
 
-def test_a_named_landmark_binds_the_hint(town, cells) -> None:
+def test_a_named_landmark_binds_the_hint(town, cells):
     reading = town.readings[2]
     part = int(cells.parts.starts[town.place.truth[2]])
     bears = torch.from_numpy(cells.parts.instance == cells.parts.instance[part])
@@ -158,7 +158,7 @@ def test_a_named_landmark_binds_the_hint(town, cells) -> None:
     assert set(found.rows[:3].tolist()) <= shown
 
 
-def test_fitting_makes_the_truth_likelier(town) -> None:
+def test_fitting_makes_the_truth_likelier(town):
     torch.manual_seed(0)
     likelihood = Likelihood()
     losses = []

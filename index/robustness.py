@@ -1,0 +1,232 @@
+"""How answers hold when descriptions are short, wrong, misspelt or worded freely, and when the map is out of date."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from index.evaluation import predict
+from index.gallery import Gallery
+from index.map_data import MapData, Progress, Queries
+from index.map_posterior import MapPosterior
+from index.ranking import Ranker
+from index.report import Table
+from index.scoring import score
+from models.city.cells import Parts
+from models.city.points import Ints
+from models.city.types import DIRECTIONS, Direction, Hint
+from models.errors import DataError
+from models.language.hints_text import TEMPLATES, render_hint
+from models.language.paraphrase import Fact, Said, Wording, typos
+
+MOST_QUERIES = 500
+SEED = 0
+INVERSE = TEMPLATES.index("There is {a} {o} of me.")
+Say = Callable[[tuple[Hint, ...], np.random.Generator], tuple[str, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One way to make it hard.
+
+    Attributes:
+        name: for the table.
+        say: what is said of a query's hints.
+        dropped, relabelled: shares of the map's instances that are gone, or have another's label.
+    """
+
+    name: str
+    say: Say
+    dropped: float = 0.0
+    relabelled: float = 0.0
+
+
+def robustness(
+    data: MapData, queries: Queries, ranker: Ranker, posterior: MapPosterior, progress: Progress
+) -> list[dict[str, Any]]:
+    """Recall of retriever and posterior under every trial, the same queries in all.
+
+    Args:
+        data: the gallery.
+        queries: with their hints; of many, some are taken.
+        ranker: the retriever alone.
+        posterior: of the same gallery.
+        progress: called as the work goes on.
+
+    Returns:
+        For each trial "name" and, for "retriever" and "posterior", "retrieval" {k: recall} and "localization".
+
+    Raises:
+        DataError: the queries are text alone.
+    """
+    if queries.hints is None:
+        raise DataError("robustness needs to know what the hints mean; give a data set or a map with --data")
+    some = _some(queries)
+    rows = []
+    trials = all_trials(data)
+    for n, trial in enumerate(trials):
+        progress("trials", n, len(trials))
+        rng = np.random.default_rng(SEED)
+        assert some.hints is not None
+        said = replace(some, sentences=[trial.say(hints, rng) for hints in some.hints], hints=None)
+        damage = _damage(data, trial, np.random.default_rng(SEED))
+        both = _answerers(damage, ranker, posterior) if damage else (ranker, posterior)
+        here = damage.data if damage else data
+        rows.append(
+            {"name": trial.name, "retriever": _ask(here, said, both[0]), "posterior": _ask(here, said, both[1])}
+        )
+    progress("trials", len(trials), len(trials))
+    return rows
+
+
+def _ask(data: MapData, queries: Queries, answerer: Ranker | MapPosterior) -> dict[str, Any]:
+    report = score(predict(data, queries, answerer, lambda *_: None))
+    return {key: report[key] for key in ("retrieval", "localization")}
+
+
+def robustness_table(rows: Sequence[dict[str, Any]]) -> Table:
+    """Recall@1, and recall within 5 m at k = 1, of both."""
+    head = ("", "retriever R@1", "posterior R@1", "retriever k=1: 5/10/15 m", "posterior k=1: 5/10/15 m")
+    found = []
+    for row in rows:
+        recalls = [f"{row[name]['retrieval']['1']:.3f}" for name in ("retriever", "posterior")]
+        within = [
+            "/".join(f"{v:.3f}" for v in row[name]["localization"]["1"].values()) for name in ("retriever", "posterior")
+        ]
+        found.append((row["name"], *recalls, *within))
+    return head, found
+
+
+def all_trials(data: MapData) -> list[Trial]:
+    """Every trial."""
+    words = sorted(set(data.palette.words))
+    free = Wording("test")
+    trials = [Trial("template text", _template)]
+    trials += [Trial(f"{n} hints", _first(n)) for n in range(1, 6)]
+    trials += [
+        Trial("one hint of six wrong", _one_wrong(words)),
+        Trial("two colours of six wrong", _wrong_colours(words, 2)),
+        Trial("hints in another order", _shuffled),
+        Trial("inverse phrasing", lambda hints, _rng: tuple(render_hint(hint, INVERSE) for hint in hints)),
+        Trial("free wording, unseen grammar", lambda hints, rng: _pieces(_write(free, hints, rng))),
+        Trial("free wording, three typos", lambda hints, rng: _pieces(typos(_write(free, hints, rng), 3, rng))),
+    ]
+    trials += [Trial(f"{share:.0%} of the instances gone", _template, dropped=share) for share in (0.1, 0.2)]
+    trials += [Trial(f"{share:.0%} of the labels wrong", _template, relabelled=share) for share in (0.1, 0.2)]
+    return trials
+
+
+def _template(hints: tuple[Hint, ...], _rng: np.random.Generator) -> tuple[str, ...]:
+    return tuple(render_hint(hint) for hint in hints)
+
+
+def _first(count: int) -> Say:
+    return lambda hints, rng: _template(tuple(hints[i] for i in rng.permutation(len(hints))[:count]), rng)
+
+
+def _shuffled(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
+    return _template(tuple(hints[i] for i in rng.permutation(len(hints))), rng)
+
+
+def _one_wrong(words: Sequence[str]) -> Say:
+    """One hint says another direction and another colour than is true."""
+
+    def say(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
+        at = int(rng.integers(len(hints)))
+        others: list[Direction] = [d for d in DIRECTIONS[:4] if d != hints[at].direction]
+        wrong = replace(
+            hints[at], direction=others[int(rng.integers(len(others)))], colour=_other(words, hints[at], rng)
+        )
+        return _template((*hints[:at], wrong, *hints[at + 1 :]), rng)
+
+    return say
+
+
+def _wrong_colours(words: Sequence[str], count: int) -> Say:
+    def say(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
+        at = set(rng.permutation(len(hints))[:count].tolist())
+        wrong = (replace(h, colour=_other(words, h, rng)) if n in at else h for n, h in enumerate(hints))
+        return _template(tuple(wrong), rng)
+
+    return say
+
+
+def _other(words: Sequence[str], hint: Hint, rng: np.random.Generator) -> str:
+    others = [word for word in words if word != hint.colour]
+    return others[int(rng.integers(len(others)))]
+
+
+def _write(wording: Wording, hints: tuple[Hint, ...], rng: np.random.Generator) -> Said:
+    return wording.write([Fact(hint.label, hint.direction, hint.colour) for hint in hints], rng)
+
+
+def _pieces(said: Said) -> tuple[str, ...]:
+    return tuple(line for line in said.text.split("\n") if line.strip())
+
+
+def _some(queries: Queries) -> Queries:
+    rows = np.random.default_rng(SEED).permutation(len(queries))[:MOST_QUERIES]
+    rows.sort()
+    assert queries.hints is not None
+    return Queries(
+        sentences=[queries.sentences[q] for q in rows],
+        positions_m=queries.positions_m[rows],
+        truth=queries.truth[rows],
+        scenes=[queries.scenes[q] for q in rows],
+        strategies=[queries.strategies[q] for q in rows],
+        hints=[queries.hints[q] for q in rows],
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Damage:
+    """A map that is out of date.
+
+    Attributes:
+        data: the map.
+        part_of: [R] row there of each part of the map as it was, -1 for those that are gone.
+    """
+
+    data: MapData
+    part_of: Ints
+
+
+def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | None:
+    """The map with some instances gone, or with others' labels; None if it stays as it is."""
+    if not trial.dropped and not trial.relabelled:
+        return None
+    gallery, parts = data.gallery, data.gallery.cells.parts
+    # In a data set each part is an instance; its source names what it is a part of.
+    keys = [f"{scene} {source}" for scene, source in zip(_scene_of(gallery), gallery.sources, strict=True)]
+    number = np.unique(np.array(keys), return_inverse=True)[1]
+    hit = rng.random(number.max() + 1) < max(trial.dropped, trial.relabelled)
+    if trial.relabelled:
+        labels = np.array(gallery.labels)
+        names = np.unique(labels)
+        changed = np.where(hit[number], names[rng.integers(len(names), size=len(hit))][number], labels)
+        relabelled = replace(gallery, labels=tuple(changed.tolist()))
+        return Damage(replace(data, gallery=relabelled), np.arange(len(parts.instance)))
+    kept = ~hit[number][parts.instance]
+    kept[parts.starts[:-1]] = True  # a cell keeps one part at least
+    count = np.concatenate([[0], np.cumsum(kept)])
+    columns = {f.name: getattr(parts, f.name)[kept] for f in fields(parts) if f.name != "starts"}
+    cells = replace(gallery.cells, parts=Parts(starts=count[parts.starts], **columns))
+    part_of = np.where(kept, count[1:] - 1, -1)
+    return Damage(replace(data, gallery=replace(gallery, cells=cells)), part_of)
+
+
+def _scene_of(gallery: Gallery) -> list[str]:
+    """Scene of each instance."""
+    scenes = np.full(len(gallery.labels), "", dtype=object)
+    scenes[gallery.cells.parts.instance] = np.array(gallery.cells.scenes, dtype=object)[gallery.cells.parts.cube]
+    found: list[str] = scenes.tolist()
+    return found
+
+
+def _answerers(damage: Damage, ranker: Ranker, posterior: MapPosterior) -> tuple[Ranker, MapPosterior]:
+    """Retriever and posterior of a map that differs from theirs."""
+    data = damage.data
+    surroundings = posterior.surroundings.take(np.arange(len(data.cells)), damage.part_of)
+    again = MapPosterior(posterior.model, data.gallery, data.palette, surroundings)
+    return Ranker.of(ranker.retriever, data.cells, data.gallery.labels, ranker.depth), again

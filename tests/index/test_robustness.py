@@ -1,0 +1,66 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch
+
+from index.map_data import load_queries
+from index.map_posterior import MapPosterior
+from index.ranking import Ranker
+from index.robustness import all_trials, robustness, robustness_table
+from models.city.types import Hint
+from models.errors import DataError
+from models.posterior.model import PosteriorConfig, PosteriorModel
+
+HINTS = tuple(
+    Hint(direction, label, colour)
+    for direction, label, colour in (
+        ("north", "bench", "green"), ("south", "tree", None), ("east", "road", "gray"),
+        ("west", "building", "red"), ("on-top", "footpath", "gray"), ("north", "bollard", None),
+    )
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def asked(osm_file):
+    return load_queries(osm_file, None)
+
+
+def test_trials_say_what_their_name_says(asked):
+    trials = {trial.name: trial for trial in all_trials(asked[0])}
+    plain = trials["template text"].say(HINTS, np.random.default_rng(0))
+    assert plain[0] == "The pose is north of a green bench."
+    said = {name: trial.say(HINTS, np.random.default_rng(1)) for name, trial in trials.items()}
+    assert [len(said[f"{n} hints"]) for n in range(1, 6)] == [1, 2, 3, 4, 5]
+    assert len(set(said["one hint of six wrong"]) - set(plain)) == 1
+    assert len(set(said["two colours of six wrong"]) - set(plain)) == 2
+    assert sorted(said["hints in another order"]) == sorted(plain)
+    assert said["inverse phrasing"][0] == "There is a green bench south of me."
+    free = " ".join(said["free wording, unseen grammar"])
+    assert free not in (" ".join(plain), " ".join(said["free wording, three typos"]))
+
+
+def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
+    torch.manual_seed(0)
+    data, queries = asked
+    rows = np.arange(0, len(queries), max(1, len(queries) // 12))
+    some = replace(
+        queries,
+        sentences=[queries.sentences[q] for q in rows],
+        positions_m=queries.positions_m[rows],
+        truth=queries.truth[rows],
+        scenes=[queries.scenes[q] for q in rows],
+        strategies=[queries.strategies[q] for q in rows],
+        hints=[queries.hints[q] for q in rows],
+    )
+    ranker = Ranker.of(model, data.cells, data.gallery.labels)
+    untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
+    posterior = MapPosterior(untrained, data.gallery, data.palette, data.around(lambda *_: None))
+    found = robustness(data, some, ranker, posterior, lambda *_: None)
+    head, table = robustness_table(found)
+    assert len(table) == len(all_trials(data))
+    assert all(len(row) == len(head) for row in table)
+    for row in found:
+        assert 0 <= row["posterior"]["retrieval"]["1"] <= 1
+    with pytest.raises(DataError, match="what the hints mean"):
+        robustness(data, replace(some, hints=None), ranker, posterior, lambda *_: None)
