@@ -43,15 +43,21 @@ format: install  ## let ruff format and fix
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-train: install  ## make the shipped weights again (west of Helsinki)
+train: install  ## make the shipped weights again (west of Helsinki, made-up towns)
 	$(BIN)/hereabouts train --data models/maps/helsinki.osm.pbf --out models/weights/retriever \
 		--set model.levels=global --set model.loss=contrastive
 	$(BIN)/hereabouts train --method regressor --data models/maps/helsinki.osm.pbf --out models/weights/regressor
+	test -d data/towns-raw || $(BIN)/hereabouts synth --out data/towns-raw
+	$(BIN)/hereabouts prepare --raw data/towns-raw --out data/towns
+	$(BIN)/hereabouts train --method posterior --data data/towns --data models/maps/helsinki.osm.pbf \
+		--out models/weights/posterior
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
 	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-test
 	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-refined --refine regressor
 	$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --report reports/alexanderplatz
+	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-posterior --refine posterior
+	$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --report reports/alexanderplatz-posterior --refine posterior
 
 benchmark: index  ## seconds, memory and latency on this machine
 	$(BIN)/hereabouts benchmark --map $(MAP) --index $(INDEX)

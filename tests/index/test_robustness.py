@@ -43,7 +43,7 @@ def test_trials_say_what_their_name_says(asked):
 def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
     torch.manual_seed(0)
     data, queries = asked
-    rows = np.arange(0, len(queries), max(1, len(queries) // 12))
+    rows = np.arange(0, len(queries), max(1, len(queries) // 6))
     some = replace(
         queries,
         sentences=[queries.sentences[q] for q in rows],
