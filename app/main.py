@@ -70,8 +70,11 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
 
 
 def _open_localizer(settings: Settings) -> LocalizerLike:
+    from index.answers import Query  # noqa: PLC0415
     from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
 
-    return Localizer.open(
+    localizer = Localizer.open(
         settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     )
+    localizer.localize([Query(("I am north of a building.",), refine="posterior")])  # or the first request waits
+    return localizer

@@ -14,7 +14,6 @@ from index.gallery import Gallery
 from models.city.colours import Palette
 from models.city.points import ranges
 from models.city.surroundings import SPACING_M, STEP_M, Surroundings
-from models.city.types import Floats
 from models.language.landmarks import Landmarks
 from models.language.paraphrase import RELATIONS
 from models.language.reader import COLOURS, Noticed
@@ -104,10 +103,9 @@ class MapPosterior:
         p50, p90 = located.radii_m((0.5, 0.9), self.extent_m, SPACING_M)
         return min(p50 * scale, self.extent_m), min(p90 * scale, self.extent_m)
 
-    def evidence(self, noticed: Sequence[Noticed], reading: Reading, position_m: Floats) -> tuple[Evidence, ...]:
-        """How each hint was understood, and what explains it at a position."""
-        nodes_m = self.posterior.nodes_m
-        node = int(((nodes_m - position_m) ** 2).sum(axis=1).argmin())
+    def evidence(self, noticed: Sequence[Noticed], reading: Reading, located: Located) -> tuple[Evidence, ...]:
+        """How each hint was understood, and what explains it at the best position."""
+        node = int(located.nodes[((located.nodes_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
         found = self.posterior.explain(reading, node)
         return tuple(self._evidence(*row, node) for row in zip(noticed, reading.label, found, strict=True))
 

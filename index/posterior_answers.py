@@ -62,7 +62,7 @@ class PosteriorAnswers:
         if located is None:
             return _no_match(NOWHERE, timings)
         start = time.perf_counter()
-        evidence = self.posterior.evidence(noticed, reading, located.positions[0])
+        evidence = self.posterior.evidence(noticed, reading, located)
         if not any(hint.explained >= EXPLAINED for hint in evidence):
             return _no_match(NOTHING_FITS, timings, evidence)
         estimate = self._estimate(located)

@@ -34,7 +34,7 @@ class BoundLabels:
     """A map's labels with all names that lead to them.
 
     Attributes:
-        names: [N, W] unit vectors of names.
+        names: [N, W] unit vectors of names, bent.
         label: [N] the map's label that each leads to; the number of labels for names of what the map has not.
         count: number of labels.
     """
@@ -80,7 +80,7 @@ class LabelMatcher(nn.Module):
             map_labels: its labels, each once.
         """
         phrases, label = bound_names(tuple(map_labels))
-        return BoundLabels(self.embed(phrases), torch.tensor(label), len(map_labels))
+        return BoundLabels(self.bend(self.embed(phrases)), torch.tensor(label), len(map_labels))
 
     def forward(self, nouns: Tensor, bound: BoundLabels, left_out: Tensor | None = None) -> Tensor:
         """[S, L + 1] log-probability of each label for nouns [S, W]; the last, of none of them.
@@ -90,7 +90,7 @@ class LabelMatcher(nn.Module):
             bound: the map's labels.
             left_out: [S, N] bool, names not to be looked at (in training, the noun itself).
         """
-        similarity = self.bend(nouns) @ self.bend(bound.names).T
+        similarity = self.bend(nouns) @ bound.names.T
         if left_out is not None:
             similarity = similarity.masked_fill(left_out, -1.0)
         logits = self.scale.exp() * similarity

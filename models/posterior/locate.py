@@ -30,7 +30,8 @@ class Located:
         probability: [K] that the speaker is in the part of the map that each cell owns.
         other: probability of all other cells.
         positions: [K, 2] the best position in each, metres, map frame.
-        nodes_m, weight: [M, 2] and [M] the distribution behind it; the weights add up to 1 - other.
+        nodes: [M] rows of the surroundings' nodes.
+        nodes_m, weight: [M, 2] and [M] the distribution over them; the weights add up to 1 - other.
     """
 
     rows: Ints
@@ -38,6 +39,7 @@ class Located:
     probability: Floats
     other: float
     positions: Floats
+    nodes: Ints
     nodes_m: Floats
     weight: Floats
 
@@ -50,10 +52,11 @@ class Located:
             spacing_m: of the nodes.
         """
         corner = np.array([[i, j] for i in (-1, 1) for j in (-1, 1)]) * spacing_m / 4
-        offset = self.nodes_m - self.positions[0]
+        counts = self.weight > 1e-9  # the rest together are nothing
+        offset = self.nodes_m[counts] - self.positions[0]
         distance = np.linalg.norm(offset[:, None] + corner, axis=2).ravel()
         order = np.argsort(distance)
-        mass = np.cumsum(np.repeat(self.weight / 4, 4)[order])
+        mass = np.cumsum(np.repeat(self.weight[counts] / 4, 4)[order])
         found: list[float] = np.append(distance[order], extent_m)[np.searchsorted(mass, shares)].tolist()
         return found
 
@@ -94,8 +97,10 @@ def locate(
         chosen = np.concatenate([chosen, np.setdiff1d(also[scores[also] > -np.inf], chosen)])
     field = posterior.field(reading, chosen, log_prior, inside)
     mass = np.full(len(chosen), -np.inf)
-    for k, part in enumerate(np.split(field.log_p, np.flatnonzero(np.diff(field.cell)) + 1)):
-        mass[np.unique(field.cell)[k]] = logsumexp(part)
+    first = np.flatnonzero(np.diff(field.cell, prepend=-1))
+    highest = np.maximum.reduceat(field.log_p, first)
+    above = np.exp(field.log_p - np.repeat(highest, np.diff(np.append(first, len(field.cell)))))
+    mass[field.cell[first]] = highest + np.log(np.add.reduceat(above, first))
     left_out = np.setdiff1d(possible, chosen)
     rest = -np.inf
     if len(left_out):
@@ -112,6 +117,7 @@ def locate(
         probability=np.exp(mass[order] - total),
         other=float(np.exp(rest - total)),
         positions=_positions(field, nodes_m, weight, order, posterior.cells),
+        nodes=field.nodes,
         nodes_m=nodes_m,
         weight=weight,
     )

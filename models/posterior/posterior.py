@@ -157,10 +157,15 @@ class HintPosterior:
         eps = float(self.likelihood.background.exp())
         if not len(rows):
             return [(-1, 0.0)] * len(reading.label)
-        best = terms.argmax(dim=0)
-        total = terms.sum(dim=0)
-        parts = self.surroundings.part[rows.numpy()]
-        return [(int(parts[int(b)]), float(t / (t + eps))) for b, t in zip(best.tolist(), total.tolist(), strict=True)]
+        best, total = terms.argmax(dim=0), terms.sum(dim=0)
+        parts = self.surroundings.part[rows[best].numpy()]
+        # What fits only because a label may be wrong does not explain.
+        label = reading.label[torch.arange(len(best)), self._label[torch.from_numpy(parts).long()]]
+        trust = (2 * label).clamp(max=1.0)
+        for hint in reading.named:
+            trust[hint] = 1.0
+        explained = (total / (total + eps) * trust).tolist()
+        return list(zip(parts.tolist(), explained, strict=True))
 
     def _rows(self, reading: Reading, nodes: Ints) -> tuple[Tensor, Tensor, Tensor, Tensor]:
         """Rows of some nodes, the node of each, p(class) p(colour) [P, H] of the parts seen, and each row's part."""
