@@ -11,7 +11,7 @@ from torch import Tensor, nn
 from models.language.paraphrase import GRAMMARS, Wording
 from models.language.text_encoder import TextEncoder
 
-RANK = 64
+MOST_KEPT = 20_000  # phrases; 30 MB
 
 
 @cache
@@ -34,7 +34,7 @@ class BoundLabels:
     """A map's labels with all names that lead to them.
 
     Attributes:
-        names: [N, W] unit vectors of names, bent.
+        names: [N, W] unit vectors of names.
         label: [N] the map's label that each leads to; the number of labels for names of what the map has not.
         count: number of labels.
     """
@@ -45,7 +45,7 @@ class BoundLabels:
 
 
 class LabelMatcher(nn.Module):
-    """Similarity of a noun with every name of every label, in the frozen text encoder's space, slightly bent.
+    """Similarity of a noun with every name of every label, in the frozen text encoder's space.
 
     A label's score is the soft maximum over its names; names of things that the map has not compete, so that a bench is
     no building where there are no benches.
@@ -54,9 +54,6 @@ class LabelMatcher(nn.Module):
     def __init__(self, text_encoder: TextEncoder) -> None:
         super().__init__()
         self._text = (text_encoder,)
-        width = text_encoder.width
-        self.down, self.up = nn.Linear(width, RANK, bias=False), nn.Linear(RANK, width, bias=False)
-        nn.init.zeros_(self.up.weight)
         self.scale = nn.Parameter(torch.tensor(20.0).log())
         self.unknown = nn.Parameter(torch.tensor(0.4))  # similarity that a noun must exceed to mean anything
         self._known: dict[str, Tensor] = {}
@@ -65,13 +62,11 @@ class LabelMatcher(nn.Module):
         """[S, W] unit vectors of the frozen text encoder; those of phrases seen before are kept."""
         plain = [phrase.lower().replace("-", " ") for phrase in phrases]
         if missing := [phrase for phrase in dict.fromkeys(plain) if phrase not in self._known]:
-            # In one order and one at a time within a length, what stands beside a phrase does not change it.
+            if len(self._known) > MOST_KEPT:
+                self._known.clear()
+                missing = list(dict.fromkeys(plain))
             self._known.update(zip(missing, self._text[0].embed(missing), strict=True))
         return torch.stack([self._known[phrase] for phrase in plain])
-
-    def bend(self, vectors: Tensor) -> Tensor:
-        """[S, W] unit vectors in which names of one thing lie together."""
-        return nn.functional.normalize(vectors + self.up(torch.tanh(4 * self.down(vectors))), dim=-1)
 
     def bind(self, map_labels: Sequence[str]) -> BoundLabels:
         """Prepare for a map.
@@ -80,19 +75,16 @@ class LabelMatcher(nn.Module):
             map_labels: its labels, each once.
         """
         phrases, label = bound_names(tuple(map_labels))
-        return BoundLabels(self.bend(self.embed(phrases)), torch.tensor(label), len(map_labels))
+        return BoundLabels(self.embed(phrases), torch.tensor(label), len(map_labels))
 
-    def forward(self, nouns: Tensor, bound: BoundLabels, left_out: Tensor | None = None) -> Tensor:
+    def forward(self, nouns: Tensor, bound: BoundLabels) -> Tensor:
         """[S, L + 1] log-probability of each label for nouns [S, W]; the last, of none of them.
 
         Args:
             nouns: of `embed`.
             bound: the map's labels.
-            left_out: [S, N] bool, names not to be looked at (in training, the noun itself).
         """
-        similarity = self.bend(nouns) @ bound.names.T
-        if left_out is not None:
-            similarity = similarity.masked_fill(left_out, -1.0)
+        similarity = nouns @ bound.names.T
         logits = self.scale.exp() * similarity
         buckets = [
             logits[:, bound.label == n].logsumexp(dim=1)
