@@ -42,7 +42,7 @@ class MapPosterior:
         self.model, self.gallery, self.surroundings, self._palette = model, gallery, surroundings, palette
         self.labels, number = np.unique(np.array(gallery.labels), return_inverse=True)
         label = number.astype(np.int64)[gallery.cells.parts.instance]
-        self.posterior = HintPosterior(model.likelihood, surroundings, gallery.cells, label, len(self.labels), palette)
+        self.posterior = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette)
         self.binding = Binding(model.matcher, self.labels.tolist(), palette)
         self.landmarks = Landmarks(gallery.names)
         self.extent_m = float(np.linalg.norm(np.ptp(gallery.cells.center_m[:, :2], axis=0)) + gallery.cells.size_m)
@@ -92,10 +92,9 @@ class MapPosterior:
         reading: Reading,
         log_prior: LogPrior | None = None,
         inside: npt.NDArray[np.bool_] | None = None,
-        also: npt.NDArray[np.intp] | None = None,
     ) -> Located | None:
         """See `models.posterior.locate.locate`."""
-        return locate(self.posterior, reading, log_prior, inside, also)
+        return locate(self.posterior, reading, log_prior, inside)
 
     def radii_m(self, located: Located) -> tuple[float, float]:
         """Radii round the first position that hold the truth with probability .5 and .9."""

@@ -98,7 +98,7 @@ class Likelihood(nn.Module):
     """log p(T | x) = sum over hints of log(eps + sum over instances of pi * p(class) * p(colour) * p(direction)).
 
     pi falls with distance and rank and is shared among what is near; an instance that explains several hints counts
-    less for each (at most one hint an instance, softly). About forty weights, fitted by maximum likelihood on training
+    less for each (at most one hint an instance, softly). About ninety weights, fitted by maximum likelihood on training
     towns (`models.training.posterior`).
     """
 

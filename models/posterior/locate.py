@@ -72,7 +72,6 @@ def locate(
     reading: Reading,
     log_prior: LogPrior | None = None,
     inside: Mask | None = None,
-    also: Ints | None = None,
     candidates: int = CANDIDATES,
 ) -> Located | None:
     """Find where a description was said.
@@ -82,8 +81,7 @@ def locate(
         reading: what was said, at least one hint.
         log_prior: log-density of positions [M, 2], any constant.
         inside: [nodes] bool, False where it cannot be.
-        also: cells to look at besides those that the statements lead to.
-        candidates: cells to look at; all cells of `inside` if they are not many more.
+        candidates: cells to look at.
 
     Returns:
         None if nothing is inside.
@@ -93,8 +91,6 @@ def locate(
     if not len(possible):
         return None
     chosen = possible[np.argsort(-scores[possible], kind="stable")[:candidates]]
-    if also is not None:
-        chosen = np.concatenate([chosen, np.setdiff1d(also[scores[also] > -np.inf], chosen)])
     field = posterior.field(reading, chosen, log_prior, inside)
     mass = np.full(len(chosen), -np.inf)
     first = np.flatnonzero(np.diff(field.cell, prepend=-1))
@@ -104,7 +100,7 @@ def locate(
     left_out = np.setdiff1d(possible, chosen)
     rest = -np.inf
     if len(left_out):
-        tail = slice(max(0, min(candidates, len(chosen)) - _TAIL), min(candidates, len(chosen)))
+        tail = slice(max(0, len(chosen) - _TAIL), None)
         gap = np.median(mass[tail] - scores[chosen][tail])
         rest = float(logsumexp(scores[left_out] + gap))
     total = np.logaddexp(logsumexp(mass), rest)

@@ -50,7 +50,6 @@ class HintPosterior:
         surroundings: of the gallery.
         cells: the gallery.
         label: [R] label of each of the cells' parts, a number.
-        num_labels: how many there are.
         palette: the map's colour words.
     """
 
@@ -61,7 +60,6 @@ class HintPosterior:
         surroundings: Surroundings,
         cells: CellTable,
         label: npt.NDArray[np.int64],
-        num_labels: int,
         palette: Palette,
     ) -> None:
         self.likelihood, self.surroundings, self.cells = likelihood, surroundings, cells
@@ -70,7 +68,7 @@ class HintPosterior:
         self._words = likelihood.words(torch.from_numpy(cells.parts.rgb.astype(np.float32)), palette)
         self._way = way_number(torch.from_numpy(s.way)).int()
         self._share = self._shares()
-        self._statements, self._columns = self._tabulate(num_labels)
+        self._statements, self._columns = self._tabulate()
         self.nodes_m = s.nodes_m.astype(np.float64)
 
     def _shares(self) -> Tensor:
@@ -86,7 +84,7 @@ class HintPosterior:
             blocks.append(self.likelihood.share_of(way_number(way), whole, turn, node, end - begin))
         return torch.cat(blocks)
 
-    def _tabulate(self, num_labels: int) -> tuple[csr_array, Tensor]:
+    def _tabulate(self) -> tuple[csr_array, Tensor]:
         """[N, F] how much of each cell's nodes a statement (label, colour, sector) holds at, and the F statements."""
         s = self.surroundings
         sizes = np.diff(s.starts)
@@ -98,11 +96,9 @@ class HintPosterior:
         known = (self.cells.parts.rgb == self.cells.parts.rgb).all(axis=1)
         word = np.where(known, word, self._words.shape[1])
         key = (self._label.numpy() * (self._words.shape[1] + 1) + word)[s.part] * SECTORS + sector
-        width = num_labels * (self._words.shape[1] + 1) * SECTORS
         number, column = np.unique(key, return_inverse=True)
         value = self._share.mean(dim=1).numpy() / np.maximum(1, np.diff(s.cell_starts))[cell]
         table = csr_array((value, (cell, column)), shape=(len(self.cells), len(number)), dtype=np.float32)
-        assert width > int(number.max(initial=0))
         return table, torch.from_numpy(number)
 
     @torch.inference_mode()

@@ -51,7 +51,7 @@ class Place:
 
     def posterior(self, likelihood: Likelihood) -> HintPosterior:
         """The posterior of this gallery."""
-        return HintPosterior(likelihood, self.surroundings, self.cells, self.label, len(self.labels), self.palette)
+        return HintPosterior(likelihood, self.surroundings, self.cells, self.label, self.palette)
 
     def read(
         self, model: PosteriorModel, rows: Ints, grammars: Sequence[Grammar | None], rng: np.random.Generator
