@@ -1,0 +1,25 @@
+import json
+
+import pytest
+
+from models.posterior.model import PosteriorConfig, load_posterior
+from models.training import fit_posterior
+from models.training.settings import TrainingConfig
+
+
+def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monkeypatch):
+    small = {"TEXTS": 48, "VALIDATION_TEXTS": 16, "FITTED_TEXTS": 8, "CALIBRATED_TEXTS": 8}
+    for name, value in (small | {"FIT_STEPS": 1, "CALIBRATION_STEPS": 1}).items():
+        monkeypatch.setattr(fit_posterior, name, value)
+    config = TrainingConfig(steps=2, batch_size=16, validate_every=2)
+    seen = []
+    figures = fit_posterior.train_posterior(
+        [osm_file], ("train", "test"), tmp_path, PosteriorConfig(width=32), config, progress=seen.append
+    )
+    assert [p.step for p in seen] == [1, 2]
+    assert 0 <= figures["recall@1"] <= 1
+    model = load_posterior(tmp_path)
+    assert model.config.radius_scale == pytest.approx(figures["radius_scale"])
+    record = json.loads((tmp_path / "config.json").read_text())
+    assert record["fingerprint"] == model.fingerprint
+    assert record["training"]["validation"] == figures
