@@ -16,7 +16,7 @@ TOWN_SEED = 0
 def reproduce(
     out: Annotated[Path, typer.Option(help="directory for runs and report; what is done there is kept")],
     data: Annotated[str, typer.Option(help="demo or full (made-up towns), or a directory of KITTI360Pose")] = "demo",
-    seeds: Annotated[str, typer.Option(help="of the trainings: 0 or 0,1,2")] = "0",
+    seeds: Annotated[str, typer.Option(help="of the trainings: 0 or 0,1,2; figure 4 is made with the first")] = "0",
     report: Annotated[Path | None, typer.Option(help="directory for the report; OUT if left out")] = None,
 ) -> None:
     """Make the tables 1-4 and figures 4-5 of MNCL: train what is missing, measure, print beside what is published."""

@@ -21,7 +21,7 @@ from index.ranking import RERANKED, Ranker
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.retriever import Retriever
-from models.training.experiments import FINE, GROWTH, MNCL, Run, Scale, all_runs
+from models.training.experiments import FINE, GROWTH, MNCL, Run, Scale, runs_of
 from models.training.fine import train_fine
 from models.training.fit import train_retriever
 from models.training.run_dir import METRICS_FILE, replace_file
@@ -77,7 +77,7 @@ def reproduce(
         data: a directory in KITTI360Pose's layout or a converted store, with train, val and test scenes.
         out: where runs go, one directory each; those of an earlier call that fit are kept.
         scale: how much is trained.
-        seeds: each training is done with each.
+        seeds: of the trainings; the figures' are done with the first alone, the tables' with each.
         workers: trainings at once.
         progress: called as the work goes on.
 
@@ -87,7 +87,7 @@ def reproduce(
     Raises:
         DataError: the data cannot be read.
     """
-    jobs = [Job.of(run, seed, data, out, scale) for seed in seeds for run in all_runs()]
+    jobs = [Job.of(run, seed, data, out, scale) for seed in seeds for run in runs_of(every_seed=seed != seeds[0])]
     missing = [(job,) for job in jobs if job.result() is None]
     for done in _all_done(_do, missing, workers):
         progress("train and measure", len(jobs) - len(missing) + done, len(jobs))
