@@ -3,6 +3,9 @@
 from dataclasses import dataclass, field
 from typing import Literal
 
+from models.city.frame import Frame
+from models.city.types import Floats
+
 Crs = Literal["map", "wgs84"]
 Status = Literal["ok", "ambiguous", "no_match"]
 Refine = Literal["none", "regressor", "posterior"]
@@ -65,6 +68,14 @@ class Wgs84:
 
     lat: float
     lon: float
+
+    @classmethod
+    def of(cls, position_m: Floats, frame: Frame) -> "Wgs84 | None":
+        """A position of the map; None if the map is not georeferenced."""
+        if not frame.is_georeferenced:
+            return None
+        lat, lon = frame.to_wgs84(position_m[:2])
+        return cls(round(float(lat), 7), round(float(lon), 7))
 
 
 @dataclass(frozen=True, slots=True)

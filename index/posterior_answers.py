@@ -113,7 +113,7 @@ class PosteriorAnswers:
             ),
             radius_m=Radius(p50, p90),
             probability=float(located.probability[0]),
-            wgs84=self._wgs84(located.positions[0]),
+            wgs84=Wgs84.of(located.positions[0], self.frame),
         )
 
     def _candidate(self, located: Located, n: int) -> Candidate:
@@ -129,14 +129,8 @@ class PosteriorAnswers:
             center=(x, y),
             bbox=(x - half, y - half, x + half, y + half),
             position=(float(position[0]), float(position[1])),
-            wgs84=self._wgs84(position),
+            wgs84=Wgs84.of(position, self.frame),
         )
-
-    def _wgs84(self, position_m: Floats) -> Wgs84 | None:
-        if not self.frame.is_georeferenced:
-            return None
-        lat, lon = self.frame.to_wgs84(position_m)
-        return Wgs84(round(float(lat), 7), round(float(lon), 7))
 
 
 def _no_match(warning: str, timings_ms: dict[str, float], evidence: tuple[Evidence, ...] = ()) -> Answer:

@@ -94,7 +94,7 @@ class Checkpoints(Generic[M]):
         directory = directory or self.default
         for name in (CONFIG_FILE, WEIGHTS_FILE):
             if not (directory / name).is_file():
-                raise WeightsError(f"no weights of the {self.kind} in {directory} ({name} is missing); {self.advice}")
+                raise WeightsError(f"no weights in {directory} ({name} is missing); {self.advice}")
         try:
             record = json.loads((directory / CONFIG_FILE).read_text())
             method = self.methods[record["method"]]

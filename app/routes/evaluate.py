@@ -12,7 +12,7 @@ from sse_starlette import EventSourceResponse, ServerSentEvent
 from app.dependencies import Jobs, Localizer, Queue
 from app.errors import Code
 from app.evaluation import to_evaluation
-from app.jobs import FINISHED, Job, JobState, Status
+from app.job import FINISHED, Job, JobState, Status
 from app.openapi import problems
 from app.schemas import EvaluateRequest, evaluate_model
 from app.settings import Settings

@@ -19,7 +19,7 @@ def submitted(monkeypatch):
     found = []
 
     async def submit(self, evaluation):
-        from app.jobs import Job
+        from app.job import Job
 
         found.append(evaluation)
         return Job(Path("/nowhere"))

@@ -11,7 +11,7 @@ import pytest
 import structlog
 
 from app import jobs as jobs_module
-from app.jobs import Job
+from app.job import Job
 from app.routes import evaluate
 
 COMMAND = (sys.executable, str(Path(__file__).parent / "fake_worker.py"))

@@ -76,7 +76,7 @@ def test_uncertainty_is_wide_when_unsure_and_narrow_when_told(localizer) -> None
 
 def test_cells_beyond_the_search_depth_count_as_doubt(localizer, monkeypatch) -> None:
     whole = ask(localizer)
-    monkeypatch.setattr("index.localizer.DEPTH", 20)
+    monkeypatch.setattr("index.vector_answers.DEPTH", 20)
     shallow = ask(localizer)
     assert [c.cell_id for c in shallow.candidates] == [c.cell_id for c in whole.candidates]
     assert shallow.estimate.probability <= whole.estimate.probability

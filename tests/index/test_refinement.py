@@ -108,7 +108,7 @@ def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
     told = Told(localizer.gallery.cells, center[:1] + 4)
     sure = Query(HINTS, top_k=1, prior=None)
     fine = refining(localizer, lambda: told)
-    fine._posterior = lambda query, rows, scores, unseen: np.eye(len(rows))[0]
+    fine.vector_answers._posterior = lambda query, rows, scores, unseen: np.eye(len(rows))[0]
     plain, refined = fine.localize([sure, dataclasses.replace(sure, refine="regressor")])
     assert refined.estimate.position == pytest.approx(tuple(center[0] + 4))
     assert np.diag(refined.estimate.covariance) == pytest.approx(told.error_m**2)
@@ -121,5 +121,5 @@ def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path
     estimate = fine.localize([Query(HINTS)])[0].estimate
     assert estimate is not None
     assert estimate.method == "cell_center"
-    with pytest.raises(WeightsError, match="no weights of the fine stage"):
+    with pytest.raises(WeightsError, match=r"no weights in .*regressor"):
         fine.localize([Query(HINTS, refine="regressor")])
