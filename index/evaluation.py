@@ -135,6 +135,7 @@ def _predict_by_posterior(data: MapData, queries: Queries, posterior: MapPosteri
     for q, sentences in enumerate(queries.sentences):
         if q % CHUNK == 0:
             progress("ask", q, total)
+            posterior.read_ahead(queries.sentences[q : q + CHUNK])
         located = posterior.locate(posterior.reading(posterior.notice(sentences)))
         if located is None:
             continue
@@ -196,13 +197,8 @@ def grow(
         position = np.full(len(cells), -1)
         position[rows] = np.arange(len(rows))
         gallery = replace(data.gallery, cells=cells.take(rows))
-        part = Queries(
-            sentences=[queries.sentences[q] for q in asked],
-            positions_m=queries.positions_m[asked],
-            truth=position[queries.truth[asked]],
-            scenes=[queries.scenes[q] for q in asked],
-            strategies=[queries.strategies[q] for q in asked],
-        )
+        asked_here = queries.take(asked)
+        part = replace(asked_here, truth=position[asked_here.truth], hints=None)
         steps.append((radius, (replace(data, gallery=gallery), part), rows))
     return steps
 

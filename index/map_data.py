@@ -89,6 +89,17 @@ class Queries:
     def __len__(self) -> int:
         return len(self.truth)
 
+    def take(self, rows: npt.NDArray[np.intp]) -> "Queries":
+        """Some of them."""
+        return Queries(
+            sentences=[self.sentences[q] for q in rows],
+            positions_m=self.positions_m[rows],
+            truth=self.truth[rows],
+            scenes=[self.scenes[q] for q in rows],
+            strategies=[self.strategies[q] for q in rows],
+            hints=None if self.hints is None else [self.hints[q] for q in rows],
+        )
+
 
 def fingerprint(data: Path, split: str | None = None) -> str:
     """sha256 of what a map is read from.

@@ -25,6 +25,7 @@ from models.posterior.posterior import HintPosterior, LogPrior
 
 LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
 KEPT_TEXTS = 2000
+READ_AT_ONCE = 16
 EXPLAINED = 0.5  # a hint counts as explained from this probability on
 
 
@@ -59,21 +60,25 @@ class MapPosterior:
 
     def notice(self, hints: Sequence[str]) -> tuple[Noticed, ...]:
         """What a description names; sentences are read together, so that one may speak of another's thing."""
-        pieces = [""]
-        for hint in hints:
-            sentence = hint if hint.endswith((".", "!", "?", ";")) else hint + "."
-            if pieces[-1] and len(pieces[-1]) + len(sentence) > LONGEST:
-                pieces.append("")
-            pieces[-1] = f"{pieces[-1]} {sentence}".strip()
-        return tuple(thing for piece in pieces for thing in self._read(piece))
+        return tuple(thing for piece in _pieces(hints) for thing in self._read([piece])[0])
 
-    def _read(self, text: str) -> tuple[Noticed, ...]:
-        if text not in self._noticed:
-            self._noticed[text] = tuple(self.model.reader.read([text])[0])
-        self._noticed.move_to_end(text)
-        while len(self._noticed) > KEPT_TEXTS:
-            self._noticed.popitem(last=False)
-        return self._noticed[text]
+    def read_ahead(self, descriptions: Sequence[Sequence[str]]) -> None:
+        """Read many descriptions at once, so that `notice` of them costs nothing."""
+        self._read([piece for hints in descriptions for piece in _pieces(hints)])
+
+    def _read(self, texts: Sequence[str]) -> list[tuple[Noticed, ...]]:
+        """What each text names; the latest texts are remembered."""
+        noticed = self._noticed
+        new = sorted({text for text in texts if text not in noticed}, key=len)  # those of like length together
+        for start in range(0, len(new), READ_AT_ONCE):
+            some = new[start : start + READ_AT_ONCE]
+            noticed.update((text, tuple(found)) for text, found in zip(some, self.model.reader.read(some), strict=True))
+        for text in texts:
+            noticed.move_to_end(text)
+        found = [noticed[text] for text in texts]
+        while len(noticed) > KEPT_TEXTS:
+            noticed.popitem(last=False)
+        return found
 
     def reading(self, noticed: Sequence[Noticed]) -> Reading:
         """Hints in the map's own labels, colours and names; of no hint, one that anything fits."""
@@ -134,3 +139,14 @@ class MapPosterior:
             explained=explained,
             **shown,
         )
+
+
+def _pieces(hints: Sequence[str]) -> list[str]:
+    """A description as texts that the reader takes whole."""
+    pieces = [""]
+    for hint in hints:
+        sentence = hint if hint.endswith((".", "!", "?", ";")) else hint + "."
+        if pieces[-1] and len(pieces[-1]) + len(sentence) > LONGEST:
+            pieces.append("")
+        pieces[-1] = f"{pieces[-1]} {sentence}".strip()
+    return pieces

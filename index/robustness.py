@@ -14,13 +14,15 @@ from index.ranking import Ranker
 from index.report import Table
 from index.scoring import score
 from models.city.cells import Parts
+from models.city.hints import direction_index
 from models.city.points import Ints
-from models.city.types import DIRECTIONS, Direction, Hint
+from models.city.surroundings import STEP_M, Surroundings
+from models.city.types import DIRECTIONS, Direction, Floats, Hint
 from models.errors import DataError
 from models.language.hints_text import TEMPLATES, render_hint
 from models.language.paraphrase import Fact, Said, Wording, typos
 
-MOST_QUERIES = 500
+MOST_QUERIES = 300
 SEED = 0
 INVERSE = TEMPLATES.index("There is {a} {o} of me.")
 Say = Callable[[tuple[Hint, ...], np.random.Generator], tuple[str, ...]]
@@ -33,11 +35,13 @@ class Trial:
     Attributes:
         name: for the table.
         say: what is said of a query's hints.
+        hints: tell of so many things instead of the query's own hints, the nearest ones.
         dropped, relabelled: shares of the map's instances that are gone, or have another's label.
     """
 
     name: str
     say: Say
+    hints: int | None = None
     dropped: float = 0.0
     relabelled: float = 0.0
 
@@ -68,8 +72,9 @@ def robustness(
     for n, trial in enumerate(trials):
         progress("trials", n, len(trials))
         rng = np.random.default_rng(SEED)
-        assert some.hints is not None
-        said = replace(some, sentences=[trial.say(hints, rng) for hints in some.hints], hints=None)
+        facts = some.hints if trial.hints is None else _nearest(data, some, posterior.surroundings, trial.hints)
+        assert facts is not None
+        said = replace(some, sentences=[trial.say(hints, rng) for hints in facts], hints=None)
         damage = _damage(data, trial, np.random.default_rng(SEED))
         both = _answerers(damage, ranker, posterior) if damage else (ranker, posterior)
         here = damage.data if damage else data
@@ -105,6 +110,7 @@ def all_trials(data: MapData) -> list[Trial]:
     trials = [Trial("template text", _template)]
     trials += [Trial(f"{n} hints", _first(n)) for n in range(1, 6)]
     trials += [
+        Trial("12 hints", _template, hints=12),
         Trial("one hint of six wrong", _one_wrong(words)),
         Trial("two colours of six wrong", _wrong_colours(words, 2)),
         Trial("hints in another order", _shuffled),
@@ -168,15 +174,30 @@ def _pieces(said: Said) -> tuple[str, ...]:
 def _some(queries: Queries) -> Queries:
     rows = np.random.default_rng(SEED).permutation(len(queries))[:MOST_QUERIES]
     rows.sort()
-    assert queries.hints is not None
-    return Queries(
-        sentences=[queries.sentences[q] for q in rows],
-        positions_m=queries.positions_m[rows],
-        truth=queries.truth[rows],
-        scenes=[queries.scenes[q] for q in rows],
-        strategies=[queries.strategies[q] for q in rows],
-        hints=[queries.hints[q] for q in rows],
-    )
+    return queries.take(rows)
+
+
+def _nearest(data: MapData, queries: Queries, around: Surroundings, count: int) -> list[tuple[Hint, ...]]:
+    """Of each query, hints about the nearest things round its position; of a query without a cell, none."""
+    found: list[tuple[Hint, ...]] = []
+    for position, cell in zip(queries.positions_m, queries.truth.tolist(), strict=True):
+        nodes = np.arange(around.cell_starts[cell], around.cell_starts[cell + 1]) if cell >= 0 else np.empty(0, int)
+        if not len(nodes):
+            found.append(())
+            continue
+        node = nodes[np.hypot(*(around.nodes_m[nodes] - position).T).argmin()]
+        rows = np.arange(around.starts[node], around.starts[node + 1])
+        offset = position - (around.nodes_m[node] - around.way[rows] * STEP_M)
+        nearest = np.argsort(np.hypot(*offset.T), kind="stable")[:count]
+        found.append(tuple(_hint(data, int(around.part[rows[k]]), offset[k]) for k in nearest))
+    return found
+
+
+def _hint(data: MapData, part: int, offset_m: Floats) -> Hint:
+    gallery = data.gallery
+    instance, rgb = gallery.cells.parts.instance[part], gallery.cells.parts.rgb[part]
+    direction: Direction = DIRECTIONS[int(direction_index(offset_m))]
+    return Hint(direction, gallery.labels[instance], data.palette.word(rgb))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import torch
 
+import index.robustness as robustness_module
 from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
@@ -40,19 +41,24 @@ def test_trials_say_what_their_name_says(asked):
     assert free not in (" ".join(plain), " ".join(said["free wording, three typos"]))
 
 
+def test_hints_about_the_nearest_things_are_true(asked):
+    data, queries = asked
+    some = queries.take(np.arange(0, len(queries), 3))
+    around = data.around(lambda *_: None)
+    told = robustness_module._nearest(data, some, around, 12)
+    assert max(map(len, told)) > 6
+    for hints, own in zip(told, some.hints, strict=True):
+        assert len(hints) <= 12
+        known = {(hint.label, hint.direction) for hint in hints}
+        if len(hints) < 12:  # everything near is told, the query's own hints among it
+            assert len([h for h in own if (h.label, h.direction) in known]) >= len(own) - 1
+
+
 def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
     torch.manual_seed(0)
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 6))
-    some = replace(
-        queries,
-        sentences=[queries.sentences[q] for q in rows],
-        positions_m=queries.positions_m[rows],
-        truth=queries.truth[rows],
-        scenes=[queries.scenes[q] for q in rows],
-        strategies=[queries.strategies[q] for q in rows],
-        hints=[queries.hints[q] for q in rows],
-    )
+    some = queries.take(rows)
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
     posterior = MapPosterior(untrained, data.gallery, data.palette, data.around(lambda *_: None))
