@@ -53,11 +53,11 @@ train: install  ## make the shipped weights again (west of Helsinki, made-up tow
 		--out models/weights/posterior
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
-	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-test
-	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-refined --refine regressor
-	$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --report reports/alexanderplatz
-	$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --report reports/helsinki-posterior --refine posterior
-	$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --report reports/alexanderplatz-posterior --refine posterior
+	for how in posterior regressor none; do \
+		$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --refine $$how --report reports/helsinki-$$how && \
+		$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --refine $$how --report reports/alexanderplatz-$$how \
+		|| exit 1; \
+	done
 
 benchmark: index  ## seconds, memory and latency on this machine
 	$(BIN)/hereabouts benchmark --map $(MAP) --index $(INDEX)

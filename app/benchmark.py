@@ -9,16 +9,20 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import httpx
 import numpy as np
 
+from app.settings import load_settings
 from models.errors import HereaboutsError
 
 REQUESTS = 200
 HINTS = 6
+DESCRIPTIONS = 100  # whose parts are measured in one thread
+DEPTH = 2000  # cells that vector search ranks, as in the service
 POLL_S = 0.1
 START_S = 120.0
 
@@ -33,7 +37,7 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
     Returns:
         Figures by stage: index building, then latencies of `POST /localize` with one client, warm, each
         description of six hints: new text, text whose hints are cached, and, as the baseline of the same
-        run, an endpoint that computes nothing.
+        run, an endpoint that computes nothing; then the parts of an answer, see `measure_parts`.
     """
     with tempfile.TemporaryDirectory() as scratch:
         index = measure_index(map_path, Path(scratch) / "index")
@@ -49,7 +53,55 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
         "localize_cached_hints_ms": cached,
         "healthz_ms": nothing,
         "new_text_over_cached": round(fresh["p50"] / cached["p50"], 1),
+        "one_thread": measure_parts(index_dir),
     }
+
+
+def measure_parts(index_dir: Path) -> dict[str, float]:
+    """What a description of six hints costs in one thread, and a cell in bytes.
+
+    Args:
+        index_dir: index to ask.
+
+    Returns:
+        Medians in milliseconds of reading a new description and of the posterior, and, as the baseline of the same
+        run, of encoding it and of vector search.
+    """
+    import torch  # noqa: PLC0415 - heavy
+
+    from index.localizer import Localizer  # noqa: PLC0415
+    from index.robustness import nearest_hints  # noqa: PLC0415
+    from models.language.hints_text import render_hint  # noqa: PLC0415
+
+    settings = load_settings(index_dir=index_dir)
+    localizer = Localizer.open(index_dir, settings.weights_dir, posterior_weights_dir=settings.posterior_weights_dir)
+    posterior, data, cells = localizer.map_posterior, localizer.map_data(), localizer.gallery.cells
+    rows = np.random.default_rng(0).choice(len(cells), DESCRIPTIONS)
+    hints = nearest_hints(data, cells.center_m[rows, :2], rows, posterior.surroundings, HINTS)
+    texts = [tuple(render_hint(hint) for hint in some) for some in hints if some]
+    steps: dict[str, list[float]] = {"read": [], "posterior": [], "encode": [], "vector_search": []}
+    threads = torch.get_num_threads()
+    torch.set_num_threads(1)
+    for text in texts:
+        noticed = _timed(steps["read"], posterior.notice, text)
+        _timed(steps["posterior"], posterior.locate, posterior.reading(noticed))
+        encoded = _timed(steps["encode"], localizer.retriever.encode_texts, [text])
+        _timed(steps["vector_search"], localizer.ranker.rank, encoded, DEPTH)
+    torch.set_num_threads(threads)
+    surroundings = posterior.surroundings
+    held = sum(getattr(surroundings, f.name).nbytes for f in fields(surroundings))
+    return {f"{name}_ms": round(1000 * float(np.median(seconds)), 1) for name, seconds in steps.items()} | {
+        "cells": len(cells),
+        "surroundings_bytes_a_cell": round(held / len(cells)),
+        "vectors_bytes_a_cell": round(4 * localizer.dim + localizer.ranker.table.bytes_a_cell),
+    }
+
+
+def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:
+    start = time.perf_counter()
+    done = work(*given)
+    seconds.append(time.perf_counter() - start)
+    return done
 
 
 def measure_index(map_path: Path, out: Path) -> dict[str, float]:

@@ -141,14 +141,16 @@ def evaluate(
     index_dir: IndexDir = INDEX_DIR,
     report: Annotated[Path | None, typer.Option(help="directory for predictions, report.json, tables, plots")] = None,
     grow: Annotated[str | None, typer.Option(help="radii in metres of a growing gallery: 200,300,400,500")] = None,
-    refine: Annotated[Refine, typer.Option(help="what finds positions inside the retrieved cells")] = "none",
+    refine: Annotated[
+        Refine | None, typer.Option(help="how positions are found; posterior, or what a .json says, if left out")
+    ] = None,
     hard: Annotated[
         bool, typer.Option("--robustness", help="fewer, wrong and misspelt hints, free wording, an outdated map")
     ] = False,
     rescore: Annotated[Path | None, typer.Option(help="score the predictions of this report's directory again")] = None,
 ) -> None:
     """Recall on queries with known positions, beside chance, an oracle and exact matching of the hints."""
-    from app.evaluation import Evaluation, read_evaluation
+    from app.evaluation import WEIGHTS_DIRS, Evaluation, read_evaluation
     from app.progress import stage_bars
     from app.settings import load_settings
     from index.evaluation import rescore as run_again
@@ -163,14 +165,10 @@ def evaluate(
     if data.suffix == ".json":
         asked = read_evaluation(data, settings, split, radii)
     else:
-        asked = Evaluation(weights_dir=settings.weights_dir, data=data, split=split, grow_m=radii)
-    asked = asked.model_copy(
-        update={
-            "refine": refine,
-            "fine_weights_dir": settings.fine_weights_dir,
-            "posterior_weights_dir": settings.posterior_weights_dir,
-        }
-    )
+        weights = {name: getattr(settings, name) for name in WEIGHTS_DIRS}
+        asked = Evaluation(**weights, data=data, split=split, grow_m=radii, refine="posterior")
+    if refine:
+        asked = asked.model_copy(update={"refine": refine})
     with stage_bars() as show:
         found = asked.run_robustness(report, show) if hard else asked.run(report, show)
     if hard:

@@ -21,6 +21,8 @@ from models.language.hints_text import split_hints
 MAP_SUFFIXES = (".osm.pbf", ".osm")
 Progress = Callable[[str, int, int], None]
 
+WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # of Settings and of Evaluation
+
 
 class Evaluation(BaseModel):
     """What to ask of what: a data set, or queries of one's own of an index.
@@ -146,15 +148,14 @@ def to_evaluation(asked: EvaluateRequest, settings: Settings, index_dir: Path, f
     Raises:
         Problem: no such data set, or a query that cannot be asked of this map; the field is named.
     """
-    weights_dir = settings.weights_dir and settings.weights_dir.absolute()
-    grow_m = asked.grow or []
+    weights = {name: getattr(settings, name) for name in WEIGHTS_DIRS}
+    common: dict[str, Any] = {name: path and path.absolute() for name, path in weights.items()}
+    common |= {"grow_m": asked.grow or [], "refine": asked.refine}
     if asked.data is not None:
-        data = find_data(settings.data_dir, asked.data).absolute()
-        return Evaluation(weights_dir=weights_dir, grow_m=grow_m, data=data, split=asked.split)
+        return Evaluation(**common, data=find_data(settings.data_dir, asked.data).absolute(), split=asked.split)
     queries = asked.queries or []
     return Evaluation(
-        weights_dir=weights_dir,
-        grow_m=grow_m,
+        **common,
         index_dir=index_dir.absolute(),
         sentences=[_sentences(query, n, settings.max_hints) for n, query in enumerate(queries)],
         positions_m=_positions_m(queries, frame) if asked.crs == "wgs84" else [query.position for query in queries],

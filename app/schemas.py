@@ -127,6 +127,13 @@ class Told(_Body):
         return self
 
 
+REFINE: Any = Field(
+    "posterior",
+    description="posterior: hints are matched with the map; regressor: vector search, then a regressor; "
+    "none: vector search alone, cells' centres",
+)
+
+
 class LocalizeRequest(Told):
     """What to localize; `request_model` adds the limits of a service."""
 
@@ -136,11 +143,7 @@ class LocalizeRequest(Told):
     within: Within | None = None
     prior: PriorPosition | None = None
     crs: Crs = Field("map", description="what the coordinates of within and prior mean")
-    refine: Refine = Field(
-        "posterior",
-        description="posterior: hints are matched with the map; regressor: vector search, then a regressor; "
-        "none: vector search alone, cells' centres",
-    )
+    refine: Refine = REFINE
     heat_map: Annotated[bool, Strict()] = Field(False, description="the distribution behind the answer; with posterior")
     deadline_ms: int
     index: Literal["default"] = "default"
@@ -188,6 +191,7 @@ class EvaluateRequest(_Body):
     grow: Annotated[list[Length], Field(min_length=1, max_length=MAX_RADII)] | None = Field(
         None, description="radii in metres of a growing gallery, for example [200, 300, 400, 500]"
     )
+    refine: Refine = REFINE
 
     @model_validator(mode="after")
     def _is_one_source(self) -> Self:

@@ -86,9 +86,9 @@ class MapPosterior:
             return self.binding.nothing()
         reading = self.binding.reading(noticed)
         for n, thing in enumerate(noticed):
-            found = [instances for _, _, instances in self.landmarks.find(thing.noun)]
+            found = self.landmarks.meant_by(thing.noun)
             if found:
-                bears = np.isin(self.gallery.cells.parts.instance, np.concatenate(found))
+                bears = np.isin(self.gallery.cells.parts.instance, found)
                 reading.named[n] = torch.from_numpy(bears)
         return reading
 

@@ -72,7 +72,11 @@ def robustness(
     for n, trial in enumerate(trials):
         progress("trials", n, len(trials))
         rng = np.random.default_rng(SEED)
-        facts = some.hints if trial.hints is None else _nearest(data, some, posterior.surroundings, trial.hints)
+        facts = (
+            some.hints
+            if trial.hints is None
+            else nearest_hints(data, some.positions_m, some.truth, posterior.surroundings, trial.hints)
+        )
         assert facts is not None
         said = replace(some, sentences=[trial.say(hints, rng) for hints in facts], hints=None)
         damage = _damage(data, trial, np.random.default_rng(SEED))
@@ -177,19 +181,29 @@ def _some(queries: Queries) -> Queries:
     return queries.take(rows)
 
 
-def _nearest(data: MapData, queries: Queries, around: Surroundings, count: int) -> list[tuple[Hint, ...]]:
-    """Of each query, hints about the nearest things round its position; of a query without a cell, none."""
+def nearest_hints(
+    data: MapData, positions_m: Floats, rows: Ints, around: Surroundings, count: int
+) -> list[tuple[Hint, ...]]:
+    """Hints about the nearest things round some positions.
+
+    Args:
+        data: the map.
+        positions_m: [Q, 2] map frame.
+        rows: [Q] cell of each; of -1 nothing is said.
+        around: surroundings of the map's cells.
+        count: hints each; fewer where there are fewer things.
+    """
     found: list[tuple[Hint, ...]] = []
-    for position, cell in zip(queries.positions_m, queries.truth.tolist(), strict=True):
+    for position, cell in zip(positions_m, rows.tolist(), strict=True):
         nodes = np.arange(around.cell_starts[cell], around.cell_starts[cell + 1]) if cell >= 0 else np.empty(0, int)
         if not len(nodes):
             found.append(())
             continue
         node = nodes[np.hypot(*(around.nodes_m[nodes] - position).T).argmin()]
-        rows = np.arange(around.starts[node], around.starts[node + 1])
-        offset = position - (around.nodes_m[node] - around.way[rows] * STEP_M)
+        here = slice(around.starts[node], around.starts[node + 1])
+        offset = position - (around.nodes_m[node] - around.way[here] * STEP_M)
         nearest = np.argsort(np.hypot(*offset.T), kind="stable")[:count]
-        found.append(tuple(_hint(data, int(around.part[rows[k]]), offset[k]) for k in nearest))
+        found.append(tuple(_hint(data, int(around.part[here][k]), offset[k]) for k in nearest))
     return found
 
 

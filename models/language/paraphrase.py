@@ -228,7 +228,10 @@ def _load(grammar: Grammar) -> dict[str, Any]:
     tables = tomllib.loads((GRAMMARS / f"{grammar}.toml").read_text())
     for more in sorted(GRAMMARS.glob(f"{grammar}_*.toml")):
         for name, table in tomllib.loads(more.read_text()).items():
-            tables[name]["phrases"] = list(dict.fromkeys([*tables[name]["phrases"], *table["phrases"]]))
+            tables[name]["phrases"] += table["phrases"]
+    for name in tables.keys() - {"labels", "colours", "compass"}:
+        phrases = tables[name]["phrases"]
+        tables[name]["phrases"] = list({_gist(phrase): phrase for phrase in reversed(phrases)}.values())[::-1]
     if grammar == "train":
         return tables
     known = _load("train")
@@ -237,8 +240,14 @@ def _load(grammar: Grammar) -> dict[str, Any]:
             taken = {_plain(word) for key, words in known[name].items() for word in (key, *words)}
             tables[name] = {key: [w for w in words if _plain(w) not in taken] for key, words in table.items()}
         elif name not in _KEPT:
-            tables[name]["phrases"] = [phrase for phrase in table["phrases"] if phrase not in known[name]["phrases"]]
+            taken = {_gist(phrase) for phrase in known[name]["phrases"]}
+            tables[name]["phrases"] = [phrase for phrase in table["phrases"] if _gist(phrase) not in taken]
     return tables
+
+
+def _gist(phrase: str) -> str:
+    """A phrase but for capitals, punctuation and articles: two that agree in it are one."""
+    return " ".join(re.sub(r"[^a-z0-9{ ]", "", re.sub(r"\{(the|a|n)(?![a-z])", "{thing", phrase.lower())).split())
 
 
 def _plain(word: str) -> str:

@@ -1,5 +1,6 @@
 """The reader: from a description in any wording to hints, each a distribution over what may be meant."""
 
+import copy
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,15 +11,14 @@ from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
 from models.language.paraphrase import RELATIONS
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, run_layers
 
 TAGS: Final = 3  # outside, first token of a noun, further token of it
 COLOURS: Final = (
     "dark-green", "gray", "gray-green", "bright-gray", "black", "green", "beige", "white", "red", "brown", "orange",
     "yellow", "blue", "purple", "pink",
 )  # fmt: skip
-REACH, HEADS = 5, 4
-FURTHEST = 32  # tokens further apart than this are equally far
+REACH = 5  # tokens that a convolution sees
 _UNITS = {"m": 1.0, "met": 1.0, "ft": 0.3048, "f": 0.3048, "y": 0.9144, "s": 0.75, "p": 0.75}
 _WORDS = (
     "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve",
@@ -36,19 +36,21 @@ class ReaderConfig(BaseModel):
     """Shape of the reader.
 
     Attributes:
-        text_encoder: as of the retriever.
-        width: of the layers above the text encoder.
+        text_encoder: a BERT-like language model.
+        frozen_layers: of the text encoder; the first ones know most of grammar.
+        tuned_layers: of the text encoder after those, trained on.
+        width: of the layers above them.
         local_layers: convolutions over neighbouring tokens.
-        layers: attention layers over the whole text, after them.
-        dropout: while training.
+        dropout: while training, in the convolutions.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
+    frozen_layers: int = 3
+    tuned_layers: int = 2
     width: int = 192
     local_layers: int = 2
-    layers: int = 2
     dropout: float = 0.1
 
 
@@ -77,18 +79,19 @@ class Noticed:
 class Reader(nn.Module):
     """Tags the nouns of a text, and says of each its direction, its colour and whether there is none of it.
 
-    Attention layers on the frozen text encoder's token features, over the whole description, so that pronouns, joined
-    clauses and colours said apart find their noun. Trained on the paraphrase grammar (`models.language.paraphrase`).
+    The lower layers of the text encoder are frozen, some after them are trained on, over the whole description, so that
+    pronouns, joined clauses and colours said apart find their noun. Trained on the paraphrase grammar
+    (`models.language.paraphrase`).
     """
 
     def __init__(self, text_encoder: TextEncoder, config: ReaderConfig) -> None:
         super().__init__()
         self.config = config
         self._text = (text_encoder,)  # a tuple hides it from state_dict
-        width = config.width
+        width, frozen = config.width, config.frozen_layers
+        self.tuned = copy.deepcopy(text_encoder.layers(frozen, frozen + config.tuned_layers)).requires_grad_(True)
         self.project = nn.Linear(text_encoder.width, width)
         self.near = nn.ModuleList(_Near(width, config.dropout) for _ in range(config.local_layers))
-        self.far = nn.ModuleList(_Far(width, config.dropout) for _ in range(config.layers))
         self.tag = nn.Linear(width, TAGS)
         self.relation = _head(width, len(RELATIONS))
         self.colour = _head(width, len(COLOURS) + 1)
@@ -96,13 +99,13 @@ class Reader(nn.Module):
 
     @property
     def text_encoder(self) -> TextEncoder:
-        """The frozen language model."""
+        """The language model as it was."""
         return self._text[0]
 
     def forward(self, tokens: TokenFeatures) -> Tensor:
-        """[B, T, D] features of tokens in their text."""
-        x: Tensor = self.project(tokens.values)
-        for layer in (*self.near, *self.far):
+        """[B, T, D] features of tokens in their text, from what the frozen layers make of them."""
+        x: Tensor = self.project(run_layers(self.tuned, tokens.values, tokens.mask))
+        for layer in self.near:
             x = layer(x, tokens.mask)
         return x
 
@@ -113,7 +116,7 @@ class Reader(nn.Module):
     @torch.no_grad()
     def read(self, texts: Sequence[str]) -> list[list[Noticed]]:
         """What each text names, in its order."""
-        tokens, characters = self.text_encoder.read(texts)
+        tokens, characters = self.text_encoder.read(texts, self.config.frozen_layers)
         features = self(tokens)
         tags = self.tag(features).argmax(dim=-1)
         found: list[list[Noticed]] = []
@@ -145,29 +148,6 @@ class _Near(nn.Module):
         mixed = self.mix((x * mask[..., None]).transpose(1, 2)).transpose(1, 2)
         normed: Tensor = self.norm(x + self.dropout(nn.functional.gelu(mixed)))
         return normed
-
-
-class _Far(nn.Module):
-    """What the whole text says: attention that knows how far apart two tokens are."""
-
-    def __init__(self, width: int, dropout: float) -> None:
-        super().__init__()
-        self.project, self.merge = nn.Linear(width, 3 * width), nn.Linear(width, width)
-        self.bias = nn.Parameter(torch.zeros(HEADS, 2 * FURTHEST + 1))
-        self.feed_forward = nn.Sequential(nn.Linear(width, 2 * width), nn.GELU(), nn.Linear(2 * width, width))
-        self.norms = nn.ModuleList(nn.LayerNorm(width) for _ in range(2))
-        self.dropout = nn.Dropout(dropout)
-
-    def forward(self, x: Tensor, mask: Tensor) -> Tensor:
-        b, t, d = x.shape
-        query, key, value = self.project(x).view(b, t, 3, HEADS, -1).permute(2, 0, 3, 1, 4)
-        place = torch.arange(t, device=x.device)
-        apart = (place[None] - place[:, None]).clamp(-FURTHEST, FURTHEST) + FURTHEST
-        bias = self.bias[:, apart][None].masked_fill(~mask[:, None, None], float("-inf"))
-        mixed = nn.functional.scaled_dot_product_attention(query, key, value, attn_mask=bias)
-        x = self.norms[0](x + self.dropout(self.merge(mixed.transpose(1, 2).reshape(b, t, d))))
-        updated: Tensor = self.norms[1](x + self.dropout(self.feed_forward(x)))
-        return updated
 
 
 def _head(width: int, outputs: int) -> nn.Sequential:

@@ -66,10 +66,16 @@ class TextEncoder(nn.Module):
         mask = tokens["attention_mask"].bool()
         return TokenFeatures(hidden * mask[..., None], mask, tokens["input_ids"])
 
-    @torch.inference_mode()
-    def read(self, texts: Sequence[str]) -> tuple[TokenFeatures, Tensor]:
-        """Token features of whole descriptions, and the characters that each token stands for, [S, T, 2] int64."""
-        device = next(self.model.parameters()).device
+    def read(self, texts: Sequence[str], depth: int) -> tuple[TokenFeatures, Tensor]:
+        """What the first layers make of whole descriptions.
+
+        Args:
+            texts: descriptions.
+            depth: layers to go through; further ones are `layers(depth, ...)`.
+
+        Returns:
+            Token features, and the characters that each token stands for, [S, T, 2] int64.
+        """
         tokens = self.tokenizer(
             list(texts),
             padding=True,
@@ -78,16 +84,40 @@ class TextEncoder(nn.Module):
             return_tensors="pt",
             return_offsets_mapping=True,
         )
-        ids, attention = tokens["input_ids"].to(device), tokens["attention_mask"].to(device)
-        hidden = self.model(input_ids=ids, attention_mask=attention).last_hidden_state
-        mask = attention.bool()
+        device = next(self.model.parameters()).device
+        ids, mask = tokens["input_ids"].to(device), tokens["attention_mask"].to(device).bool()
+        with torch.no_grad():
+            hidden = run_layers(self.layers(0, depth), self.model.embeddings(input_ids=ids), mask)
         return TokenFeatures(hidden * mask[..., None], mask, ids), tokens["offset_mapping"]
+
+    def layers(self, first: int, last: int) -> nn.ModuleList:
+        """Some of its attention layers.
+
+        Raises:
+            WeightsError: the language model is not like BERT, or has fewer.
+        """
+        found = getattr(getattr(self.model, "encoder", None), "layer", None)
+        if found is None or len(found) < last or not hasattr(self.model, "embeddings"):
+            raise WeightsError(
+                f"text encoder '{self.source}' is not like BERT with at least {last} layers, which the reader of free "
+                f"language builds on; give '{DEFAULT_TEXT_ENCODER}' for it"
+            )
+        some: nn.ModuleList = found[first:last]
+        return some
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
         """[S, W] unit vectors of phrases (mean over tokens): how labels enter the instance encoder."""
         features = self(phrases)
         mean = features.values.sum(dim=1) / features.mask.sum(dim=1, keepdim=True)
         return nn.functional.normalize(mean, dim=-1)
+
+
+def run_layers(layers: nn.ModuleList, hidden: Tensor, mask: Tensor) -> Tensor:
+    """[S, T, W] after some of a BERT-like model's attention layers; padding takes no part."""
+    shut = torch.zeros(mask.shape, dtype=hidden.dtype, device=hidden.device).masked_fill(~mask, float("-inf"))
+    for layer in layers:
+        hidden = layer(hidden, shut[:, None, None])
+    return hidden
 
 
 @lru_cache(maxsize=2)

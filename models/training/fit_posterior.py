@@ -22,7 +22,7 @@ from models.training.settings import TrainingConfig
 
 TEXTS, VALIDATION_TEXTS = 20_000, 500  # that the reader is trained on, and chosen by
 FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
-FIT_STEPS, CALIBRATION_STEPS = 120, 40
+FIT_STEPS, CALIBRATION_STEPS = 300, 60
 CALIBRATED = ("temper", "background")  # weights that validation places decide
 
 _FIT_WORDING: tuple[Grammar | None, ...] = (
@@ -64,8 +64,9 @@ def train_posterior(
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
     trained = PosteriorModel(encoder, model)
-    training = ReadingSet(encoder, "train", TEXTS, config.seed)
-    validation = ReadingSet(encoder, "val", VALIDATION_TEXTS, config.seed + 1)
+    depth = model.frozen_layers
+    training = ReadingSet(encoder, depth, "train", TEXTS, config.seed)
+    validation = ReadingSet(encoder, depth, "val", VALIDATION_TEXTS, config.seed + 1)
     task = ReadingTask(trained.reader, training, validation, config.batch_size)
     record = {"method": "posterior", "model": model.model_dump(), "training": config.model_dump(mode="json")}
     history = run_training(task, config, run_dir, resume, progress, record=json.loads(json.dumps(record)))

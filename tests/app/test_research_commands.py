@@ -69,6 +69,9 @@ def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypa
     assert figures["index"]["peak_memory_mib"] > 100
     assert figures["index"]["size_mib"] > 0
     assert 0 < figures["localize_cached_hints_ms"]["p50"] <= figures["localize_cached_hints_ms"]["p99"]
+    parts = figures["one_thread"]
+    assert all(parts[f"{name}_ms"] > 0 for name in ("read", "posterior", "encode", "vector_search"))
+    assert parts["surroundings_bytes_a_cell"] > 100
 
 
 def test_benchmark_says_when_the_service_does_not_start(tmp_path, monkeypatch) -> None:

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 import torch
 
-import index.robustness as robustness_module
 from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
-from index.robustness import all_trials, robustness, robustness_table
+from index.robustness import all_trials, nearest_hints, robustness, robustness_table
 from models.city.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel
@@ -45,7 +44,7 @@ def test_hints_about_the_nearest_things_are_true(asked):
     data, queries = asked
     some = queries.take(np.arange(0, len(queries), 3))
     around = data.around(lambda *_: None)
-    told = robustness_module._nearest(data, some, around, 12)
+    told = nearest_hints(data, some.positions_m, some.truth, around, 12)
     assert max(map(len, told)) > 6
     for hints, own in zip(told, some.hints, strict=True):
         assert len(hints) <= 12
