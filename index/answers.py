@@ -1,10 +1,11 @@
 """What a localizer is asked and what it answers, in plain dataclasses."""
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from models.city.frame import Frame
-from models.city.types import Floats
+if TYPE_CHECKING:  # so that the command line starts without NumPy
+    from models.city.frame import Frame
+    from models.city.types import Floats
 
 Crs = Literal["map", "wgs84"]
 Status = Literal["ok", "ambiguous", "no_match"]
@@ -70,7 +71,7 @@ class Wgs84:
     lon: float
 
     @classmethod
-    def of(cls, position_m: Floats, frame: Frame) -> "Wgs84 | None":
+    def of(cls, position_m: "Floats", frame: "Frame") -> "Wgs84 | None":
         """A position of the map; None if the map is not georeferenced."""
         if not frame.is_georeferenced:
             return None
