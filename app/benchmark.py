@@ -22,7 +22,6 @@ from models.errors import HereaboutsError
 REQUESTS = 200
 HINTS = 6
 DESCRIPTIONS = 100  # whose parts are measured in one thread
-DEPTH = 2000  # cells that vector search ranks, as in the service
 POLL_S = 0.1
 START_S = 120.0
 
@@ -71,6 +70,7 @@ def measure_parts(index_dir: Path) -> dict[str, float]:
 
     from index.localizer import Localizer  # noqa: PLC0415
     from index.robustness import nearest_hints  # noqa: PLC0415
+    from index.vector_answers import DEPTH  # noqa: PLC0415
     from models.language.hints_text import render_hint  # noqa: PLC0415
 
     settings = load_settings(index_dir=index_dir)
