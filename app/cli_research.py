@@ -178,14 +178,15 @@ def evaluate(
 
 
 def _print_robustness(found: dict[str, Any]) -> None:
+    from index.candidates import candidate_table
     from index.robustness import robustness_table
 
-    head, rows = robustness_table(found["trials"])
-    table = Table(*head)
-    for row in rows:
-        table.add_row(*row)
     Console(width=140).print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
-    Console(width=140).print(table)
+    for head, rows in (robustness_table(found["trials"]), candidate_table(found["candidates"])):
+        table = Table(*head)
+        for row in rows:
+            table.add_row(*row)
+        Console(width=140).print(table)
 
 
 def _radii(grow: str | None) -> list[float]:

@@ -91,7 +91,7 @@ class Evaluation(BaseModel):
         return evaluate(data, queries, answering, report_dir, self.grow_m, progress, refiner)
 
     def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
-        """Retriever and posterior side by side under every trial of `index.robustness`.
+        """Retriever and posterior side by side under every trial of `index.robustness`, and where candidates come from.
 
         Args:
             report_dir: where robustness.json and robustness.md go; None to write nothing.
@@ -102,11 +102,12 @@ class Evaluation(BaseModel):
         """
         import torch  # noqa: PLC0415  # takes seconds
 
+        from index.candidates import candidate_recall, candidate_table  # noqa: PLC0415
         from index.map_data import load_queries  # noqa: PLC0415
         from index.map_posterior import MapPosterior  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
         from index.report import as_markdown  # noqa: PLC0415
-        from index.robustness import MOST_QUERIES, robustness, robustness_table  # noqa: PLC0415
+        from index.robustness import robustness, robustness_table, some_of  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
@@ -120,12 +121,21 @@ class Evaluation(BaseModel):
         model = load_posterior(self.posterior_weights_dir)
         posterior = MapPosterior(model, data.gallery, data.palette, data.around(progress))
         trials = robustness(data, queries, ranker, posterior, progress)
-        sizes = {"queries": min(len(queries), MOST_QUERIES), "cells": len(data.cells)}
-        found: dict[str, Any] = {"data": data.name, "split": data.split, **sizes, "trials": trials}
+        some = some_of(queries)
+        candidates = candidate_recall(some, ranker, posterior)
+        found: dict[str, Any] = {
+            "data": data.name,
+            "split": data.split,
+            "queries": len(some),
+            "cells": len(data.cells),
+            "trials": trials,
+            "candidates": candidates,
+        }
         if report_dir:
             report_dir.mkdir(parents=True, exist_ok=True)
             (report_dir / "robustness.json").write_text(json.dumps(found, indent=1) + "\n")
-            (report_dir / "robustness.md").write_text(as_markdown(robustness_table(trials)) + "\n")
+            tables = robustness_table(trials), candidate_table(candidates)
+            (report_dir / "robustness.md").write_text("\n\n".join(as_markdown(table) for table in tables) + "\n")
         return found
 
     def public(self, message: str) -> str:

@@ -42,7 +42,7 @@ class Ranker:
             labels: of each instance that its parts name.
             depth: see Ranker.
         """
-        features = CellFeatures.of(cells, np.array(labels))
+        features = retriever.seen(CellFeatures.of(cells, np.array(labels)))
         store = FaissStore.of(retriever.encode_cells(features))
         return cls(retriever, store, LevelTable.of(retriever, features), depth)
 

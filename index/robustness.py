@@ -66,7 +66,7 @@ def robustness(
     """
     if queries.hints is None:
         raise DataError("robustness needs to know what the hints mean; give a data set or a map with --data")
-    some = _some(queries)
+    some = some_of(queries)
     rows = []
     trials = all_trials(data)
     for n, trial in enumerate(trials):
@@ -175,7 +175,8 @@ def _pieces(said: Said) -> tuple[str, ...]:
     return tuple(line for line in said.text.split("\n") if line.strip())
 
 
-def _some(queries: Queries) -> Queries:
+def some_of(queries: Queries) -> Queries:
+    """Not more than MOST_QUERIES of them, drawn."""
     rows = np.random.default_rng(SEED).permutation(len(queries))[:MOST_QUERIES]
     rows.sort()
     return queries.take(rows)

@@ -5,7 +5,7 @@ One function cuts both the cells of the grid and the cell around a pose from whi
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import Any
 
@@ -15,6 +15,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from models.city.point_sample import Sampler, sample_points, samples
 from models.city.points import Ints, PointTable, ranges
 from models.city.processes import map_forked
 from models.city.types import Cell, CityMap, CutRules, Floats, Instance
@@ -72,6 +73,7 @@ class CellTable:
         center_m: [N, 3] float64, map frame.
         size_m: edge of the cubes.
         parts: what is in them.
+        sample: gives points of the parts; None where they are not at hand, as in an index.
     """
 
     ids: tuple[str, ...]
@@ -79,18 +81,21 @@ class CellTable:
     center_m: Floats
     size_m: float
     parts: Parts
+    sample: Sampler | None = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.ids)
 
     def take(self, rows: Ints) -> "CellTable":
         """Some cells, in the given order."""
+        sample = self.sample
         return CellTable(
             ids=tuple(self.ids[r] for r in rows),
             scenes=tuple(self.scenes[r] for r in rows),
             center_m=self.center_m[rows],
             size_m=self.size_m,
             parts=self.parts.take(rows),
+            sample=sample and (lambda chosen: sample(rows[chosen])),
         )
 
 
@@ -123,6 +128,7 @@ def cut_cells(
         center_m=centers[kept],
         size_m=rules.cell_size_m,
         parts=parts.take(kept),
+        sample=partial(_sample_cubes, points, rules, centers[kept]),
     )
 
 
@@ -175,6 +181,12 @@ def cell_at(city_map: CityMap, points: PointTable, cell_id: str, center_m: Float
             Instance(len(instances), source.label, points.xyz[members], rgb, source.name, source.source_id)
         )
     return Cell(cell_id, city_map.name, np.asarray(center_m), city_map.rules.cell_size_m, tuple(instances))
+
+
+def _sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
+    """[R, 256, 6] points of the parts of some cubes, in order of `Parts`."""
+    members = [rows for center in centers_m[cubes].astype(np.float64) for rows in _cut_cube(points, center, rules)]
+    return samples([sample_points(points.xyz[rows], points.colours(rows)) for rows in members])
 
 
 def _summarise_chunk(points: PointTable, rules: CutRules, centers: Floats) -> tuple[Any, ...]:

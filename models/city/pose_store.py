@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from models.city.cells import CellTable, Parts
 from models.city.kitti360pose import select_scenes
+from models.city.point_sample import sample_points, samples
 from models.city.points import Ints, ranges
 from models.city.pose_layout import (
     HAS_ID,
@@ -149,6 +150,7 @@ class PoseStore:
                 closest_m=closest,
                 rgb=rgb,
             ),
+            sample=self._sample,
         )
 
     @cached_property
@@ -192,6 +194,12 @@ class PoseStore:
             rgb: [P, 3] 0..1, float32 or float64.
         """
         return self._points(int(self._object_rows[row]))
+
+    def _sample(self, cells: Ints) -> Floats:
+        """[R, 256, 6] points of what is in some cells."""
+        rows = self.cell_rows[cells]
+        objects = ranges(self._cell_starts[rows], self._cell_starts[rows + 1])
+        return samples([sample_points(*self._points(row)) for row in objects.tolist()])
 
     def published_cell(self, n: int) -> PublishedCell:
         """Cell n, every value as published."""

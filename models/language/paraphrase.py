@@ -1,11 +1,13 @@
 """Facts about a position in many wordings: what the reader of free language is trained and tested on.
 
-A grammar is a TOML file in grammar/, data only (training's is spread over several). Ways to name each class (`labels`)
-and colour, the eight winds (`compass`), and phrases by kind: one thing (`one`, `on_top`, `near`, `far_one`, `absent`,
-`named`, `named_near`), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`),
-and what surrounds them (`opener`, `closer`, `irrelevant`, `link`, `leads`). Slots: {d} where the speaker is, seen from
-the thing, {o} the opposite; {a}, {A}, {the}, {The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour;
-{dist}, {name}; numbered with several things. Validation and test leave out every phrase and name that training has.
+A grammar is a TOML file in grammar/, data only, or several. Ways to name each class (`labels`) and colour, the eight
+winds (`compass`), and phrases by kind: one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`;
+`bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`,
+`two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a
+direction, the second at hand or underfoot; `two_near` both at hand), and what surrounds them (`opener`, `closer`,
+`irrelevant`, `link`, `leads`). Slots: {d} where the speaker is, seen from the thing, {o} the opposite; {a}, {A}, {the},
+{The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour; {dist}, {name}; numbered with several things.
+Validation leaves out every phrase and name that training has, and test also those of validation.
 """
 
 import re
@@ -92,7 +94,7 @@ class Wording:
     """A grammar.
 
     Args:
-        grammar: which; "val" and "test" without what "train" has.
+        grammar: which; "val" without what "train" has, "test" without what either has.
     """
 
     def __init__(self, grammar: Grammar) -> None:
@@ -137,11 +139,26 @@ class Wording:
 
     def _choose(self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator) -> tuple[str, list[int]]:
         """A kind of phrase, and the facts that it takes."""
-        first = left[0]
-        fact = facts[first]
-        if not _is_plain(fact):
-            return _kind_alone(fact), [first]
         plain = [n for n in left if _is_plain(facts[n])]
+        return (self._choose_plain if left[0] in plain else self._choose_other)(facts, left, plain, rng)
+
+    def _choose_other(
+        self, facts: Sequence[Fact], left: list[int], plain: list[int], rng: np.random.Generator
+    ) -> tuple[str, list[int]]:
+        """For a fact that is more, or less, than a thing and a direction."""
+        first, kind = left[0], _kind_alone(facts[left[0]])
+        close = [n for n in left[1:] if kind == "near" == _kind_alone(facts[n])]
+        if close and self._drawn("two_near", 0.4, rng):
+            return "two_near", [first, close[0]]
+        if plain and self._drawn(f"one_{kind}", 0.5, rng):
+            return f"one_{kind}", [plain[0], first]
+        return kind, [first]
+
+    def _choose_plain(
+        self, facts: Sequence[Fact], left: list[int], plain: list[int], rng: np.random.Generator
+    ) -> tuple[str, list[int]]:
+        """For a thing and a direction."""
+        first, fact = left[0], facts[left[0]]
         same = [n for n in plain[1:] if facts[n].relation == fact.relation]
         drawn = rng.random()
         if same and drawn < 0.4:
@@ -149,9 +166,15 @@ class Wording:
         if len(plain) > 2 and drawn < 0.5:
             return "three", plain[:3]
         if len(plain) > 1 and drawn < 0.7:
-            return "two", plain[:2]
+            loose = self._drawn("two_loose", 0.3, rng)
+            return "two_loose" if loose else "two_bare" if self._drawn("two_bare", 0.15, rng) else "two", plain[:2]
         apart = fact.colour is not None and drawn > 0.94
-        return "colour_apart" if apart else "pronoun" if drawn > 0.84 else "one", [first]
+        alone = "bare" if self._drawn("bare", 0.15, rng) else "one"
+        return "colour_apart" if apart else "pronoun" if drawn > 0.84 else alone, [first]
+
+    def _drawn(self, kind: str, share: float, rng: np.random.Generator) -> bool:
+        """Whether a kind is taken that not every grammar has."""
+        return kind in self._phrases and bool(rng.random() < share)
 
     def _pick(self, kind: str, rng: np.random.Generator) -> str:
         return _one_of(self._phrases[kind], rng)
@@ -228,13 +251,19 @@ def _load(grammar: Grammar) -> dict[str, Any]:
     tables = tomllib.loads((GRAMMARS / f"{grammar}.toml").read_text())
     for more in sorted(GRAMMARS.glob(f"{grammar}_*.toml")):
         for name, table in tomllib.loads(more.read_text()).items():
-            tables[name]["phrases"] += table["phrases"]
+            kept = tables.setdefault(name, {})
+            for key, words in table.items():
+                kept[key] = list(dict.fromkeys([*kept.get(key, []), *words]))
     for name in tables.keys() - {"labels", "colours", "compass"}:
         phrases = tables[name]["phrases"]
         tables[name]["phrases"] = list({_gist(phrase): phrase for phrase in reversed(phrases)}.values())[::-1]
-    if grammar == "train":
-        return tables
-    known = _load("train")
+    for other in {"train": (), "val": ("train",), "test": ("train", "val")}[grammar]:
+        _leave_out(tables, _load(other))
+    return tables
+
+
+def _leave_out(tables: dict[str, Any], known: dict[str, Any]) -> None:
+    """Take from a grammar what another one has."""
     for name, table in tables.items():
         if name in ("labels", "colours"):
             taken = {_plain(word) for key, words in known[name].items() for word in (key, *words)}
@@ -242,7 +271,6 @@ def _load(grammar: Grammar) -> dict[str, Any]:
         elif name not in _KEPT:
             taken = {_gist(phrase) for phrase in known[name]["phrases"]}
             tables[name]["phrases"] = [phrase for phrase in table["phrases"] if _gist(phrase) not in taken]
-    return tables
 
 
 def _gist(phrase: str) -> str:

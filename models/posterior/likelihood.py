@@ -149,8 +149,8 @@ class Likelihood(nn.Module):
         colour = words @ reading.colour[:, :count].T + reading.colour[:, count]
         return (reading.label.T[label] + self.label_slip.exp()) * colour
 
-    def places(self, reading: Reading) -> Tensor:
-        """[65536, H] p(direction) p(distance) for every way from an instance."""
+    def ways(self) -> Tensor:
+        """[65536, 10] p(relation) for every way from an instance, whatever was said."""
         east, north = self._way
         radius = torch.hypot(east, north)
         on_top = torch.sigmoid((self.on_top_m[0].exp() - radius) / self.on_top_m[1].exp())
@@ -160,9 +160,14 @@ class Likelihood(nn.Module):
         axes = torch.cat([axes, -axes])
         winds = torch.sigmoid((axes - axes.roll(2, 0).abs()) / self.border_m.exp()) * (1 - on_top)
         near = torch.exp(-self.near.exp() * radius)
-        place = torch.cat([winds, on_top[None], near[None]]).T @ reading.relation.T
+        return torch.cat([winds, on_top[None], near[None]]).T.contiguous()
+
+    def places(self, reading: Reading, ways: Tensor) -> Tensor:
+        """[65536, H] p(direction) p(distance) for every way from an instance; `ways` as the method of this name."""
+        place = ways @ reading.relation.T
         said = reading.distance_m
         if bool((~said.isnan()).any()):
+            radius = torch.hypot(*self._way)
             known = said.nan_to_num(1.0)  # a NaN that is not chosen would still be in the gradients
             spread = self.measured.exp() * known + 1.0
             fits = torch.exp(-((radius[:, None] - known) ** 2) / (2 * spread**2))
@@ -200,7 +205,7 @@ class Likelihood(nn.Module):
         """[M] log p(T | x), up to a constant."""
         fits = self.parts(reading, around.label, self.words(around.rgb, palette))
         share = self.share_of(around.way, around.whole, around.turn, around.node, around.nodes)
-        here = fits[around.part] * self.places(reading)[around.way]
+        here = fits[around.part] * self.places(reading, self.ways())[around.way]
         return self.combine(reading, around.node, around.nodes, here, share)
 
 

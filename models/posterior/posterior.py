@@ -67,6 +67,7 @@ class HintPosterior:
         self._label = torch.from_numpy(label)
         self._words = likelihood.words(torch.from_numpy(cells.parts.rgb.astype(np.float32)), palette)
         self._way = way_number(torch.from_numpy(s.way)).int()
+        self._ways = likelihood.ways()
         self._share = self._shares()
         self._statements, self._columns = self._tabulate()
         self.nodes_m = s.nodes_m.astype(np.float64)
@@ -138,7 +139,7 @@ class HintPosterior:
             kept = inside[nodes]
             nodes, cell = nodes[kept], cell[kept]
         rows, node, fits, part = self._rows(reading, nodes)
-        here = fits[part] * self.likelihood.places(reading)[self._way[rows].long()]
+        here = fits[part] * self.likelihood.places(reading, self._ways)[self._way[rows].long()]
         log_p = self.likelihood.combine(reading, node, len(nodes), here, self._share[rows]).double().numpy()
         if log_prior is not None:
             log_p = log_p + log_prior(self.nodes_m[nodes])
@@ -149,7 +150,7 @@ class HintPosterior:
         """For each hint the part that explains it best at a node (-1 for none), and how likely it is that one does."""
         rows, _, fits, part = self._rows(reading, np.array([node]))
         share = self._share[rows].mean(dim=1, keepdim=True)
-        terms = fits[part] * self.likelihood.places(reading)[self._way[rows].long()] * share
+        terms = fits[part] * self.likelihood.places(reading, self._ways)[self._way[rows].long()] * share
         eps = float(self.likelihood.background.exp())
         if not len(rows):
             return [(-1, 0.0)] * len(reading.label)

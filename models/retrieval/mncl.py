@@ -58,7 +58,7 @@ class Mncl(Retriever):
         width, dropout = config.width, config.dropout
         self.hints = HintEncoder(text_encoder.width, width, dropout)
         self.description = SetTransformer(width, config.hint_layers, num_heads=4, dropout=dropout)
-        self.instances = InstanceEncoder(text_encoder.width, width)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.shape_width)
         self.cell = SetTransformer(width, config.cell_layers, num_heads=4, dropout=dropout)
         if "relation" in config.levels:
             self.hint_edges, self.cell_edges = HintEdges(width), CellEdges(width)
@@ -89,8 +89,7 @@ class Mncl(Retriever):
     def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
         """See Retriever."""
         mask = batch.mask
-        features = batch.geometry.new_zeros(*mask.shape, self.config.width)
-        features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])  # real ones only
+        features = self.instances.padded(batch, label_embeddings)
         whole = nn.functional.normalize(masked_max(self.cell(features, mask), mask), dim=-1)
         if "relation" in self.levels:
             return self._with_graph(whole, mask, self._graph_of_cells(features, batch.geometry[..., :3], mask))

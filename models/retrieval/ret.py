@@ -132,7 +132,7 @@ class Ret(Retriever):
         self.hints = WordEncoder(text_encoder, width)
         self.hint_relation = HintRelation(width)
         self.description = RelationTransformer(width, config.hint_layers, dropout)
-        self.instances = InstanceEncoder(text_encoder.width, width)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.shape_width)
         self.instance_relation = InstanceRelation(width)
         self.cell = RelationTransformer(width, config.cell_layers, dropout)
 
@@ -148,8 +148,7 @@ class Ret(Retriever):
     def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
         """See Retriever."""
         mask = batch.mask
-        features = batch.geometry.new_zeros(*mask.shape, self.config.width)
-        features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])
+        features = self.instances.padded(batch, label_embeddings)
         relation = self.instance_relation(batch.geometry[..., :3], mask)
         return Levels(self.cell(features, relation, mask), mask)
 

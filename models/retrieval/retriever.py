@@ -3,7 +3,7 @@
 import hashlib
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 import torch
@@ -13,6 +13,7 @@ from torch import Tensor, nn
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, fingerprint_of
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
 from models.retrieval.levels import Level, Levels, sum_of_z_scores
+from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 20 MB at D = 256
 ENCODE_BATCH = 256  # cells
@@ -25,6 +26,8 @@ class RetrieverConfig(BaseModel):
     Attributes:
         text_encoder: "minilm", a directory or a hub id.
         width: D, size of the vectors.
+        point_encoder: "pointnet" also looks at the points of the instances (`PointEncoder`), as the papers do; "none"
+            at their summary alone.
         level_weights: of each level in a cell's score, in order of `Retriever.levels`; fitted on validation data; empty
             until then: the levels' z-scores over the gallery are added.
         temperature: of a description of one hint, see `Retriever.temperature`; fitted on validation data.
@@ -35,9 +38,15 @@ class RetrieverConfig(BaseModel):
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
     width: int = 256
+    point_encoder: Literal["none", "pointnet"] = "none"
     level_weights: tuple[float, ...] = ()
     temperature: float = 0.2
     temperature_decay: float = 1.0
+
+    @property
+    def shape_width(self) -> int:
+        """Of the point encoder's features; 0 without one."""
+        return POINT_WIDTH if self.point_encoder == "pointnet" else 0
 
 
 class Retriever(nn.Module):
@@ -53,6 +62,7 @@ class Retriever(nn.Module):
         super().__init__()
         self.config = config
         self._text = (text_encoder,)  # a tuple hides it from state_dict
+        self.points = PointEncoder().requires_grad_(False) if config.shape_width else None
         self._hint_cache: OrderedDict[str, Tensor] = OrderedDict()
 
     @property
@@ -139,6 +149,14 @@ class Retriever(nn.Module):
         self._hint_cache.clear()
         return super().train(mode)
 
+    def seen(self, cells: CellFeatures) -> CellFeatures:
+        """Cells as this model takes them: with what its point encoder makes of their points, if it has one.
+
+        Raises:
+            WeightsError: it has one, and the points are not at hand.
+        """
+        return cells if self.points is None else cells.seen(self.points)
+
     @torch.inference_mode()
     def encode_description(self, hints: Sequence[str]) -> Levels:
         """One description, any number of hint sentences in any order, at all levels; B = 1."""
@@ -160,7 +178,7 @@ class Retriever(nn.Module):
 
     @torch.inference_mode()
     def encode_cells(self, cells: CellFeatures) -> Vectors:
-        """[N, D] float32 unit vectors of a gallery, the global level, in batches of cells of about equal size."""
+        """[N, D] float32 unit vectors of a gallery (`seen`), global level, in batches of cells of about equal size."""
         label_embeddings = self.text_encoder.embed(cells.labels)
         order = np.argsort(np.diff(cells.starts), kind="stable")
         vectors = np.empty((len(cells), self.config.width), dtype=np.float32)

@@ -57,7 +57,7 @@ class Text2Loc(Retriever):
         self.description = nn.ModuleList(
             SetTransformer(width, num_layers=1, num_heads=NUM_HEADS, dropout=dropout) for _ in range(config.hint_layers)
         )
-        self.instances = InstanceEncoder(text_encoder.width, width)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.shape_width)
         self.cell = SetTransformer(width, config.cell_layers, num_heads=NUM_HEADS, dropout=dropout)
 
     def read(self, tokens: TokenFeatures) -> Tensor:
@@ -74,8 +74,7 @@ class Text2Loc(Retriever):
     def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
         """See Retriever."""
         mask = batch.mask
-        features = batch.geometry.new_zeros(*mask.shape, self.config.width)
-        features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])
+        features = self.instances.padded(batch, label_embeddings)
         features = self.cell(nn.functional.normalize(features, dim=-1), mask)
         return Levels(nn.functional.normalize(masked_max(features, mask), dim=-1), mask)
 

@@ -96,7 +96,7 @@ class Text2Pos(Retriever):
         super().__init__(text_encoder, config)
         width = config.width
         self.hints = WordEncoder(text_encoder, width)
-        self.instances = InstanceEncoder(text_encoder.width, width)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.shape_width)
         self.graph = EdgeConvolution(width, config.neighbours)
         self.cell = mlp(width, width, width)
 
@@ -112,8 +112,7 @@ class Text2Pos(Retriever):
     def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
         """See Retriever."""
         mask = batch.mask
-        features = batch.geometry.new_zeros(*mask.shape, self.config.width)
-        features[mask] = self.instances(batch.geometry[mask], label_embeddings[batch.label[mask]])
+        features = self.instances.padded(batch, label_embeddings)
         features = self.graph(nn.functional.normalize(features, dim=-1), mask)
         return Levels(nn.functional.normalize(self.cell(masked_max(features, mask)), dim=-1), mask)
 

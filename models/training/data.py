@@ -1,6 +1,6 @@
 """Training examples: positions of a map or a data set, whatever can be said there, and the cells around."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -265,4 +265,4 @@ def turn(batch: CellBatch, matrix: Tensor) -> CellBatch:
     for columns in (slice(0, 2), slice(3, 5), slice(6, 8)):  # centre, closest point, direction to it
         geometry[..., columns] = torch.einsum("bij,bnj->bni", matrix, geometry[..., columns])
     geometry[..., 8:10] = torch.einsum("bij,bnj->bni", matrix.abs(), geometry[..., 8:10])  # sizes stay positive
-    return CellBatch(geometry, batch.label, batch.mask)
+    return replace(batch, geometry=geometry)

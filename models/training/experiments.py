@@ -174,7 +174,7 @@ class Scale:
 
 
 _ALL = ("training.batch_size=64", "training.wording=published")
-# Batches as the paper draws them: near neighbours in a batch (our default) help the vanilla loss more than the negative.
+# Batches as the paper draws them; near neighbours in a batch, our default, help the vanilla loss more than its rival.
 _RETRIEVER = (*_ALL, "training.cluster=1")
 SCALES = {
     "demo": Scale(

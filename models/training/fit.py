@@ -14,6 +14,7 @@ from models.retrieval.retriever import Retriever, RetrieverConfig
 from models.training import distributed
 from models.training.calibration import calibrate
 from models.training.loop import History, Progress, run_training
+from models.training.points import train_points
 from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
 from models.training.sources import Source
@@ -55,6 +56,7 @@ def train_retriever(
     encoder = load_text_encoder(model.text_encoder)
     sources = load(encoder, rng)
     retriever = method(encoder, model)
+    points = _look_at_points(retriever, sources, config)
     task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)
     record = {
         "method": method.method,
@@ -64,13 +66,28 @@ def train_retriever(
     }
     history = run_training(task, config, run_dir, resume, progress, rng, json.loads(json.dumps(record)))
     try:
-        return distributed.from_first(lambda: _finish(task, out, config, history, rng))
+        return distributed.from_first(lambda: _finish(task, out, config, history, rng, points))
     finally:
         encoder.to("cpu")  # it is shared with whatever this process does next
 
 
+def _look_at_points(retriever: Retriever, sources: Sequence[Source], config: TrainingConfig) -> dict[str, float]:
+    """Train the point encoder, if there is one, and look once at all that the retriever is trained on; its figures."""
+    if retriever.points is None:
+        return {}
+    figures = train_points(retriever.points, sources, config)
+    for source in sources:
+        source.training.features = retriever.seen(source.training.features)
+    return figures
+
+
 def _finish(
-    task: RetrievalTask, out: Path, config: TrainingConfig, history: History, rng: np.random.Generator
+    task: RetrievalTask,
+    out: Path,
+    config: TrainingConfig,
+    history: History,
+    rng: np.random.Generator,
+    points: dict[str, float],
 ) -> dict[int, float]:
     """Calibrate, measure, save; the recall that `train_retriever` returns."""
     retriever, validations = task.model, task.validations
@@ -82,6 +99,7 @@ def _finish(
         "sources": facts,
         "history": [{"step": row.step, "loss": row.loss} | row.figures for row in history.rows],
         "best_step": history.best_step,
+        "point_encoder": points,
     }
     retriever.cpu().text_encoder.cpu()
     save_retriever(retriever, out, json.loads(json.dumps(training)))

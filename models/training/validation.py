@@ -18,10 +18,11 @@ class Validation:
 
     Args:
         asked: the queries.
+        retriever: that will be asked, with a point encoder that does not change.
     """
 
-    def __init__(self, asked: Asked) -> None:
-        self.features = CellFeatures.of(asked.cells, asked.labels)
+    def __init__(self, asked: Asked, retriever: Retriever) -> None:
+        self.features = retriever.seen(CellFeatures.of(asked.cells, asked.labels))
         self.descriptions, self.truth = asked.descriptions, asked.truth
 
     def scores(self, retriever: Retriever) -> npt.NDArray[np.float32]:

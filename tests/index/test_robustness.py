@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import torch
 
+from index.candidates import SIZES, SOURCES, candidate_recall, candidate_table, in_turns
 from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
@@ -69,5 +70,17 @@ def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
     assert all(len(row) == len(head) for row in table)
     for row in found:
         assert 0 <= row["posterior"]["retrieval"]["1"] <= 1
+    rows_of_candidates = candidate_recall(some, ranker, posterior)
+    assert len(candidate_table(rows_of_candidates)[1]) == len(SOURCES)
+    vectors, by_list, both = ([row["recall"][str(size)] for size in SIZES] for row in rows_of_candidates)
+    for recalls in (vectors, by_list, both):
+        assert recalls == sorted(recalls)
+    assert both[1] >= max(vectors[0], by_list[0]), "twenty of both hold ten of each"
+    first = [ranker.rank([ranker.retriever.encode_description(s)], 10)[1][0] for s in some.sentences]
+    assert vectors[0] == pytest.approx(np.mean([t in r for t, r in zip(some.truth, first, strict=True)]))
     with pytest.raises(DataError, match="what the hints mean"):
         robustness(data, replace(some, hints=None), ranker, posterior, lambda *_: None)
+
+
+def test_two_orders_in_turns() -> None:
+    assert in_turns(np.array([3, 1, 2]), np.array([1, 4, 3])).tolist() == [3, 1, 4, 2]

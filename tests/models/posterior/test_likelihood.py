@@ -158,7 +158,7 @@ def test_the_order_of_hints_does_not_matter(model):
 def test_the_winds_share_the_compass(model):
     one = torch.eye(len(RELATIONS))
     said = Reading(one, torch.ones(10, 1), torch.ones(10, WORDS + 1), torch.full((10,), math.nan), torch.zeros(10))
-    place = model.places(said)
+    place = model.places(said, model.ways())
     number = {
         name: int(way_number(torch.tensor([way], dtype=torch.int8)))
         for name, way in {

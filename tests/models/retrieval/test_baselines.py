@@ -1,5 +1,7 @@
 """What every method's retriever must do: padding and order do not matter, all of it trains, it comes back from disk."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -77,7 +79,7 @@ def test_order_of_hints_does_not_matter(retriever) -> None:
 def test_order_of_instances_does_not_matter(retriever, features, labels) -> None:
     batch = features.batch(np.array([7]))
     order = torch.randperm(batch.mask.shape[1])
-    shuffled = type(batch)(batch.geometry[:, order], batch.label[:, order], batch.mask[:, order])
+    shuffled = replace(batch, geometry=batch.geometry[:, order], label=batch.label[:, order], mask=batch.mask[:, order])
     with torch.inference_mode():
         difference = retriever.look(batch, labels).whole - retriever.look(shuffled, labels).whole
     assert difference.abs().max() < 1e-5

@@ -40,6 +40,6 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
 
 
 @pytest.fixture(scope="module")
-def region_queries(city, points, cells):
+def region_queries(city, points, cells, model):
     positions = sample_positions(city.locations_m, 40.0, np.random.default_rng(0))
-    return Validation(Asked.of_map(city, cells, describe_poses(city, points, cells, positions)))
+    return Validation(Asked.of_map(city, cells, describe_poses(city, points, cells, positions)), model)

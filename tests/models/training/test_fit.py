@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import torch
 
+from index.ranking import Ranker
 from models.city.hints import direction_index, sample_positions
 from models.city.kitti360_job import prepare_data
 from models.city.types import DIRECTIONS
@@ -132,6 +133,35 @@ def test_a_run_directory_goes_on(city, tmp_path) -> None:
     unbroken, resumed = ((tmp_path / name / "config.json").read_text() for name in "ab")
     assert unbroken == resumed, "the fingerprint of the weights is in it, and the temperature"
     assert json.loads((tmp_path / "run" / "config.json").read_text())["model"]["levels"] == ["global", "instance"]
+
+
+def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("models.training.points.STEPS", 40)
+    monkeypatch.setattr("models.training.points.VALIDATE_EVERY", 20)
+    monkeypatch.setattr("models.training.points.BATCH", 32)
+    config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
+
+    def load(encoder, rng):
+        return [source_of_map(city, encoder, config, rng)]
+
+    def kill(at):
+        if at.step == 3:
+            raise KeyboardInterrupt
+
+    model = MnclConfig(width=32, levels=("global",), point_encoder="pointnet")
+    train_retriever(load, tmp_path / "a", Mncl, model, config)
+    figures = json.loads((tmp_path / "a" / "config.json").read_text())["training"]["point_encoder"]
+    labels = np.array([i.label for i in city.instances])
+    commonest = np.unique(labels[cells.parts.instance], return_counts=True)[1].max() / len(cells.parts.instance)
+    assert figures["label"] > commonest
+    with pytest.raises(KeyboardInterrupt):
+        train_retriever(load, tmp_path / "b", Mncl, model, config, tmp_path / "run", progress=kill)
+    train_retriever(load, tmp_path / "b", Mncl, model, config, tmp_path / "run", resume=True)
+    assert (tmp_path / "a" / "config.json").read_text() == (tmp_path / "b" / "config.json").read_text()
+    retriever = load_retriever(tmp_path / "a")
+    assert retriever.points is not None
+    store = Ranker.of(retriever, cells, labels).store
+    assert store.vectors(np.arange(len(cells))).shape == (len(cells), 32)
 
 
 def test_a_data_set_trains_as_a_map_does(tmp_path) -> None:

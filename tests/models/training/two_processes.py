@@ -77,13 +77,13 @@ def whole_batch(rng) -> Batch:
     hint_mask = torch.from_numpy(np.arange(4) < rng.integers(2, 5, size=(8, 1)))
     sentences = torch.from_numpy(rng.integers(SENTENCES, size=(8, 4)))
     cell = torch.tensor([0, 1, 2, 3, 4, 1, 6, 7])
-    return Batch(CellBatch(geometry, label, mask), sentences, hint_mask, cell)
+    return Batch(CellBatch(geometry, label, mask, torch.zeros(8, 6, 0)), sentences, hint_mask, cell)
 
 
 def part(batch: Batch, rows: slice) -> Batch:
     """Some rows, padded to the largest cell of them only."""
     largest = int(batch.cells.mask[rows].sum(dim=1).max())
-    cells = (x[rows, :largest] for x in (batch.cells.geometry, batch.cells.label, batch.cells.mask))
+    cells = (x[rows, :largest] for x in (batch.cells.geometry, batch.cells.label, batch.cells.mask, batch.cells.shape))
     return Batch(CellBatch(*cells), batch.sentences[rows], batch.hint_mask[rows], batch.cell[rows])
 
 

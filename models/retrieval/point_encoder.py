@@ -1,0 +1,89 @@
+"""PointNet++ (Qi et al., NeurIPS 2017): what the points of an instance look like."""
+
+from itertools import pairwise
+from typing import Final
+
+import torch
+from torch import Tensor, nn
+
+POINT_WIDTH: Final = 256
+# Of each set-abstraction level: how many points stay, within which radius each gathers how many neighbours, widths.
+_LEVELS: Final = ((64, 0.2, 16, (32, 64)), (16, 0.4, 16, (64, 128)))
+_LAST: Final = (128, POINT_WIDTH)
+
+
+def farthest_points(xyz: Tensor, count: int) -> Tensor:
+    """[R, count] rows of points that lie far from each other, from the first on (farthest point sampling).
+
+    Args:
+        xyz: [R, P, 3].
+        count: at most P.
+    """
+    chosen = torch.zeros(len(xyz), count, dtype=torch.long, device=xyz.device)
+    distance = torch.full(xyz.shape[:2], float("inf"), device=xyz.device)
+    row = torch.arange(len(xyz), device=xyz.device)
+    for k in range(1, count):
+        distance = torch.minimum(distance, (xyz - xyz[row, chosen[:, k - 1]][:, None]).square().sum(dim=-1))
+        chosen[:, k] = distance.argmax(dim=1)
+    return chosen
+
+
+def ball(xyz: Tensor, centers: Tensor, radius: float, count: int) -> Tensor:
+    """[R, M, count] the points nearest to each centre; the nearest again in place of those outside the radius.
+
+    Args:
+        xyz: [R, P, 3].
+        centers: [R, M, 3].
+        radius: in the unit of both.
+        count: at most P.
+    """
+    distance, near = torch.cdist(centers, xyz).topk(count, dim=-1, largest=False)
+    return torch.where(distance <= radius, near, near[..., :1])
+
+
+def _layers(*widths: int) -> nn.Sequential:
+    """Linear layers, each normalised within a point, so that a feature does not depend on the batch, and rectified."""
+    layers = [(nn.Linear(*pair), nn.LayerNorm(pair[1]), nn.ReLU()) for pair in pairwise(widths)]
+    return nn.Sequential(*(part for layer in layers for part in layer))
+
+
+class SetAbstraction(nn.Module):
+    """A level of PointNet++: points gather their neighbourhood, the maximum over it is their feature."""
+
+    def __init__(self, width: int, count: int, radius: float, neighbours: int, widths: tuple[int, ...]) -> None:
+        super().__init__()
+        self.count, self.radius, self.neighbours = count, radius, neighbours
+        self.layers = _layers(width + 3, *widths)
+
+    def forward(self, xyz: Tensor, features: Tensor) -> tuple[Tensor, Tensor]:
+        """Points [R, P, 3] with features [R, P, F] to points [R, M, 3] with features [R, M, D]."""
+        row = torch.arange(len(xyz), device=xyz.device)[:, None]
+        centers = xyz[row, farthest_points(xyz, self.count)]
+        near = ball(xyz, centers, self.radius, self.neighbours)
+        offset = xyz[row[..., None], near] - centers[:, :, None]
+        gathered = torch.cat([offset, features[row[..., None], near]], dim=-1)
+        return centers, self.layers(gathered).amax(dim=2)
+
+
+class PointEncoder(nn.Module):
+    """PointNet++ with three set-abstraction levels, one scale each, the last over all that is left.
+
+    Trained to tell label and colour (`models.training.points`), then frozen (MNCL's point backbone, Text2Pos).
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        width, levels = 3, []
+        for count, radius, neighbours, widths in _LEVELS:
+            levels.append(SetAbstraction(width, count, radius, neighbours, widths))
+            width = widths[-1]
+        self.levels = nn.ModuleList(levels)
+        self.last = _layers(width + 3, *_LAST)
+
+    def forward(self, points: Tensor) -> Tensor:
+        """[R, POINT_WIDTH] features of instances from [R, P, 6] points: place, colour."""
+        xyz, features = points[..., :3], points[..., 3:]
+        for level in self.levels:
+            xyz, features = level(xyz, features)
+        seen: Tensor = self.last(torch.cat([xyz, features], dim=-1)).amax(dim=1)
+        return seen

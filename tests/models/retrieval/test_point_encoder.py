@@ -1,0 +1,103 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch
+
+from models.city.point_sample import NUM_POINTS, sample_points
+from models.errors import WeightsError
+from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.mncl import Mncl, MnclConfig
+from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder, ball, farthest_points
+
+
+@pytest.fixture(scope="module")
+def clouds():
+    return torch.randn(3, NUM_POINTS, 6, generator=torch.Generator().manual_seed(0)) / 3
+
+
+@pytest.fixture(scope="module")
+def features(city, cells):
+    return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+
+
+def test_farthest_points_are_those_of_a_naive_loop(clouds) -> None:
+    xyz = clouds[..., :3]
+    for cloud, found in zip(xyz, farthest_points(xyz, 12), strict=True):
+        chosen = [0]
+        while len(chosen) < 12:
+            chosen.append(int(torch.cdist(cloud, cloud[chosen]).min(dim=1).values.argmax()))
+        assert found.tolist() == chosen
+
+
+def test_a_ball_holds_the_nearest_within_its_radius(clouds) -> None:
+    xyz, centers = clouds[..., :3], clouds[:, :5, :3]
+    near = ball(xyz, centers, 0.25, 8)
+    for r in range(3):
+        for m in range(5):
+            distance = (xyz[r] - centers[r, m]).norm(dim=1)
+            inside = sorted((distance <= 0.25).nonzero().flatten().tolist(), key=lambda p, d=distance: float(d[p]))[:8]
+            assert set(near[r, m].tolist()) == set(inside), "the centre itself is always in it"
+
+
+def test_features_do_not_depend_on_the_order_of_the_points(clouds) -> None:
+    torch.manual_seed(0)
+    encoder = PointEncoder()
+    order = torch.cat([torch.zeros(1, dtype=torch.long), 1 + torch.randperm(NUM_POINTS - 1)])
+    with torch.inference_mode():
+        seen, again = encoder(clouds), encoder(clouds[:, order])
+    assert seen.shape == (3, POINT_WIDTH)
+    assert torch.allclose(seen, again, atol=1e-6)
+    assert not torch.allclose(seen[0], seen[1], atol=1e-3), "another cloud, another feature"
+
+
+def test_every_parameter_learns(clouds) -> None:
+    encoder = PointEncoder()
+    encoder(clouds).sum().backward()
+    assert all(p.grad is not None and p.grad.abs().sum() > 0 for p in encoder.parameters())
+
+
+def test_a_sample_is_a_shape_whatever_the_unit() -> None:
+    rng = np.random.default_rng(0)
+    xyz, rgb = rng.normal(size=(40, 3)), np.full((40, 3), np.nan)
+    found = sample_points(xyz, rgb)
+    assert found.shape == (NUM_POINTS, 6)
+    assert np.linalg.norm(found[:, :3], axis=1).max() == pytest.approx(1, abs=1e-6)
+    assert (found[:, 3:] == 0).all()
+    assert np.allclose(found, sample_points(xyz * 30 + 100, rgb), atol=1e-5)
+    assert np.isfinite(sample_points(xyz[:1], rgb[:1])).all(), "a single point"
+
+
+def test_samples_belong_to_their_parts(city, cells) -> None:
+    chosen = np.array([5, 0])
+    some = cells.take(chosen)
+    found = some.sample(np.array([1, 0]))
+    assert np.array_equal(found, cells.sample(np.array([0, 5])))
+    parts = cells.take(chosen[::-1]).parts
+    assert len(found) == len(parts.count)
+    extent = found[..., :3].max(axis=1) - found[..., :3].min(axis=1)
+    size = parts.high_m - parts.low_m
+    whole = parts.count <= NUM_POINTS  # all of their points are in the sample
+    assert whole.any()
+    known = ~np.isnan(parts.rgb).any(axis=1)
+    assert ((found[..., 3:].max(axis=(1, 2)) > 0) <= known).all()
+    ratio = extent[whole].max(axis=1) / size[whole].max(axis=1)
+    assert np.allclose(extent[whole], size[whole] * ratio[:, None], atol=1e-3)
+
+
+def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
+    torch.manual_seed(0)
+    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), point_encoder="pointnet")).eval()
+    seen = model.seen(features)
+    assert seen.shape.shape == (len(features.label), POINT_WIDTH)
+    vectors = model.encode_cells(seen)
+    flat = model.encode_cells(replace(seen, shape=np.zeros_like(seen.shape)))
+    assert np.abs(vectors - flat).max() > 1e-3
+    first = seen.batch(np.arange(3))
+    assert torch.equal(first.shape[first.mask], torch.from_numpy(seen.shape[: int(first.mask.sum())]))
+
+
+def test_without_points_the_message_says_what_to_do(features, text_encoder) -> None:
+    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), point_encoder="pointnet"))
+    with pytest.raises(WeightsError, match="point_encoder"):
+        model.seen(replace(features, sample=None))
