@@ -47,9 +47,11 @@ train: install  ## make the shipped weights again (west of Helsinki, made-up tow
 	$(BIN)/hereabouts train --data models/maps/helsinki.osm.pbf --out models/weights/retriever \
 		--set model.levels=global --set model.loss=contrastive
 	$(BIN)/hereabouts train --method regressor --data models/maps/helsinki.osm.pbf --out models/weights/regressor
-	test -d data/towns-raw || $(BIN)/hereabouts synth --out data/towns-raw
-	$(BIN)/hereabouts prepare --raw data/towns-raw --out data/towns
-	$(BIN)/hereabouts train --method posterior --data data/towns --data models/maps/helsinki.osm.pbf \
+	for seed in 0 1; do \
+		test -d data/towns-raw-$$seed || $(BIN)/hereabouts synth --seed $$seed --out data/towns-raw-$$seed && \
+		$(BIN)/hereabouts prepare --raw data/towns-raw-$$seed --out data/towns-$$seed || exit 1; \
+	done
+	$(BIN)/hereabouts train --method posterior --data data/towns-0 --data data/towns-1 --data models/maps/helsinki.osm.pbf \
 		--out models/weights/posterior
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz

@@ -1,7 +1,7 @@
 """Maps with texts, read as they would be in service: what the hint posterior is fitted to and calibrated on."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,7 @@ from models.city.points import Ints, PointTable
 from models.city.pose_files import load_data
 from models.city.regions import split_regions
 from models.city.surroundings import Bodies, Surroundings
-from models.city.types import CutRules, Floats, Hint
+from models.city.types import DIRECTIONS, CutRules, Floats, Hint
 from models.language.paraphrase import Fact, Grammar, Wording
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
@@ -24,6 +24,7 @@ from models.posterior.posterior import HintPosterior
 
 READ_AT_ONCE = 16
 POSITION_SPACING_M = 10.0
+SLIPS = 0.1  # share of the texts that say something wrong, as people do
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,6 +71,8 @@ class Place:
         for row in rows:
             grammar = grammars[int(rng.integers(len(grammars)))]
             facts = [Fact(hint.label, hint.direction, hint.colour) for hint in self.hints[row]]
+            if rng.random() < SLIPS:
+                facts = _slip(facts, self.palette, rng)
             wording = wordings[grammar]
             texts.append((wording.write(facts, rng) if grammar else wording.published(facts)).text)
         readings = []
@@ -77,6 +80,16 @@ class Place:
             read = model.reader.read(texts[start : start + READ_AT_ONCE])
             readings += [binding.reading(noticed) if noticed else binding.nothing() for noticed in read]
         return readings
+
+
+def _slip(facts: Sequence[Fact], palette: Palette, rng: np.random.Generator) -> list[Fact]:
+    """The same but for one, of which another direction and another colour is said than is true."""
+    at = int(rng.integers(len(facts)))
+    winds = [wind for wind in DIRECTIONS[:4] if wind != facts[at].relation]
+    words = [word for word in dict.fromkeys(palette.words) if word != facts[at].colour]
+    colour = words[int(rng.integers(len(words)))] if facts[at].colour else None
+    wrong = replace(facts[at], relation=winds[int(rng.integers(len(winds)))], colour=colour)
+    return [*facts[:at], wrong, *facts[at + 1 :]]
 
 
 def load_place(data: Path, split: str) -> Place:
