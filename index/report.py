@@ -27,12 +27,13 @@ Table = tuple[tuple[str, ...], list[tuple[str, ...]]]  # head, rows
 
 
 def write_report(directory: Path, predictions: Predictions, report: dict[str, Any]) -> None:
-    """Write report.json, report.md, recall.png, errors.png, map.png, and growth.png if the gallery grew."""
+    """Write report.json, report.md, and PNGs: recall, errors, calibration, map, and growth if the gallery grew."""
     (directory / "report.json").write_text(json.dumps(report, indent=2, ensure_ascii=False) + "\n")
     (directory / "report.md").write_text(markdown(report))
     curve = _recall_curve(predictions)
     _draw(directory / "recall.png", lambda axes: _draw_recall(axes, curve, report))
     _draw(directory / "errors.png", lambda axes: _draw_errors(axes, predictions))
+    _draw(directory / "calibration.png", lambda axes: _draw_calibration(axes, report))
     _draw_maps(directory / "map.png", predictions, report)
     (directory / "growth.png").unlink(missing_ok=True)
     if "growth" in report:
@@ -79,16 +80,25 @@ def markdown(report: dict[str, Any]) -> str:
         as_markdown(main_table(report)),
         "95 % intervals (bootstrap over queries): "
         + ", ".join(f"R@{k} {low:.3f}-{high:.3f}" for k, (low, high) in intervals.items())
-        + f". Calibration error of the probability: {report['calibration']['expected_calibration_error']:.3f}.",
+        + f". Calibration error of the probability: {report['calibration']['expected_calibration_error']:.3f}."
+        + _coverage_said(report),
     ]
     for title, key in (("scene", "by_scene"), ("strategy", "by_strategy")):
         if report[key]:
             lines.append(as_markdown(group_table(title, report[key])))
     if "growth" in report:
         lines.append(as_markdown(growth_table(report["growth"])))
-    plots = ["recall", "errors", "map", *(["growth"] if "growth" in report else [])]
+    plots = ["recall", "errors", "calibration", "map", *(["growth"] if "growth" in report else [])]
     lines += [f"![{name}]({name}.png)" for name in plots]
     return "\n\n".join(lines) + "\n"
+
+
+def _coverage_said(report: dict[str, Any]) -> str:
+    """What the radii hold, if the model gives any."""
+    return "".join(
+        f" Its {name[1:]} % radius holds {row['true']:.1%} of the queries (median {row['median_m']:.1f} m)."
+        for name, row in report.get("coverage", {}).items()
+    )
 
 
 def as_markdown(table: Table) -> str:
@@ -145,6 +155,21 @@ def _draw_errors(axes: Axes, p: Predictions) -> None:
     axes.set(xlabel="error in the plane (m)", ylabel="share of queries", xlim=(0, LONGEST_M), ylim=(0, 1.01))
     axes.legend(frameon=False, loc="lower right")
     axes.grid(alpha=0.3)
+
+
+def _draw_calibration(axes: Axes, report: dict[str, Any]) -> None:
+    """How often the first cell is the best one, by the probability claimed; a dot's area is its share of queries."""
+    bins = report["calibration"]["bins"]
+    claimed, true = ([b[name] for b in bins] for name in ("claimed", "true"))
+    area = [20 + 600 * b["queries"] / report["queries"] for b in bins]
+    axes.plot([0, 1], [0, 1], ":", color="#8d99ae", label="honest")
+    axes.plot(claimed, true, color="#1d3557", lw=1)
+    axes.scatter(claimed, true, s=area, color="#1d3557", alpha=0.7, label="model")
+    error = report["calibration"]["expected_calibration_error"]
+    axes.set(xlabel="probability claimed", ylabel="share true", xlim=(0, 1), ylim=(0, 1.02))
+    axes.set_title(f"{report['data']}, {report['split']}: expected calibration error {error:.3f}", fontsize=10)
+    axes.grid(alpha=0.3)
+    axes.legend(frameon=False, loc="upper left")
 
 
 def _draw_maps(path: Path, p: Predictions, report: dict[str, Any]) -> None:

@@ -18,7 +18,7 @@ from scipy.spatial import cKDTree
 from models.city.point_sample import Sampler, sample_points, samples
 from models.city.points import Ints, PointTable, ranges
 from models.city.processes import map_forked
-from models.city.types import Cell, CityMap, CutRules, Floats, Instance
+from models.city.types import CityMap, CutRules, Floats
 from models.errors import MapError
 
 CHUNK = 128  # cubes a task
@@ -168,19 +168,6 @@ def cut_cubes(
     sizes = np.concatenate([result[0] for result in results]) if results else np.zeros(0, dtype=np.int64)
     columns = [np.concatenate(column) for column in zip(*(r[1:] for r in results), strict=True)] or _columns([])
     return Parts(np.concatenate([[0], np.cumsum(sizes)]), *columns)
-
-
-def cell_at(city_map: CityMap, points: PointTable, cell_id: str, center_m: Floats) -> Cell:
-    """One cell with the points of its instances, for display and for point encoders."""
-    rows = _cut_cube(points, np.asarray(center_m, dtype=np.float64), city_map.rules)
-    instances: list[Instance] = []
-    for members in rows:
-        source = city_map.instances[points.instance[members[0]]]
-        rgb = points.rgb[members] if points.rgb is not None and source.rgb is not None else source.rgb
-        instances.append(
-            Instance(len(instances), source.label, points.xyz[members], rgb, source.name, source.source_id)
-        )
-    return Cell(cell_id, city_map.name, np.asarray(center_m), city_map.rules.cell_size_m, tuple(instances))
 
 
 def _sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:

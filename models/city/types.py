@@ -1,4 +1,4 @@
-"""The nouns of the project: Instance, Cell, CityMap, Pose, Hint, Description.
+"""The nouns of the project: Instance, CityMap, Pose, Hint, Description.
 
 Coordinates are metres in the map's frame (east, north, up) unless a name says `offset`, which is a
 position inside a cell in 0..1.
@@ -37,25 +37,6 @@ class Instance:
     rgb: Floats | None = None
     name: str | None = None
     source_id: str | None = None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Cell:
-    """A cube of the map with the instances (whole, or clipped parts) inside it; the papers' submap.
-
-    Attributes:
-        id: "<scene>_<number>".
-        scene: scene or map that the cell was cut from.
-        center_m: [3] centre of the cube, metres, map frame.
-        size_m: edge of the cube, metres.
-        instances: instances with their points in the map frame.
-    """
-
-    id: str
-    scene: str
-    center_m: Floats
-    size_m: float
-    instances: tuple[Instance, ...]
 
 
 @dataclass(frozen=True, slots=True)

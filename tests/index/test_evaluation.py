@@ -81,7 +81,7 @@ def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, rank
 def test_tables_and_plots_are_written(run_dir, report) -> None:
     page = (run_dir / "report.md").read_text()
     assert f"{report['retrieval']['5']:.3f}" in page
-    for name in ("recall", "errors", "map", "growth"):
+    for name in ("recall", "errors", "calibration", "map", "growth"):
         assert (run_dir / f"{name}.png").read_bytes()[:4] == b"\x89PNG"
         assert f"({name}.png)" in page
 

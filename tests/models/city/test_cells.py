@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from sklearn.cluster import DBSCAN
 
-from models.city.cells import _cut_cube, cell_at, cut_cells, cut_cubes, grid_centers
+from models.city.cells import _cut_cube, cut_cells, cut_cubes, grid_centers
 from models.city.points import PointTable
 from models.city.types import CityMap, CutRules, Instance
 from models.errors import MapError
@@ -106,13 +106,6 @@ def test_cells_are_numbered_and_rich_enough(city, cells) -> None:
         some.parts.instance
         == np.concatenate([cells.parts.instance[cells.parts.starts[n] : cells.parts.starts[n + 1]] for n in (5, 2)])
     ).all()
-
-
-def test_one_cell_with_its_points(city, points, cells) -> None:
-    cell = cell_at(city, points, cells.ids[3], cells.center_m[3])
-    begin, end = cells.parts.starts[3:5]
-    assert [len(i.points_m) for i in cell.instances] == cells.parts.count[begin:end].tolist()
-    assert [i.label for i in cell.instances] == [city.instances[i].label for i in cells.parts.instance[begin:end]]
 
 
 def test_a_map_too_poor_for_cells_says_so() -> None:

@@ -1,9 +1,13 @@
 import json
 
+import numpy as np
 import pytest
 
+from models.city.colours import KITTI360_PALETTE
+from models.language.paraphrase import WINDS, Fact
 from models.posterior.model import PosteriorConfig, load_posterior
 from models.training import fit_posterior
+from models.training.places import _slip
 from models.training.settings import TrainingConfig
 
 
@@ -23,3 +27,15 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     record = json.loads((tmp_path / "config.json").read_text())
     assert record["fingerprint"] == model.fingerprint
     assert record["training"]["validation"] == figures
+
+
+def test_a_slip_changes_one_fact_to_what_is_not_true() -> None:
+    facts = [Fact("bench", "north", "gray"), Fact("tree", "on-top"), Fact("road", "east", "black")]
+    for seed in range(20):
+        said = _slip(facts, KITTI360_PALETTE, np.random.default_rng(seed))
+        [(was, is_now)] = [(a, b) for a, b in zip(facts, said, strict=True) if a != b]
+        assert is_now.label == was.label
+        assert is_now.relation in WINDS
+        assert is_now.relation != was.relation
+        assert (is_now.colour is None) == (was.colour is None)
+        assert is_now.colour is None or is_now.colour != was.colour
