@@ -174,7 +174,7 @@ class Wording:
 
     def _drawn(self, kind: str, share: float, rng: np.random.Generator) -> bool:
         """Whether a kind is taken that not every grammar has."""
-        return kind in self._phrases and bool(rng.random() < share)
+        return bool(self._phrases.get(kind)) and bool(rng.random() < share)
 
     def _pick(self, kind: str, rng: np.random.Generator) -> str:
         return _one_of(self._phrases[kind], rng)
@@ -269,7 +269,7 @@ def _leave_out(tables: dict[str, Any], known: dict[str, Any]) -> None:
             taken = {_plain(word) for key, words in known[name].items() for word in (key, *words)}
             tables[name] = {key: [w for w in words if _plain(w) not in taken] for key, words in table.items()}
         elif name not in _KEPT:
-            taken = {_gist(phrase) for phrase in known[name]["phrases"]}
+            taken = {_gist(phrase) for phrase in known.get(name, {"phrases": ()})["phrases"]}
             tables[name]["phrases"] = [phrase for phrase in table["phrases"] if _gist(phrase) not in taken]
 
 
@@ -320,6 +320,8 @@ def _join(one: Said, other: Said, rng: np.random.Generator) -> Said:
     if rng.random() < 0.15 and one.text.endswith("."):
         joint = _one_of((", and ", ", ", "; ", " and ", " - "), rng)
         return Said(one.text[:-1], one.mentions).then(_lower_first(other), joint)
+    if not one.text.endswith((".", "!", "?", ":", ";")):
+        return one.then(other, _one_of(("; ", ". ", ", ", "\n"), rng))
     return one.then(other, " " if rng.random() < 0.95 else "\n")
 
 

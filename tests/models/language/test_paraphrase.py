@@ -48,6 +48,20 @@ def test_phrases_have_only_known_slots_and_no_direction_of_their_own(grammar) ->
             assert not re.search(r"\b(north|south|east|west)", phrase.lower()), (table, phrase)
 
 
+@pytest.mark.parametrize("grammar", GRAMMARS)
+def test_each_kind_says_what_it_is_for(grammar) -> None:
+    directed = {
+        **dict.fromkeys(("one", "pronoun", "colour_apart", "far_one", "named", "bare", "two_same"), ("",)),
+        **dict.fromkeys(("two", "two_bare", "two_loose"), ("1", "2")),
+        "three": ("1", "2", "3"), "one_near": ("1",), "one_on_top": ("1",),
+        **dict.fromkeys(("near", "on_top", "absent", "named_near", "two_near"), ()),
+    }  # fmt: skip
+    for table, numbers in directed.items():
+        for phrase in _load(grammar).get(table, {}).get("phrases", ()):
+            said = {number if table != "two_same" else "" for number in re.findall(r"\{[do](\d?)\}", phrase)}
+            assert said == set(numbers), (table, phrase)
+
+
 def test_validation_and_test_share_nothing_with_training() -> None:
     tables = {grammar: _load(grammar) for grammar in GRAMMARS}
     for one, other in itertools.combinations(GRAMMARS, 2):
