@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from index.evaluation import predict
 from index.gallery import Gallery
@@ -13,9 +14,10 @@ from index.map_posterior import MapPosterior
 from index.ranking import Ranker
 from index.report import Table
 from index.scoring import score
-from models.city.cells import Parts
+from models.city.cells import CellTable, Parts
 from models.city.hints import direction_index
-from models.city.points import Ints
+from models.city.point_sample import Sampler
+from models.city.points import Ints, ranges
 from models.city.surroundings import STEP_M, Surroundings
 from models.city.types import DIRECTIONS, Direction, Floats, Hint
 from models.errors import DataError
@@ -247,9 +249,17 @@ def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | N
     kept[parts.starts[:-1]] = True  # a cell keeps one part at least
     count = np.concatenate([[0], np.cumsum(kept)])
     columns = {f.name: getattr(parts, f.name)[kept] for f in fields(parts) if f.name != "starts"}
-    cells = replace(gallery.cells, parts=Parts(starts=count[parts.starts], **columns))
+    cells = replace(
+        gallery.cells, parts=Parts(starts=count[parts.starts], **columns), sample=_sampler_of(gallery.cells, kept)
+    )
     part_of = np.where(kept, count[1:] - 1, -1)
     return Damage(replace(data, gallery=replace(gallery, cells=cells)), part_of)
+
+
+def _sampler_of(cells: CellTable, kept: npt.NDArray[np.bool_]) -> Sampler | None:
+    """Points of the parts that are left."""
+    sample, starts = cells.sample, cells.parts.starts
+    return sample and (lambda chosen: sample(chosen)[kept[ranges(starts[chosen], starts[chosen + 1])]])
 
 
 def _scene_of(gallery: Gallery) -> list[str]:

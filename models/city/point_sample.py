@@ -20,13 +20,13 @@ def sample_points(xyz: Floats, rgb: Floats) -> Floats:
 
     Args:
         xyz: [P, 3] any unit.
-        rgb: [P, 3] 0..1, NaN where unknown, which becomes 0.
+        rgb: [P, 3] 0..1, NaN where unknown, which becomes -1.
     """
     middle = (xyz.min(axis=0) + xyz.max(axis=0)) / 2
     reach = float(np.linalg.norm(xyz - middle, axis=1).max())
     rows = np.linspace(0, len(xyz) - 1, NUM_POINTS).astype(np.intp)
     shape = (xyz[rows] - middle) / max(reach, 1e-6)
-    return np.concatenate([shape, np.nan_to_num(rgb[rows])], axis=1).astype(np.float32)
+    return np.concatenate([shape, np.nan_to_num(rgb[rows], nan=-1.0)], axis=1).astype(np.float32)
 
 
 def samples(parts: list[Floats]) -> Floats:

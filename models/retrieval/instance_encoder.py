@@ -17,7 +17,7 @@ from models.retrieval.point_encoder import PointEncoder
 
 GEOMETRY = {"position": 8, "size": 3, "count": 1, "colour": 4}  # widths of the columns of `CellFeatures.geometry`
 NUM_GEOMETRY = sum(GEOMETRY.values())
-SEEN_AT_ONCE = 32  # cells whose points are looked at together
+SEEN_AT_ONCE = 512  # instances whose points are looked at together, about
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,11 +78,10 @@ class CellFeatures:
             WeightsError: the instances' points are not at hand.
         """
         device = next(encoder.parameters()).device
+        ends = np.searchsorted(self.starts, np.arange(SEEN_AT_ONCE, self.starts[-1], SEEN_AT_ONCE))
+        groups = np.split(np.arange(len(self)), np.unique(ends))
         with torch.inference_mode():
-            parts = [
-                encoder(self.points(cells).to(device)).cpu().numpy()
-                for cells in np.array_split(np.arange(len(self)), max(1, len(self) // SEEN_AT_ONCE))
-            ]
+            parts = [encoder(self.points(cells).to(device)).cpu().numpy() for cells in groups if len(cells)]
         return replace(self, shape=np.concatenate(parts))
 
     def points(self, cells: Ints) -> Tensor:
@@ -174,6 +173,8 @@ class InstanceEncoder(nn.Module):
         parts = [branch(columns[name]) for name, branch in self.branches.items()]
         parts.append(self.label(label_embedding))
         if self.shape is not None:
+            if shape is None or not shape.shape[-1]:
+                raise ValueError("cells without what the point encoder makes of them; call Retriever.seen first")
             parts.append(self.shape(shape))
         merged: Tensor = self.merge(torch.cat([nn.functional.normalize(part, dim=-1) for part in parts], dim=-1))
         return merged

@@ -40,10 +40,10 @@ class Text2Loc(Retriever):
     contrastive loss; its two directions are averaged here, added there.
 
     Differs: padding is masked (the released code attends to it and takes the maximum over it), any number of hints
-    (there: the same for a whole batch), instances from the encoder that all methods share in place of PointNet++,
-    tokens are projected to D before their layer (see HintEncoder), feed-forward layers are 2D wide on the text
-    side too (there: 4D), pairs of one cell are no negatives, and the language model is what the project ships with
-    unless told T5.
+    (there: the same for a whole batch), instances from the encoder that all methods share (by default without
+    PointNet++), tokens are projected to D before their layer (see HintEncoder), feed-forward layers are 2D wide on the
+    text side too (there: 4D), pairs of one cell are no negatives, and the language model is what the project ships
+    with unless told T5.
     """
 
     method: ClassVar[str] = "text2loc"

@@ -83,7 +83,7 @@ class Text2Pos(Retriever):
 
     Differs: the paper runs one LSTM over the whole description; here each hint is read for itself and the description
     is the maximum over its hints, so that their order does not matter and any number of them will do. Instances come
-    from the encoder that all methods share, in place of PointNet++ on points, and padding is masked. The released
+    from the encoder that all methods share (by default without PointNet++), and padding is masked. The released
     code ends its MLPs with a ReLU, so that its cell vectors are never negative while its descriptions can be; here the
     last layer is linear.
     """

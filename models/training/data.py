@@ -255,7 +255,7 @@ class TrainingSet:
 
 
 def turn(batch: CellBatch, matrix: Tensor) -> CellBatch:
-    """Cells seen under a symmetry of the compass.
+    """Cells seen under a symmetry of the compass; what a point encoder made of their points stays as it is.
 
     Args:
         batch: padded cells.

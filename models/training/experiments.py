@@ -174,7 +174,7 @@ class Scale:
 
 
 _ALL = ("training.batch_size=64", "training.wording=published")
-# Batches as the paper draws them; near neighbours in a batch, our default, help the vanilla loss more than its rival.
+# Batches without near neighbours, as the paper's; ours by default have them, which helps the vanilla loss more.
 _RETRIEVER = (*_ALL, "training.cluster=1")
 SCALES = {
     "demo": Scale(

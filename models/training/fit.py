@@ -56,8 +56,8 @@ def train_retriever(
     encoder = load_text_encoder(model.text_encoder)
     sources = load(encoder, rng)
     retriever = method(encoder, model)
-    points = _look_at_points(retriever, sources, config)
     task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)
+    points = _look_at_points(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
     record = {
         "method": method.method,
         "model": model.model_dump(mode="json"),
@@ -71,11 +71,18 @@ def train_retriever(
         encoder.to("cpu")  # it is shared with whatever this process does next
 
 
-def _look_at_points(retriever: Retriever, sources: Sequence[Source], config: TrainingConfig) -> dict[str, float]:
+def _look_at_points(
+    retriever: Retriever,
+    sources: Sequence[Source],
+    config: TrainingConfig,
+    run_dir: Path | None,
+    resume: bool,
+    progress: Callable[[Progress], None] | None,
+) -> dict[str, float]:
     """Train the point encoder, if there is one, and look once at all that the retriever is trained on; its figures."""
     if retriever.points is None:
         return {}
-    figures = train_points(retriever.points, sources, config)
+    figures = train_points(retriever.points, sources, config, run_dir, resume, progress)
     for source in sources:
         source.training.features = retriever.seen(source.training.features)
     return figures

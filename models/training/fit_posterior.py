@@ -95,7 +95,7 @@ def fit_places(model: PosteriorModel, places: Sequence[Place], rng: np.random.Ge
 
 
 def calibrate_places(model: PosteriorModel, places: Sequence[Place], rng: np.random.Generator) -> dict[str, float]:
-    """Fit to other places what makes probabilities and radii honest; figures there."""
+    """Fit to other places what makes probabilities and radii honest, of texts with slips too; figures there."""
     texts = [_texts(model, place, CALIBRATED_TEXTS, rng) for place in places]
     for name, parameter in model.likelihood.named_parameters():
         parameter.requires_grad_(name in CALIBRATED)

@@ -57,7 +57,7 @@ class Place:
     def read(
         self, model: PosteriorModel, rows: Ints, grammars: Sequence[Grammar | None], rng: np.random.Generator
     ) -> list[Reading]:
-        """Texts about some positions, worded and read.
+        """Texts about some positions, worded and read; some of them (`SLIPS`) say something wrong.
 
         Args:
             model: reads them.
@@ -102,7 +102,8 @@ def load_place(data: Path, split: str) -> Place:
     Raises:
         MapError, DataError: it cannot be read, or has no such split.
     """
-    return _of_store(data, split) if data.is_dir() else _of_map(data, split)
+    place = _of_store(data, split) if data.is_dir() else _of_map(data, split)
+    return replace(place, cells=replace(place.cells, sample=None))  # lets go of the map's points
 
 
 def _of_store(data: Path, split: str) -> Place:

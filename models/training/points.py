@@ -1,7 +1,8 @@
 """Training the point encoder to tell what an instance is and which colour it has; it is frozen after that."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -9,9 +10,10 @@ import torch
 from torch import Tensor, nn
 
 from models.city.colours import KITTI360_PALETTE
-from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.instance_encoder import GEOMETRY, CellFeatures
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
-from models.training.loop import LoopConfig, run_training
+from models.training import distributed
+from models.training.loop import LoopConfig, Progress, run_training
 from models.training.sources import Source
 
 CELLS_A_SOURCE, CHOSEN_BY_CELLS = 800, 100  # whose instances it is trained on, and chosen by
@@ -42,7 +44,7 @@ class PointExamples:
             own = np.array([number.get(name, -100) for name in part.labels])
             points.append(part.points(cells))
             label.append(own[batch.label[batch.mask]])
-            columns = batch.geometry[batch.mask][:, -4:].numpy()
+            columns = batch.geometry[batch.mask][:, -GEOMETRY["colour"] :].numpy()
             rgb.append(np.where(columns[:, 3:] > 0, columns[:, :3], np.nan))
         colour = KITTI360_PALETTE.word_index(np.concatenate(rgb))
         found = np.concatenate(label), np.where(colour < 0, -100, colour)
@@ -79,7 +81,7 @@ class _PointTask:
         self.model, self.training, self.validation = model, training, validation
 
     def batch(self, rng: np.random.Generator) -> PointExamples:
-        return self.training.take(rng.choice(len(self.training), min(BATCH, len(self.training)), replace=False))
+        return self.training.take(rng.choice(len(self.training), distributed.share_of(BATCH)))
 
     def loss(self, batch: PointExamples) -> Tensor:
         device = next(self.model.parameters()).device
@@ -104,19 +106,30 @@ def _cross_entropy(logits: Tensor, wanted: Tensor) -> Tensor:
     return nn.functional.cross_entropy(logits, wanted, reduction="sum") / max(1, int((wanted >= 0).sum()))
 
 
-def train_points(encoder: PointEncoder, sources: Sequence[Source], config: LoopConfig) -> dict[str, float]:
+def train_points(
+    encoder: PointEncoder,
+    sources: Sequence[Source],
+    config: LoopConfig,
+    run_dir: Path | None = None,
+    resume: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+) -> dict[str, float]:
     """Train a point encoder on what a retriever is trained on, in place, and freeze it.
 
     Args:
         encoder: of the retriever.
         sources: their training cells to learn from, their validation cells to choose by.
         config: seed and device.
+        run_dir: see `run_training`.
+        resume: see `run_training`.
+        progress: see `run_training`.
 
     Returns:
         Shares of the validation instances whose "label" and "colour" it tells.
 
     Raises:
         WeightsError: the cells come without points.
+        TrainingError: see `run_training`.
     """
     galleries = [source.training.features for source in sources]
     labels = sorted({label for gallery in galleries for label in gallery.labels})
@@ -133,6 +146,6 @@ def train_points(encoder: PointEncoder, sources: Sequence[Source], config: LoopC
         amp="none",
         device=config.device,
     )
-    history = run_training(_PointTask(model, training, validation), loop)
+    history = run_training(_PointTask(model, training, validation), loop, run_dir, resume, progress)
     encoder.requires_grad_(False).eval()
     return next(row.figures for row in history.rows if row.step == history.best_step)

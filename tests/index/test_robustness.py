@@ -73,8 +73,6 @@ def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
     rows_of_candidates = candidate_recall(some, ranker, posterior)
     assert len(candidate_table(rows_of_candidates)[1]) == len(SOURCES)
     vectors, by_list, both = ([row["recall"][str(size)] for size in SIZES] for row in rows_of_candidates)
-    for recalls in (vectors, by_list, both):
-        assert recalls == sorted(recalls)
     assert both[1] >= max(vectors[0], by_list[0]), "twenty of both hold ten of each"
     first = [ranker.rank([ranker.retriever.encode_description(s)], 10)[1][0] for s in some.sentences]
     assert vectors[0] == pytest.approx(np.mean([t in r for t, r in zip(some.truth, first, strict=True)]))

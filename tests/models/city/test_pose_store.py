@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from models.city.kitti360pose import Scene, save_scene
+from models.city.point_sample import sample_points
 from models.city.pose_files import convert, load_data
 from models.city.pose_store import PoseStore
 from models.city.published import PublishedCell, PublishedObject, PublishedPose
@@ -58,6 +59,16 @@ def test_a_split_without_scenes_is_refused(store: PoseStore) -> None:
             store.split(split)
     with pytest.raises(DataError, match="2013_05_28_drive_0010_sync"):
         store.split("val").split("0003")
+
+
+def test_samples_are_the_points_of_the_instances(store: PoseStore) -> None:
+    view = store.split("0003")
+    table = view.cell_table()
+    assert table.sample is not None
+    chosen = np.array([len(table) - 1, 0])
+    rows = [row for n in chosen for row in range(table.parts.starts[n], table.parts.starts[n + 1])]
+    expected = np.stack([sample_points(*view.instance_points(row)) for row in rows])
+    assert np.array_equal(table.sample(chosen), expected)
 
 
 def test_the_cell_table_is_what_a_slow_reading_gives(store: PoseStore, scenes: list[Scene]) -> None:
