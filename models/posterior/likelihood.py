@@ -117,6 +117,7 @@ class Likelihood(nn.Module):
         self.colour_slip = nn.Parameter(torch.tensor(-4.1))  # log chance of a wrong colour word
         self.unknown_colour = nn.Parameter(torch.tensor(-2.0))  # log chance of a word for what has no known colour
         self.label_slip = nn.Parameter(torch.tensor(-7.0))
+        self.relation_slip = nn.Parameter(torch.tensor(-5.0))  # log chance of a wrong direction, said or read
         self.twice = nn.Parameter(torch.tensor(1.0))  # log power of the discount on what explains several hints
         self.near = nn.Parameter(torch.tensor(-1.5))  # log of 1 / metres that "near" falls over
         self.measured = nn.Parameter(torch.tensor(-1.2))  # log of the relative error of a said distance
@@ -164,7 +165,7 @@ class Likelihood(nn.Module):
 
     def places(self, reading: Reading, ways: Tensor) -> Tensor:
         """[65536, H] p(direction) p(distance) for every way from an instance; `ways` as the method of this name."""
-        place = ways @ reading.relation.T
+        place = ways @ reading.relation.T + self.relation_slip.exp()
         said = reading.distance_m
         if bool((~said.isnan()).any()):
             radius = torch.hypot(*self._way)
