@@ -24,6 +24,12 @@ TEXTS, VALIDATION_TEXTS = 24_000, 500  # that the reader is trained on, and chos
 FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
 FIT_STEPS, CALIBRATION_STEPS = 300, 60
 CALIBRATED = ("temper", "background")  # weights that validation places decide
+TEMPERS, TEMPERED_TEXTS = (
+    (1.0, 0.85, 0.7, 0.6, 0.5, 0.4),
+    200,
+)  # what `temper` is scaled with, tried on so many of each place
+LEAST_CLAIM = 1e-3  # so that one miss does not decide
+Columns = np.ndarray[tuple[int, int], np.dtype[np.float64]]
 
 _FIT_WORDING: tuple[Grammar | None, ...] = (
     None,
@@ -102,11 +108,23 @@ def calibrate_places(model: PosteriorModel, places: Sequence[Place], rng: np.ran
     fit_likelihood(model.likelihood, texts, CALIBRATION_STEPS, rng)
     for parameter in model.likelihood.parameters():
         parameter.requires_grad_(True)
-    rows = np.concatenate([_answers(model.likelihood, part) for part in texts])
-    error, p90, hit = rows.T
+    _temper(model.likelihood, texts)
+    error, p90, hit, _ = _all_answers(model.likelihood, texts)
     scale = float(np.quantile(error / p90, 0.9))
     model.config = model.config.model_copy(update={"radius_scale": scale})
     return {"recall@1": float(hit.mean()), "within_5m": float((error <= 5).mean()), "radius_scale": scale}
+
+
+def _temper(likelihood: Likelihood, texts: Sequence[Texts]) -> None:
+    """Scale `temper` so that the probability of the cells is honest: that the best cell surprises least."""
+    fitted = likelihood.temper.detach().clone()
+    some = [Texts(part.place, part.rows[:TEMPERED_TEXTS], part.readings[:TEMPERED_TEXTS]) for part in texts]
+    surprises = []
+    with torch.no_grad():
+        for scale in TEMPERS:
+            likelihood.temper.copy_(fitted + np.log(scale))
+            surprises.append(-np.log(_all_answers(likelihood, some)[3]).mean())
+        likelihood.temper.copy_(fitted + np.log(TEMPERS[int(np.argmin(surprises))]))
 
 
 def _texts(model: PosteriorModel, place: Place, count: int, rng: np.random.Generator) -> Texts:
@@ -114,8 +132,13 @@ def _texts(model: PosteriorModel, place: Place, count: int, rng: np.random.Gener
     return Texts(place, rows, place.read(model, rows, _FIT_WORDING, rng))
 
 
-def _answers(likelihood: Likelihood, texts: Texts) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """[Q, 3] error in metres, unscaled radius p90, and whether the best cell is the first."""
+def _all_answers(likelihood: Likelihood, texts: Sequence[Texts]) -> Columns:
+    """[4, Q] of `_answers`, of all texts."""
+    return np.concatenate([_answers(likelihood, part) for part in texts]).T
+
+
+def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
+    """[Q, 4] error in metres, unscaled radius p90, whether the best cell is the first, and its probability."""
     place, posterior = texts.place, texts.place.posterior(likelihood)
     extent_m = float(np.linalg.norm(np.ptp(place.cells.center_m[:, :2], axis=0)) + place.cells.size_m)
     scenes = np.array(place.cells.scenes)
@@ -126,5 +149,7 @@ def _answers(likelihood: Likelihood, texts: Texts) -> np.ndarray[tuple[int, int]
         same = scenes[located.rows[0]] == scenes[place.truth[row]]
         error = float(np.linalg.norm(located.positions[0] - place.positions_m[row])) if same else np.inf
         [p90] = located.radii_m((0.9,), extent_m, SPACING_M)
-        found.append((error, p90, float(located.rows[0] == place.truth[row])))
+        rank = np.flatnonzero(located.rows == place.truth[row])
+        claimed = located.probability[rank[0]] if len(rank) else 0.0
+        found.append((error, p90, float(located.rows[0] == place.truth[row]), max(claimed, LEAST_CLAIM)))
     return np.array(found)
