@@ -190,7 +190,7 @@ class Likelihood(nn.Module):
         empty = torch.zeros(nodes, hints * HABITS)
         terms = (fits[:, :, None] * share[:, None]).flatten(1)
         first = empty.index_add(0, node, terms)
-        load = (terms / (first + eps)[node]).view(-1, hints, HABITS).sum(dim=1)
+        load = (terms * (1 / (first + eps))[node]).view(-1, hints, HABITS).sum(dim=1)
         single = (1 + (load - 1).clamp(min=0)) ** (-self.twice.exp())
         total = empty.index_add(0, node, (terms.view(-1, hints, HABITS) * single[:, None]).flatten(1))
         said = (total + eps).log().view(nodes, hints, HABITS)

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import torch
 from scipy.special import logsumexp
+from torch import Tensor
 
 from models.city.cells import CellTable
 from models.city.points import Ints
@@ -90,14 +91,14 @@ def locate(
     possible = np.flatnonzero(scores > -np.inf)
     if not len(possible):
         return None
-    chosen = possible[np.argsort(-scores[possible], kind="stable")[:candidates]]
+    best_first = possible[np.argsort(-scores[possible], kind="stable")]
+    chosen, left_out = best_first[:candidates], best_first[candidates:]
     field = posterior.field(reading, chosen, log_prior, inside)
     mass = np.full(len(chosen), -np.inf)
     first = np.flatnonzero(np.diff(field.cell, prepend=-1))
     highest = np.maximum.reduceat(field.log_p, first)
     above = np.exp(field.log_p - np.repeat(highest, np.diff(np.append(first, len(field.cell)))))
     mass[field.cell[first]] = highest + np.log(np.add.reduceat(above, first))
-    left_out = np.setdiff1d(possible, chosen)
     rest = -np.inf
     if len(left_out):
         tail = slice(max(0, len(chosen) - _TAIL), None)
@@ -142,12 +143,13 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
     centers = np.union1d(heavy, best[best >= 0])
     with torch.inference_mode():
-        at, around = (torch.from_numpy(nodes_m[rows]) for rows in (centers, heavy))
-        distance = torch.cdist(at, around)
-        share = torch.from_numpy(weight[heavy])
-        near_mass = (torch.exp(-((distance / (0.9 * HIT_M)) ** 6)) @ share).numpy()
-        close = torch.exp(-((distance / MEAN_M) ** 6)) * share + 1e-300
-        mean = ((close @ around) / close.sum(dim=1, keepdim=True)).numpy()
+        middle = nodes_m[heavy].mean(axis=0)  # coordinates from there, so that single precision will do
+        at, around = (torch.from_numpy(nodes_m[rows] - middle).float() for rows in (centers, heavy))
+        square = torch.cdist(at, around).square()
+        share = torch.from_numpy(weight[heavy] / max(weight[heavy].max(), 1e-300)).float()
+        near_mass = (_bump(square / (0.9 * HIT_M) ** 2) @ share).numpy()
+        close = _bump(square / MEAN_M**2) * share + 1e-37
+        mean = ((close @ around) / close.sum(dim=1, keepdim=True)).numpy() + middle
     owner = field.cell[centers]
     positions = np.zeros((len(field.cells), 2))
     ascending = np.lexsort((near_mass, owner))
@@ -156,3 +158,8 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     first_choice = np.where(apart <= cells.size_m / 2, near_mass, -1.0).argmax()
     positions[order[0]] = mean[first_choice]
     return positions[order]
+
+
+def _bump(square: Tensor) -> Tensor:
+    """About 1 up to a distance of 1 and 0 beyond, of squared distances; never so small that arithmetic is slow."""
+    return torch.exp(-square.pow(3).clamp(max=80.0))

@@ -91,7 +91,7 @@ def naive(model, said, here, way, palette):
                 for h in range(len(said.label)):
                     label = float(said.label[h, here.label[part]]) + math.exp(float(model.label_slip))
                     colour = float(words[part] @ said.colour[h, :-1]) + float(said.colour[h, -1])
-                    place = place_of(model, said.relation[h], east, north)
+                    place = place_of(model, said.relation[h], east, north) + math.exp(model.relation_slip)
                     row.append(label * colour * place * weight / mass ** float(model.crowding))
                 terms.append(row)
             first = [sum(t[h] for t in terms) for h in range(len(said.label))]
