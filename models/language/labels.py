@@ -8,7 +8,8 @@ from functools import cache
 import torch
 from torch import Tensor, nn
 
-from models.language.paraphrase import GRAMMARS, Wording
+from models.language.grammar_files import GRAMMARS
+from models.language.paraphrase import Wording
 from models.language.text_encoder import TextEncoder
 
 MOST_KEPT = 20_000  # phrases; 30 MB

@@ -1,6 +1,6 @@
 """Facts about a position in many wordings: what the reader of free language is trained and tested on.
 
-A grammar is a TOML file in grammar/, data only, or several. Ways to name each class (`labels`) and colour, the eight
+A grammar is a TOML file in grammar/, data only, or several (`models.language.grammar_files`). Ways to name each class (`labels`) and colour, the eight
 winds (`compass`), and phrases by kind: one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`;
 `bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`,
 `two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a
@@ -11,22 +11,18 @@ Validation leaves out every phrase and name that training has, and test also tho
 """
 
 import re
-import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
-from pathlib import Path
-from typing import Any, Final, Literal
+from typing import Final
 
 import numpy as np
 
-GRAMMARS = Path(__file__).parent / "grammar"
-Grammar = Literal["train", "val", "test"]
+from models.language.grammar_files import Grammar, load_grammar
+
 # Where the speaker is, seen from the thing: the eight winds, right at it, or not said.
 WINDS: Final = ("north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest")
 RELATIONS: Final = (*WINDS, "on-top", "near")
 _SLOT = re.compile(r"\{([a-zA-Z]+?)(\d?)\}")
-_KEPT = ("labels", "colours", "compass", "distance")  # tables that are not phrases of their own
 TYPO_TEXTS, LOWER_TEXTS, BARE_TEXTS = (
     0.2,
     0.15,
@@ -98,7 +94,7 @@ class Wording:
     """
 
     def __init__(self, grammar: Grammar) -> None:
-        tables = _load(grammar)
+        tables = load_grammar(grammar)
         self.labels: dict[str, list[str]] = tables["labels"]
         self.colours: dict[str, list[str]] = tables["colours"]
         self.compass: dict[str, list[str]] = tables["compass"]
@@ -244,42 +240,6 @@ class Wording:
 def opposite(wind: str) -> str:
     """The other end of the compass."""
     return WINDS[(WINDS.index(wind) + 4) % 8]
-
-
-@cache
-def _load(grammar: Grammar) -> dict[str, Any]:
-    tables = tomllib.loads((GRAMMARS / f"{grammar}.toml").read_text())
-    for more in sorted(GRAMMARS.glob(f"{grammar}_*.toml")):
-        for name, table in tomllib.loads(more.read_text()).items():
-            kept = tables.setdefault(name, {})
-            for key, words in table.items():
-                kept[key] = list(dict.fromkeys([*kept.get(key, []), *words]))
-    for name in tables.keys() - {"labels", "colours", "compass"}:
-        phrases = tables[name]["phrases"]
-        tables[name]["phrases"] = list({_gist(phrase): phrase for phrase in reversed(phrases)}.values())[::-1]
-    for other in {"train": (), "val": ("train",), "test": ("train", "val")}[grammar]:
-        _leave_out(tables, _load(other))
-    return tables
-
-
-def _leave_out(tables: dict[str, Any], known: dict[str, Any]) -> None:
-    """Take from a grammar what another one has."""
-    for name, table in tables.items():
-        if name in ("labels", "colours"):
-            taken = {_plain(word) for key, words in known[name].items() for word in (key, *words)}
-            tables[name] = {key: [w for w in words if _plain(w) not in taken] for key, words in table.items()}
-        elif name not in _KEPT:
-            taken = {_gist(phrase) for phrase in known.get(name, {"phrases": ()})["phrases"]}
-            tables[name]["phrases"] = [phrase for phrase in table["phrases"] if _gist(phrase) not in taken]
-
-
-def _gist(phrase: str) -> str:
-    """A phrase but for capitals, punctuation and articles: two that agree in it are one."""
-    return " ".join(re.sub(r"[^a-z0-9{ ]", "", re.sub(r"\{(the|a|n)(?![a-z])", "{thing", phrase.lower())).split())
-
-
-def _plain(word: str) -> str:
-    return word.lower().replace("-", " ")
 
 
 def _is_plain(fact: Fact) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 import torch
 
 from models.city.surroundings import SPACING_M
-from models.language.paraphrase import Grammar
+from models.language.grammar_files import Grammar
 from models.language.text_encoder import load_text_encoder
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate

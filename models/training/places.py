@@ -16,7 +16,8 @@ from models.city.pose_files import load_data
 from models.city.regions import split_regions
 from models.city.surroundings import Bodies, Surroundings
 from models.city.types import DIRECTIONS, CutRules, Floats, Hint
-from models.language.paraphrase import Fact, Grammar, Wording
+from models.language.grammar_files import Grammar
+from models.language.paraphrase import Fact, Wording
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel

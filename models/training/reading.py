@@ -8,7 +8,8 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from models.language.paraphrase import RELATIONS, WINDS, Fact, Grammar, Said, Wording
+from models.language.grammar_files import Grammar
+from models.language.paraphrase import RELATIONS, WINDS, Fact, Said, Wording
 from models.language.reader import COLOURS, Reader, example_targets
 from models.language.text_encoder import TextEncoder, TokenFeatures
 

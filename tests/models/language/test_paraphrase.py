@@ -4,7 +4,8 @@ import re
 import numpy as np
 import pytest
 
-from models.language.paraphrase import RELATIONS, WINDS, Fact, Wording, _load, opposite, typos
+from models.language.grammar_files import load_grammar
+from models.language.paraphrase import RELATIONS, WINDS, Fact, Wording, opposite, typos
 
 GRAMMARS = ("train", "val", "test")
 FACTS = [
@@ -41,7 +42,7 @@ def test_the_distance_and_the_name_are_said(grammar) -> None:
 
 @pytest.mark.parametrize("grammar", GRAMMARS)
 def test_phrases_have_only_known_slots_and_no_direction_of_their_own(grammar) -> None:
-    for table, content in _load(grammar).items():
+    for table, content in load_grammar(grammar).items():
         for phrase in content.get("phrases", ()):
             slots = set(re.findall(r"\{([a-zA-Z]+)\d?\}", phrase))
             assert slots <= {"d", "o", "a", "A", "the", "The", "n", "b", "theb", "c", "dist", "name", "m"}, phrase
@@ -57,13 +58,13 @@ def test_each_kind_says_what_it_is_for(grammar) -> None:
         **dict.fromkeys(("near", "on_top", "absent", "named_near", "two_near"), ()),
     }  # fmt: skip
     for table, numbers in directed.items():
-        for phrase in _load(grammar).get(table, {}).get("phrases", ()):
+        for phrase in load_grammar(grammar).get(table, {}).get("phrases", ()):
             said = {number if table != "two_same" else "" for number in re.findall(r"\{[do](\d?)\}", phrase)}
             assert said == set(numbers), (table, phrase)
 
 
 def test_validation_and_test_share_nothing_with_training() -> None:
-    tables = {grammar: _load(grammar) for grammar in GRAMMARS}
+    tables = {grammar: load_grammar(grammar) for grammar in GRAMMARS}
     for one, other in itertools.combinations(GRAMMARS, 2):
         for name in tables[other]:
             if name in ("compass", "distance"):
