@@ -143,13 +143,11 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
     centers = np.union1d(heavy, best[best >= 0])
     with torch.inference_mode():
-        middle = nodes_m[heavy].mean(axis=0)  # coordinates from there, so that single precision will do
-        at, around = (torch.from_numpy(nodes_m[rows] - middle).float() for rows in (centers, heavy))
-        square = torch.cdist(at, around).square()
+        square = _squares(nodes_m[centers], nodes_m[heavy])
         share = torch.from_numpy(weight[heavy] / max(weight[heavy].max(), 1e-300)).float()
         near_mass = (_bump(square / (0.9 * HIT_M) ** 2) @ share).numpy()
         close = _bump(square / MEAN_M**2) * share + 1e-37
-        mean = ((close @ around) / close.sum(dim=1, keepdim=True)).numpy() + middle
+        mean = (close.double() @ torch.from_numpy(nodes_m[heavy]) / close.double().sum(dim=1, keepdim=True)).numpy()
     owner = field.cell[centers]
     positions = np.zeros((len(field.cells), 2))
     ascending = np.lexsort((near_mass, owner))
@@ -158,6 +156,14 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     first_choice = np.where(apart <= cells.size_m / 2, near_mass, -1.0).argmax()
     positions[order[0]] = mean[first_choice]
     return positions[order]
+
+
+def _squares(at_m: Floats, around_m: Floats) -> Tensor:
+    """[A, B] float32 squared distances of points in the plane, right for near ones however wide the map is."""
+    middle = around_m.mean(axis=0)
+    at, around = (torch.from_numpy(points - middle).float() for points in (at_m, around_m))
+    # Matrix multiplication, cdist's default, would be metres off where scenes lie kilometres apart.
+    return torch.cdist(at, around, compute_mode="donot_use_mm_for_euclid_dist").square()
 
 
 def _bump(square: Tensor) -> Tensor:

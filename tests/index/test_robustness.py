@@ -8,7 +8,7 @@ from index.candidates import SIZES, SOURCES, candidate_recall, candidate_table, 
 from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
-from index.robustness import all_trials, nearest_hints, robustness, robustness_table
+from index.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_table
 from models.city.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel
@@ -82,3 +82,14 @@ def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
 
 def test_two_orders_in_turns() -> None:
     assert in_turns(np.array([3, 1, 2]), np.array([1, 4, 3])).tolist() == [3, 1, 4, 2]
+
+
+def test_points_of_a_damaged_map_are_those_of_the_parts_that_are_left(asked) -> None:
+    data = asked[0]
+    damage = _damage(data, Trial("gone", lambda hints, _rng: (), dropped=0.3), np.random.default_rng(0))
+    before, after = data.gallery.cells, damage.data.gallery.cells
+    chosen = np.array([3, 0])
+    rows = np.concatenate([np.arange(before.parts.starts[n], before.parts.starts[n + 1]) for n in chosen])
+    left = damage.part_of[rows] >= 0
+    assert 0 < left.sum() < len(left)
+    assert np.array_equal(after.sample(chosen), before.sample(chosen)[left])
