@@ -136,7 +136,16 @@ CODE = Experiment(
     ),
     every_seed=False,
 )
-EXPERIMENTS = (TABLE_1, TABLE_2, TABLE_3, TABLE_4, FIGURE_4A, FIGURE_4B, CODE)
+POINTS = Experiment(
+    "What an instance is seen by",
+    RETRIEVAL,
+    (
+        Row("label, colour, place, size, number of points (our default)", MNCL),
+        Row("and its points, by PointNet++ (the paper)", _mncl(point_encoder="pointnet")),
+    ),
+    every_seed=False,
+)
+EXPERIMENTS = (TABLE_1, TABLE_2, TABLE_3, TABLE_4, FIGURE_4A, FIGURE_4B, CODE, POINTS)
 # The fine stage of each method of table 1.
 REGRESSOR = Run("regressor")
 FINE = {
