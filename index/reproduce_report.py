@@ -146,12 +146,13 @@ def _cost_table(found: Found) -> Table:
     rows: list[tuple[str, ...]] = []
     for name, results in found["runs"].items():
         training = [result["training"] for result in results]
-        mean = {key: np.mean([facts[key] for facts in training]) for key in training[0]}
+        # The median over the seeds: one of them may have shared the machine, or been stopped for a while.
+        typical = {key: np.median([facts[key] for facts in training]) for key in training[0]}
         size = f"{results[0]['parameters'] / 1e6:.2f} M" if "parameters" in results[0] else "-"
         cell = f"{results[0]['bytes_a_cell']:.0f}" if "bytes_a_cell" in results[0] else "-"
         rows.append((
-            name, f"{mean['descriptions_per_second']:.0f}", f"{mean['seconds_to_best']:.0f} s",
-            f"{mean['peak_memory_mb']:.0f} MB", size, cell,
+            name, f"{typical['descriptions_per_second']:.0f}", f"{typical['seconds_to_best']:.0f} s",
+            f"{typical['peak_memory_mb']:.0f} MB", size, cell,
         ))  # fmt: skip
     return ("", "descriptions/s", "to the best weights", "peak memory", "parameters", "bytes a cell"), rows
 
