@@ -8,6 +8,7 @@ INDEX ?= data/index
 IMAGE ?= hereabouts
 # What pip is asked for first; set it to choose another build of torch, for example TORCH=./torch-2.13.0+cu130.whl.
 TORCH ?= $(shell grep '^torch==' constraints.txt)
+TRAINED_ON := --data data/towns-0 --data data/towns-1 --data models/maps/helsinki.osm.pbf
 
 .PHONY: help install run test check format train index serve evaluate benchmark web wheels image clean
 
@@ -44,15 +45,14 @@ format: install  ## let ruff format and fix
 	$(BIN)/ruff check --fix .
 
 train: install  ## make the shipped weights again (west of Helsinki, made-up towns)
-	$(BIN)/hereabouts train --data models/maps/helsinki.osm.pbf --out models/weights/retriever \
-		--set model.levels=global --set model.loss=contrastive
-	$(BIN)/hereabouts train --method regressor --data models/maps/helsinki.osm.pbf --out models/weights/regressor
 	for seed in 0 1; do \
 		test -d data/towns-raw-$$seed || $(BIN)/hereabouts synth --seed $$seed --out data/towns-raw-$$seed && \
 		$(BIN)/hereabouts prepare --raw data/towns-raw-$$seed --out data/towns-$$seed || exit 1; \
 	done
-	$(BIN)/hereabouts train --method posterior --data data/towns-0 --data data/towns-1 --data models/maps/helsinki.osm.pbf \
-		--out models/weights/posterior
+	$(BIN)/hereabouts train --method mncl $(TRAINED_ON) --out models/weights/retriever \
+		--set model.width=128 --set training.batch_size=64 --set training.steps=2200
+	$(BIN)/hereabouts train --method regressor $(TRAINED_ON) --out models/weights/regressor
+	$(BIN)/hereabouts train --method posterior $(TRAINED_ON) --out models/weights/posterior
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
 	for how in posterior regressor none; do \
