@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from index import reproduce as module
-from index.reproduce_report import markdown, write_reproduction
+from index.reproduce_report import _cost_table, markdown, write_reproduction
 from models.training.experiments import EXPERIMENTS, FINE, MNCL, Run, Scale, runs_of
 
 TEXT2LOC, REGRESSOR = Run("text2loc"), Run("regressor")
@@ -93,3 +93,12 @@ def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> 
     assert "-50.0 %" in text
     for name in ("figure4.png", "figure5.png"):
         assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
+
+
+def test_costs_are_those_of_a_typical_seed():
+    """A run that was stopped for an hour does not spoil the table."""
+    costs = [
+        {"descriptions_per_second": s, "seconds_to_best": 100.0 / s, "peak_memory_mb": 900.0} for s in (2, 1, 0.01)
+    ]
+    _, [row] = _cost_table({"runs": {"ret": [{"training": cost} for cost in costs]}})
+    assert row[:4] == ("ret", "1", "100 s", "900 MB")
