@@ -15,8 +15,9 @@ from models.city.colours import Palette
 from models.city.points import ranges
 from models.city.surroundings import SPACING_M, STEP_M, Surroundings
 from models.language.landmarks import Landmarks
-from models.language.paraphrase import RELATIONS
-from models.language.reader import COLOURS, Noticed
+from models.language.noticed import Noticed
+from models.language.reader import COLOURS
+from models.language.said import RELATIONS
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading
 from models.posterior.locate import Located, locate

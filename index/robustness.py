@@ -22,7 +22,9 @@ from models.city.surroundings import STEP_M, Surroundings
 from models.city.types import DIRECTIONS, Direction, Floats, Hint
 from models.errors import DataError
 from models.language.hints_text import TEMPLATES, render_hint
-from models.language.paraphrase import Fact, Said, Wording, typos
+from models.language.paraphrase import Wording
+from models.language.said import Fact, Said
+from models.language.typos import typos
 
 MOST_QUERIES = 300
 SEED = 0

@@ -10,6 +10,7 @@ from torch import Tensor, nn
 
 from models.language.grammar_files import GRAMMARS
 from models.language.paraphrase import Wording
+from models.language.spelling import Spelling
 from models.language.text_encoder import TextEncoder
 
 MOST_KEPT = 20_000  # phrases; 30 MB
@@ -58,10 +59,13 @@ class LabelMatcher(nn.Module):
         self.scale = nn.Parameter(torch.tensor(20.0).log())
         self.unknown = nn.Parameter(torch.tensor(0.4))  # similarity that a noun must exceed to mean anything
         self._known: dict[str, Tensor] = {}
+        lexicon = Wording("train").labels
+        names = [name.lower() for label, others in lexicon.items() for name in (label, *others)]
+        self._spelling = Spelling(names, text_encoder.pieces, lambda part: len(text_encoder.pieces(part)) == 1)
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
-        """[S, W] unit vectors of the frozen text encoder; those of phrases seen before are kept."""
-        plain = [phrase.lower().replace("-", " ") for phrase in phrases]
+        """[S, W] unit vectors of the frozen text encoder, misspelt words mended; those seen before are kept."""
+        plain = [self._spelling.mend(phrase.lower().replace("-", " ")) for phrase in phrases]
         if missing := [phrase for phrase in dict.fromkeys(plain) if phrase not in self._known]:
             if len(self._known) > MOST_KEPT:
                 self._known.clear()

@@ -1,90 +1,29 @@
 """Facts about a position in many wordings: what the reader of free language is trained and tested on.
 
 A grammar is a TOML file in grammar/, data only, or several (`models.language.grammar_files`). Ways to name each class
-(`labels`) and colour, the eight winds (`compass`), and phrases by kind: one thing (`one`, `on_top`, `near`, `far_one`,
-`absent`, `named`, `named_near`; `bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several
-things (`two`, `three`, `two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`,
-`one_on_top` the first with a direction, the second at hand or underfoot; `two_near` both at hand), and what surrounds
-them (`opener`, `closer`, `irrelevant`, `link`, `leads`). Slots: {d} where the speaker is, seen from the thing, {o} the
-opposite; {a}, {A}, {the}, {The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour; {dist}, {name};
-numbered with several things. Validation leaves out every phrase and name that training has, and test also those of
-validation.
+(`labels`) and colour, the eight winds (`compass`), and phrases by kind: two to six things at once (`passages`, see
+`models.language.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`; `bare`
+without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`;
+`two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a direction, the
+second at hand or underfoot; `two_near` both at hand), and what surrounds them (`opener`, `closer`, `irrelevant`,
+`link`, `leads`). Slots: {d} where the speaker is, seen from the thing, {o} the opposite; {a}, {A}, {the}, {The}, {n}
+the thing with its colour, {b}, {theb} without, {c} the colour; {dist}, {name}; numbered with several things. Validation
+leaves out every phrase and name that training has, and test also those of validation.
 """
 
 import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from typing import Final
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from models.language.grammar_files import Grammar, load_grammar
+from models.language.passages import Passage, plural
+from models.language.said import WINDS, Fact, Mention, Said, opposite
+from models.language.typos import spoil
 
-# Where the speaker is, seen from the thing: the eight winds, right at it, or not said.
-WINDS: Final = ("north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest")
-RELATIONS: Final = (*WINDS, "on-top", "near")
-_SLOT = re.compile(r"\{([a-zA-Z]+?)(\d?)\}")
-TYPO_TEXTS, LOWER_TEXTS, BARE_TEXTS = (
-    0.2,
-    0.15,
-    0.1,
-)  # shares of the texts with typos, in lower case, without full stops
-
-
-@dataclass(frozen=True, slots=True)
-class Fact:
-    """One thing to say.
-
-    Attributes:
-        label: class of the thing, a key of the grammar's labels or any words.
-        relation: one of RELATIONS.
-        colour: word, None if it is not said.
-        distance_m: said distance, None if it is not.
-        absent: that there is none of it.
-        name: proper name of the thing, said instead of label and colour.
-    """
-
-    label: str
-    relation: str = "near"
-    colour: str | None = None
-    distance_m: float | None = None
-    absent: bool = False
-    name: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Mention:
-    """Where a text names a thing.
-
-    Attributes:
-        fact: number of the fact.
-        start, end: the characters of the noun, without article and colour.
-        noun: what stands there, before typos.
-    """
-
-    fact: int
-    start: int
-    end: int
-    noun: str
-
-
-@dataclass(frozen=True, slots=True)
-class Said:
-    """A text, and what of it means what.
-
-    Attributes:
-        text: English.
-        mentions: in order of the text; one a fact.
-    """
-
-    text: str
-    mentions: tuple[Mention, ...]
-
-    def then(self, other: "Said", between: str) -> "Said":
-        """Both, one after the other."""
-        shift = len(self.text) + len(between)
-        moved = tuple(replace(m, start=m.start + shift, end=m.end + shift) for m in other.mentions)
-        return Said(self.text + between + other.text, self.mentions + moved)
+PASSAGES, TRIES = 0.5, 12  # share of the times that a passage is looked for, and among how many; first of all among
+# those with plurals, if there are several things of a class
 
 
 class Wording:
@@ -99,7 +38,10 @@ class Wording:
         self.labels: dict[str, list[str]] = tables["labels"]
         self.colours: dict[str, list[str]] = tables["colours"]
         self.compass: dict[str, list[str]] = tables["compass"]
-        self._phrases = {name: table["phrases"] for name, table in tables.items() if "phrases" in table}
+        parsed = {name: table["phrases"] for name, table in tables.items() if "phrases" in table}
+        self._distances: list[str] = parsed["distance"]
+        self._phrases = {name: [Passage(phrase) for phrase in phrases] for name, phrases in parsed.items()}
+        self._phrases["plurals"] = [passage for passage in self._phrases["passages"] if passage.shared("ns")]
 
     def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> Said:
         """A description.
@@ -114,7 +56,7 @@ class Wording:
         said = sentences[0]
         for sentence in sentences[1:]:
             said = _join(said, sentence, rng)
-        return _spoil(said, rng) if noise else said
+        return spoil(said, rng) if noise else said
 
     def published(self, facts: Sequence[Fact]) -> Said:
         """The benchmark's sentences, one a fact (kitti360pose.md, rule 8), in the order of the facts."""
@@ -122,21 +64,38 @@ class Wording:
         for n, fact in enumerate(facts):
             before = f"The pose is {fact.relation} of a {fact.colour + ' ' if fact.colour else ''}"
             end = len(before) + len(fact.label)
-            sentence = Said(f"{before}{fact.label}.", (Mention(n, len(before), end, fact.label),))
+            mention = Mention((n,), len(before), end, fact.label, coloured=fact.colour is not None)
+            sentence = Said(f"{before}{fact.label}.", (mention,))
             said = said.then(sentence, " ") if said.text else sentence
         return said
 
     def _sentences(self, facts: Sequence[Fact], order: list[int], rng: np.random.Generator) -> list[Said]:
         left, sentences = list(order), []
         while left:
-            kind, taken = self._choose(facts, left, rng)
+            phrase, taken = self._passage(facts, left, rng) or self._phrase(facts, left, rng)
             left = [n for n in left if n not in taken]
-            sentences.append(self._lead(self._fill(self._pick(kind, rng), facts, taken, rng), rng))
+            sentences.append(self._lead(self._fill(phrase, facts, taken, rng), rng))
         return sentences
+
+    def _passage(
+        self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator
+    ) -> tuple[Passage, list[int]] | None:
+        """A passage, now and then, and the facts that it tells; None if none was found."""
+        simple = [n for n in left if facts[n].is_simple]
+        if len(simple) < 2 or rng.random() >= PASSAGES:
+            return None
+        labels = [facts[n].label for n in simple]
+        kinds = ["plurals", "passages"] if len(set(labels)) < len(labels) else ["passages"]
+        tried = (self._pick(kind, rng) for kind in kinds for _ in range(TRIES))
+        return next(((p, taken) for p in tried if (taken := p.match(facts, simple))), None)
+
+    def _phrase(self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator) -> tuple[Passage, list[int]]:
+        kind, taken = self._choose(facts, left, rng)
+        return self._pick(kind, rng), taken
 
     def _choose(self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator) -> tuple[str, list[int]]:
         """A kind of phrase, and the facts that it takes."""
-        plain = [n for n in left if _is_plain(facts[n])]
+        plain = [n for n in left if facts[n].is_simple and facts[n].relation in WINDS]
         return (self._choose_plain if left[0] in plain else self._choose_other)(facts, left, plain, rng)
 
     def _choose_other(
@@ -173,43 +132,47 @@ class Wording:
         """Whether a kind is taken that not every grammar has."""
         return bool(self._phrases.get(kind)) and bool(rng.random() < share)
 
-    def _pick(self, kind: str, rng: np.random.Generator) -> str:
-        return _one_of(self._phrases[kind], rng)
+    def _pick(self, kind: str, rng: np.random.Generator) -> Passage:
+        phrases = self._phrases[kind]
+        return phrases[int(rng.integers(len(phrases)))]
 
-    def _fill(self, phrase: str, facts: Sequence[Fact], taken: Sequence[int], rng: np.random.Generator) -> Said:
+    def _fill(self, phrase: Passage, facts: Sequence[Fact], taken: Sequence[int], rng: np.random.Generator) -> Said:
         """A phrase with its slots filled."""
-        nouns = [facts[n].name or self._word(self.labels, facts[n].label, rng) for n in taken]
-        colours = [c if (c := facts[n].colour) is None else self._word(self.colours, c, rng) for n in taken]
-        text, at, mentions = "", 0, dict[int, Mention]()
-        for slot in _SLOT.finditer(phrase):
-            text += phrase[at : slot.start()]
-            at = slot.end()
-            k = int(slot[2] or 1) - 1
-            before, noun = self._slot(slot[1], facts[taken[k]], nouns[k], colours[k], rng)
-            if noun and taken[k] not in mentions:
-                start = len(text) + len(before)
-                mentions[taken[k]] = Mention(taken[k], start, start + len(noun), nouns[k])
-            text += before + noun
-        return Said(text + phrase[at:], tuple(mentions.values()))
+        told = [facts[n] for n in taken]
+        nouns = [fact.name or self._word(self.labels, fact.label, rng) for fact in told]
+        colours = [c and self._word(self.colours, c, rng) for c in (fact.colour for fact in told)]
+        named, text = set[int](), ""
+        mentions: list[Mention] = []
+        for before, (what, numbers, mark) in phrase.pieces:
+            text += before
+            k = numbers[0]
+            lead, noun = self._slot(what, mark, told[k], nouns[k], colours[k], rng)
+            if noun and (what in ("=", "c") or not named.intersection(numbers)):
+                start = len(text) + len(lead)
+                mention = _mention(phrase, (what, numbers), told, start, noun)
+                mentions.append(replace(mention, facts=tuple(taken[n] for n in mention.facts)))
+                named.update(numbers)
+            text += lead + noun
+        return Said(text + phrase.end, tuple(mentions))
 
-    def _slot(self, slot: str, fact: Fact, noun: str, colour: str | None, rng: np.random.Generator) -> tuple[str, str]:
+    def _slot(
+        self, what: str, mark: str, fact: Fact, noun: str, colour: str | None, rng: np.random.Generator
+    ) -> tuple[str, str]:
         """What stands in a slot: (what comes before the noun, the noun)."""
-        if slot in "do":
-            wind = fact.relation if slot == "d" else opposite(fact.relation)
+        if what in ("d", "o"):
+            wind = fact.relation if what == "d" else opposite(fact.relation)
             return _one_of(self.compass[wind], rng), ""
-        if slot == "c":
-            return colour or "", ""
-        if slot == "dist":
-            said = _one_of(self._phrases["distance"], rng)
-            return said.replace("{m}", f"{fact.distance_m or 0:.0f}"), ""
-        if slot == "name":
-            return "", noun
-        with_colour = colour and slot not in ("b", "theb")
-        phrase = f"{colour} " if with_colour else ""
-        article = {"n": "", "the": "the ", "The": "The ", "theb": "the "}.get(slot)
+        if what == "c":
+            return ("", colour or "") if mark == "=" else (colour or "", "")
+        if what == "dist":
+            return _one_of(self._distances, rng).replace("{m}", f"{fact.distance_m or 0:.0f}"), ""
+        if what in ("name", "nb", "ns", "="):
+            return "", {"=": mark, "ns": plural(noun)}.get(what, noun)
+        phrase = f"{colour} " if colour and what not in ("b", "theb") else ""
+        article = {"n": "", "the": "the ", "The": "The ", "theb": "the "}.get(what)
         if article is None:
             article = _article(phrase + noun)
-        if slot == "A":
+        if what == "A":
             article = article.capitalize()
         return article + phrase, noun
 
@@ -222,30 +185,20 @@ class Wording:
     def _lead(self, said: Said, rng: np.random.Generator) -> Said:
         drawn = rng.random()
         if drawn < 0.08:
-            return Said(self._pick("leads", rng), ()).then(_lower_first(said), ", ")
+            return Said(self._pick("leads", rng).phrase, ()).then(_lower_first(said), ", ")
         if drawn < 0.18:
-            return Said(self._pick("link", rng), ()).then(_lower_first(said), " ")
+            return Said(self._pick("link", rng).phrase, ()).then(_lower_first(said), " ")
         return said
 
     def _surround(self, sentences: list[Said], rng: np.random.Generator) -> list[Said]:
         if rng.random() < 0.3:
             place = int(rng.integers(len(sentences) + 1))
-            sentences = [*sentences[:place], Said(self._pick("irrelevant", rng), ()), *sentences[place:]]
+            sentences = [*sentences[:place], Said(self._pick("irrelevant", rng).phrase, ()), *sentences[place:]]
         if rng.random() < 0.3:
-            sentences = [Said(self._pick("opener", rng), ()), *sentences]
+            sentences = [Said(self._pick("opener", rng).phrase, ()), *sentences]
         if rng.random() < 0.2:
-            sentences = [*sentences, Said(self._pick("closer", rng), ())]
+            sentences = [*sentences, Said(self._pick("closer", rng).phrase, ())]
         return sentences
-
-
-def opposite(wind: str) -> str:
-    """The other end of the compass."""
-    return WINDS[(WINDS.index(wind) + 4) % 8]
-
-
-def _is_plain(fact: Fact) -> bool:
-    has_more = fact.absent or fact.name is not None or fact.distance_m is not None
-    return fact.relation in WINDS and not has_more
 
 
 def _kind_alone(fact: Fact) -> str:
@@ -257,6 +210,20 @@ def _kind_alone(fact: Fact) -> str:
     if fact.relation in WINDS:
         return "far_one"
     return "on_top" if fact.relation == "on-top" else "near"
+
+
+def _mention(
+    phrase: Passage, slot: tuple[str, tuple[int, ...]], told: Sequence[Fact], start: int, noun: str
+) -> Mention:
+    """The mention that a slot makes; its facts are the numbers of things yet."""
+    what, numbers = slot
+    apart = any(set(numbers) & set(some) for some in phrase.shared("c"))
+    coloured = told[numbers[0]].colour is not None and (apart or what in ("a", "A", "the", "The", "n"))
+    end = start + len(noun)
+    if what != "ns":
+        return Mention(numbers, start, end, noun, "stand-in" if what in ("=", "c") else "noun", coloured)
+    is_told = not set(numbers) & set(phrase.stand_ins)
+    return Mention(numbers if is_told else (), start, end, noun, "plural", coloured and is_told)
 
 
 def _one_of(options: Sequence[str], rng: np.random.Generator) -> str:
@@ -284,43 +251,3 @@ def _join(one: Said, other: Said, rng: np.random.Generator) -> Said:
     if not one.text.endswith((".", "!", "?", ":", ";")):
         return one.then(other, _one_of(("; ", ". ", ", ", "\n"), rng))
     return one.then(other, " " if rng.random() < 0.95 else "\n")
-
-
-def _spoil(said: Said, rng: np.random.Generator) -> Said:
-    """A text as it is typed in a hurry."""
-    drawn = rng.random(3)
-    if drawn[0] < LOWER_TEXTS:
-        said = replace(said, text=said.text.lower())
-    if drawn[1] < BARE_TEXTS:
-        said = replace(said, text=said.text.replace(". ", ", ").rstrip("."))
-    if drawn[2] < TYPO_TEXTS:
-        for _ in range(int(rng.integers(1, 4))):
-            said = _typo(said, rng)
-    return said
-
-
-def typos(said: Said, count: int, rng: np.random.Generator) -> Said:
-    """The same text with some mistyped letters."""
-    for _ in range(count):
-        said = _typo(said, rng)
-    return said
-
-
-def _typo(said: Said, rng: np.random.Generator) -> Said:
-    """One letter left out, doubled, or changed places with the next."""
-    places = [m.start() for m in re.finditer(r"(?<=[a-z])[a-z](?=[a-z])", said.text)]
-    if not places:
-        return said
-    at = places[int(rng.integers(len(places)))]
-    text = said.text
-    edits: tuple[Callable[[], str], ...] = (
-        lambda: text[:at] + text[at + 1 :],
-        lambda: text[:at] + text[at] + text[at:],
-        lambda: text[:at] + text[at + 1] + text[at] + text[at + 2 :],
-    )
-    spoiled = edits[int(rng.integers(len(edits)))]()
-    grown = len(spoiled) - len(text)
-    moved = tuple(
-        replace(m, start=m.start + grown * (m.start > at), end=m.end + grown * (m.end > at)) for m in said.mentions
-    )
-    return Said(spoiled, moved)

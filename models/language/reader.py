@@ -3,17 +3,18 @@
 import copy
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
-from models.language.paraphrase import RELATIONS
+from models.language.noticed import Noticed, resolve
+from models.language.said import RELATIONS, Mention
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, run_layers
 
-TAGS: Final = 3  # outside, first token of a noun, further token of it
+# Of tokens: outside, further token of what is named; first token of a noun, of a plural, of what stands for a thing.
+TAGS: Final = ("outside", "further", "noun", "plural", "stand-in")
 COLOURS: Final = (
     "dark-green", "gray", "gray-green", "bright-gray", "black", "green", "beige", "white", "red", "brown", "orange",
     "yellow", "blue", "purple", "pink",
@@ -29,6 +30,7 @@ _DISTANCE = re.compile(
     rf"(?<![\w.])(\d+(?:[.,]\d+)?|{'|'.join(_NUMBERS)})\s*-?\s*(m|met(?:re|er)s?|ft|feet|foot|yards?|steps?|paces?)\b",
     re.I,
 )
+_LOOSE_END = re.compile(r"(?<=\w)\s+(?:of|with|along|down|up|by|in|on|at|and|to)$", re.I)
 _SENTENCE_END = re.compile(r"[.!?;\n](?:\s|$)")
 
 
@@ -54,28 +56,6 @@ class ReaderConfig(BaseModel):
     dropout: float = 0.1
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Noticed:
-    """One thing that a description names.
-
-    Attributes:
-        noun: the words for it.
-        start, end: where they stand in the text.
-        relation: [10] probability of each of RELATIONS: where the speaker is, seen from it.
-        colour: [C + 1] probability of each of COLOURS; the last, that none is said.
-        absent: probability that the text says there is none.
-        distance_m: said distance, None if none is.
-    """
-
-    noun: str
-    start: int
-    end: int
-    relation: Tensor
-    colour: Tensor
-    absent: float
-    distance_m: float | None
-
-
 class Reader(nn.Module):
     """Tags the nouns of a text, and says of each its direction, its colour and whether there is none of it.
 
@@ -92,7 +72,7 @@ class Reader(nn.Module):
         self.tuned = copy.deepcopy(text_encoder.layers(frozen, frozen + config.tuned_layers)).requires_grad_(True)
         self.project = nn.Linear(text_encoder.width, width)
         self.near = nn.ModuleList(_Near(width, config.dropout) for _ in range(config.local_layers))
-        self.tag = nn.Linear(width, TAGS)
+        self.tag = nn.Linear(width, len(TAGS))
         self.relation = _head(width, len(RELATIONS))
         self.colour = _head(width, len(COLOURS) + 1)
         self.absent = _head(width, 1)
@@ -125,14 +105,15 @@ class Reader(nn.Module):
             if not spans:
                 found.append([])
                 continue
-            pooled = torch.stack([features[n, a:b].mean(dim=0) for a, b in spans])
+            pooled = torch.stack([features[n, a:b].mean(dim=0) for a, b, _ in spans])
             relation, colour, absent = self.attributes(pooled)
-            places = [(int(characters[n, a, 0]), int(characters[n, b - 1, 1])) for a, b in spans]
+            places = [_place(text, int(characters[n, a, 0]), int(characters[n, b - 1, 1])) for a, b, _ in spans]
             distances = said_distances(text, places)
             rows = zip(
                 places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), distances, strict=True
             )
-            found.append([Noticed(text[a:b], a, b, *rest) for (a, b), *rest in rows])
+            things = [Noticed(text[a:b], a, b, *rest) for (a, b), *rest in rows]
+            found.append(resolve(text, things, [TAGS[tag] for *_, tag in spans]))
         return found
 
 
@@ -154,8 +135,8 @@ def _head(width: int, outputs: int) -> nn.Sequential:
     return nn.Sequential(nn.Linear(width, width), nn.GELU(), nn.Linear(width, outputs))
 
 
-def _spans(tags: Tensor, characters: Tensor, mask: Tensor, text: str) -> list[tuple[int, int]]:
-    """Token ranges of the nouns; a word is taken whole, though the tokenizer may have split it."""
+def _spans(tags: Tensor, characters: Tensor, mask: Tensor, text: str) -> list[tuple[int, int, int]]:
+    """(first token, end, tag) of what is named; a word is taken whole, though the tokenizer may have split it."""
     spans: list[list[int]] = []
     real = (mask & (characters[:, 1] > characters[:, 0])).tolist()
     for t, tag in enumerate(tags.tolist()):
@@ -163,11 +144,18 @@ def _spans(tags: Tensor, characters: Tensor, mask: Tensor, text: str) -> list[tu
             continue
         same_word = t > 0 and real[t - 1] and int(characters[t, 0]) == int(characters[t - 1, 1])
         inside = bool(spans) and spans[-1][1] == t
-        if inside and (tag == 2 or (same_word and text[int(characters[t, 0])].isalnum())):
+        goes_on = tag == 1 or (inside and tag > 1 and text[: int(characters[t, 0])].endswith((" of ", " for ")))
+        if inside and (goes_on or (same_word and text[int(characters[t, 0])].isalnum())):
             spans[-1][1] = t + 1
-        elif tag == 1:
-            spans.append([t, t + 1])
-    return [(a, b) for a, b in spans]
+        elif tag > 1:
+            spans.append([t, t + 1, tag])
+    return [(a, b, tag) for a, b, tag in spans]
+
+
+def _place(text: str, start: int, end: int) -> tuple[int, int]:
+    """The characters of a noun, without a loose word at its end."""
+    loose = _LOOSE_END.search(text, start, end)
+    return start, loose.start() if loose else end
 
 
 def said_distances(text: str, places: Sequence[tuple[int, int]]) -> list[float | None]:
@@ -196,7 +184,9 @@ def _metres(unit: str) -> float:
     return _UNITS[key]
 
 
-def example_targets(mentions: Sequence[Any], characters: Tensor, mask: Tensor) -> tuple[Tensor, list[tuple[int, int]]]:
+def example_targets(
+    mentions: Sequence[Mention], characters: Tensor, mask: Tensor
+) -> tuple[Tensor, list[tuple[int, int]]]:
     """What training wants of one text: tags [T] and the token range of each mention (empty if it was cut off)."""
     tags = torch.zeros(len(mask), dtype=torch.long)
     ranges = []
@@ -204,7 +194,7 @@ def example_targets(mentions: Sequence[Any], characters: Tensor, mask: Tensor) -
         inside = (characters[:, 0] < mention.end) & (characters[:, 1] > mention.start) & mask
         tokens = inside.nonzero().flatten().tolist()
         if tokens:
-            tags[tokens] = 2
-            tags[tokens[0]] = 1
+            tags[tokens] = 1
+            tags[tokens[0]] = TAGS.index(mention.kind)
         ranges.append((tokens[0], tokens[-1] + 1) if tokens else (0, 0))
     return tags, ranges

@@ -90,6 +90,10 @@ class TextEncoder(nn.Module):
             hidden = run_layers(self.layers(0, depth), self.model.embeddings(input_ids=ids), mask)
         return TokenFeatures(hidden * mask[..., None], mask, ids), tokens["offset_mapping"]
 
+    def pieces(self, word: str) -> list[str]:
+        """The parts of a word that the vocabulary has, without their marks."""
+        return [piece.removeprefix("##") for piece in self.tokenizer.tokenize(word)]
+
     def layers(self, first: int, last: int) -> nn.ModuleList:
         """Some of its attention layers.
 

@@ -8,9 +8,11 @@ from torch import Tensor
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
 from models.language.labels import BoundLabels, LabelMatcher
-from models.language.paraphrase import RELATIONS
-from models.language.reader import COLOURS, Noticed
-from models.posterior.likelihood import Reading, colour_words
+from models.language.noticed import Noticed
+from models.language.reader import COLOURS
+from models.language.said import RELATIONS
+from models.posterior.around import colour_words
+from models.posterior.likelihood import Reading
 
 _ALIKE = 0.15  # in units of rgb: how far a colour may be from one that the palette has
 

@@ -16,6 +16,7 @@ from models.posterior.likelihood import Reading
 from models.posterior.posterior import CANDIDATES, HEAVY, Field, HintPosterior, LogPrior
 
 HIT_M = 5.0  # positions are chosen to have most of the mass this near
+BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
 MEAN_M = 3.0  # and are then the mean of the mass this near
 _TAIL = 30  # candidates at the end, from which the mass of the cells behind them is guessed
 Mask = npt.NDArray[np.bool_]
@@ -93,12 +94,11 @@ def locate(
         return None
     best_first = possible[np.argsort(-scores[possible], kind="stable")]
     chosen, left_out = best_first[:candidates], best_first[candidates:]
-    field = posterior.field(reading, chosen, log_prior, inside)
-    mass = np.full(len(chosen), -np.inf)
-    first = np.flatnonzero(np.diff(field.cell, prepend=-1))
-    highest = np.maximum.reduceat(field.log_p, first)
-    above = np.exp(field.log_p - np.repeat(highest, np.diff(np.append(first, len(field.cell)))))
-    mass[field.cell[first]] = highest + np.log(np.add.reduceat(above, first))
+    exact = inside is not None
+    field = (
+        posterior.field(reading, chosen, log_prior, inside) if exact else _field(posterior, reading, chosen, log_prior)
+    )
+    mass = _mass(field)
     rest = -np.inf
     if len(left_out):
         tail = slice(max(0, len(chosen) - _TAIL), None)
@@ -118,6 +118,33 @@ def locate(
         nodes_m=nodes_m,
         weight=weight,
     )
+
+
+def _field(posterior: HintPosterior, reading: Reading, chosen: Ints, log_prior: LogPrior | None) -> Field:
+    """The posterior over the nodes of some cells; of those that are far behind on a coarser grid, that will do."""
+    rough = posterior.field(reading, chosen, log_prior, posterior.coarse)
+    mass = _mass(rough)
+    is_near = (mass > mass.max() - BEHIND) | (mass == -np.inf)
+    near = np.flatnonzero(is_near)
+    fine = posterior.field(reading, chosen[near], log_prior)
+    kept = ~is_near[rough.cell]
+    starts = posterior.surroundings.cell_starts
+    stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
+    cell = np.concatenate([near[fine.cell], rough.cell[kept]])
+    log_p = np.concatenate([fine.log_p, rough.log_p[kept] + np.log(stands_for)[rough.cell[kept]]])
+    order = np.argsort(cell, kind="stable")
+    return Field(chosen, np.concatenate([fine.nodes, rough.nodes[kept]])[order], cell[order], log_p[order])
+
+
+def _mass(field: Field) -> Floats:
+    """[K] log of the mass of each cell of a field, -inf of those without nodes."""
+    mass = np.full(len(field.cells), -np.inf)
+    if len(field.cell):
+        first = np.flatnonzero(np.diff(field.cell, prepend=-1))
+        highest = np.maximum.reduceat(field.log_p, first)
+        above = np.exp(field.log_p - np.repeat(highest, np.diff(np.append(first, len(field.cell)))))
+        mass[field.cell[first]] = highest + np.log(np.add.reduceat(above, first))
+    return mass
 
 
 def _cell_scores(posterior: HintPosterior, reading: Reading, log_prior: LogPrior | None, inside: Mask | None) -> Floats:
@@ -146,16 +173,15 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
         square = _squares(nodes_m[centers], nodes_m[heavy])
         share = torch.from_numpy(weight[heavy] / max(weight[heavy].max(), 1e-300)).float()
         near_mass = (_bump(square / (0.9 * HIT_M) ** 2) @ share).numpy()
-        close = _bump(square / MEAN_M**2) * share + 1e-37
-        mean = (close.double() @ torch.from_numpy(nodes_m[heavy]) / close.double().sum(dim=1, keepdim=True)).numpy()
     owner = field.cell[centers]
-    positions = np.zeros((len(field.cells), 2))
+    chosen = np.zeros(len(field.cells), np.int64)
     ascending = np.lexsort((near_mass, owner))
-    positions[owner[ascending]] = mean[ascending]  # the last of a cell, that with most mass, stays
+    chosen[owner[ascending]] = ascending  # the last of a cell, that with most mass, stays
     apart = np.abs(nodes_m[centers] - cells.center_m[field.cells[order[0]], :2]).max(axis=1)
-    first_choice = np.where(apart <= cells.size_m / 2, near_mass, -1.0).argmax()
-    positions[order[0]] = mean[first_choice]
-    return positions[order]
+    chosen[order[0]] = np.where(apart <= cells.size_m / 2, near_mass, -1.0).argmax()
+    close = (_bump(square[chosen[order]] / MEAN_M**2) * share + 1e-37).double().numpy()
+    mean: Floats = close @ nodes_m[heavy] / close.sum(axis=1, keepdims=True)
+    return mean
 
 
 def _squares(at_m: Floats, around_m: Floats) -> Tensor:
@@ -168,4 +194,4 @@ def _squares(at_m: Floats, around_m: Floats) -> Tensor:
 
 def _bump(square: Tensor) -> Tensor:
     """About 1 up to a distance of 1 and 0 beyond, of squared distances; never so small that arithmetic is slow."""
-    return torch.exp(-square.pow(3).clamp(max=80.0))
+    return torch.exp(-(square * square * square).clamp(max=80.0))

@@ -13,9 +13,10 @@ from torch import Tensor
 from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.points import Ints, ranges
-from models.city.surroundings import STEP_M, Surroundings
+from models.city.surroundings import SPACING_M, STEP_M, Surroundings
 from models.city.types import Floats
-from models.posterior.likelihood import Likelihood, Reading, turns_of, way_number
+from models.posterior.around import turns_of, usual_statements, way_number
+from models.posterior.likelihood import Likelihood, Pairs, Reading
 
 CANDIDATES = 100  # cells whose nodes are looked at
 SECTORS = 9  # of a statement: the eight winds and "on-top"
@@ -65,12 +66,15 @@ class HintPosterior:
         self.likelihood, self.surroundings, self.cells = likelihood, surroundings, cells
         s = surroundings
         self._label = torch.from_numpy(label)
-        self._words = likelihood.words(torch.from_numpy(cells.parts.rgb.astype(np.float32)), palette)
+        rgb = torch.from_numpy(cells.parts.rgb.astype(np.float32))
+        self._words = likelihood.words(rgb, palette)
+        self.usual = usual_statements(self._label, rgb, palette)
         self._way = way_number(torch.from_numpy(s.way)).int()
         self._ways = likelihood.ways()
         self._share = self._shares()
         self._statements, self._columns = self._tabulate()
         self.nodes_m = s.nodes_m.astype(np.float64)
+        self.coarse = (np.round(self.nodes_m / SPACING_M) % 2 == 0).all(axis=1)
 
     def _shares(self) -> Tensor:
         """[R, 3] pi of each row, a block of nodes at a time."""
@@ -80,7 +84,7 @@ class HintPosterior:
             rows = slice(int(s.starts[begin]), int(s.starts[end]))
             node = torch.from_numpy(np.repeat(np.arange(end - begin), np.diff(s.starts[begin : end + 1])))
             way, part = torch.from_numpy(s.way[rows]), torch.from_numpy(s.part[rows]).long()
-            turn = turns_of(node, way, self._label[part]) if len(node) else torch.zeros(0, 3, dtype=torch.long)
+            turn = turns_of(node, way, self._label[part]) if len(node) else torch.zeros(0, 5, dtype=torch.long)
             whole = torch.from_numpy(s.whole[rows])
             blocks.append(self.likelihood.share_of(way_number(way), whole, turn, node, end - begin))
         return torch.cat(blocks)
@@ -139,8 +143,10 @@ class HintPosterior:
             kept = inside[nodes]
             nodes, cell = nodes[kept], cell[kept]
         rows, node, fits, part = self._rows(reading, nodes)
-        here = fits[part] * self.likelihood.places(reading, self._ways)[self._way[rows].long()]
-        log_p = self.likelihood.combine(reading, node, len(nodes), here, self._share[rows]).double().numpy()
+        model = self.likelihood
+        pairs = Pairs.of(fits, part, model.places(reading, self._ways), self._way.index_select(0, rows))
+        share, eps = self._share.index_select(0, rows), model.chance(reading, self.usual)
+        log_p = model.combine(reading, node, len(nodes), pairs, share, eps).double().numpy()
         if log_prior is not None:
             log_p = log_p + log_prior(self.nodes_m[nodes])
         return Field(cells, nodes, cell, log_p)
@@ -151,7 +157,7 @@ class HintPosterior:
         rows, _, fits, part = self._rows(reading, np.array([node]))
         share = self._share[rows].mean(dim=1, keepdim=True)
         terms = fits[part] * self.likelihood.places(reading, self._ways)[self._way[rows].long()] * share
-        eps = float(self.likelihood.background.exp())
+        eps = self.likelihood.chance(reading, self.usual)
         if not len(rows):
             return [(-1, 0.0)] * len(reading.label)
         best, total = terms.argmax(dim=0), terms.sum(dim=0)

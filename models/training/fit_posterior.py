@@ -22,7 +22,7 @@ from models.training.settings import TrainingConfig
 
 TEXTS, VALIDATION_TEXTS = 24_000, 500  # that the reader is trained on, and chosen by
 FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
-FIT_STEPS, CALIBRATION_STEPS = 300, 60
+FIT_STEPS, CALIBRATION_STEPS = 200, 60
 CALIBRATED = ("temper", "background")  # weights that validation places decide
 TEMPERS, TEMPERED_TEXTS = (
     (1.0, 0.85, 0.7, 0.6, 0.5, 0.4),
@@ -76,6 +76,19 @@ def train_posterior(
     task = ReadingTask(trained.reader, training, validation, config.batch_size)
     record = {"method": "posterior", "model": model.model_dump(), "training": config.model_dump(mode="json")}
     history = run_training(task, config, run_dir, resume, progress, record=json.loads(json.dumps(record)))
+    return fit_and_save(trained, validation, data, splits, out, config, history.best_step)
+
+
+def fit_and_save(
+    trained: PosteriorModel,
+    validation: ReadingSet,
+    data: Sequence[Path],
+    splits: tuple[str, str],
+    out: Path,
+    config: TrainingConfig,
+    best_step: int,
+) -> dict[str, float]:
+    """What is left to do when the reader is trained; arguments and return as `train_posterior`."""
     trained.eval()
     rng = np.random.default_rng(config.seed)
     fitted = fit_places(trained, [load_place(path, splits[0]) for path in data], rng)
@@ -84,7 +97,7 @@ def train_posterior(
     facts: dict[str, Any] = {
         "config": config.model_dump(mode="json"),
         "data": [path.resolve().name for path in data],
-        "best_step": history.best_step,
+        "best_step": best_step,
         "surprise": fitted,
         "validation": figures,
     }

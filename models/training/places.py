@@ -17,7 +17,8 @@ from models.city.regions import split_regions
 from models.city.surroundings import Bodies, Surroundings
 from models.city.types import DIRECTIONS, CutRules, Floats, Hint
 from models.language.grammar_files import Grammar
-from models.language.paraphrase import Fact, Wording
+from models.language.paraphrase import Wording
+from models.language.said import Fact
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
@@ -25,7 +26,8 @@ from models.posterior.posterior import HintPosterior
 
 READ_AT_ONCE = 16
 POSITION_SPACING_M = 10.0
-SLIPS = 0.1  # share of the texts that say something wrong, as people do
+SLIPS = 0.15  # share of the texts that say something wrong, as people do
+SLIPS_OF_CLASS = 0.4  # of those, that name something else; the others give another direction and colour
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,7 +75,7 @@ class Place:
             grammar = grammars[int(rng.integers(len(grammars)))]
             facts = [Fact(hint.label, hint.direction, hint.colour) for hint in self.hints[row]]
             if rng.random() < SLIPS:
-                facts = _slip(facts, self.palette, rng)
+                facts = _slip(facts, self.palette, self.labels, rng)
             wording = wordings[grammar]
             texts.append((wording.write(facts, rng) if grammar else wording.published(facts)).text)
         readings = []
@@ -83,13 +85,17 @@ class Place:
         return readings
 
 
-def _slip(facts: Sequence[Fact], palette: Palette, rng: np.random.Generator) -> list[Fact]:
-    """The same but for one, of which another direction and another colour is said than is true."""
+def _slip(facts: Sequence[Fact], palette: Palette, labels: Sequence[str], rng: np.random.Generator) -> list[Fact]:
+    """The same but for one: it is of another class, or of another colour and in another direction, than is true."""
     at = int(rng.integers(len(facts)))
-    winds = [wind for wind in DIRECTIONS[:4] if wind != facts[at].relation]
-    words = [word for word in dict.fromkeys(palette.words) if word != facts[at].colour]
-    colour = words[int(rng.integers(len(words)))] if facts[at].colour else None
-    wrong = replace(facts[at], relation=winds[int(rng.integers(len(winds)))], colour=colour)
+    fact = facts[at]
+    if rng.random() < SLIPS_OF_CLASS:
+        others = [label for label in labels if label != fact.label] or [fact.label]
+        return [*facts[:at], replace(fact, label=others[int(rng.integers(len(others)))]), *facts[at + 1 :]]
+    winds = [wind for wind in DIRECTIONS[:4] if wind != fact.relation]
+    words = [word for word in dict.fromkeys(palette.words) if word != fact.colour]
+    colour = words[int(rng.integers(len(words)))] if fact.colour else None
+    wrong = replace(fact, relation=winds[int(rng.integers(len(winds)))], colour=colour)
     return [*facts[:at], wrong, *facts[at + 1 :]]
 
 

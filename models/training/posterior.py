@@ -11,7 +11,8 @@ from torch import Tensor
 
 from models.city.cells import CellTable
 from models.city.points import Ints, ranges
-from models.posterior.likelihood import Around, Likelihood, Reading, turns_of, way_number
+from models.posterior.around import Around, turns_of, way_number
+from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.posterior import HintPosterior
 from models.training.places import Place
 
@@ -54,7 +55,7 @@ def fit_likelihood(
         progress: called with (steps done, steps, mean loss of the last ones).
     """
     sizes = np.array([len(part.readings) for part in texts], dtype=np.float64)
-    start = [part.place.posterior(likelihood) for part in texts]  # only for choosing cells
+    start = [part.place.posterior(likelihood) for part in texts]  # for choosing cells, and what is usual there
     trees = [_tree(part.place.cells) for part in texts]
     optimizer = torch.optim.Adam(likelihood.parameters(), LEARNING_RATE)
     losses: list[float] = []
@@ -65,7 +66,8 @@ def fit_likelihood(
         for _ in range(BATCH):
             n = int(rng.choice(len(texts), p=sizes / sizes.sum()))
             query = int(rng.integers(len(texts[n].readings)))
-            loss = surprise(likelihood, texts[n], query, _cells(texts[n], start[n], trees[n], query, rng))
+            cells = _cells(texts[n], start[n], trees[n], query, rng)
+            loss = surprise(likelihood, texts[n], query, cells, start[n].usual)
             (loss / BATCH).backward()
             losses.append(loss.item())
         torch.nn.utils.clip_grad_norm_(likelihood.parameters(), 5.0)
@@ -74,11 +76,11 @@ def fit_likelihood(
             progress(step + 1, steps, float(np.mean(losses[-20 * BATCH :])))
 
 
-def surprise(likelihood: Likelihood, texts: Texts, query: int, cells: Ints) -> Tensor:
-    """-log of the posterior density at the truth, among the nodes of some cells."""
+def surprise(likelihood: Likelihood, texts: Texts, query: int, cells: Ints, usual: Tensor) -> Tensor:
+    """-log of the posterior density at the truth, among the nodes of some cells; `usual` of the place."""
     place, row = texts.place, int(texts.rows[query])
     nodes, around = around_cells(place, cells)
-    log_p = likelihood(texts.readings[query], around, place.palette)
+    log_p = likelihood(texts.readings[query], around, place.palette, usual)
     scene = np.unique(place.cells.scenes, return_inverse=True)[1]
     owner = np.repeat(cells, np.diff(place.surroundings.cell_starts)[cells])
     away = ((place.surroundings.nodes_m[nodes] - place.positions_m[row]) ** 2).sum(axis=1)

@@ -9,14 +9,16 @@ import torch
 from torch import Tensor, nn
 
 from models.language.grammar_files import Grammar
-from models.language.paraphrase import RELATIONS, WINDS, Fact, Said, Wording
+from models.language.paraphrase import Wording
 from models.language.reader import COLOURS, Reader, example_targets
+from models.language.said import RELATIONS, WINDS, Fact, Mention, Said
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
 ENCODED_AT_ONCE = 32
 MOST_FACTS = 8
 LIKE_LENGTH = 8  # a batch is drawn from so many batches' worth of texts, neighbours in length
 PUBLISHED = 0.3  # share of the texts in the benchmark's words, of those that it can say
+ALIKE = (0.3, 0.25, 0.2)  # how often a fact has the class, the direction, the colour of an earlier one
 CARDINAL = (0, 2, 4, 6)  # of WINDS; people and the benchmark say them most
 # Names are made of these, so that the reader learns how a name is used and no name by heart.
 NAME_WORDS = (
@@ -35,7 +37,20 @@ NAME_FRAMES = (
 def draw_facts(wording: Wording, rng: np.random.Generator, labels: Sequence[str] | None = None) -> list[Fact]:
     """Made-up facts of a text: what a reader must be ready for, not what a place looks like."""
     names = labels or tuple(wording.labels)
-    return [_draw_fact(names, rng) for _ in range(int(rng.integers(1, MOST_FACTS + 1)))]
+    facts = [_draw_fact(names, rng) for _ in range(int(rng.integers(1, MOST_FACTS + 1)))]
+    return [_alike(fact, facts[int(rng.integers(n + 1))], rng) for n, fact in enumerate(facts)]
+
+
+def _alike(fact: Fact, other: Fact, rng: np.random.Generator) -> Fact:
+    """Now and then of another's class, where it is, or of its colour, as the things of a place are."""
+    if not (fact.is_simple and other.is_simple):
+        return fact
+    label, relation, colour = rng.random(3) < ALIKE
+    return Fact(
+        other.label if label else fact.label,
+        other.relation if relation else fact.relation,
+        other.colour if colour else fact.colour,
+    )
 
 
 def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> Fact:
@@ -140,18 +155,17 @@ class ReadingSet:
             values[k, :length] = self._values[n].float()
             tags[k, :length] = self._targets[n][0]
             for mention, (a, b) in zip(self.said[n].mentions, self._targets[n][1], strict=True):
-                if b > a:
-                    spans.append((k, a, b, *_wanted(self.facts[n][mention.fact])))
+                if b > a and mention.facts:
+                    spans.append((k, a, b, *_wanted(self.facts[n][mention.facts[0]], mention)))
         mask = tags != -100
         columns = torch.tensor(spans, dtype=torch.long).reshape(-1, 6).T
         return ReadingBatch(TokenFeatures(values, mask, torch.zeros_like(tags)), tags, *columns)
 
 
-def _wanted(fact: Fact) -> tuple[int, int, int]:
-    """Relation, colour and absence that a text settles of a fact."""
+def _wanted(fact: Fact, mention: Mention) -> tuple[int, int, int]:
+    """Relation, colour and absence that a text settles of a fact where it mentions it."""
     relation = -100 if fact.absent else RELATIONS.index(fact.relation)
-    unsaid = fact.colour is None or fact.name is not None
-    return relation, len(COLOURS) if unsaid else COLOURS.index(str(fact.colour)), int(fact.absent)
+    return relation, COLOURS.index(str(fact.colour)) if mention.coloured else len(COLOURS), int(fact.absent)
 
 
 class ReadingTask:
@@ -210,9 +224,9 @@ def reading_figures(model: Reader, texts: ReadingSet) -> dict[str, float]:
         batch = texts.batch(range(start, min(start + 64, len(texts))))
         features = model(batch.tokens)
         tags = model.tag(features).argmax(dim=-1)
-        extra += int(((tags == 1) & (batch.tags == 0)).sum())
+        extra += int(((tags > 1) & (batch.tags == 0)).sum())
         relation, colour, absent = model.attributes(pooled(features, batch))
-        found = tags[batch.text, batch.start] == 1
+        found = tags[batch.text, batch.start] == batch.tags[batch.text, batch.start]
         rows["noun"].append(found)
         rows["relation"].append((relation.argmax(-1) == batch.relation) | (batch.relation < 0))
         rows["colour"].append(colour.argmax(-1) == batch.colour)

@@ -4,10 +4,21 @@ import torch
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.labels import LabelMatcher, bound_names, meaning_in
 from models.language.landmarks import Landmarks
-from models.language.paraphrase import RELATIONS, Fact, Wording
-from models.language.reader import COLOURS, Noticed, Reader, ReaderConfig, example_targets, said_distances
+from models.language.noticed import Noticed
+from models.language.paraphrase import Wording
+from models.language.reader import (
+    COLOURS,
+    TAGS,
+    Reader,
+    ReaderConfig,
+    _place,
+    _spans,
+    example_targets,
+    said_distances,
+)
+from models.language.said import RELATIONS, Fact
+from models.posterior.around import colour_words
 from models.posterior.binding import Binding, colour_table
-from models.posterior.likelihood import colour_words
 from models.training.loop import LoopConfig, run_training
 from models.training.reading import ReadingSet, ReadingTask, draw_facts, reading_figures
 
@@ -36,8 +47,24 @@ def test_targets_mark_the_tokens_of_the_noun(text_encoder):
     for mention, (a, b) in zip(said.mentions, ranges, strict=True):
         start, end = int(characters[0, a, 0]), int(characters[0, b - 1, 1])
         assert said.text[start:end] == mention.noun
-        assert tags[a:b].tolist() == [1] + [2] * (b - a - 1)
+        assert [TAGS[tag] for tag in tags[a:b]] == ["noun"] + ["further"] * (b - a - 1)
     assert int((tags > 0).sum()) == sum(b - a for a, b in ranges)
+
+
+@pytest.mark.parametrize(
+    ("text", "tags", "nouns"),
+    [
+        ("a patch of ground north", [0, 0, 2, 1, 2, 0, 0], ["patch of ground"]),
+        ("a house with shrubs", [0, 0, 2, 1, 2, 0], ["house", "shrubs"]),
+        ("a road sign", [0, 0, 2, 2, 0], ["road", "sign"]),
+        ("one lamp , another", [0, 0, 2, 0, 4, 0], ["lamp", "another"]),
+    ],
+)
+def test_nouns_are_whole_and_end_where_they_end(text_encoder, text, tags, nouns):
+    tokens, characters = text_encoder.read([text], 1)
+    spans = _spans(torch.tensor(tags), characters[0], tokens.mask[0], text)
+    places = [_place(text, int(characters[0, a, 0]), int(characters[0, b - 1, 1])) for a, b, _ in spans]
+    assert [text[a:b] for a, b in places] == nouns
 
 
 def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder):

@@ -6,16 +6,9 @@ import torch
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.city.surroundings import STEP_M
-from models.posterior.likelihood import (
-    HABITS,
-    RELATIONS,
-    Around,
-    Likelihood,
-    Reading,
-    colour_words,
-    turns_of,
-    way_number,
-)
+from models.language.said import RELATIONS
+from models.posterior.around import Around, colour_words, turns_of, usual_statements, way_number
+from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
 
 WORDS = len(colour_words(KITTI360_PALETTE))
 
@@ -66,10 +59,21 @@ def place_of(model, relation, east, north):
     return total
 
 
+def usual_of(here):
+    return usual_statements(here.label, here.rgb, KITTI360_PALETTE)
+
+
 @torch.no_grad()
 def naive(model, said, here, way, palette):
     """log p(T | x) of each node by loops."""
-    eps = math.exp(float(model.background))
+    usual = usual_of(here)
+    eps = []
+    for h in range(len(said.label)):
+        share = sum(
+            float(said.label[h, n]) * sum(float(usual[n, w]) * float(said.colour[h, w]) for w in range(WORDS + 1))
+            for n in range(len(usual))
+        )
+        eps.append(math.exp(float(model.background)) + math.exp(float(model.common)) * share)
     words = model.words(here.rgb, palette)
     found = []
     for m in range(here.nodes):
@@ -79,7 +83,8 @@ def naive(model, said, here, way, palette):
             pi = []
             for r in rows:
                 radius = float((way[r].double() * STEP_M).norm())
-                log_pi = (float(model.distance[0]) * radius + float(model.distance[1]) * radius**2 / 10) / 10
+                log_pi = (float(model.distance[0, k]) * radius + float(model.distance[1, k]) * radius**2 / 10) / 10
+                log_pi -= sum(math.log(int(here.turn[r, 3 + n])) * float(model.among[n, k]) for n in range(2))
                 log_pi += sum(float(w[int(here.turn[r, n]), k]) for n, w in enumerate(model.turns))
                 pi.append(math.exp(log_pi + (0.0 if here.whole[r] else float(model.partly))))
             mass = sum(pi) + 1e-3
@@ -89,20 +94,21 @@ def naive(model, said, here, way, palette):
                 part = int(here.part[r])
                 row = []
                 for h in range(len(said.label)):
-                    label = float(said.label[h, here.label[part]]) + math.exp(float(model.label_slip))
+                    label = float(said.label[h, here.label[part]])
                     colour = float(words[part] @ said.colour[h, :-1]) + float(said.colour[h, -1])
                     place = place_of(model, said.relation[h], east, north) + math.exp(model.relation_slip)
-                    row.append(label * colour * place * weight / mass ** float(model.crowding))
+                    fits = label * colour * place
+                    row.append((fits if fits > FAINT else 0.0) * weight / mass ** float(model.crowding))
                 terms.append(row)
             first = [sum(t[h] for t in terms) for h in range(len(said.label))]
             power = math.exp(float(model.twice))
             singles = []
             for t in terms:
-                load = sum(t[h] / (first[h] + eps) for h in range(len(t)))
+                load = sum(t[h] / (first[h] + eps[h]) for h in range(len(t)))
                 singles.append((1 + max(0.0, load - 1)) ** -power)
             total = [sum(t[h] * s for t, s in zip(terms, singles, strict=True)) for h in range(len(said.label))]
             habit = float(model.habit.log_softmax(0)[k])
-            mixed.append(habit + sum(math.log(x + eps) for x in total))
+            mixed.append(habit + sum(math.log(x + e) for x, e in zip(total, eps, strict=True)))
         found.append(math.exp(float(model.temper)) * float(torch.tensor(mixed, dtype=torch.float64).logsumexp(0)))
     return found
 
@@ -122,7 +128,7 @@ def test_the_likelihood_is_that_of_a_naive_loop(model):
         rng = np.random.default_rng(seed)
         here, way = around(rng)
         said = reading(rng, 3, 4)
-        assert model(said, here, KITTI360_PALETTE).tolist() == pytest.approx(
+        assert model(said, here, KITTI360_PALETTE, usual_of(here)).tolist() == pytest.approx(
             naive(model, said, here, way, KITTI360_PALETTE), abs=2e-3
         )
 
@@ -132,15 +138,15 @@ def test_its_gradients_are_those_of_finite_differences(model):
     here, _ = around(rng)
     said = reading(rng, 3, 4, distance=6.0)
     said.distance_m[1] = math.nan
-    loss = model(said, here, KITTI360_PALETTE).sum()
+    loss = model(said, here, KITTI360_PALETTE, usual_of(here)).sum()
     loss.backward()
-    for name in ("background", "crowding", "colour_spread", "twice", "measured", "near"):
+    for name in ("background", "common", "crowding", "colour_spread", "twice", "measured", "near"):
         parameter = dict(model.named_parameters())[name]
         with torch.no_grad():
             values = []
             for step in (1e-2, -1e-2):
                 parameter.add_(step)
-                values.append(float(model(said, here, KITTI360_PALETTE).sum()))
+                values.append(float(model(said, here, KITTI360_PALETTE, usual_of(here)).sum()))
                 parameter.sub_(step)
         assert float(parameter.grad) == pytest.approx((values[0] - values[1]) / 2e-2, rel=0.05, abs=0.02), name
 
@@ -152,7 +158,11 @@ def test_the_order_of_hints_does_not_matter(model):
     turned = Reading(
         *(column.flip(0) for column in (said.relation, said.label, said.colour, said.distance_m, said.absent))
     )
-    assert torch.allclose(model(said, here, KITTI360_PALETTE), model(turned, here, KITTI360_PALETTE), atol=1e-4)
+    assert torch.allclose(
+        model(said, here, KITTI360_PALETTE, usual_of(here)),
+        model(turned, here, KITTI360_PALETTE, usual_of(here)),
+        atol=1e-4,
+    )
 
 
 def test_the_winds_share_the_compass(model):
@@ -191,7 +201,7 @@ def test_what_is_absent_is_not_near(model):
     colour[0, -1] = 1.0
     for absent, better in ((0.0, 0), (1.0, 1)):
         said = Reading(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.tensor([absent]))
-        log_p = model(said, here, KITTI360_PALETTE)
+        log_p = model(said, here, KITTI360_PALETTE, usual_of(here))
         assert int(log_p.argmax()) == better, "node 0 has the thing, node 1 has nothing"
 
 
@@ -199,7 +209,38 @@ def test_turns_count_what_is_nearer():
     node = torch.tensor([0, 0, 0, 0, 1])
     way = torch.tensor([[0, 2], [0, 20], [0, 40], [50, 0], [0, 30]], dtype=torch.int8)
     label = torch.tensor([1, 0, 1, 0, 0])
-    assert turns_of(node, way, label).tolist() == [[0, 0, 0], [1, 0, 0], [2, 1, 1], [3, 1, 0], [0, 0, 0]]
+    assert turns_of(node, way, label).tolist() == [
+        [0, 0, 0, 2, 1],  # on top
+        [1, 0, 0, 2, 2],
+        [2, 1, 1, 2, 2],
+        [3, 1, 0, 2, 1],
+        [0, 0, 0, 1, 1],
+    ]
+
+
+def test_what_is_usual_in_a_map():
+    label = torch.tensor([0, 0, 1, 0])
+    rgb = torch.tensor(KITTI360_PALETTE.centers, dtype=torch.float32)[[0, 0, 2, 2]] / 255
+    rgb[2] = math.nan
+    usual = usual_statements(label, rgb, KITTI360_PALETTE)
+    words = colour_words(KITTI360_PALETTE)
+    assert usual[0, words.index("dark-green")] == 0.5
+    assert usual[0, words.index("gray-green")] == 0.25
+    assert usual[:, -1].tolist() == [0.75, 0.25]
+    assert usual[1, :-1].sum() == 0
+
+
+def test_a_hint_that_nothing_explains_costs_less_where_it_is_usual(model):
+    usual = torch.tensor([[0.3] * WORDS + [0.9], [0.0] * WORDS + [0.1]])
+    said = Reading(
+        torch.eye(len(RELATIONS))[:2],
+        torch.eye(2),
+        torch.eye(WORDS + 1)[[0, 0]],
+        torch.full((2,), math.nan),
+        torch.zeros(2),
+    )
+    often, seldom = model.chance(said, usual)
+    assert often > seldom
 
 
 def test_colours_are_named_by_their_nearest_word(model):

@@ -8,7 +8,9 @@ import torch
 
 from models.city.hints import describe_poses, sample_positions
 from models.city.surroundings import Bodies, Surroundings
-from models.posterior.likelihood import RELATIONS, Likelihood, Reading, colour_words
+from models.language.said import RELATIONS
+from models.posterior.around import colour_words
+from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import locate
 from models.posterior.posterior import HintPosterior
 from models.training.places import Place
@@ -60,7 +62,7 @@ def test_the_field_is_the_likelihood_of_its_nodes(town):
         nodes, around = around_cells(town.place, cells)
         assert (field.nodes == nodes).all()
         with torch.no_grad():
-            direct = town.posterior.likelihood(reading, around, town.place.palette)
+            direct = town.posterior.likelihood(reading, around, town.place.palette, town.posterior.usual)
         assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
 
 
@@ -87,6 +89,17 @@ def test_probabilities_add_up_and_radii_are_in_order(town):
         assert 0 < p50 <= p90 <= 500.0
         eigenvalues = np.linalg.eigvalsh(found.covariance(500.0, 1.5))
         assert (eigenvalues > 0).all()
+
+
+def test_cells_far_behind_may_be_looked_at_roughly(town, monkeypatch):
+    rough = [locate(town.posterior, reading) for reading in town.readings[:30]]
+    monkeypatch.setattr("models.posterior.locate.BEHIND", np.inf)
+    exact = [locate(town.posterior, reading) for reading in town.readings[:30]]
+    assert any(len(a.nodes) < len(b.nodes) for a, b in zip(rough, exact, strict=True)), "some cells are left rough"
+    for a, b in zip(rough, exact, strict=True):
+        assert a.rows[0] == b.rows[0]
+        assert a.probability[0] == pytest.approx(b.probability[0], abs=0.01)
+        assert np.allclose(a.positions[0], b.positions[0], atol=0.01)
 
 
 def test_one_hint_leaves_much_open(town):
@@ -148,12 +161,11 @@ def test_a_named_landmark_binds_the_hint(town, cells):
     named = Reading(reading.relation[:1] * 0 + torch.eye(10)[9], reading.label[:1], reading.colour[:1],
                     reading.distance_m[:1], reading.absent[:1], {0: bears})  # fmt: skip
     found = locate(town.posterior, named)
-    shown = {
-        c
-        for c in np.flatnonzero(np.diff(cells.parts.starts))
-        if bears[cells.parts.starts[c] : cells.parts.starts[c + 1]].any()
-    }
-    assert set(found.rows[:3].tolist()) <= shown
+    around = town.place.surroundings
+    rows = np.flatnonzero(cells.parts.instance[around.part] == cells.parts.instance[part])
+    sees = around.nodes_m[np.searchsorted(around.starts, rows, side="right") - 1]
+    for position in found.positions[:3]:
+        assert np.linalg.norm(sees - position, axis=1).min() < 3.0, "from where the landmark is near"
 
 
 def test_fitting_makes_the_truth_likelier(town):
@@ -162,7 +174,9 @@ def test_fitting_makes_the_truth_likelier(town):
     def surprised(likelihood):
         asked = [np.union1d(cells, town.place.truth[q : q + 1]) for q in range(0, 40, 4)]
         with torch.no_grad():
-            return np.mean([float(surprise(likelihood, texts, 4 * n, some)) for n, some in enumerate(asked)])
+            return np.mean(
+                [float(surprise(likelihood, texts, 4 * n, some, town.posterior.usual)) for n, some in enumerate(asked)]
+            )
 
     fitted = [Likelihood() for _ in range(2)]
     for likelihood in fitted:

@@ -1,0 +1,185 @@
+"""Passages: phrases about several things at once, and which facts they can tell.
+
+A passage is a phrase with numbered slots, as in `models.language.paraphrase`, and these besides. {o12}: the direction
+that things 1 and 2 share; {c12}: their colour, if they have the same; {ns12}: the noun of both in the plural, if they
+are of one class, without colour; {1:one}, {2:the other}: words that stand for one of them; {c1=}, {c2=}: the colours
+of each, which stand for it ("three poles, a gray, a black and a beige"). {a3!}: a thing that the
+speaker stands on or touches; {a3~}: one that is close by in no direction. {nb1}: the noun alone.
+What a passage's slots ask of its things is its pattern: a thing with neither mark needs a direction, and a slot {c1}
+needs a colour.
+"""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+from models.language.said import Fact
+
+SLOT: Final = re.compile(r"\{(?:(\d):([^{}]+)|([a-zA-Z]+)(\d*)([!~=]?))\}")
+_NAMING = ("a", "A", "the", "The", "n", "b", "theb", "nb")
+_SLOTS = {*_NAMING, "d", "o", "c", "ns"}
+_CLOSE = {"!": "on-top", "~": "near"}
+_HEAD_ENDS = re.compile(r" (?:of|that|where|which|with|for|on|in|to|by|from|beside|under|over|between|at)\b")
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A phrase and its pattern.
+
+    Attributes:
+        phrase: with its slots.
+    """
+
+    phrase: str
+
+    @cached_property
+    def slots(self) -> list[tuple[str, tuple[int, ...], str]]:
+        """(what, numbers from 0, mark) of each slot; of words that stand for a thing "=", and the mark is the words."""
+        found = []
+        for number, words, what, numbers, mark in SLOT.findall(self.phrase):
+            found.append(("=", (int(number) - 1,), words) if number else (what, _numbers(numbers), mark))
+        return found
+
+    @cached_property
+    def pieces(self) -> list[tuple[str, tuple[str, tuple[int, ...], str]]]:
+        """The text before each slot, and the slot."""
+        ends = [m.span() for m in SLOT.finditer(self.phrase)]
+        starts = [0, *(end for _, end in ends)]
+        return [(self.phrase[a:b], slot) for a, (b, _), slot in zip(starts, ends, self.slots, strict=False)]
+
+    @cached_property
+    def end(self) -> str:
+        """The text after the last slot."""
+        return SLOT.split(self.phrase)[-1]
+
+    @cached_property
+    def things(self) -> int:
+        """How many it tells of."""
+        return 1 + max(n for _, numbers, _ in self.slots for n in numbers)
+
+    @cached_property
+    def stand_ins(self) -> list[int]:
+        """The things that words or colours stand for."""
+        return [
+            n for what, numbers, mark in self.slots if what == "=" or (what == "c" and mark == "=") for n in numbers
+        ]
+
+    @cached_property
+    def close(self) -> dict[int, str]:
+        """The relation of the things that have none of the winds."""
+        return {
+            n: _CLOSE[mark] for what, numbers, mark in self.slots if mark in _CLOSE and what in _NAMING for n in numbers
+        }
+
+    def shared(self, what: str) -> list[tuple[int, ...]]:
+        """The numbers of each slot of a kind, say those of one colour."""
+        return [numbers for kind, numbers, _ in self.slots if kind == what]
+
+    def problem(self) -> str | None:
+        """What is wrong with it, None if nothing is."""
+        numbers = {n for _, some, _ in self.slots for n in some}
+        named = [n for kind in (*_NAMING, "ns") for some in self.shared(kind) for n in some]
+        directed = {n for kind in "do" for some in self.shared(kind) for n in some}
+        stand_ins = self.stand_ins
+        plural = [n for some in self.shared("ns") for n in some]
+        unknown = {what for what, _, _ in self.slots} - _SLOTS - {"="}
+        checks = (
+            (bool(unknown), f"unknown slots {sorted(unknown)}"),
+            (SLOT.sub("", self.phrase).count("{") > 0, "a brace is not part of a slot"),
+            (numbers != set(range(len(numbers))), "things must be numbered 1, 2, ... without a gap"),
+            (not 2 <= len(numbers) <= 6, "a passage is about two to six things"),
+            (set(named) != numbers, "each thing must be named, by a slot such as {a1} or together with {ns12}"),
+            (any(named.count(n) > 1 and n in plural for n in numbers), "a thing of {ns12} needs no other noun"),
+            (any(len(s) < 2 for s in self.shared("ns")), "{ns12} is for two things or more"),
+            (directed | set(self.close) != numbers, "each thing needs a direction, {a1!} or {a1~}, to be told where"),
+            (bool(directed & set(self.close)), "a thing has a direction, or is marked with ! or ~, not both"),
+            (len(set(stand_ins)) != len(stand_ins), "only one pair of words can stand for a thing"),
+            (not set(stand_ins) <= set(plural), "words stand for a thing only where {ns..} named it"),
+            (
+                any(0 < len(set(s) & set(stand_ins)) < len(s) for s in self.shared("ns")),
+                "one stand-in a thing, or none",
+            ),
+            (
+                self._splits_a_plural(),
+                "what {ns12} names without stand-ins has one direction, {o12}, and one colour, {c12}",
+            ),
+            (bool(re.search(r"\b(north|south|east|west)", SLOT.sub("", self.phrase), re.I)), "directions are slots"),
+        )
+        return next((message for wrong, message in checks if wrong), None)
+
+    def _splits_a_plural(self) -> bool:
+        """Whether something is said of one of several things that only a plural names."""
+        stand_ins = set(self.stand_ins)
+        alone = [set(some) for some in self.shared("ns") if not stand_ins & set(some)]
+        said = [set(some) for kind in "doc" for some in self.shared(kind)]
+        return any(group & some and not group <= some for group in alone for some in said)
+
+    def match(self, facts: Sequence[Fact], left: Sequence[int]) -> list[int] | None:
+        """The facts that its things may be, in the order of its numbers; None if they cannot.
+
+        Args:
+            facts: of `models.language.said.Fact`.
+            left: which of them may be taken, in the order that they are tried in.
+        """
+        taken: list[int] = []
+        return taken if len(left) >= self.things and self._extend(facts, left, taken) else None
+
+    def _extend(self, facts: Sequence[Fact], left: Sequence[int], taken: list[int]) -> bool:
+        if len(taken) == self.things:
+            return True
+        for n in left:
+            if n not in taken and self._may_be(facts, taken, n):
+                taken.append(n)
+                if self._extend(facts, left, taken):
+                    return True
+                taken.pop()
+        return False
+
+    def _may_be(self, facts: Sequence[Fact], taken: Sequence[int], fact: int) -> bool:
+        """Whether a fact can be the next thing, beside those taken."""
+        at, said = len(taken), facts[fact]
+        if at in self.close:
+            if said.relation != self.close[at]:
+                return False
+        elif said.relation in _CLOSE.values():
+            return False
+        if said.colour is None and any(at in numbers for numbers in self.shared("c")):
+            return False
+        agree: tuple[tuple[str, Callable[[Fact], str | None]], ...] = (
+            ("o", lambda f: f.relation),
+            ("d", lambda f: f.relation),
+            ("c", lambda f: f.colour),
+            ("ns", lambda f: f.label),
+        )
+        return all(
+            value(facts[taken[n]]) == value(said)
+            for kind, value in agree
+            for numbers in self.shared(kind)
+            if at in numbers
+            for n in numbers
+            if n < at
+        ) and self._is_alike(facts, taken, said)
+
+    def _is_alike(self, facts: Sequence[Fact], taken: Sequence[int], said: Fact) -> bool:
+        """What nothing but a plural names must be alike in all that is said of it at once."""
+        for numbers in self.shared("ns"):
+            if len(taken) in numbers and len(taken) not in self.stand_ins:
+                return all(facts[taken[n]].relation == said.relation for n in numbers if n < len(taken))
+        return True
+
+
+def plural(noun: str) -> str:
+    """The plural of a noun phrase: of its head, "sets of lights"."""
+    end = _HEAD_ENDS.search(noun)
+    head, rest = (noun[: end.start()], noun[end.start() :]) if end else (noun, "")
+    if head.endswith("s") and not head.endswith(("ss", "us", "is")):
+        return noun
+    if re.search(r"(s|x|ch|sh|z)$", head):
+        return f"{head}es{rest}"
+    return f"{re.sub('y$', 'ie', head) if re.search('[^aeiou]y$', head) else head}s{rest}"
+
+
+def _numbers(digits: str) -> tuple[int, ...]:
+    return tuple(int(digit) - 1 for digit in digits) or (0,)

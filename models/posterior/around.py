@@ -1,0 +1,98 @@
+"""What is around the nodes of a map, as the likelihood takes it."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from models.city.colours import Palette
+from models.city.hints import ON_TOP_M
+from models.city.surroundings import STEP_M
+
+TURNS: Final = (16, 4, 4)  # numbers beyond these are as their last
+OFFSET: Final = 128  # ways are int8; a pair of them numbers a row of the tables
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Around:
+    """The surroundings of M nodes, as torch takes them.
+
+    Attributes:
+        node: [R] node of each row, ascending.
+        way: [R] number of the way from the instance's closest point, see `way_number`.
+        whole: [R] bool, see `models.city.surroundings.Surroundings`.
+        turn: [R, 5] how many nearer instances there are, and how many in all, see `turns_of`.
+        part: [R] row of `label` and `word`.
+        label: [P] label of each part.
+        rgb: [P, 3] colour of each, 0..1, NaN where unknown.
+        nodes: M.
+    """
+
+    node: Tensor
+    way: Tensor
+    whole: Tensor
+    turn: Tensor
+    part: Tensor
+    label: Tensor
+    rgb: Tensor
+    nodes: int
+
+
+def way_number(way: Tensor) -> Tensor:
+    """[R] int64 of ways [R, 2] int8."""
+    shifted = way.long() + OFFSET
+    return shifted[:, 0] * 256 + shifted[:, 1]
+
+
+def turns_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
+    """[R, 5] nearer instances of a node: in all, of the same class, in the same direction; then all of the last two.
+
+    Args:
+        node: [R] node of each row, ascending, nearest first.
+        way: [R, 2] int8, see Surroundings.
+        label: [R] label of each row.
+    """
+    east, north = way.long().unbind(1)
+    sector = torch.where(east.abs() > north.abs(), (east > 0).long(), 2 + (north > 0).long())
+    sector = torch.where(torch.hypot(east.float(), north.float()) * STEP_M < ON_TOP_M, 4, sector)
+    keys = [node, node * (int(label.max()) + 1) + label if len(label) else node, node * 5 + sector]
+    turns, numbers = zip(*(_counted(key) for key in keys), strict=True)
+    nearer = [c.clamp(max=size - 1) for c, size in zip(turns, TURNS, strict=True)]
+    return torch.stack([*nearer, *numbers[1:]], dim=1)
+
+
+def _counted(key: Tensor) -> tuple[Tensor, Tensor]:
+    """[R] how many earlier rows have the same key, [R] how many rows have it."""
+    ordered, order = key.sort(stable=True)
+    _, group, size = ordered.unique_consecutive(return_inverse=True, return_counts=True)
+    earlier = torch.arange(len(key)) - (size.cumsum(0) - size)[group]
+    back = torch.empty_like(order).index_put_((order,), torch.arange(len(key)))
+    return earlier[back], size[group][back]
+
+
+def usual_statements(label: Tensor, rgb: Tensor, palette: Palette) -> Tensor:
+    """[L, W + 1] share of a map's parts that have a label and a colour word; last, that have the label.
+
+    Args:
+        label: [P] of each part.
+        rgb: [P, 3] colour of each, 0..1, NaN where unknown.
+        palette: the map's words.
+    """
+    names = colour_words(palette)
+    centers = torch.tensor(np.asarray(palette.centers) / 255, dtype=torch.float32)
+    column = torch.tensor([names.index(word) for word in palette.words])
+    known = ~rgb.isnan().any(dim=1)
+    table = torch.zeros(int(label.max()) + 1, len(names) + 1)
+    ones = torch.ones(len(label))
+    table.index_put_(
+        (label[known], column[torch.cdist(rgb[known], centers).argmin(dim=1)]), ones[known], accumulate=True
+    )
+    table.index_put_((label, torch.tensor(len(names))), ones, accumulate=True)
+    return table / len(label)
+
+
+def colour_words(palette: Palette) -> list[str]:
+    """A palette's words, each once, in order."""
+    return list(dict.fromkeys(palette.words))
