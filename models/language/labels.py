@@ -103,13 +103,18 @@ class LabelMatcher(nn.Module):
 
 @cache
 def bound_names(map_labels: tuple[str, ...]) -> tuple[list[str], list[int]]:
-    """Every known name, and the number of the map's label that it leads to; the number of labels if to none."""
+    """Every known name, and the number of the map's label that it leads to; the number of labels if to none.
+
+    What names a label of the map does not stand for its relatives too: trees are no bushes where there are trees.
+    """
     lexicon = Wording("train").labels
+    own = {name for label in map_labels for name in (label, *lexicon.get(label, ()))}
     phrases, numbers = [], []
     for label in dict.fromkeys([*map_labels, *lexicon]):
         meant = meaning_in(label, map_labels)
         number = len(map_labels) if meant is None else map_labels.index(meant)
         for phrase in (label, *lexicon.get(label, ())):
-            phrases.append(phrase)
-            numbers.append(number)
+            if label in map_labels or not own & {phrase, phrase.removesuffix("s")}:
+                phrases.append(phrase)
+                numbers.append(number)
     return phrases, numbers

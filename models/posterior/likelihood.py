@@ -155,9 +155,12 @@ class Likelihood(nn.Module):
         return place
 
     def chance(self, reading: Reading, usual: Tensor) -> Tensor:
-        """[H] eps of each hint; `usual` as `usual_statements`."""
+        """[H] eps of each hint; `usual` as `usual_statements`. Few things bear a name: it is hardly said by chance."""
         share = ((reading.label[:, : len(usual)] @ usual) * reading.colour).sum(dim=1)
-        return self.background.exp() + self.common.exp() * share
+        eps = self.background.exp() + self.common.exp() * share
+        for hint, bears in reading.named.items():
+            eps[hint] = self.common.exp() * bears.float().mean()
+        return eps
 
     def combine(self, reading: Reading, node: Tensor, nodes: int, pairs: Pairs, share: Tensor, eps: Tensor) -> Tensor:
         """[M] log p(T | x).

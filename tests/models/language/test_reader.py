@@ -121,6 +121,16 @@ def test_what_a_class_means_in_a_map():
     assert meant["lifebuoy"] == len(KITTI)
 
 
+def test_names_of_what_the_map_has_stand_for_nothing_else():
+    labels = ("bushes", "building", "tree")
+    meant = {}
+    for phrase, number in zip(*bound_names(labels), strict=True):
+        meant.setdefault(phrase, set()).add(number)
+    assert meant["tree"] == {2}
+    assert meant.get("trees", set()) <= {2}
+    assert meant["thicket"] == {0}, "vegetation, which this map calls bushes"
+
+
 def test_nouns_find_their_label_untrained(text_encoder):
     matcher = LabelMatcher(text_encoder)
     with torch.no_grad():

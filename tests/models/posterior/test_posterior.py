@@ -166,6 +166,14 @@ def test_a_named_landmark_binds_the_hint(town, cells):
     sees = around.nodes_m[np.searchsorted(around.starts, rows, side="right") - 1]
     for position in found.positions[:3]:
         assert np.linalg.norm(sees - position, axis=1).min() < 3.0, "from where the landmark is near"
+    far = town.readings[30]  # what is said besides fits elsewhere
+    assert np.linalg.norm(town.place.positions_m[30] - town.place.positions_m[2]) > 50
+    joined = (torch.cat([one[:1], other[:2]]) for one, other in (
+        (named.relation, far.relation), (named.label, far.label), (named.colour, far.colour),
+        (named.distance_m, far.distance_m), (named.absent, far.absent),
+    ))  # fmt: skip
+    found = locate(town.posterior, Reading(*joined, {0: bears}))
+    assert np.linalg.norm(sees - found.positions[0], axis=1).min() < 3.0, "a name outweighs two hints"
 
 
 def test_fitting_makes_the_truth_likelier(town):
