@@ -71,4 +71,4 @@ def _count(text: str, thing: Noticed) -> int:
     """How many a plural names: the last number before it in its clause, else one hint's worth."""
     before = re.split(r"[.;:!?\n]", text[max(0, thing.start - BEFORE) : thing.start])[-1]
     said = _NUMBER.findall(before)
-    return (_NUMBERS)[said[-1].lower()] if said else 1
+    return _NUMBERS[said[-1].lower()] if said else 1

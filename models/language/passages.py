@@ -47,7 +47,7 @@ class Passage:
         """The text before each slot, and the slot."""
         ends = [m.span() for m in SLOT.finditer(self.phrase)]
         starts = [0, *(end for _, end in ends)]
-        return [(self.phrase[a:b], slot) for a, (b, _), slot in zip(starts, ends, self.slots, strict=False)]
+        return [(self.phrase[a:b], slot) for a, (b, _), slot in zip(starts[: len(ends)], ends, self.slots, strict=True)]
 
     @cached_property
     def end(self) -> str:

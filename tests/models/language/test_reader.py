@@ -16,11 +16,11 @@ from models.language.reader import (
     example_targets,
     said_distances,
 )
-from models.language.said import RELATIONS, Fact
+from models.language.said import RELATIONS, Fact, Mention
 from models.posterior.around import colour_words
 from models.posterior.binding import Binding, colour_table
 from models.training.loop import LoopConfig, run_training
-from models.training.reading import ReadingSet, ReadingTask, draw_facts, reading_figures
+from models.training.reading import ReadingSet, ReadingTask, _wanted, draw_facts, reading_figures
 
 KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "vegetation")
 
@@ -77,6 +77,13 @@ def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder):
     after = reading_figures(task.model, texts)
     assert after["noun"] > max(0.8, before["noun"])
     assert after["relation"] > before["relation"] + 0.1
+
+
+def test_a_colour_is_wanted_only_where_it_is_said():
+    fact = Fact("lamp", "north", "black")
+    unsaid, said = (Mention((0,), 0, 4, "lamp", coloured=coloured) for coloured in (False, True))
+    assert _wanted(fact, unsaid)[1] == len(COLOURS)
+    assert _wanted(fact, said)[1] == COLOURS.index("black")
 
 
 def test_facts_are_varied():
