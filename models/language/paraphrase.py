@@ -22,8 +22,9 @@ from models.language.passages import Passage, plural
 from models.language.said import WINDS, Fact, Mention, Said, opposite
 from models.language.typos import spoil
 
-PASSAGES, TRIES = 0.5, 12  # share of the times that a passage is looked for, and among how many; first of all among
+PASSAGES, TRIES = 0.5, 16  # share of the times that a passage is looked for, and among how many; first of all among
 # those with plurals, if there are several things of a class
+WHOLE = 4  # things of a passage that can be a whole description
 
 
 class Wording:
@@ -42,6 +43,7 @@ class Wording:
         self._distances: list[str] = parsed["distance"]
         self._phrases = {name: [Passage(phrase) for phrase in phrases] for name, phrases in parsed.items()}
         self._phrases["plurals"] = [passage for passage in self._phrases["passages"] if passage.shared("ns")]
+        self._phrases["whole"] = [passage for passage in self._phrases["passages"] if passage.things >= WHOLE]
 
     def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> Said:
         """A description.
@@ -52,11 +54,20 @@ class Wording:
             noise: whether typos, lower case and missing full stops may occur.
         """
         order = rng.permutation(len(facts)).tolist()
-        sentences = self._surround(self._sentences(facts, order, rng), rng)
-        said = sentences[0]
-        for sentence in sentences[1:]:
-            said = _join(said, sentence, rng)
+        said = self._surround(self._sentences(facts, order, rng), rng)
         return spoil(said, rng) if noise else said
+
+    def whole(self, facts: Sequence[Fact], rng: np.random.Generator) -> tuple[list[Fact], Said]:
+        """A description that is one long passage, and the facts that it tells: some of these, changed to suit it.
+
+        Args:
+            facts: six or more, simple, in one of the winds.
+            rng: draws words.
+        """
+        passage = self._pick("whole", rng)
+        suited = passage.suit(facts[: passage.things], lambda: _one_of(tuple(self.colours), rng))
+        said = self._surround([self._fill(passage, suited, range(passage.things), rng)], rng)
+        return suited, spoil(said, rng)
 
     def published(self, facts: Sequence[Fact]) -> Said:
         """The benchmark's sentences, one a fact (kitti360pose.md, rule 8), in the order of the facts."""
@@ -143,10 +154,12 @@ class Wording:
         colours = [c and self._word(self.colours, c, rng) for c in (fact.colour for fact in told)]
         named, text = set[int](), ""
         mentions: list[Mention] = []
-        for before, (what, numbers, mark) in phrase.pieces:
+        for before, (what, numbers, mark), after in phrase.pieces:
             text += before
             k = numbers[0]
             lead, noun = self._slot(what, mark, told[k], nouns[k], colours[k], rng)
+            if what in ("d", "o") and re.match("-?[a-z]", after):  # such as "ern"
+                lead = told[k].relation if what == "d" else opposite(told[k].relation)
             if noun and (what in ("=", "c") or not named.intersection(numbers)):
                 start = len(text) + len(lead)
                 mention = _mention(phrase, (what, numbers), told, start, noun)
@@ -162,6 +175,8 @@ class Wording:
         if what in ("d", "o"):
             wind = fact.relation if what == "d" else opposite(fact.relation)
             return _one_of(self.compass[wind], rng), ""
+        if what == "x":
+            return "", ""
         if what == "c":
             return ("", colour or "") if mark == "=" else (colour or "", "")
         if what == "dist":
@@ -190,7 +205,8 @@ class Wording:
             return Said(self._pick("link", rng).phrase, ()).then(_lower_first(said), " ")
         return said
 
-    def _surround(self, sentences: list[Said], rng: np.random.Generator) -> list[Said]:
+    def _surround(self, sentences: list[Said], rng: np.random.Generator) -> Said:
+        """Sentences joined, with what people say besides."""
         if rng.random() < 0.3:
             place = int(rng.integers(len(sentences) + 1))
             sentences = [*sentences[:place], Said(self._pick("irrelevant", rng).phrase, ()), *sentences[place:]]
@@ -198,7 +214,10 @@ class Wording:
             sentences = [Said(self._pick("opener", rng).phrase, ()), *sentences]
         if rng.random() < 0.2:
             sentences = [*sentences, Said(self._pick("closer", rng).phrase, ())]
-        return sentences
+        said = sentences[0]
+        for sentence in sentences[1:]:
+            said = _join(said, sentence, rng)
+        return said
 
 
 def _kind_alone(fact: Fact) -> str:

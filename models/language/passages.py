@@ -3,8 +3,9 @@
 A passage is a phrase with numbered slots, as in `models.language.paraphrase`, and these besides. {o12}: the direction
 that things 1 and 2 share; {c12}: their colour, if they have the same; {ns12}: the noun of both in the plural, if they
 are of one class, without colour; {1:one}, {2:the other}: words that stand for one of them; {c1=}, {c2=}: the colours
-of each, which stand for it ("three poles, a gray, a black and a beige"). {a3!}: a thing that the
-speaker stands on or touches; {a3~}: one that is close by in no direction. {nb1}: the noun alone.
+of each, which stand for it ("three poles, a gray, a black and a beige"). {a3!}, {ns34!}: a thing that the
+speaker stands on or touches; {a3~}: one that is close by in no direction. {nb1}: the noun alone. {x12} is no words, and
+says that things 1 and 2 lie opposite each other. A direction with an ending, {o1}ern, is the plain word.
 What a passage's slots ask of its things is its pattern: a thing with neither mark needs a direction, and a slot {c1}
 needs a colour.
 """
@@ -13,13 +14,14 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Final
 
-from models.language.said import Fact
+from models.language.said import Fact, opposite
 
 SLOT: Final = re.compile(r"\{(?:(\d):([^{}]+)|([a-zA-Z]+)(\d*)([!~=]?))\}")
 _NAMING = ("a", "A", "the", "The", "n", "b", "theb", "nb")
-_SLOTS = {*_NAMING, "d", "o", "c", "ns"}
+_SLOTS = {*_NAMING, "d", "o", "x", "c", "ns"}
 _CLOSE = {"!": "on-top", "~": "near"}
 _HEAD_ENDS = re.compile(r" (?:of|that|where|which|with|for|on|in|to|by|from|beside|under|over|between|at)\b")
 
@@ -43,11 +45,11 @@ class Passage:
         return found
 
     @cached_property
-    def pieces(self) -> list[tuple[str, tuple[str, tuple[int, ...], str]]]:
-        """The text before each slot, and the slot."""
+    def pieces(self) -> list[tuple[str, tuple[str, tuple[int, ...], str], str]]:
+        """The text before each slot, the slot, and the text after it."""
         ends = [m.span() for m in SLOT.finditer(self.phrase)]
-        starts = [0, *(end for _, end in ends)]
-        return [(self.phrase[a:b], slot) for a, (b, _), slot in zip(starts[: len(ends)], ends, self.slots, strict=True)]
+        between = [self.phrase[a:b] for (_, a), (b, _) in pairwise([(0, 0), *ends, (len(self.phrase),) * 2])]
+        return list(zip(between[:-1], self.slots, between[1:], strict=True))
 
     @cached_property
     def end(self) -> str:
@@ -70,7 +72,10 @@ class Passage:
     def close(self) -> dict[int, str]:
         """The relation of the things that have none of the winds."""
         return {
-            n: _CLOSE[mark] for what, numbers, mark in self.slots if mark in _CLOSE and what in _NAMING for n in numbers
+            n: _CLOSE[mark]
+            for what, numbers, mark in self.slots
+            if mark in _CLOSE and (what in _NAMING or what == "ns")
+            for n in numbers
         }
 
     def shared(self, what: str) -> list[tuple[int, ...]]:
@@ -81,7 +86,7 @@ class Passage:
         """What is wrong with it, None if nothing is."""
         numbers = {n for _, some, _ in self.slots for n in some}
         named = [n for kind in (*_NAMING, "ns") for some in self.shared(kind) for n in some]
-        directed = {n for kind in "do" for some in self.shared(kind) for n in some}
+        directed = {n for kind in "dox" for some in self.shared(kind) for n in some}
         stand_ins = self.stand_ins
         plural = [n for some in self.shared("ns") for n in some]
         unknown = {what for what, _, _ in self.slots} - _SLOTS - {"="}
@@ -94,6 +99,7 @@ class Passage:
             (any(named.count(n) > 1 and n in plural for n in numbers), "a thing of {ns12} needs no other noun"),
             (any(len(s) < 2 for s in self.shared("ns")), "{ns12} is for two things or more"),
             (directed | set(self.close) != numbers, "each thing needs a direction, {a1!} or {a1~}, to be told where"),
+            (any(len(some) != 2 for some in self.shared("x")), "{x12} says that two things lie opposite each other"),
             (bool(directed & set(self.close)), "a thing has a direction, or is marked with ! or ~, not both"),
             (len(set(stand_ins)) != len(stand_ins), "only one pair of words can stand for a thing"),
             (not set(stand_ins) <= set(plural), "words stand for a thing only where {ns..} named it"),
@@ -137,6 +143,26 @@ class Passage:
                 taken.pop()
         return False
 
+    def suit(self, drawn: Sequence[Fact], colour: Callable[[], str]) -> list[Fact]:
+        """Facts that it can tell: some facts, changed where its pattern asks for it.
+
+        Args:
+            drawn: as many as it has things, simple, in one of the winds.
+            colour: draws a colour word.
+        """
+        facts: list[Fact] = []
+        for n, fact in enumerate(drawn):
+            opposites = [opposite(facts[a].relation) for a, b in map(sorted, self.shared("x")) if b == n]
+            changed: dict[str, str] = {"relation": self.close.get(n, (opposites or [fact.relation])[0])}
+            for kind, name in (("o", "relation"), ("d", "relation"), ("ns", "label"), ("c", "colour")):
+                alike = [m for some in self.shared(kind) if n in some for m in some]
+                if min(alike, default=n) < n:
+                    changed[name] = getattr(facts[min(alike)], name)
+                elif kind == "c" and alike and fact.colour is None:
+                    changed[name] = colour()
+            facts.append(Fact(**{"label": fact.label, "colour": fact.colour} | changed))
+        return facts
+
     def _may_be(self, facts: Sequence[Fact], taken: Sequence[int], fact: int) -> bool:
         """Whether a fact can be the next thing, beside those taken."""
         at, said = len(taken), facts[fact]
@@ -153,6 +179,10 @@ class Passage:
             ("c", lambda f: f.colour),
             ("ns", lambda f: f.label),
         )
+        if any(
+            facts[taken[a]].relation != opposite(said.relation) for a, b in map(sorted, self.shared("x")) if b == at
+        ):
+            return False
         return all(
             value(facts[taken[n]]) == value(said)
             for kind, value in agree

@@ -144,7 +144,7 @@ class Likelihood(nn.Module):
 
     def places(self, reading: Reading, ways: Tensor) -> Tensor:
         """[65536, H] p(direction) p(distance) for every way from an instance; `ways` as the method of this name."""
-        place = ways @ reading.relation.T + self.relation_slip.exp()
+        place = (ways @ reading.relation.T).add_(self.relation_slip.exp())
         said = reading.distance_m
         if bool((~said.isnan()).any()):
             radius = torch.hypot(*self._way)

@@ -1,7 +1,6 @@
 """From a posterior over nodes to an answer: cells in order, positions, how far the truth may be, evidence."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +14,7 @@ from models.city.types import Floats
 from models.posterior.likelihood import Reading
 from models.posterior.posterior import CANDIDATES, HEAVY, Field, HintPosterior, LogPrior
 
-HIT_M = 5.0  # positions are chosen to have most of the mass this near
+HIT_M = 5.5  # positions are chosen to have most of the mass this near, softly
 BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
 MEAN_M = 3.0  # and are then the mean of the mass this near
 _TAIL = 30  # candidates at the end, from which the mass of the cells behind them is guessed
@@ -92,12 +91,11 @@ def locate(
     possible = np.flatnonzero(scores > -np.inf)
     if not len(possible):
         return None
-    best_first = possible[np.argsort(-scores[possible], kind="stable")]
-    chosen, left_out = best_first[:candidates], best_first[candidates:]
-    exact = inside is not None
-    field = (
-        posterior.field(reading, chosen, log_prior, inside) if exact else _field(posterior, reading, chosen, log_prior)
-    )
+    count = min(candidates, len(possible))
+    best_first = possible[np.argpartition(-scores[possible], count - 1)]
+    chosen, left_out = best_first[:count], best_first[count:]
+    chosen = chosen[np.lexsort((chosen, -scores[chosen]))]
+    field = _field(posterior, reading, chosen, log_prior, inside)
     mass = _mass(field)
     rest = -np.inf
     if len(left_out):
@@ -120,19 +118,27 @@ def locate(
     )
 
 
-def _field(posterior: HintPosterior, reading: Reading, chosen: Ints, log_prior: LogPrior | None) -> Field:
-    """The posterior over the nodes of some cells; of those that are far behind on a coarser grid, that will do."""
-    rough = posterior.field(reading, chosen, log_prior, posterior.coarse)
+def _field(
+    posterior: HintPosterior, reading: Reading, chosen: Ints, log_prior: LogPrior | None, inside: Mask | None
+) -> Field:
+    """The posterior over the nodes of some cells; of those that are far behind on a coarser grid, that will do.
+
+    Where only some nodes are inside, all of them are looked at.
+    """
+    places = posterior.places(reading)
+    if inside is not None:
+        return posterior.field(reading, places, chosen, log_prior, inside)
+    rough = posterior.field(reading, places, chosen, log_prior, posterior.coarse)
     mass = _mass(rough)
     is_near = (mass > mass.max() - BEHIND) | (mass == -np.inf)
     near = np.flatnonzero(is_near)
-    fine = posterior.field(reading, chosen[near], log_prior)
+    fine = posterior.field(reading, places, chosen[near], log_prior)
     kept = ~is_near[rough.cell]
     starts = posterior.surroundings.cell_starts
     stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
     cell = np.concatenate([near[fine.cell], rough.cell[kept]])
     log_p = np.concatenate([fine.log_p, rough.log_p[kept] + np.log(stands_for)[rough.cell[kept]]])
-    order = np.argsort(cell, kind="stable")
+    order = np.argsort(cell.astype(np.uint16) if len(chosen) < 2**16 else cell, kind="stable")  # 16 bits: radix sort
     return Field(chosen, np.concatenate([fine.nodes, rough.nodes[kept]])[order], cell[order], log_p[order])
 
 
@@ -165,14 +171,16 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     Of the first cell anywhere in its cube, which the cells beside it share; of the others in the part that each owns,
     so that they differ.
     """
-    first = np.searchsorted(field.cell, np.arange(len(field.cells) + 1))
-    best = np.array([a + int(np.argmax(weight[a:b])) if b > a else -1 for a, b in pairwise(first)])
+    first = np.flatnonzero(np.diff(field.cell, prepend=-1))
+    highest = np.repeat(np.maximum.reduceat(weight, first), np.diff(np.append(first, len(weight))))
+    best = np.flatnonzero(weight == highest)
+    best = best[np.diff(field.cell[best], prepend=-1) > 0]  # one a cell
     heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
-    centers = np.union1d(heavy, best[best >= 0])
+    centers = np.union1d(heavy, best)
     with torch.inference_mode():
         square = _squares(nodes_m[centers], nodes_m[heavy])
         share = torch.from_numpy(weight[heavy] / max(weight[heavy].max(), 1e-300)).float()
-        near_mass = (_bump(square / (0.9 * HIT_M) ** 2) @ share).numpy()
+        near_mass = (_bump(square / HIT_M**2) @ share).numpy()
     owner = field.cell[centers]
     chosen = np.zeros(len(field.cells), np.int64)
     ascending = np.lexsort((near_mass, owner))
@@ -188,8 +196,9 @@ def _squares(at_m: Floats, around_m: Floats) -> Tensor:
     """[A, B] float32 squared distances of points in the plane, right for near ones however wide the map is."""
     middle = around_m.mean(axis=0)
     at, around = (torch.from_numpy(points - middle).float() for points in (at_m, around_m))
-    # Matrix multiplication, cdist's default, would be metres off where scenes lie kilometres apart.
-    return torch.cdist(at, around, compute_mode="donot_use_mm_for_euclid_dist").square()
+    # No matrix multiplication (cdist's default): it would be metres off where scenes lie kilometres apart.
+    east, north = (at[:, None, axis] - around[None, :, axis] for axis in (0, 1))
+    return east.square_().add_(north.square_())
 
 
 def _bump(square: Tensor) -> Tensor:

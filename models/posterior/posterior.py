@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import torch
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array
 from torch import Tensor
 
 from models.city.cells import CellTable
@@ -20,8 +20,9 @@ from models.posterior.likelihood import Likelihood, Pairs, Reading
 
 CANDIDATES = 100  # cells whose nodes are looked at
 SECTORS = 9  # of a statement: the eight winds and "on-top"
-HEAVY = 400  # nodes that positions and radii are made from: the likeliest
+HEAVY = 256  # nodes that positions and radii are made from: the likeliest
 FLOOR = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
+FAINT_STATEMENT = 1e-3  # what a hint hardly says
 NAMED = 0.05  # share of the nodes of a cell with a landmark where it is taken to be mentioned
 LogPrior = Callable[[Floats], Floats]
 
@@ -89,7 +90,7 @@ class HintPosterior:
             blocks.append(self.likelihood.share_of(way_number(way), whole, turn, node, end - begin))
         return torch.cat(blocks)
 
-    def _tabulate(self) -> tuple[csr_array, Tensor]:
+    def _tabulate(self) -> tuple[csc_array, Tensor]:
         """[N, F] how much of each cell's nodes a statement (label, colour, sector) holds at, and the F statements."""
         s = self.surroundings
         sizes = np.diff(s.starts)
@@ -104,7 +105,7 @@ class HintPosterior:
         number, column = np.unique(key, return_inverse=True)
         value = self._share.mean(dim=1).numpy() / np.maximum(1, np.diff(s.cell_starts))[cell]
         table = csr_array((value, (cell, column)), shape=(len(self.cells), len(number)), dtype=np.float32)
-        return table, torch.from_numpy(number)
+        return table.tocsc(), torch.from_numpy(number)
 
     @torch.inference_mode()
     def cell_scores(self, reading: Reading) -> Floats:
@@ -117,7 +118,8 @@ class HintPosterior:
             [reading.colour[:, :words] + reading.colour[:, words:], torch.ones(len(place), 1) * 0.3], dim=1
         )
         weight = reading.label[:, label] * colour[:, word] * place[:, sector]  # [H, F]
-        holds = self._statements @ weight.T.numpy()
+        told = np.flatnonzero(weight.amax(dim=0).numpy() > FAINT_STATEMENT)  # few, and the others add next to nothing
+        holds = self._statements[:, told] @ weight[:, told].T.numpy()
         for hint, bears in reading.named.items():
             holds[:, hint] = 0.0
             holds[self.cells.parts.cube[bears.numpy()], hint] = NAMED
@@ -127,11 +129,19 @@ class HintPosterior:
         return scores
 
     @torch.inference_mode()
-    def field(self, reading: Reading, cells: Ints, log_prior: LogPrior | None = None, inside: Any = None) -> Field:
+    def places(self, reading: Reading) -> Tensor:
+        """`Likelihood.places` of this gallery."""
+        return self.likelihood.places(reading, self._ways)
+
+    @torch.inference_mode()
+    def field(
+        self, reading: Reading, places: Tensor, cells: Ints, log_prior: LogPrior | None = None, inside: Any = None
+    ) -> Field:
         """The posterior over the nodes of some cells.
 
         Args:
             reading: what was said.
+            places: of the reading.
             cells: [K] rows.
             log_prior: log-density of positions [M, 2]; None for none.
             inside: [M of all] bool, False where it cannot be; None for everywhere.
@@ -144,7 +154,7 @@ class HintPosterior:
             nodes, cell = nodes[kept], cell[kept]
         rows, node, fits, part = self._rows(reading, nodes)
         model = self.likelihood
-        pairs = Pairs.of(fits, part, model.places(reading, self._ways), self._way.index_select(0, rows))
+        pairs = Pairs.of(fits, part, places, self._way.index_select(0, rows))
         share, eps = self._share.index_select(0, rows), model.chance(reading, self.usual)
         log_p = model.combine(reading, node, len(nodes), pairs, share, eps).double().numpy()
         if log_prior is not None:
@@ -156,7 +166,7 @@ class HintPosterior:
         """For each hint the part that explains it best at a node (-1 for none), and how likely it is that one does."""
         rows, _, fits, part = self._rows(reading, np.array([node]))
         share = self._share[rows].mean(dim=1, keepdim=True)
-        terms = fits[part] * self.likelihood.places(reading, self._ways)[self._way[rows].long()] * share
+        terms = fits[part] * self.places(reading)[self._way[rows].long()] * share
         eps = self.likelihood.chance(reading, self.usual)
         if not len(rows):
             return [(-1, 0.0)] * len(reading.label)

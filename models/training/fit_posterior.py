@@ -20,7 +20,7 @@ from models.training.posterior import Texts, fit_likelihood
 from models.training.reading import ReadingSet, ReadingTask, reading_figures
 from models.training.settings import TrainingConfig
 
-TEXTS, VALIDATION_TEXTS = 24_000, 500  # that the reader is trained on, and chosen by
+TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chosen by
 FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
 FIT_STEPS, CALIBRATION_STEPS = 200, 60
 CALIBRATED = ("temper", "background")  # weights that validation places decide

@@ -17,7 +17,8 @@ from models.language.text_encoder import TextEncoder, TokenFeatures
 ENCODED_AT_ONCE = 32
 MOST_FACTS = 8
 LIKE_LENGTH = 8  # a batch is drawn from so many batches' worth of texts, neighbours in length
-PUBLISHED = 0.3  # share of the texts in the benchmark's words, of those that it can say
+WHOLE = 0.4  # share of the texts that are one long passage
+PUBLISHED = 0.3  # share of the others in the benchmark's words, of those that it can say
 ALIKE = (0.3, 0.25, 0.2)  # how often a fact has the class, the direction, the colour of an earlier one
 CARDINAL = (0, 2, 4, 6)  # of WINDS; people and the benchmark say them most
 # Names are made of these, so that the reader learns how a name is used and no name by heart.
@@ -32,6 +33,15 @@ NAME_FRAMES = (
     "Saint {}'s", "the {} Theatre", "{} Pharmacy", "{}'s", "Restaurant {}", "Bar {}", "the {} Bank", "{} Square",
     "{} School", "{} Books", "Pizzeria {}", "the {} Centre", "{} Tower", "the {} Library", "{} & Sons", "{} Avenue",
 )  # fmt: skip
+
+
+def draw_text(wording: Wording, rng: np.random.Generator) -> tuple[list[Fact], Said]:
+    """Made-up facts, and a text that tells them."""
+    if rng.random() >= WHOLE:
+        facts = draw_facts(wording, rng)
+        return facts, _say(wording, facts, rng)
+    simple = [_draw_simple(tuple(wording.labels), rng) for _ in range(MOST_FACTS)]
+    return wording.whole([_alike(fact, simple[int(rng.integers(n + 1))], rng) for n, fact in enumerate(simple)], rng)
 
 
 def draw_facts(wording: Wording, rng: np.random.Generator, labels: Sequence[str] | None = None) -> list[Fact]:
@@ -53,16 +63,18 @@ def _alike(fact: Fact, other: Fact, rng: np.random.Generator) -> Fact:
     )
 
 
-def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> Fact:
+def _draw_simple(labels: Sequence[str], rng: np.random.Generator) -> Fact:
     label = labels[int(rng.integers(len(labels)))]
     colour = COLOURS[int(rng.integers(len(COLOURS)))] if rng.random() < 0.65 else None
+    wind = WINDS[CARDINAL[int(rng.integers(4))]] if rng.random() < 0.85 else WINDS[int(rng.integers(8))]
+    return Fact(label, wind, colour)
+
+
+def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> Fact:
+    simple = _draw_simple(labels, rng)
+    label, colour = simple.label, simple.colour
     drawn, special = rng.random(2)
-    if drawn < 0.68:
-        relation = WINDS[CARDINAL[int(rng.integers(4))]]
-    elif drawn < 0.8:
-        relation = WINDS[int(rng.integers(8))]
-    else:
-        relation = "on-top" if drawn < 0.9 else "near"
+    relation = simple.relation if drawn < 0.8 else "on-top" if drawn < 0.9 else "near"
     if special < 0.06:
         return Fact(label, absent=True, colour=colour)
     if special < 0.12:
@@ -125,8 +137,8 @@ class ReadingSet:
         progress: Callable[[int, int], None] | None = None,
     ) -> None:
         wording, rng = Wording(grammar), np.random.default_rng(seed)
-        self.facts = [draw_facts(wording, rng) for _ in range(size)]
-        self.said: list[Said] = [_say(wording, facts, rng) for facts in self.facts]
+        drawn = [draw_text(wording, rng) for _ in range(size)]
+        self.facts, self.said = [facts for facts, _ in drawn], [said for _, said in drawn]
         self.by_length = np.argsort([len(s.text) for s in self.said], kind="stable")
         self._values: list[Tensor] = [torch.empty(0)] * size
         self._targets: list[tuple[Tensor, list[tuple[int, int]]]] = [(torch.empty(0), [])] * size

@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
+from models.language.grammar_files import load_grammar
 from models.language.paraphrase import Wording
 from models.language.passages import Passage, plural
-from models.language.said import Fact
+from models.language.said import WINDS, Fact
 
 FACTS = [
     Fact("lamp", "north", "black"),
@@ -25,6 +26,9 @@ FACTS = [
         ("{theb1} {o1} of me is {c1}, like {the2!}, both {c12}", [2, 1]),
         ("two {c12} {ns12} to my {o12}", None),
         ("{a1~} and {a2~}", None),
+        ("{a1} to the {o1} and, opposite it,{x12} {a2}", [0, 2]),
+        ("{a1} to the {o13} and, opposite it,{x12} {a2}; there also {a3}", [0, 2, 3]),
+        ("I lean on {ns12!}", None),
     ],
 )
 def test_a_passage_finds_the_facts_of_its_pattern(phrase, facts) -> None:
@@ -44,6 +48,7 @@ def test_a_passage_finds_the_facts_of_its_pattern(phrase, facts) -> None:
         ("two {ns12} to my {o1} and {o2}", "one direction"),
         ("two {ns12} to my {o12}, {1:one} {c1}", "or none"),
         ("{a1} and {1:that} to the {o12}, {a2}", "only where"),
+        ("{a1} to the {o1}, {a2} and {a3} opposite{x123}", "lie opposite each other"),
         ("{q1} and {a2} to the {o12}", "unknown slots"),
     ],
 )
@@ -66,6 +71,31 @@ def test_mentions_know_what_they_stand_for_and_whether_the_colour_is_said() -> N
         Passage("two {ns12}, {c1=} and {c2=}, to my {o12}"), FACTS, [0, 2], np.random.default_rng(0)
     )
     assert [(m.kind, m.facts) for m in colours.mentions] == [("plural", ()), ("stand-in", (0,)), ("stand-in", (2,))]
+
+
+def test_opposites_are_no_words_and_a_direction_with_an_ending_is_the_plain_word() -> None:
+    passage = Passage("{a1} on the {o1}ern side and, opposite,{x12} {a2}")
+    texts = [Wording("train")._fill(passage, FACTS, [0, 2], np.random.default_rng(n)).text for n in range(20)]
+    assert all(" on the southern side and, opposite, a" in text for text in texts)
+
+
+@pytest.mark.parametrize("grammar", ["train", "val", "test"])
+def test_every_passage_tells_facts_that_are_made_to_suit_it(grammar) -> None:
+    drawn = [Fact(f"thing {n}", WINDS[n], None if n % 2 else "gray") for n in range(6)]
+    passages = [Passage(phrase) for phrase in load_grammar(grammar)["passages"]["phrases"]]
+    for passage in passages:
+        assert passage.problem() is None, passage.phrase
+        facts = passage.suit(drawn[: passage.things], lambda: "black")
+        assert passage.match(facts, range(len(facts))) == list(range(len(facts))), passage.phrase
+
+
+def test_a_whole_description_tells_its_facts() -> None:
+    rng = np.random.default_rng(0)
+    drawn = [Fact("lamp", wind) for wind in WINDS]
+    for _ in range(50):
+        facts, said = Wording("train").whole(drawn, rng)
+        assert len(facts) >= 4
+        assert sorted(n for m in said.mentions for n in m.facts) == list(range(len(facts)))
 
 
 @pytest.mark.parametrize(
