@@ -24,7 +24,7 @@ from models.language.typos import spoil
 
 PASSAGES, TRIES = 0.5, 16  # share of the times that a passage is looked for, and among how many; first of all among
 # those with plurals, if there are several things of a class
-WHOLE = 4  # things of a passage that can be a whole description
+LONG = 4  # things of a passage that can be a whole description
 
 
 class Wording:
@@ -43,7 +43,7 @@ class Wording:
         self._distances: list[str] = parsed["distance"]
         self._phrases = {name: [Passage(phrase) for phrase in phrases] for name, phrases in parsed.items()}
         self._phrases["plurals"] = [passage for passage in self._phrases["passages"] if passage.shared("ns")]
-        self._phrases["whole"] = [passage for passage in self._phrases["passages"] if passage.things >= WHOLE]
+        self._phrases["whole"] = [passage for passage in self._phrases["passages"] if passage.things >= LONG]
 
     def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> Said:
         """A description.
@@ -158,8 +158,9 @@ class Wording:
             text += before
             k = numbers[0]
             lead, noun = self._slot(what, mark, told[k], nouns[k], colours[k], rng)
-            if what in ("d", "o") and re.match("-?[a-z]", after):  # such as "ern"
-                lead = told[k].relation if what == "d" else opposite(told[k].relation)
+            if what in ("d", "o"):
+                wind = told[k].relation if what == "d" else opposite(told[k].relation)
+                lead = wind if re.match("-?[a-z]", after) else _one_of(self.compass[wind], rng)  # "ern", "-facing"
             if noun and (what in ("=", "c") or not named.intersection(numbers)):
                 start = len(text) + len(lead)
                 mention = _mention(phrase, (what, numbers), told, start, noun)
@@ -172,11 +173,8 @@ class Wording:
         self, what: str, mark: str, fact: Fact, noun: str, colour: str | None, rng: np.random.Generator
     ) -> tuple[str, str]:
         """What stands in a slot: (what comes before the noun, the noun)."""
-        if what in ("d", "o"):
-            wind = fact.relation if what == "d" else opposite(fact.relation)
-            return _one_of(self.compass[wind], rng), ""
-        if what == "x":
-            return "", ""
+        if what in ("d", "o", "x"):
+            return "", ""  # no noun
         if what == "c":
             return ("", colour or "") if mark == "=" else (colour or "", "")
         if what == "dist":

@@ -12,16 +12,17 @@ needs a colour.
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Final
+from typing import Any, Final
 
 from models.language.said import Fact, opposite
 
 SLOT: Final = re.compile(r"\{(?:(\d):([^{}]+)|([a-zA-Z]+)(\d*)([!~=]?))\}")
 _NAMING = ("a", "A", "the", "The", "n", "b", "theb", "nb")
 _SLOTS = {*_NAMING, "d", "o", "x", "c", "ns"}
+_ARTICLES = {"a", "an", "An", "the", "The"}
 _CLOSE = {"!": "on-top", "~": "near"}
 _HEAD_ENDS = re.compile(r" (?:of|that|where|which|with|for|on|in|to|by|from|beside|under|over|between|at)\b")
 
@@ -86,7 +87,8 @@ class Passage:
         """What is wrong with it, None if nothing is."""
         numbers = {n for _, some, _ in self.slots for n in some}
         named = [n for kind in (*_NAMING, "ns") for some in self.shared(kind) for n in some]
-        directed = {n for kind in "dox" for some in self.shared(kind) for n in some}
+        directed = {n for kind in "do" for some in self.shared(kind) for n in some}
+        directed |= {n for some in self.shared("x") if directed & set(some) for n in some}
         stand_ins = self.stand_ins
         plural = [n for some in self.shared("ns") for n in some]
         unknown = {what for what, _, _ in self.slots} - _SLOTS - {"="}
@@ -99,9 +101,13 @@ class Passage:
             (any(named.count(n) > 1 and n in plural for n in numbers), "a thing of {ns12} needs no other noun"),
             (any(len(s) < 2 for s in self.shared("ns")), "{ns12} is for two things or more"),
             (directed | set(self.close) != numbers, "each thing needs a direction, {a1!} or {a1~}, to be told where"),
-            (any(len(some) != 2 for some in self.shared("x")), "{x12} says that two things lie opposite each other"),
+            (
+                any(len(some) != 2 or some[0] == some[1] for some in self.shared("x")),
+                "{x12} is for two things",
+            ),
             (bool(directed & set(self.close)), "a thing has a direction, or is marked with ! or ~, not both"),
             (len(set(stand_ins)) != len(stand_ins), "only one pair of words can stand for a thing"),
+            (bool(_ARTICLES & {mark for what, _, mark in self.slots if what == "="}), "no article stands for a thing"),
             (not set(stand_ins) <= set(plural), "words stand for a thing only where {ns..} named it"),
             (
                 any(0 < len(set(s) & set(stand_ins)) < len(s) for s in self.shared("ns")),
@@ -153,14 +159,14 @@ class Passage:
         facts: list[Fact] = []
         for n, fact in enumerate(drawn):
             opposites = [opposite(facts[a].relation) for a, b in map(sorted, self.shared("x")) if b == n]
-            changed: dict[str, str] = {"relation": self.close.get(n, (opposites or [fact.relation])[0])}
+            changed: dict[str, Any] = {"relation": self.close.get(n, (opposites or [fact.relation])[0])}
             for kind, name in (("o", "relation"), ("d", "relation"), ("ns", "label"), ("c", "colour")):
                 alike = [m for some in self.shared(kind) if n in some for m in some]
                 if min(alike, default=n) < n:
                     changed[name] = getattr(facts[min(alike)], name)
                 elif kind == "c" and alike and fact.colour is None:
                     changed[name] = colour()
-            facts.append(Fact(**{"label": fact.label, "colour": fact.colour} | changed))
+            facts.append(replace(fact, **changed))
         return facts
 
     def _may_be(self, facts: Sequence[Fact], taken: Sequence[int], fact: int) -> bool:

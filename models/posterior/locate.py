@@ -12,11 +12,12 @@ from models.city.cells import CellTable
 from models.city.points import Ints
 from models.city.types import Floats
 from models.posterior.likelihood import Reading
-from models.posterior.posterior import CANDIDATES, HEAVY, Field, HintPosterior, LogPrior
+from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
 
 HIT_M = 5.5  # positions are chosen to have most of the mass this near, softly
 BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
 MEAN_M = 3.0  # and are then the mean of the mass this near
+HEAVY = 256  # nodes that the mass within reach is added up from: the likeliest
 _TAIL = 30  # candidates at the end, from which the mass of the cells behind them is guessed
 Mask = npt.NDArray[np.bool_]
 
@@ -88,13 +89,12 @@ def locate(
         None if nothing is inside.
     """
     scores = _cell_scores(posterior, reading, log_prior, inside)
-    possible = np.flatnonzero(scores > -np.inf)
-    if not len(possible):
+    possible = scores > -np.inf
+    if not possible.any():
         return None
-    count = min(candidates, len(possible))
-    best_first = possible[np.argpartition(-scores[possible], count - 1)]
-    chosen, left_out = best_first[:count], best_first[count:]
-    chosen = chosen[np.lexsort((chosen, -scores[chosen]))]
+    chosen = _best(scores, min(candidates, int(possible.sum())))
+    possible[chosen] = False
+    left_out = np.flatnonzero(possible)
     field = _field(posterior, reading, chosen, log_prior, inside)
     mass = _mass(field)
     rest = -np.inf
@@ -118,27 +118,35 @@ def locate(
     )
 
 
+def _best(scores: Floats, count: int) -> Ints:
+    """The rows of the highest scores, highest first, of equal ones the first."""
+    least = np.partition(scores, -count)[-count]
+    above = np.flatnonzero(scores > least)
+    chosen = np.concatenate([above, np.flatnonzero(scores == least)[: count - len(above)]])
+    return chosen[np.lexsort((chosen, -scores[chosen]))]
+
+
 def _field(
     posterior: HintPosterior, reading: Reading, chosen: Ints, log_prior: LogPrior | None, inside: Mask | None
 ) -> Field:
     """The posterior over the nodes of some cells; of those that are far behind on a coarser grid, that will do.
 
-    Where only some nodes are inside, all of them are looked at.
+    Where only some nodes are inside, or likelier than others beforehand, all of them are looked at.
     """
     places = posterior.places(reading)
-    if inside is not None:
+    if inside is not None or log_prior is not None:
         return posterior.field(reading, places, chosen, log_prior, inside)
-    rough = posterior.field(reading, places, chosen, log_prior, posterior.coarse)
+    rough = posterior.field(reading, places, chosen, inside=posterior.coarse)
     mass = _mass(rough)
     is_near = (mass > mass.max() - BEHIND) | (mass == -np.inf)
     near = np.flatnonzero(is_near)
-    fine = posterior.field(reading, places, chosen[near], log_prior)
+    fine = posterior.field(reading, places, chosen[near])
     kept = ~is_near[rough.cell]
     starts = posterior.surroundings.cell_starts
     stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
     cell = np.concatenate([near[fine.cell], rough.cell[kept]])
     log_p = np.concatenate([fine.log_p, rough.log_p[kept] + np.log(stands_for)[rough.cell[kept]]])
-    order = np.argsort(cell.astype(np.uint16) if len(chosen) < 2**16 else cell, kind="stable")  # 16 bits: radix sort
+    order = np.argsort(cell, kind="stable")
     return Field(chosen, np.concatenate([fine.nodes, rough.nodes[kept]])[order], cell[order], log_p[order])
 
 
@@ -147,22 +155,21 @@ def _mass(field: Field) -> Floats:
     mass = np.full(len(field.cells), -np.inf)
     if len(field.cell):
         first = np.flatnonzero(np.diff(field.cell, prepend=-1))
-        highest = np.maximum.reduceat(field.log_p, first)
+        highest = np.maximum.reduceat(field.log_p, first).clip(min=-1e300)  # a prior may be 0
         above = np.exp(field.log_p - np.repeat(highest, np.diff(np.append(first, len(field.cell)))))
-        mass[field.cell[first]] = highest + np.log(np.add.reduceat(above, first))
+        with np.errstate(divide="ignore"):
+            mass[field.cell[first]] = highest + np.log(np.add.reduceat(above, first))
     return mass
 
 
 def _cell_scores(posterior: HintPosterior, reading: Reading, log_prior: LogPrior | None, inside: Mask | None) -> Floats:
-    """[N] about the log mass of each cell, up to one constant; -inf where none of its nodes is inside."""
+    """[N] about the log mass of each cell, up to one constant; -inf where no node is, or none that is inside."""
     scores = posterior.cell_scores(reading) * float(posterior.likelihood.temper.detach().exp())
     if log_prior is not None:
         scores = scores + log_prior(posterior.cells.center_m[:, :2])
-    if inside is not None:
-        starts = posterior.surroundings.cell_starts
-        count = np.concatenate([[0], np.cumsum(inside)])
-        scores = np.where(count[starts[1:]] > count[starts[:-1]], scores, -np.inf)
-    return scores
+    starts = posterior.surroundings.cell_starts
+    count = np.arange(starts[-1] + 1) if inside is None else np.concatenate([[0], np.cumsum(inside)])
+    return np.where(count[starts[1:]] > count[starts[:-1]], scores, -np.inf)
 
 
 def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable) -> Floats:
@@ -178,8 +185,8 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
     centers = np.union1d(heavy, best)
     with torch.inference_mode():
-        square = _squares(nodes_m[centers], nodes_m[heavy])
-        share = torch.from_numpy(weight[heavy] / max(weight[heavy].max(), 1e-300)).float()
+        square = _squares(nodes_m[centers])
+        share = torch.from_numpy(weight[centers] / max(weight[centers].max(), 1e-300)).float().clamp(min=1e-30)
         near_mass = (_bump(square / HIT_M**2) @ share).numpy()
     owner = field.cell[centers]
     chosen = np.zeros(len(field.cells), np.int64)
@@ -187,20 +194,19 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     chosen[owner[ascending]] = ascending  # the last of a cell, that with most mass, stays
     apart = np.abs(nodes_m[centers] - cells.center_m[field.cells[order[0]], :2]).max(axis=1)
     chosen[order[0]] = np.where(apart <= cells.size_m / 2, near_mass, -1.0).argmax()
-    close = (_bump(square[chosen[order]] / MEAN_M**2) * share + 1e-37).double().numpy()
-    mean: Floats = close @ nodes_m[heavy] / close.sum(axis=1, keepdims=True)
+    close = (_bump(square[chosen[order]] / MEAN_M**2) * share).double().numpy()
+    mean: Floats = close @ nodes_m[centers] / close.sum(axis=1, keepdims=True)
     return mean
 
 
-def _squares(at_m: Floats, around_m: Floats) -> Tensor:
-    """[A, B] float32 squared distances of points in the plane, right for near ones however wide the map is."""
-    middle = around_m.mean(axis=0)
-    at, around = (torch.from_numpy(points - middle).float() for points in (at_m, around_m))
-    # No matrix multiplication (cdist's default): it would be metres off where scenes lie kilometres apart.
-    east, north = (at[:, None, axis] - around[None, :, axis] for axis in (0, 1))
+def _squares(points_m: Floats) -> Tensor:
+    """[A, A] float32 squared distances of points in the plane, right for near ones however wide the map is."""
+    points = torch.from_numpy(points_m - points_m.mean(axis=0)).float()
+    # By matrix multiplication they would be metres off where scenes lie kilometres apart.
+    east, north = (points[:, None, axis] - points[None, :, axis] for axis in (0, 1))
     return east.square_().add_(north.square_())
 
 
 def _bump(square: Tensor) -> Tensor:
     """About 1 up to a distance of 1 and 0 beyond, of squared distances; never so small that arithmetic is slow."""
-    return torch.exp(-(square * square * square).clamp(max=80.0))
+    return torch.exp(-(square * square * square).clamp(max=80.0)) * (square < 4.0)

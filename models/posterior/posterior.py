@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import torch
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csc_array
 from torch import Tensor
 
 from models.city.cells import CellTable
@@ -20,9 +20,8 @@ from models.posterior.likelihood import Likelihood, Pairs, Reading
 
 CANDIDATES = 100  # cells whose nodes are looked at
 SECTORS = 9  # of a statement: the eight winds and "on-top"
-HEAVY = 256  # nodes that positions and radii are made from: the likeliest
 FLOOR = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
-FAINT_STATEMENT = 1e-3  # what a hint hardly says
+FAINT_STATEMENT = 1e-4  # what no hint says
 NAMED = 0.05  # share of the nodes of a cell with a landmark where it is taken to be mentioned
 LogPrior = Callable[[Floats], Floats]
 
@@ -104,8 +103,8 @@ class HintPosterior:
         key = (self._label.numpy() * (self._words.shape[1] + 1) + word)[s.part] * SECTORS + sector
         number, column = np.unique(key, return_inverse=True)
         value = self._share.mean(dim=1).numpy() / np.maximum(1, np.diff(s.cell_starts))[cell]
-        table = csr_array((value, (cell, column)), shape=(len(self.cells), len(number)), dtype=np.float32)
-        return table.tocsc(), torch.from_numpy(number)
+        table = csc_array((value, (cell, column)), shape=(len(self.cells), len(number)), dtype=np.float32)
+        return table, torch.from_numpy(number)
 
     @torch.inference_mode()
     def cell_scores(self, reading: Reading) -> Floats:
@@ -118,7 +117,7 @@ class HintPosterior:
             [reading.colour[:, :words] + reading.colour[:, words:], torch.ones(len(place), 1) * 0.3], dim=1
         )
         weight = reading.label[:, label] * colour[:, word] * place[:, sector]  # [H, F]
-        told = np.flatnonzero(weight.amax(dim=0).numpy() > FAINT_STATEMENT)  # few, and the others add next to nothing
+        told = np.flatnonzero(weight.amax(dim=0).numpy() > FAINT_STATEMENT)  # few
         holds = self._statements[:, told] @ weight[:, told].T.numpy()
         for hint, bears in reading.named.items():
             holds[:, hint] = 0.0

@@ -48,7 +48,9 @@ def test_a_passage_finds_the_facts_of_its_pattern(phrase, facts) -> None:
         ("two {ns12} to my {o1} and {o2}", "one direction"),
         ("two {ns12} to my {o12}, {1:one} {c1}", "or none"),
         ("{a1} and {1:that} to the {o12}, {a2}", "only where"),
-        ("{a1} to the {o1}, {a2} and {a3} opposite{x123}", "lie opposite each other"),
+        ("{a1} to the {o1}, {a2} and {a3} opposite{x123}", "is for two things"),
+        ("{a1} and, opposite,{x12} {a2}", "needs a direction"),
+        ("two {ns12}: {1:the} {c1} one {o1}, {2:another} {o2}", "no article"),
         ("{q1} and {a2} to the {o12}", "unknown slots"),
     ],
 )

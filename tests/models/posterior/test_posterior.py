@@ -11,7 +11,7 @@ from models.city.surroundings import Bodies, Surroundings
 from models.language.said import RELATIONS
 from models.posterior.around import colour_words
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.locate import locate
+from models.posterior.locate import MEAN_M, locate
 from models.posterior.posterior import HintPosterior
 from models.training.places import Place
 from models.training.posterior import Texts, around_cells, fit_likelihood, surprise
@@ -89,6 +89,24 @@ def test_probabilities_add_up_and_radii_are_in_order(town):
         assert 0 < p50 <= p90 <= 500.0
         eigenvalues = np.linalg.eigvalsh(found.covariance(500.0, 1.5))
         assert (eigenvalues > 0).all()
+
+
+def test_each_candidate_has_a_position_of_its_own(town):
+    surroundings = town.posterior.surroundings
+    for reading in town.readings[:20]:
+        found = locate(town.posterior, reading)
+        for row, position in zip(found.rows[1:], found.positions[1:], strict=True):
+            own = town.posterior.nodes_m[surroundings.cell_starts[row] : surroundings.cell_starts[row + 1]]
+            assert np.linalg.norm(own - position, axis=1).min() < 2 * MEAN_M
+
+
+def test_a_prior_may_rule_places_out(town):
+    east = np.median(town.posterior.nodes_m[:, 0])
+    found = locate(
+        town.posterior, town.readings[0], lambda positions_m: np.where(positions_m[:, 0] > east, 0.0, -np.inf)
+    )
+    assert found.positions[0, 0] > east
+    assert found.probability.sum() + found.other == pytest.approx(1.0)
 
 
 def test_cells_far_behind_may_be_looked_at_roughly(town, monkeypatch):
