@@ -24,11 +24,7 @@ TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chos
 FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
 FIT_STEPS, CALIBRATION_STEPS = 200, 60
 CALIBRATED = ("temper", "background")  # weights that validation places decide
-TEMPERS, TEMPERED_TEXTS = (
-    (1.0, 0.85, 0.7, 0.6, 0.5, 0.4),
-    200,
-)  # what `temper` is scaled with, tried on so many of each place
-LEAST_CLAIM = 1e-3  # so that one miss does not decide
+TEMPERS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)  # what `temper` is scaled with
 Columns = np.ndarray[tuple[int, int], np.dtype[np.float64]]
 
 _FIT_WORDING: tuple[Grammar | None, ...] = (
@@ -129,15 +125,15 @@ def calibrate_places(model: PosteriorModel, places: Sequence[Place], rng: np.ran
 
 
 def _temper(likelihood: Likelihood, texts: Sequence[Texts]) -> None:
-    """Scale `temper` so that the probability of the cells is honest: that the best cell surprises least."""
+    """Scale `temper` so that the probability of the best cell is honest: what is claimed, and how often it is true."""
     fitted = likelihood.temper.detach().clone()
-    some = [Texts(part.place, part.rows[:TEMPERED_TEXTS], part.readings[:TEMPERED_TEXTS]) for part in texts]
-    surprises = []
+    gaps = []
     with torch.no_grad():
         for scale in TEMPERS:
             likelihood.temper.copy_(fitted + np.log(scale))
-            surprises.append(-np.log(_all_answers(likelihood, some)[3]).mean())
-        likelihood.temper.copy_(fitted + np.log(TEMPERS[int(np.argmin(surprises))]))
+            means = [_answers(likelihood, part).mean(axis=0) for part in texts]
+            gaps.append(sum(abs(mean[3] - mean[2]) for mean in means))
+        likelihood.temper.copy_(fitted + np.log(TEMPERS[int(np.argmin(gaps))]))
 
 
 def _texts(model: PosteriorModel, place: Place, count: int, rng: np.random.Generator) -> Texts:
@@ -151,7 +147,7 @@ def _all_answers(likelihood: Likelihood, texts: Sequence[Texts]) -> Columns:
 
 
 def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
-    """[Q, 4] error in metres, unscaled radius p90, whether the best cell is the first, and its probability."""
+    """[Q, 4] error in metres, unscaled radius p90, whether the best cell is the first, and the first's probability."""
     place, posterior = texts.place, texts.place.posterior(likelihood)
     extent_m = float(np.linalg.norm(np.ptp(place.cells.center_m[:, :2], axis=0)) + place.cells.size_m)
     scenes = np.array(place.cells.scenes)
@@ -162,7 +158,5 @@ def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
         same = scenes[located.rows[0]] == scenes[place.truth[row]]
         error = float(np.linalg.norm(located.positions[0] - place.positions_m[row])) if same else np.inf
         [p90] = located.radii_m((0.9,), extent_m, SPACING_M)
-        rank = np.flatnonzero(located.rows == place.truth[row])
-        claimed = located.probability[rank[0]] if len(rank) else 0.0
-        found.append((error, p90, float(located.rows[0] == place.truth[row]), max(claimed, LEAST_CLAIM)))
+        found.append((error, p90, float(located.rows[0] == place.truth[row]), located.probability[0]))
     return np.array(found)
