@@ -5,6 +5,7 @@ import pytest
 
 from models.city.colours import KITTI360_PALETTE
 from models.language.said import WINDS, Fact
+from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
 from models.training import fit_posterior
 from models.training.places import _slip
@@ -27,6 +28,21 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     record = json.loads((tmp_path / "config.json").read_text())
     assert record["fingerprint"] == model.fingerprint
     assert record["training"]["validation"] == figures
+
+
+def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -> None:
+    likelihood = Likelihood()
+    fitted = float(likelihood.temper.detach())
+
+    def answers(model, part):
+        scale = np.exp(
+            float(model.temper.detach()) - fitted
+        )  # what is claimed grows with it; half of it is true at 0.6
+        return np.array([[np.inf, 1.0, 1.0, scale * 0.5 / 0.6], [1.0, 1.0, 0.0, scale * 0.5 / 0.6]])
+
+    monkeypatch.setattr(fit_posterior, "_answers", answers)
+    fit_posterior._temper(likelihood, [None, None])
+    assert float(likelihood.temper.detach()) - fitted == pytest.approx(np.log(0.6))
 
 
 def test_a_slip_changes_one_fact_to_what_is_not_true() -> None:
