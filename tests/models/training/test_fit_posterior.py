@@ -1,4 +1,5 @@
 import json
+from typing import Any
 
 import numpy as np
 import pytest
@@ -41,7 +42,8 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
         return np.array([[np.inf, 1.0, 1.0, scale * 0.5 / 0.6], [1.0, 1.0, 0.0, scale * 0.5 / 0.6]])
 
     monkeypatch.setattr(fit_posterior, "_answers", answers)
-    fit_posterior._temper(likelihood, [None, None])
+    places: list[Any] = [None, None]
+    fit_posterior._temper(likelihood, places)
     assert float(likelihood.temper.detach()) - fitted == pytest.approx(np.log(0.6))
 
 
