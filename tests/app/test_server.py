@@ -140,14 +140,12 @@ def test_second_signal_does_not_wait_for_the_queue(served, until):
 
 def test_sigterm_ends_an_evaluation_and_tells_who_follows_it(served, until):
     url, worker = served.evaluate(until)
-    told = []
-    follower = threading.Thread(target=lambda: told.append(httpx.get(f"{url}/events", timeout=20).text))
-    follower.start()
-    until(lambda: len(httpx.get(url).text) > 0)
-    served.terminate()
-    follower.join(20)
+    with httpx.stream("GET", f"{url}/events", timeout=20) as stream:
+        lines = stream.iter_lines()
+        assert next(lines) == "event: progress"  # so it is followed before the service is told to end
+        served.terminate()
+        assert "event: cancelled" in list(lines)
     assert served.outcome()[0] == 0
-    assert "event: cancelled" in told[0]
     assert not Path(f"/proc/{worker}").exists()
 
 
