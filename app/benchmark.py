@@ -7,11 +7,11 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import httpx
 import numpy as np
@@ -19,9 +19,13 @@ import numpy as np
 from app.settings import load_settings
 from models.errors import HereaboutsError
 
+if TYPE_CHECKING:  # so that the command line starts without torch
+    from index.localizer import Localizer
+
 REQUESTS = 200
+WARM_UP = 10  # requests that are not counted
 HINTS = 6
-DESCRIPTIONS = 100  # whose parts are measured in one thread
+PARTS = 100  # descriptions whose parts are measured in one thread
 POLL_S = 0.1
 START_S = 120.0
 
@@ -35,32 +39,56 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
 
     Returns:
         Figures by stage: index building, then latencies of `POST /localize` with one client, warm, each
-        description of six hints: new text, text whose hints are cached, and, as the baseline of the same
-        run, an endpoint that computes nothing; then the parts of an answer, see `measure_parts`.
+        description of six hints: new text about places of the map, new text that fits many places, text whose
+        hints are cached, and, as the baseline of the same run, an endpoint that computes nothing; then the parts
+        of an answer, see `measure_parts`.
     """
     with tempfile.TemporaryDirectory() as scratch:
         index = measure_index(map_path, Path(scratch) / "index")
+    settings = load_settings(index_dir=index_dir)
+    localizer = _open(index_dir, settings.weights_dir, settings.posterior_weights_dir)
+    texts = descriptions(localizer, WARM_UP + max(REQUESTS, PARTS))
     with serving(index_dir) as client:
-        number = itertools.count()
-        fresh = latencies(lambda: _localize(client, [_new_hint(next(number)) for _ in range(HINTS)]))
-        known = [_new_hint(n) for n in range(HINTS)]
-        cached = latencies(lambda: _localize(client, known))
+        new, number = iter(texts), itertools.count()
+        fresh = latencies(lambda: _localize(client, next(new)))
+        vague = latencies(lambda: _localize(client, tuple(_vague_hint(next(number)) for _ in range(HINTS))))
+        cached = latencies(lambda: _localize(client, texts[0]))
         nothing = latencies(lambda: client.get("/healthz").raise_for_status())
     return {
         "index": index,
         "localize_new_text_ms": fresh,
+        "localize_new_vague_text_ms": vague,
         "localize_cached_hints_ms": cached,
         "healthz_ms": nothing,
         "new_text_over_cached": round(fresh["p50"] / cached["p50"], 1),
-        "one_thread": measure_parts(index_dir),
+        "one_thread": measure_parts(localizer, texts[:PARTS]),
     }
 
 
-def measure_parts(index_dir: Path) -> dict[str, float]:
-    """What a description of six hints costs in one thread, and a cell in bytes.
+def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
+    """The nearest things round random positions of a map, in the benchmark's words, at most `HINTS` each.
 
     Args:
-        index_dir: index to ask.
+        localizer: of the map.
+        count: descriptions.
+    """
+    from index.robustness import nearest_hints  # noqa: PLC0415 - heavy
+    from models.language.hints_text import render_hint  # noqa: PLC0415
+
+    cells, rng = localizer.gallery.cells, np.random.default_rng(0)
+    around, data = localizer.map_posterior.surroundings, localizer.map_data()
+    told = np.flatnonzero(np.diff(around.cell_starts))  # where something is
+    rows = rng.choice(told, count)
+    positions_m = cells.center_m[rows, :2] + rng.uniform(-cells.size_m / 4, cells.size_m / 4, (count, 2))
+    return [tuple(map(render_hint, hints)) for hints in nearest_hints(data, positions_m, rows, around, HINTS)]
+
+
+def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, float]:
+    """What a description costs in one thread, and a cell in bytes.
+
+    Args:
+        localizer: what to ask.
+        texts: descriptions that it has not read.
 
     Returns:
         Medians in milliseconds of reading a new description and of the posterior, and, as the baseline of the same
@@ -68,17 +96,9 @@ def measure_parts(index_dir: Path) -> dict[str, float]:
     """
     import torch  # noqa: PLC0415 - heavy
 
-    from index.localizer import Localizer  # noqa: PLC0415
-    from index.robustness import nearest_hints  # noqa: PLC0415
     from index.vector_answers import DEPTH  # noqa: PLC0415
-    from models.language.hints_text import render_hint  # noqa: PLC0415
 
-    settings = load_settings(index_dir=index_dir)
-    localizer = Localizer.open(index_dir, settings.weights_dir, posterior_weights_dir=settings.posterior_weights_dir)
-    posterior, data, cells = localizer.map_posterior, localizer.map_data(), localizer.gallery.cells
-    rows = np.random.default_rng(0).choice(len(cells), DESCRIPTIONS)
-    hints = nearest_hints(data, cells.center_m[rows, :2], rows, posterior.surroundings, HINTS)
-    texts = [tuple(render_hint(hint) for hint in some) for some in hints if some]
+    posterior = localizer.map_posterior
     steps: dict[str, list[float]] = {"read": [], "posterior": [], "encode": [], "vector_search": []}
     threads = torch.get_num_threads()
     torch.set_num_threads(1)
@@ -91,10 +111,16 @@ def measure_parts(index_dir: Path) -> dict[str, float]:
     surroundings = posterior.surroundings
     held = sum(getattr(surroundings, f.name).nbytes for f in fields(surroundings))
     return {f"{name}_ms": round(1000 * float(np.median(seconds)), 1) for name, seconds in steps.items()} | {
-        "cells": len(cells),
-        "surroundings_bytes_a_cell": round(held / len(cells)),
+        "cells": len(localizer.gallery.cells),
+        "surroundings_bytes_a_cell": round(held / len(localizer.gallery.cells)),
         "vectors_bytes_a_cell": round(4 * localizer.dim + localizer.ranker.table.bytes_a_cell),
     }
+
+
+def _open(index_dir: Path, weights_dir: Path | None, posterior_weights_dir: Path | None) -> "Localizer":
+    from index.localizer import Localizer  # noqa: PLC0415 - heavy
+
+    return Localizer.open(index_dir, weights_dir, posterior_weights_dir=posterior_weights_dir)
 
 
 def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:
@@ -142,21 +168,21 @@ def serving(index_dir: Path) -> Iterator[httpx.Client]:
 def latencies(request: Callable[[], Any]) -> dict[str, float]:
     """p50 and p99 in milliseconds of a request repeated, after a few that are not counted."""
     seconds = []
-    for n in range(REQUESTS + 10):
+    for n in range(WARM_UP + REQUESTS):
         start = time.perf_counter()
         request()
-        if n >= 10:
+        if n >= WARM_UP:
             seconds.append(time.perf_counter() - start)
     p50, p99 = np.percentile(seconds, [50, 99]) * 1000
     return {"p50": round(float(p50), 1), "p99": round(float(p99), 1)}
 
 
-def _localize(client: httpx.Client, hints: list[str]) -> None:
+def _localize(client: httpx.Client, hints: tuple[str, ...]) -> None:
     client.post("/localize", json={"hints": hints}).raise_for_status()
 
 
-def _new_hint(n: int) -> str:
-    """A sentence that no one has sent before."""
+def _vague_hint(n: int) -> str:
+    """A sentence that no one has sent before and that fits many places."""
     direction = ("north", "south", "east", "west")[n % 4]
     return f"I am {direction} of a gray building with the number {n}."
 

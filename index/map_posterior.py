@@ -146,7 +146,7 @@ def _pieces(hints: Sequence[str]) -> list[str]:
     """A description as texts that the reader takes whole."""
     pieces = [""]
     for hint in hints:
-        sentence = hint if hint.endswith((".", "!", "?", ";")) else hint + "."
+        sentence = hint if hint.endswith((".", "!", "?", ";", ":")) else hint + "."
         if pieces[-1] and len(pieces[-1]) + len(sentence) > LONGEST:
             pieces.append("")
         pieces[-1] = f"{pieces[-1]} {sentence}".strip()

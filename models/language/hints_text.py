@@ -8,6 +8,7 @@ from models.errors import DescriptionError
 
 # A sentence ends at . ! ? ; or a line break; a dot inside a number or an abbreviation's letter does not end one.
 _BREAK = re.compile(r"(?<=[.!?;。！？])(?<!\b\w\.)(?=\s|$)|[\r\n]+")  # noqa: RUF001  # Chinese and Japanese too
+_BULLET = re.compile(r"^[ \t]*(?:[-*•–—·]+|\(?\d{1,2}[.)])[ \t]+", re.M)  # noqa: RUF001  # a dash too
 _HAS_WORD = re.compile(r"\w")
 OPPOSITE: Final[dict[Direction, Direction]] = {
     "north": "south",
@@ -41,7 +42,7 @@ ON_TOP_TEMPLATES: Final[tuple[str, ...]] = (
 
 
 def split_hints(description: str) -> tuple[str, ...]:
-    """The sentences of a description, one hint each.
+    """The sentences of a description, or the lines of a list, one hint each.
 
     Args:
         description: any text; sentences end at . ! ? ; or a line break.
@@ -49,7 +50,7 @@ def split_hints(description: str) -> tuple[str, ...]:
     Raises:
         DescriptionError: there is no letter or digit in it.
     """
-    sentences = (part.strip(" \t;") for part in _BREAK.split(description))
+    sentences = (part.strip(" \t;,") for part in _BREAK.split(_BULLET.sub("", description)))
     hints = tuple(sentence for sentence in sentences if _HAS_WORD.search(sentence))
     if not hints:
         raise DescriptionError(

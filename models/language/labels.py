@@ -89,16 +89,12 @@ class LabelMatcher(nn.Module):
             nouns: of `embed`.
             bound: the map's labels.
         """
-        similarity = nouns @ bound.names.T
-        logits = self.scale.exp() * similarity
-        buckets = [
-            logits[:, bound.label == n].logsumexp(dim=1)
-            if bool((bound.label == n).any())
-            else torch.full((len(nouns),), -1e4)
-            for n in range(bound.count + 1)
-        ]
-        none = torch.logaddexp(buckets[-1], (self.scale.exp() * self.unknown).expand(len(nouns)))
-        return torch.stack([*buckets[:-1], none], dim=1).log_softmax(dim=1)
+        logits = self.scale.exp() * (nouns @ bound.names.T)
+        highest = logits.amax(dim=1, keepdim=True)
+        mass = torch.zeros(len(nouns), bound.count + 1).index_add(1, bound.label, (logits - highest).exp())
+        scores = mass.clamp(min=1e-30).log() + highest
+        none = torch.logaddexp(scores[:, -1], (self.scale.exp() * self.unknown).expand(len(nouns)))
+        return torch.cat([scores[:, :-1], none[:, None]], dim=1).log_softmax(dim=1)
 
 
 @cache

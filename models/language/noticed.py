@@ -15,6 +15,17 @@ _NUMBERS: Final = {
     **dict.fromkeys(("four", "4", "five", "5", "six", "6"), MOST),
 }
 _NUMBER = re.compile(rf"\b({'|'.join(_NUMBERS)})\b", re.I)
+_MEASURE = re.compile(
+    r"(?:area|bit|bunch|clump|cluster|expanse|length|line|patch|piece|plot|row|section|stretch|strip)s?$", re.I
+)
+# Words for a colour, or others that may stand before a noun.
+MODIFIER: Final = r"(?:\s+(?!(?:a|an|and|at|but|by|in|is|of|on|or|the|to|with)\b)[\w-]+)"
+_OF = re.compile(rf"\s+of{MODIFIER}{{0,3}}\s+$", re.I)
+_DEFINITE = re.compile(r"\b(?:the|this|that)\s+$", re.I)
+_WHERE = re.compile(
+    r"\b(?:north|south|east|west)|\b(?:[nesw]|adjacent|beside|by|close|feet|here|near|next to|on|stand|under)\b", re.I
+)
+SENTENCE_END: Final = re.compile(r"[.!?;\n](?:\s|$)")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,6 +62,7 @@ def resolve(text: str, things: Sequence[Noticed], kinds: Sequence[str]) -> list[
         In the text's order. A plural of which stand-ins tell is no hint; a stand-in without a noun before it neither.
     """
     counts = [_count(text, thing) if kind == "plural" else 1 for thing, kind in zip(things, kinds, strict=True)]
+    things, again = _once_each(text, things, kinds)
     told = [0] * len(things)  # stand-ins of each plural
     nouns = [thing.noun for thing in things]
     for n, kind in enumerate(kinds):
@@ -62,9 +74,54 @@ def resolve(text: str, things: Sequence[Noticed], kinds: Sequence[str]) -> list[
                 told[before[-1]] += 1
     found: list[Noticed] = []
     for n, thing in enumerate(things):
-        copies = 0 if told[n] or not nouns[n] else counts[n]
+        copies = 0 if told[n] or not nouns[n] or n in again else counts[n]
         found += [replace(thing, noun=nouns[n])] * copies
     return found
+
+
+def _once_each(text: str, things: Sequence[Noticed], kinds: Sequence[str]) -> tuple[list[Noticed], set[int]]:
+    """What a thing is said to be where it is named again goes to where it was named first; and which name nothing new.
+
+    "I see a gray house. The house is north of me", "a house is north of me. The house is gray", and "a patch of grass",
+    of which the patch is no thing.
+    """
+    merged, again = list(things), set[int]()
+    for n, thing in enumerate(things):
+        follows = text[thing.end : things[n + 1].start] if n + 1 < len(things) else ""
+        if _MEASURE.search(thing.noun) and _OF.match(follows):
+            again.add(n)
+        elif kinds[n] == "noun" and _DEFINITE.search(text, max(0, thing.start - 6), thing.start):
+            same = [m for m in range(n) if m not in again and kinds[m] == "noun" and _is_like(things[m], thing)]
+            both = _merged(text, merged[same[-1]], thing) if same else None
+            if both is not None:
+                merged[same[-1]] = both
+                again.add(n)
+    return merged, again
+
+
+def _is_like(one: Noticed, other: Noticed) -> bool:
+    longer, shorter = sorted((one.noun.casefold(), other.noun.casefold()), key=len, reverse=True)
+    return f" {longer}".endswith(f" {shorter}")
+
+
+def _merged(text: str, first: Noticed, later: Noticed) -> Noticed | None:
+    """Two mentions as one; None if both say a place or a colour, so that they may be two things."""
+    placed, coloured = ([_says_where(text, x) for x in (first, later)], [x.colour[-1] < 0.5 for x in (first, later)])
+    if all(placed) or all(coloured) or max(first.absent, later.absent) > 0.5:
+        return None
+    return replace(
+        first,
+        relation=(later if placed[1] else first).relation,
+        colour=(later if coloured[1] else first).colour,
+        distance_m=first.distance_m if later.distance_m is None else later.distance_m,
+    )
+
+
+def _says_where(text: str, thing: Noticed) -> bool:
+    """Whether the sentence that names a thing says where anything is."""
+    begin = max((m.end() for m in SENTENCE_END.finditer(text, 0, thing.start)), default=0)
+    end = SENTENCE_END.search(text, thing.end)
+    return bool(_WHERE.search(text, begin, end.start() if end else len(text)))
 
 
 def _count(text: str, thing: Noticed) -> int:

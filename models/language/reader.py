@@ -9,7 +9,7 @@ import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
-from models.language.noticed import Noticed, resolve
+from models.language.noticed import MODIFIER, SENTENCE_END, Noticed, resolve
 from models.language.said import RELATIONS, Mention
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, run_layers
 
@@ -30,8 +30,9 @@ _DISTANCE = re.compile(
     rf"(?<![\w.])(\d+(?:[.,]\d+)?|{'|'.join(_NUMBERS)})\s*-?\s*(m|met(?:re|er)s?|ft|feet|foot|yards?|steps?|paces?)\b",
     re.I,
 )
+# "a small dark green pole": the size belongs to the noun, and what stands between is its colour.
+_SIZE = re.compile(rf"\b(big|little|low|short|small|tall|tiny){MODIFIER}{{1,3}}\s+$", re.I)
 _LOOSE_END = re.compile(r"(?<=\w)\s+(?:of|with|along|down|up|by|in|on|at|and|to)$", re.I)
-_SENTENCE_END = re.compile(r"[.!?;\n](?:\s|$)")
 
 
 class ReaderConfig(BaseModel):
@@ -112,7 +113,7 @@ class Reader(nn.Module):
             rows = zip(
                 places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), distances, strict=True
             )
-            things = [Noticed(text[a:b], a, b, *rest) for (a, b), *rest in rows]
+            things = [Noticed(_noun(text, a, b), a, b, *rest) for (a, b), *rest in rows]
             found.append(resolve(text, things, [TAGS[tag] for *_, tag in spans]))
         return found
 
@@ -158,6 +159,11 @@ def _place(text: str, start: int, end: int) -> tuple[int, int]:
     return start, loose.start() if loose else end
 
 
+def _noun(text: str, start: int, end: int) -> str:
+    size = _SIZE.search(text[max(0, start - 40) : start])
+    return f"{size[1]} {text[start:end]}" if size else text[start:end]
+
+
 def said_distances(text: str, places: Sequence[tuple[int, int]]) -> list[float | None]:
     """The distance said of each noun: of a sentence's measures, each goes to the noun that is nearest to it.
 
@@ -166,7 +172,7 @@ def said_distances(text: str, places: Sequence[tuple[int, int]]) -> list[float |
         places: characters of each noun.
     """
     distances: list[float | None] = [None] * len(places)
-    ends = [m.start() for m in _SENTENCE_END.finditer(text)]
+    ends = [m.start() for m in SENTENCE_END.finditer(text)]
     for found in _DISTANCE.finditer(text):
         low = max((e for e in ends if e < found.start()), default=-1)
         high = min((e for e in ends if e >= found.end()), default=len(text))

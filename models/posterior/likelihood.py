@@ -50,23 +50,6 @@ class Pairs:
     hint: Tensor
     fits: Tensor
 
-    @classmethod
-    def of(cls, parts: Tensor, part: Tensor, places: Tensor, way: Tensor) -> "Pairs":
-        """Those that are not too faint.
-
-        Args:
-            parts: [P, H] of `Likelihood.parts`.
-            part: [R] row of `parts`.
-            places: [65536, H] of `Likelihood.places`.
-            way: [R] number of the way of each row.
-        """
-        known = (parts.detach().amax(dim=1) > FAINT).index_select(0, part).nonzero().flatten()
-        fits = parts.index_select(0, part.index_select(0, known))
-        fits = (fits * places.index_select(0, way.index_select(0, known))).flatten()
-        kept = (fits.detach() > FAINT).nonzero().flatten()
-        row = torch.div(kept, parts.shape[1], rounding_mode="floor")
-        return cls(known.index_select(0, row), kept - row * parts.shape[1], fits.index_select(0, kept))
-
 
 class Likelihood(nn.Module):
     """log p(T | x) = sum over hints of log(eps + sum over instances of pi * p(class) * p(colour) * p(direction)).
@@ -130,7 +113,7 @@ class Likelihood(nn.Module):
         return reading.label.T[label] * colour
 
     def ways(self) -> Tensor:
-        """[65536, 10] p(relation) for every way from an instance, whatever was said."""
+        """[65536, 11] p(relation) for every way from an instance, whatever was said; last, its metres."""
         east, north = self._way
         radius = torch.hypot(east, north)
         on_top = torch.sigmoid((self.on_top_m[0].exp() - radius) / self.on_top_m[1].exp())
@@ -139,20 +122,36 @@ class Likelihood(nn.Module):
         axes = torch.stack([north, (north + east) * half, east, (east - north) * half])
         axes = torch.cat([axes, -axes])
         winds = torch.sigmoid((axes - axes.roll(2, 0).abs()) / self.border_m.exp()) * (1 - on_top)
-        near = torch.exp(-self.near.exp() * radius)
-        return torch.cat([winds, on_top[None], near[None]]).T.contiguous()
+        near = (on_top + torch.exp(-self.near.exp() * radius)) / 2  # who is beside a thing may be right at it
+        return torch.cat([winds, on_top[None], near[None], radius[None]]).T.contiguous()
 
     def places(self, reading: Reading, ways: Tensor) -> Tensor:
-        """[65536, H] p(direction) p(distance) for every way from an instance; `ways` as the method of this name."""
-        place = (ways @ reading.relation.T).add_(self.relation_slip.exp())
+        """[K, H] p(direction) p(distance) for K rows of the method `ways`."""
+        place = ways[:, :-1] @ reading.relation.T + self.relation_slip.exp()
         said = reading.distance_m
         if bool((~said.isnan()).any()):
-            radius = torch.hypot(*self._way)
             known = said.nan_to_num(1.0)  # a NaN that is not chosen would still be in the gradients
             spread = self.measured.exp() * known + 1.0
-            fits = torch.exp(-((radius[:, None] - known) ** 2) / (2 * spread**2))
+            fits = torch.exp(-((ways[:, -1:] - known) ** 2) / (2 * spread**2))
             place = torch.where(said.isnan(), place, place * fits)
         return place
+
+    def pairs(self, reading: Reading, parts: Tensor, part: Tensor, ways: Tensor, way: Tensor) -> Pairs:
+        """What each hint may mean, without what is too faint.
+
+        Args:
+            reading: the text.
+            parts: [P, H] of the method `parts`.
+            part: [R] row of `parts`.
+            ways: of the method of this name.
+            way: [R] number of the way of each row.
+        """
+        known = (parts.detach().amax(dim=1) > FAINT).index_select(0, part).nonzero().flatten()
+        place = self.places(reading, ways.index_select(0, way.index_select(0, known)))
+        fits = (parts.index_select(0, part.index_select(0, known)) * place).flatten()
+        kept = (fits.detach() > FAINT).nonzero().flatten()
+        row = torch.div(kept, parts.shape[1], rounding_mode="floor")
+        return Pairs(known.index_select(0, row), kept - row * parts.shape[1], fits.index_select(0, kept))
 
     def chance(self, reading: Reading, usual: Tensor) -> Tensor:
         """[H] eps of each hint; `usual` as `usual_statements`. Few things bear a name: it is hardly said by chance."""
@@ -170,13 +169,13 @@ class Likelihood(nn.Module):
             node: [R] node of each row.
             nodes: M.
             pairs: what each hint may mean.
-            share: [R, 3] of `share_of`.
+            share: [K, 3] of `share_of`, of the row of each pair.
             eps: [H] of `chance`.
         """
         hints, row = len(eps), pairs.row
         key = node.index_select(0, row) * hints + pairs.hint
         empty = torch.zeros(nodes * hints, HABITS)
-        terms = pairs.fits[:, None] * share.index_select(0, row)
+        terms = pairs.fits[:, None] * share
         first = empty.index_add(0, key, terms)
         explained = first + eps.repeat(nodes)[:, None]
         load = torch.zeros(len(node), HABITS).index_add(0, row, terms / explained.index_select(0, key))
@@ -196,8 +195,9 @@ class Likelihood(nn.Module):
         """[M] log p(T | x), up to a constant; `usual` as `usual_statements`."""
         fits = self.parts(reading, around.label, self.words(around.rgb, palette))
         share = self.share_of(around.way, around.whole, around.turn, around.node, around.nodes)
-        pairs = Pairs.of(fits, around.part, self.places(reading, self.ways()), around.way)
-        return self.combine(reading, around.node, around.nodes, pairs, share, self.chance(reading, usual))
+        pairs = self.pairs(reading, fits, around.part, self.ways(), around.way)
+        eps = self.chance(reading, usual)
+        return self.combine(reading, around.node, around.nodes, pairs, share.index_select(0, pairs.row), eps)
 
 
 def _falling(size: int, habit: int) -> Tensor:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 import torch
-from scipy.special import logsumexp
 from torch import Tensor
 
 from models.city.cells import CellTable
@@ -14,7 +13,7 @@ from models.city.types import Floats
 from models.posterior.likelihood import Reading
 from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
 
-HIT_M = 5.5  # positions are chosen to have most of the mass this near, softly
+HIT_M = 6.5  # positions are chosen to have most of the mass this near, softly
 BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
 MEAN_M = 3.0  # and are then the mean of the mass this near
 HEAVY = 256  # nodes that the mass within reach is added up from: the likeliest
@@ -101,8 +100,8 @@ def locate(
     if len(left_out):
         tail = slice(max(0, len(chosen) - _TAIL), None)
         gap = np.median(mass[tail] - scores[chosen][tail])
-        rest = float(logsumexp(scores[left_out] + gap))
-    total = np.logaddexp(logsumexp(mass), rest)
+        rest = float(np.logaddexp.reduce(scores[left_out], dtype=np.float64) + gap)
+    total = np.logaddexp(np.logaddexp.reduce(mass), rest)
     order = np.lexsort((chosen, -mass))
     weight = np.exp(field.log_p - total)
     nodes_m = posterior.nodes_m[field.nodes]
@@ -133,21 +132,20 @@ def _field(
 
     Where only some nodes are inside, or likelier than others beforehand, all of them are looked at.
     """
-    places = posterior.places(reading)
     if inside is not None or log_prior is not None:
-        return posterior.field(reading, places, chosen, log_prior, inside)
-    rough = posterior.field(reading, places, chosen, inside=posterior.coarse)
+        return posterior.field(reading, chosen, log_prior, inside)
+    rough = posterior.field(reading, chosen, inside=posterior.coarse)
     mass = _mass(rough)
     is_near = (mass > mass.max() - BEHIND) | (mass == -np.inf)
     near = np.flatnonzero(is_near)
-    fine = posterior.field(reading, places, chosen[near])
-    kept = ~is_near[rough.cell]
+    fine = posterior.field(reading, chosen[near], inside=posterior.between)
     starts = posterior.surroundings.cell_starts
     stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
-    cell = np.concatenate([near[fine.cell], rough.cell[kept]])
-    log_p = np.concatenate([fine.log_p, rough.log_p[kept] + np.log(stands_for)[rough.cell[kept]]])
+    stands_for[near] = 1.0
+    cell = np.concatenate([near[fine.cell], rough.cell])
+    log_p = np.concatenate([fine.log_p, rough.log_p + np.log(stands_for)[rough.cell]])
     order = np.argsort(cell, kind="stable")
-    return Field(chosen, np.concatenate([fine.nodes, rough.nodes[kept]])[order], cell[order], log_p[order])
+    return Field(chosen, np.concatenate([fine.nodes, rough.nodes])[order], cell[order], log_p[order])
 
 
 def _mass(field: Field) -> Floats:
@@ -168,8 +166,9 @@ def _cell_scores(posterior: HintPosterior, reading: Reading, log_prior: LogPrior
     if log_prior is not None:
         scores = scores + log_prior(posterior.cells.center_m[:, :2])
     starts = posterior.surroundings.cell_starts
-    count = np.arange(starts[-1] + 1) if inside is None else np.concatenate([[0], np.cumsum(inside)])
-    return np.where(count[starts[1:]] > count[starts[:-1]], scores, -np.inf)
+    if inside is not None:
+        starts = np.concatenate([[0], np.cumsum(inside)])[starts]
+    return np.where(starts[1:] > starts[:-1], scores, -np.inf)
 
 
 def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable) -> Floats:
@@ -209,4 +208,4 @@ def _squares(points_m: Floats) -> Tensor:
 
 def _bump(square: Tensor) -> Tensor:
     """About 1 up to a distance of 1 and 0 beyond, of squared distances; never so small that arithmetic is slow."""
-    return torch.exp(-(square * square * square).clamp(max=80.0)) * (square < 4.0)
+    return (square * square).mul_(square).clamp_(max=80.0).neg_().exp_()

@@ -16,7 +16,7 @@ from models.city.points import Ints, ranges
 from models.city.surroundings import SPACING_M, STEP_M, Surroundings
 from models.city.types import Floats
 from models.posterior.around import turns_of, usual_statements, way_number
-from models.posterior.likelihood import Likelihood, Pairs, Reading
+from models.posterior.likelihood import Likelihood, Reading
 
 CANDIDATES = 100  # cells whose nodes are looked at
 SECTORS = 9  # of a statement: the eight winds and "on-top"
@@ -75,6 +75,8 @@ class HintPosterior:
         self._statements, self._columns = self._tabulate()
         self.nodes_m = s.nodes_m.astype(np.float64)
         self.coarse = (np.round(self.nodes_m / SPACING_M) % 2 == 0).all(axis=1)
+        self.between = ~self.coarse
+        self._scratch = np.zeros(len(label), np.int64)  # by part; what is in it is overwritten before it is read
 
     def _shares(self) -> Tensor:
         """[R, 3] pi of each row, a block of nodes at a time."""
@@ -128,19 +130,11 @@ class HintPosterior:
         return scores
 
     @torch.inference_mode()
-    def places(self, reading: Reading) -> Tensor:
-        """`Likelihood.places` of this gallery."""
-        return self.likelihood.places(reading, self._ways)
-
-    @torch.inference_mode()
-    def field(
-        self, reading: Reading, places: Tensor, cells: Ints, log_prior: LogPrior | None = None, inside: Any = None
-    ) -> Field:
+    def field(self, reading: Reading, cells: Ints, log_prior: LogPrior | None = None, inside: Any = None) -> Field:
         """The posterior over the nodes of some cells.
 
         Args:
             reading: what was said.
-            places: of the reading.
             cells: [K] rows.
             log_prior: log-density of positions [M, 2]; None for none.
             inside: [M of all] bool, False where it cannot be; None for everywhere.
@@ -153,8 +147,8 @@ class HintPosterior:
             nodes, cell = nodes[kept], cell[kept]
         rows, node, fits, part = self._rows(reading, nodes)
         model = self.likelihood
-        pairs = Pairs.of(fits, part, places, self._way.index_select(0, rows))
-        share, eps = self._share.index_select(0, rows), model.chance(reading, self.usual)
+        pairs = model.pairs(reading, fits, part, self._ways, self._way.index_select(0, rows))
+        share, eps = self._share.index_select(0, rows.index_select(0, pairs.row)), model.chance(reading, self.usual)
         log_p = model.combine(reading, node, len(nodes), pairs, share, eps).double().numpy()
         if log_prior is not None:
             log_p = log_p + log_prior(self.nodes_m[nodes])
@@ -165,7 +159,7 @@ class HintPosterior:
         """For each hint the part that explains it best at a node (-1 for none), and how likely it is that one does."""
         rows, _, fits, part = self._rows(reading, np.array([node]))
         share = self._share[rows].mean(dim=1, keepdim=True)
-        terms = fits[part] * self.places(reading)[self._way[rows].long()] * share
+        terms = fits[part] * self.likelihood.places(reading, self._ways[self._way[rows].long()]) * share
         eps = self.likelihood.chance(reading, self.usual)
         if not len(rows):
             return [(-1, 0.0)] * len(reading.label)
@@ -185,13 +179,11 @@ class HintPosterior:
         begin, end = s.starts[nodes], s.starts[nodes + 1]
         rows = torch.from_numpy(ranges(begin, end))
         node = torch.from_numpy(np.repeat(np.arange(len(nodes)), end - begin))
-        seen = np.zeros(len(self._label), np.bool_)
-        part = s.part[rows.numpy()]
-        seen[part] = True
-        different = np.flatnonzero(seen)
-        number = np.zeros(len(self._label), np.int64)
-        number[different] = np.arange(len(different))
-        chosen = torch.from_numpy(different)
+        part, number = s.part[rows.numpy()], self._scratch
+        number[part] = count = np.arange(len(part))
+        different = part[number[part] == count]  # each once
+        number[different] = count[: len(different)]
+        chosen = torch.from_numpy(different.astype(np.int64))
         fits = self.likelihood.parts(reading, self._label[chosen], self._words[chosen])
         for hint, bears in reading.named.items():
             fits[:, hint] = bears[chosen]

@@ -18,6 +18,11 @@ from models.language.hints_text import ON_TOP_TEMPLATES, TEMPLATES, render_hint,
         ("It is 2.5 m north of a wall.", ("It is 2.5 m north of a wall.",)),
         ("Olen puun vieressä. 我在树旁。", ("Olen puun vieressä.", "我在树旁。")),
         ("... A tree. !!!", ("A tree.",)),
+        (
+            "What I see:\n- a lamp, north of me,\n * a wall: I am on it\n1. a bin\n(2) a tree",
+            ("What I see:", "a lamp, north of me", "a wall: I am on it", "a bin", "a tree"),
+        ),
+        ("12 m north of a wall - a gray one", ("12 m north of a wall - a gray one",)),
     ],
 )
 def test_splitting(text, hints) -> None:

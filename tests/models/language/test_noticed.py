@@ -35,3 +35,45 @@ def test_hints_of_plurals_and_of_what_stands_for_them(text, words, kinds, nouns)
 def test_a_stand_in_keeps_its_own_place():
     found = resolve(TEXT, things(TEXT, ["garages", "one"]), ["plural", "stand-in"])
     assert [(thing.noun, TEXT[thing.start : thing.end]) for thing in found] == [("garages", "one")]
+
+
+NONE, GRAY, GREEN = torch.eye(16)[[15, 1, 5]]
+NORTH, EAST, NEAR = torch.eye(10)[[0, 2, 9]]
+
+
+@pytest.mark.parametrize(
+    ("text", "said", "hints"),
+    [
+        ("I see a house and a lamp. The house is north of me.",  # first what there is, then where
+         [("house", EAST, GRAY), ("lamp", EAST, NONE), ("house", NORTH, NONE)],
+         [("house", NORTH, GRAY), ("lamp", EAST, NONE)]),
+        ("A house is north of me. I like it. The house is gray.",  # first where, then of what colour
+         [("house", NORTH, NONE), ("house", NEAR, GRAY)],
+         [("house", NORTH, GRAY)]),
+        ("A small pole is north of me. The pole is gray.",
+         [("small pole", NORTH, NONE), ("pole", NEAR, GRAY)],
+         [("small pole", NORTH, GRAY)]),
+        ("The road is north of me. The road is east of me.",  # two roads
+         [("road", NORTH, NONE), ("road", EAST, NONE)],
+         [("road", NORTH, NONE), ("road", EAST, NONE)]),
+        ("A house is north of me. A house is gray.",  # of which the second need not be the first
+         [("house", NORTH, NONE), ("house", NEAR, GRAY)],
+         [("house", NORTH, NONE), ("house", NEAR, GRAY)]),
+        ("I see a gray house. The green house is north. The house is green.",
+         [("house", NEAR, GRAY), ("house", NORTH, GREEN), ("house", NEAR, GREEN)],
+         [("house", NEAR, GRAY), ("house", NORTH, GREEN), ("house", NEAR, GREEN)]),
+        ("a patch of dark green grass, a line of sight and a block of flats north",
+         [("patch", NEAR, NONE), ("grass", NORTH, GREEN), ("line", NEAR, NONE), ("block of flats", NORTH, NONE)],
+         [("grass", NORTH, GREEN), ("line", NEAR, NONE), ("block of flats", NORTH, NONE)]),
+    ],
+)  # fmt: skip
+def test_what_is_named_again_is_one_thing(text, said, hints):
+    found, at = [], 0
+    for noun, relation, colour in said:
+        at = text.index(noun, at)
+        found.append(Noticed(noun, at, at + len(noun), relation, colour, 0.0, None))
+        at += len(noun)
+    merged = resolve(text, found, ["noun"] * len(found))
+    assert [(t.noun, int(t.relation.argmax()), int(t.colour.argmax())) for t in merged] == [
+        (noun, int(relation.argmax()), int(colour.argmax())) for noun, relation, colour in hints
+    ]

@@ -11,6 +11,7 @@ from models.language.reader import (
     TAGS,
     Reader,
     ReaderConfig,
+    _noun,
     _place,
     _spans,
     example_targets,
@@ -115,6 +116,28 @@ def test_said_distances_go_to_the_nearest_noun(text, noun, metres):
     found = dict(zip([text[a:b] for a, b in places], said_distances(text, places), strict=True))
     assert found[noun] == (pytest.approx(metres) if metres else None)
     assert all(value is None for word, value in found.items() if word != noun)
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "read"),
+    [
+        ("east of a small dark green pole", "pole", "small pole"),
+        ("east of a small pole", "pole", "pole"),  # is read with its size, or was not meant
+        ("a tall one and a gray pole", "pole", "pole"),
+        ("the hedge is low. A gray pole", "pole", "pole"),
+    ],
+)
+def test_a_size_belongs_to_the_noun_that_its_colour_parts_it_from(text, noun, read):
+    assert _noun(text, text.index(noun), text.index(noun) + len(noun)) == read
+
+
+def test_a_label_fits_as_well_as_all_its_names_together(text_encoder):
+    matcher = LabelMatcher(text_encoder)
+    bound, nouns = matcher.bind(("building", "lamp")), matcher.embed(["street light", "house", "giraffe"])
+    logits = matcher.scale.exp() * nouns @ bound.names.T
+    by_hand = [logits[:, bound.label == n].logsumexp(dim=1) for n in range(3)]
+    by_hand[2] = torch.logaddexp(by_hand[2], matcher.scale.exp() * matcher.unknown)
+    assert torch.allclose(matcher(nouns, bound), torch.stack(by_hand, dim=1).log_softmax(dim=1), atol=1e-4)
 
 
 def test_what_a_class_means_in_a_map():

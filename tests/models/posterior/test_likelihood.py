@@ -49,7 +49,7 @@ def place_of(model, relation, east, north):
         if name == "on-top":
             fits = on_top
         elif name == "near":
-            fits = math.exp(-e["near"] * radius)
+            fits = (on_top + math.exp(-e["near"] * radius)) / 2
         else:
             angle = math.radians(45 * n)
             along = east * math.sin(angle) + north * math.cos(angle)

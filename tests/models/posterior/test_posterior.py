@@ -58,7 +58,7 @@ def town(city, points, cells) -> Town:
 def test_the_field_is_the_likelihood_of_its_nodes(town):
     cells = np.array([3, 40, 11])
     for reading in town.readings[:3]:
-        field = town.posterior.field(reading, town.posterior.places(reading), cells)
+        field = town.posterior.field(reading, cells)
         nodes, around = around_cells(town.place, cells)
         assert (field.nodes == nodes).all()
         with torch.no_grad():
@@ -153,8 +153,7 @@ def test_a_prior_is_multiplied_in(town):
         return -((positions_m - center) ** 2).sum(axis=1) / (2 * 6.0**2)
 
     cells, reading = np.arange(len(town.place.cells)), town.readings[5]
-    places = town.posterior.places(reading)
-    plain, biased = (town.posterior.field(reading, places, cells, prior) for prior in (None, log_prior))
+    plain, biased = (town.posterior.field(reading, cells, prior) for prior in (None, log_prior))
     assert np.allclose(biased.log_p - plain.log_p, log_prior(town.posterior.nodes_m[plain.nodes]))
     found = locate(town.posterior, town.readings[5], log_prior)
     assert np.linalg.norm(found.positions[0] - center) < 20.0
