@@ -23,7 +23,9 @@ MODIFIER: Final = r"(?:\s+(?!(?:a|an|and|at|but|by|in|is|of|on|or|the|to|with)\b
 _OF = re.compile(rf"\s+of{MODIFIER}{{0,3}}\s+$", re.I)
 _DEFINITE = re.compile(r"\b(?:the|this|that)\s+$", re.I)
 _WHERE = re.compile(
-    r"\b(?:north|south|east|west)|\b(?:[nesw]|adjacent|beside|by|close|feet|here|near|next to|on|stand|under)\b", re.I
+    r"\b(?:north|south|east|west)|\b(?:adjacent|beside|by|close|feet|here|near|next to|on|stand|under)\b"
+    r"|\b(?-i:[NESW])\b",
+    re.I,
 )
 SENTENCE_END: Final = re.compile(r"[.!?;\n](?:\s|$)")
 

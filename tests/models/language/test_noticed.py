@@ -50,7 +50,7 @@ NORTH, EAST, NEAR = torch.eye(10)[[0, 2, 9]]
         ("A house is north of me. I like it. The house is gray.",  # first where, then of what colour
          [("house", NORTH, NONE), ("house", NEAR, GRAY)],
          [("house", NORTH, GRAY)]),
-        ("A small pole is north of me. The pole is gray.",
+        ("A small pole is north of me. That's it. The pole's gray.",
          [("small pole", NORTH, NONE), ("pole", NEAR, GRAY)],
          [("small pole", NORTH, GRAY)]),
         ("The road is north of me. The road is east of me.",  # two roads
