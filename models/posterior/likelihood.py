@@ -110,7 +110,7 @@ class Likelihood(nn.Module):
         """[P, H] p(class) p(colour) of parts with labels [P] and words [P, W]."""
         count = words.shape[1]
         colour = words @ reading.colour[:, :count].T + reading.colour[:, count]
-        return reading.label.T[label] * colour
+        return reading.label.T.contiguous().index_select(0, label) * colour
 
     def ways(self) -> Tensor:
         """[65536, 11] p(relation) for every way from an instance, whatever was said; last, its metres."""
@@ -174,21 +174,19 @@ class Likelihood(nn.Module):
         """
         hints, row = len(eps), pairs.row
         key = node.index_select(0, row) * hints + pairs.hint
-        empty = torch.zeros(nodes * hints, HABITS)
-        terms = pairs.fits[:, None] * share
-        first = empty.index_add(0, key, terms)
-        explained = first + eps.repeat(nodes)[:, None]
-        load = torch.zeros(len(node), HABITS).index_add(0, row, terms / explained.index_select(0, key))
-        single = (1 + (load - 1).clamp(min=0)) ** (-self.twice.exp())
-        total = empty.index_add(0, key, terms * single.index_select(0, row)).view(nodes, hints, HABITS)
-        said = (total + eps[:, None]).log()
+        terms = (pairs.fits[:, None] * share).T.contiguous()  # [3, K]: sums along the last axis are the fast ones
+        first = terms.new_zeros(HABITS, nodes * hints).index_add(1, key, terms)
+        explained = first + eps.repeat(nodes)
+        load = terms.new_zeros(HABITS, len(node)).index_add(1, row, terms / explained.index_select(1, key))
+        single = torch.exp(-self.twice.exp() * (load.index_select(1, row) - 1).clamp(min=0).log1p())
+        total = torch.zeros_like(first).index_add(1, key, terms * single)
+        said = (total.view(HABITS, nodes, hints) + eps).log()
         if bool((reading.absent > 0.05).any()):
             # "There is none": the less there is of it, the likelier.
-            absent = reading.absent[:, None]
-            around = first.view_as(said) / eps.detach().clamp(min=1e-2)[:, None]
+            around = first.view_as(said) / eps.detach().clamp(min=1e-2)
             none = torch.exp(-3 * around).clamp(min=1e-2).log()
-            said = said * (1 - absent) + none * absent
-        mixed: Tensor = (said.sum(dim=1) + self.habit.log_softmax(0)).logsumexp(dim=1)
+            said = said * (1 - reading.absent) + none * reading.absent
+        mixed: Tensor = (said @ torch.ones(hints) + self.habit.log_softmax(0)[:, None]).logsumexp(dim=0)
         return self.temper.exp() * mixed
 
     def forward(self, reading: Reading, around: Around, palette: Palette, usual: Tensor) -> Tensor:

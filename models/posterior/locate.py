@@ -100,7 +100,8 @@ def locate(
     if len(left_out):
         tail = slice(max(0, len(chosen) - _TAIL), None)
         gap = np.median(mass[tail] - scores[chosen][tail])
-        rest = float(np.logaddexp.reduce(scores[left_out], dtype=np.float64) + gap)
+        highest = scores[left_out].max()
+        rest = float(gap + highest + np.log(np.exp(scores[left_out] - highest).sum()))
     total = np.logaddexp(np.logaddexp.reduce(mass), rest)
     order = np.lexsort((chosen, -mass))
     weight = np.exp(field.log_p - total)
@@ -203,7 +204,7 @@ def _squares(points_m: Floats) -> Tensor:
     points = torch.from_numpy(points_m - points_m.mean(axis=0)).float()
     # By matrix multiplication they would be metres off where scenes lie kilometres apart.
     east, north = (points[:, None, axis] - points[None, :, axis] for axis in (0, 1))
-    return east.square_().add_(north.square_())
+    return east.square_().addcmul_(north, north)
 
 
 def _bump(square: Tensor) -> Tensor:

@@ -72,7 +72,9 @@ class HintPosterior:
         self._way = way_number(torch.from_numpy(s.way)).int()
         self._ways = likelihood.ways()
         self._share = self._shares()
-        self._statements, self._columns = self._tabulate()
+        self._statements, said = self._tabulate()
+        pair, self._sector_said = said // SECTORS, said % SECTORS
+        self._label_said, self._word_said = pair // (self._words.shape[1] + 1), pair % (self._words.shape[1] + 1)
         self.nodes_m = s.nodes_m.astype(np.float64)
         self.coarse = (np.round(self.nodes_m / SPACING_M) % 2 == 0).all(axis=1)
         self.between = ~self.coarse
@@ -112,21 +114,21 @@ class HintPosterior:
     def cell_scores(self, reading: Reading) -> Floats:
         """[N] about log p(T | cell), of every cell of the gallery: the inverted list over statements."""
         words = self._words.shape[1]
-        sector, pair = self._columns % SECTORS, self._columns // SECTORS
-        label, word = pair // (words + 1), pair % (words + 1)
+        known = (reading.label.amax(dim=0) > FAINT_STATEMENT).index_select(0, self._label_said).nonzero().flatten()
         place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
         colour = torch.cat(
             [reading.colour[:, :words] + reading.colour[:, words:], torch.ones(len(place), 1) * 0.3], dim=1
         )
-        weight = reading.label[:, label] * colour[:, word] * place[:, sector]  # [H, F]
-        told = np.flatnonzero(weight.amax(dim=0).numpy() > FAINT_STATEMENT)  # few
-        holds = self._statements[:, told] @ weight[:, told].T.numpy()
+        weight = reading.label.index_select(1, self._label_said.index_select(0, known))  # [H, F]
+        weight = weight * colour.index_select(1, self._word_said.index_select(0, known))
+        weight = weight * place.index_select(1, self._sector_said.index_select(0, known))
+        told = (weight.amax(dim=0) > FAINT_STATEMENT).nonzero().flatten()  # few
+        columns = known.index_select(0, told).numpy()
+        holds = self._statements[:, columns] @ weight.index_select(1, told).T.numpy()
         for hint, bears in reading.named.items():
             holds[:, hint] = 0.0
             holds[self.cells.parts.cube[bears.numpy()], hint] = NAMED
-        present = np.log(holds + FLOOR)
-        absent = reading.absent.numpy()
-        scores: Floats = (present * (1 - absent)).sum(axis=1)
+        scores: Floats = np.log(holds + FLOOR) @ (1 - reading.absent.numpy())
         return scores
 
     @torch.inference_mode()
@@ -184,7 +186,8 @@ class HintPosterior:
         different = part[number[part] == count]  # each once
         number[different] = count[: len(different)]
         chosen = torch.from_numpy(different.astype(np.int64))
-        fits = self.likelihood.parts(reading, self._label[chosen], self._words[chosen])
+        label, words = (table.index_select(0, chosen) for table in (self._label, self._words))
+        fits = self.likelihood.parts(reading, label, words)
         for hint, bears in reading.named.items():
             fits[:, hint] = bears[chosen]
         return rows, node, fits, torch.from_numpy(number[part])
