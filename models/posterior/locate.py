@@ -209,4 +209,4 @@ def _squares(points_m: Floats) -> Tensor:
 
 def _bump(square: Tensor) -> Tensor:
     """About 1 up to a distance of 1 and 0 beyond, of squared distances; never so small that arithmetic is slow."""
-    return (square * square).mul_(square).clamp_(max=80.0).neg_().exp_()
+    return (square * square).mul_(square).clamp_(max=80.0).neg_().exp_().mul_(square < 4.0)
