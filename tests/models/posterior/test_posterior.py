@@ -66,6 +66,17 @@ def test_the_field_is_the_likelihood_of_its_nodes(town):
         assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
 
 
+def test_the_mass_of_a_likely_cell_is_that_of_all_its_nodes(town):
+    for reading in town.readings[:5]:
+        found = locate(town.posterior, reading)
+        likely = int((found.log_mass > found.log_mass[0] - 5).sum())
+        field = town.posterior.field(reading, found.rows[:likely])
+        mass = [np.logaddexp.reduce(field.log_p[field.cell == n]) for n in range(likely)]
+        assert np.allclose(found.log_mass[:likely], mass, atol=1e-3)
+        assert np.isin(field.nodes, found.nodes).all()
+        assert len(np.unique(found.nodes)) == len(found.nodes)
+
+
 def test_descriptions_are_found_where_they_were_said(town):
     hits, near, candidates = [], [], []
     for q, reading in enumerate(town.readings[:60]):
