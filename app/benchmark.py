@@ -49,7 +49,7 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
     localizer = _open(index_dir, settings.weights_dir, settings.posterior_weights_dir)
     texts = descriptions(localizer, WARM_UP + max(REQUESTS, PARTS))
     with serving(index_dir) as client:
-        new, number = iter(texts), itertools.count()
+        new, number = itertools.cycle(texts), itertools.count()
         fresh = latencies(lambda: _localize(client, next(new)))
         vague = latencies(lambda: _localize(client, tuple(_vague_hint(next(number)) for _ in range(HINTS))))
         cached = latencies(lambda: _localize(client, texts[0]))
@@ -70,7 +70,7 @@ def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
 
     Args:
         localizer: of the map.
-        count: descriptions.
+        count: descriptions; fewer where there is little to tell.
     """
     from index.robustness import nearest_hints  # noqa: PLC0415 - heavy
     from models.language.hints_text import render_hint  # noqa: PLC0415
@@ -78,9 +78,10 @@ def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
     cells, rng = localizer.gallery.cells, np.random.default_rng(0)
     around, data = localizer.map_posterior.surroundings, localizer.map_data()
     told = np.flatnonzero(np.diff(around.cell_starts))  # where something is
-    rows = rng.choice(told, count)
-    positions_m = cells.center_m[rows, :2] + rng.uniform(-cells.size_m / 4, cells.size_m / 4, (count, 2))
-    return [tuple(map(render_hint, hints)) for hints in nearest_hints(data, positions_m, rows, around, HINTS)]
+    rows = rng.choice(told, 2 * count)
+    positions_m = cells.center_m[rows, :2] + rng.uniform(-cells.size_m / 4, cells.size_m / 4, (len(rows), 2))
+    hints = nearest_hints(data, positions_m, rows, around, HINTS)
+    return [tuple(map(render_hint, some)) for some in hints if some][:count]
 
 
 def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, float]:

@@ -48,7 +48,7 @@ def split_hints(description: str) -> tuple[str, ...]:
         description: any text; sentences end at . ! ? ; or a line break.
 
     Raises:
-        DescriptionError: there is no letter or digit in it.
+        DescriptionError: there is no letter or digit in it, but for the numbers of a list.
     """
     sentences = (part.strip(" \t;,") for part in _BREAK.split(_BULLET.sub("", description)))
     hints = tuple(sentence for sentence in sentences if _HAS_WORD.search(sentence))

@@ -16,15 +16,15 @@ _NUMBERS: Final = {
 }
 _NUMBER = re.compile(rf"\b({'|'.join(_NUMBERS)})\b", re.I)
 _MEASURE = re.compile(
-    r"(?:area|bit|bunch|clump|cluster|expanse|length|line|patch|piece|plot|row|section|stretch|strip)s?$", re.I
+    r"\b(?:area|bit|bunch|clump|cluster|expanse|length|line|patch|piece|plot|row|section|stretch|strip)(?:e?s)?$", re.I
 )
-# Words for a colour, or others that may stand before a noun.
-MODIFIER: Final = r"(?:\s+(?!(?:a|an|and|at|but|by|in|is|of|on|or|the|to|with)\b)[\w-]+)"
-_OF = re.compile(rf"\s+of{MODIFIER}{{0,3}}\s+$", re.I)
+# What may stand between: a colour, say.
+_OF = re.compile(r"\s+of(?:\s+(?!(?:a|an|and|at|but|by|in|is|of|on|or|the|to|with)\b)[\w-]+){0,3}\s+$", re.I)
 _DEFINITE = re.compile(r"\b(?:the|this|that)\s+$", re.I)
 _WHERE = re.compile(
-    r"\b(?:north|south|east|west)|\b(?:adjacent|beside|by|close|feet|here|near|next to|on|stand|under)\b"
-    r"|\b(?-i:[NESW])\b",
+    r"\b(?:north|south|east|west|touch)"
+    r"|\b(?:adjacent|against|at|beside|by|close|feet|here|near(?:by)?|next to|on|stand|under)\b"
+    r"|\b(?-i:[NS]?[EW]|[NS])\b",
     re.I,
 )
 SENTENCE_END: Final = re.compile(r"[.!?;\n](?:\s|$)")
@@ -88,15 +88,18 @@ def _once_each(text: str, things: Sequence[Noticed], kinds: Sequence[str]) -> tu
     of which the patch is no thing.
     """
     merged, again = list(things), set[int]()
+    placed = [_says_where(text, thing) for thing in things]
     for n, thing in enumerate(things):
         follows = text[thing.end : things[n + 1].start] if n + 1 < len(things) else ""
         if _MEASURE.search(thing.noun) and _OF.match(follows):
             again.add(n)
+            if things[n + 1].distance_m is None:
+                merged[n + 1] = replace(things[n + 1], distance_m=thing.distance_m)
         elif kinds[n] == "noun" and _DEFINITE.search(text, max(0, thing.start - 6), thing.start):
             same = [m for m in range(n) if m not in again and kinds[m] == "noun" and _is_like(things[m], thing)]
-            both = _merged(text, merged[same[-1]], thing) if same else None
-            if both is not None:
+            if same and (both := _merged(merged[same[-1]], merged[n], placed[same[-1]], placed[n])):
                 merged[same[-1]] = both
+                placed[same[-1]] |= placed[n]
                 again.add(n)
     return merged, again
 
@@ -106,14 +109,14 @@ def _is_like(one: Noticed, other: Noticed) -> bool:
     return f" {longer}".endswith(f" {shorter}")
 
 
-def _merged(text: str, first: Noticed, later: Noticed) -> Noticed | None:
+def _merged(first: Noticed, later: Noticed, first_placed: bool, later_placed: bool) -> Noticed | None:
     """Two mentions as one; None if both say a place or a colour, so that they may be two things."""
-    placed, coloured = ([_says_where(text, x) for x in (first, later)], [x.colour[-1] < 0.5 for x in (first, later)])
-    if all(placed) or all(coloured) or max(first.absent, later.absent) > 0.5:
+    coloured = [x.colour[-1] < 0.5 for x in (first, later)]
+    if (first_placed and later_placed) or all(coloured) or max(first.absent, later.absent) > 0.5:
         return None
     return replace(
         first,
-        relation=(later if placed[1] else first).relation,
+        relation=(later if later_placed else first).relation,
         colour=(later if coloured[1] else first).colour,
         distance_m=first.distance_m if later.distance_m is None else later.distance_m,
     )

@@ -3,13 +3,15 @@
 import copy
 import re
 from collections.abc import Sequence
+from functools import cache
 from typing import Final
 
 import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
-from models.language.noticed import MODIFIER, SENTENCE_END, Noticed, resolve
+from models.language.noticed import SENTENCE_END, Noticed, resolve
+from models.language.paraphrase import Wording
 from models.language.said import RELATIONS, Mention
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, run_layers
 
@@ -30,8 +32,6 @@ _DISTANCE = re.compile(
     rf"(?<![\w.])(\d+(?:[.,]\d+)?|{'|'.join(_NUMBERS)})\s*-?\s*(m|met(?:re|er)s?|ft|feet|foot|yards?|steps?|paces?)\b",
     re.I,
 )
-# "a small dark green pole": the size belongs to the noun, and what stands between is its colour.
-_SIZE = re.compile(rf"\b(big|little|low|short|small|tall|tiny){MODIFIER}{{1,3}}\s+$", re.I)
 _LOOSE_END = re.compile(r"(?<=\w)\s+(?:of|with|along|down|up|by|in|on|at|and|to)$", re.I)
 
 
@@ -159,8 +159,19 @@ def _place(text: str, start: int, end: int) -> tuple[int, int]:
     return start, loose.start() if loose else end
 
 
+@cache
+def _sizes() -> re.Pattern[str]:
+    """A size that a noun's colour parts from it: "a small dark green pole"."""
+    colours = Wording("train").colours
+    words = {
+        word for colour, names in colours.items() for name in (colour, *names) for word in re.split(r"[\s-]", name)
+    }
+    colour = "|".join(map(re.escape, sorted(words)))
+    return re.compile(rf"\b(big|little|low|short|small|tall|tiny)(?:[\s-]+(?:{colour}))+\s+$", re.I)
+
+
 def _noun(text: str, start: int, end: int) -> str:
-    size = _SIZE.search(text[max(0, start - 40) : start])
+    size = _sizes().search(text[max(0, start - 40) : start])
     return f"{size[1]} {text[start:end]}" if size else text[start:end]
 
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 import torch
 
@@ -62,6 +64,14 @@ NORTH, EAST, NEAR = torch.eye(10)[[0, 2, 9]]
         ("I see a gray house. The green house is north. The house is green.",
          [("house", NEAR, GRAY), ("house", NORTH, GREEN), ("house", NEAR, GREEN)],
          [("house", NEAR, GRAY), ("house", NORTH, GREEN), ("house", NEAR, GREEN)]),
+        ("I see a house. The house is north of me. The house is east of me.",  # the third is another one
+         [("house", NEAR, NONE), ("house", NORTH, NONE), ("house", EAST, NONE)],
+         [("house", NORTH, NONE), ("house", EAST, NONE)]),
+        ("The house is gray. North of me there is a lamp. I am at the house.",
+         [("house", EAST, GRAY), ("lamp", NORTH, NONE), ("house", NEAR, NONE)],
+         [("house", NEAR, GRAY), ("lamp", NORTH, NONE)]),
+        ("I see an intersection of gray roads", [("intersection", NEAR, NONE), ("roads", NEAR, GRAY)],
+         [("intersection", NEAR, NONE), ("roads", NEAR, GRAY)]),
         ("a patch of dark green grass, a line of sight and a block of flats north",
          [("patch", NEAR, NONE), ("grass", NORTH, GREEN), ("line", NEAR, NONE), ("block of flats", NORTH, NONE)],
          [("grass", NORTH, GREEN), ("line", NEAR, NONE), ("block of flats", NORTH, NONE)]),
@@ -77,3 +87,10 @@ def test_what_is_named_again_is_one_thing(text, said, hints):
     assert [(t.noun, int(t.relation.argmax()), int(t.colour.argmax())) for t in merged] == [
         (noun, int(relation.argmax()), int(colour.argmax())) for noun, relation, colour in hints
     ]
+
+
+def test_what_is_measured_by_the_patch_keeps_its_distance():
+    text = "10 m north of me is a patch of green grass"
+    found = things(text, ["patch", "grass"])
+    kept = resolve(text, [replace(found[0], distance_m=10.0), found[1]], ["noun", "noun"])
+    assert [(thing.noun, thing.distance_m) for thing in kept] == [("grass", 10.0)]

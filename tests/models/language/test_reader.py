@@ -124,6 +124,8 @@ def test_said_distances_go_to_the_nearest_noun(text, noun, metres):
         ("east of a small dark green pole", "pole", "small pole"),
         ("east of a small pole", "pole", "pole"),  # is read with its size, or was not meant
         ("a tall one and a gray pole", "pole", "pole"),
+        ("a low wall near green vegetation", "vegetation", "vegetation"),
+        ("a short distance from gray poles", "poles", "poles"),
         ("the hedge is low. A gray pole", "pole", "pole"),
     ],
 )
