@@ -137,8 +137,7 @@ def _field(
         return posterior.field(reading, chosen, log_prior, inside)
     rough = posterior.field(reading, chosen, inside=posterior.coarse)
     mass = _mass(rough)
-    is_near = (mass > mass.max() - BEHIND) | (mass == -np.inf)
-    near = np.flatnonzero(is_near)
+    near = np.flatnonzero((mass > mass.max() - BEHIND) | (mass == -np.inf))
     fine = posterior.field(reading, chosen[near], inside=posterior.between)
     starts = posterior.surroundings.cell_starts
     stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))

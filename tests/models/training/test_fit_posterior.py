@@ -36,9 +36,8 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
     fitted = float(likelihood.temper.detach())
 
     def answers(model, part):
-        scale = np.exp(
-            float(model.temper.detach()) - fitted
-        )  # what is claimed grows with it; half of it is true at 0.6
+        # What is claimed grows with it, and is true at 0.6.
+        scale = np.exp(float(model.temper.detach()) - fitted)
         return np.array([[np.inf, 1.0, 1.0, scale * 0.5 / 0.6], [1.0, 1.0, 0.0, scale * 0.5 / 0.6]])
 
     monkeypatch.setattr(fit_posterior, "_answers", answers)
