@@ -9,7 +9,7 @@ import typer
 
 from models.errors import DataError
 
-MADE_UP = ("demo", "full")  # scales of `models.city.synthetic.write_towns`
+MADE_UP = ("demo", "full")  # scales of `models.city.synthetic.towns.write_towns`
 TOWN_SEED = 0
 
 
@@ -45,9 +45,9 @@ def _numbers(text: str) -> list[int]:
 
 def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path:
     """Made-up towns as a store, made if they are not there yet."""
-    from models.city.kitti360_job import prepare_data
-    from models.city.pose_files import MANIFEST, convert
-    from models.city.synthetic import write_towns
+    from models.city.kitti360.job import prepare_data
+    from models.city.store.files import MANIFEST, convert
+    from models.city.synthetic.towns import write_towns
 
     raw, prepared, store = (out / "data" / name for name in ("raw", "prepared", "store"))
     if not (store / MANIFEST).is_file():

@@ -26,10 +26,10 @@ from index.refinement import Refinement, Refiner
 from index.vector_answers import VectorAnswers
 from models.city.colours import PALETTES
 from models.city.frame import Frame
-from models.city.surroundings import Surroundings
 from models.errors import WeightsError
 from models.localization.checkpoint import load_fine
 from models.posterior.model import load_posterior
+from models.posterior.surroundings import Surroundings
 from models.retrieval.checkpoint import load_retriever
 
 Floats = npt.NDArray[np.floating[Any]]

@@ -16,16 +16,16 @@ from models.city.cells import CellTable, cut_cells
 from models.city.colours import KITTI360_PALETTE, Palette
 from models.city.frame import Frame
 from models.city.hints import BEST_CELL_REACH_M, describe_poses, sample_positions
-from models.city.kitti360pose import list_scenes, select_scenes
-from models.city.osm import load_osm
+from models.city.kitti360pose.files import list_scenes, select_scenes
+from models.city.osm.map import load_osm
 from models.city.points import PointTable
-from models.city.pose_files import MANIFEST, load_data
-from models.city.pose_store import PoseStore
 from models.city.regions import SPLITS, split_regions
-from models.city.surroundings import Bodies, Surroundings
+from models.city.store.files import MANIFEST, load_data
+from models.city.store.pose_store import PoseStore
 from models.city.types import CityMap, CutRules, Floats, Hint
 from models.errors import DataError, MapError
 from models.language.hints_text import render_hint
+from models.posterior.surroundings import Bodies, Surroundings
 
 POSE_SPACING_M = 10.0
 POSE_SEED = 1  # evaluation draws nothing: the positions are the same at every run

@@ -13,7 +13,6 @@ from index.answers import Evidence
 from index.gallery import Gallery
 from models.city.colours import Palette
 from models.city.points import ranges
-from models.city.surroundings import SPACING_M, STEP_M, Surroundings
 from models.language.landmarks import Landmarks
 from models.language.noticed import Noticed
 from models.language.reader import COLOURS
@@ -23,6 +22,7 @@ from models.posterior.likelihood import Reading
 from models.posterior.locate import Located, locate
 from models.posterior.model import PosteriorModel
 from models.posterior.posterior import HintPosterior, LogPrior
+from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
 
 LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
 KEPT_TEXTS = 2000

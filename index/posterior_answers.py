@@ -20,10 +20,10 @@ from index.answers import (
 )
 from index.map_posterior import EXPLAINED, MapPosterior
 from models.city.frame import Frame
-from models.city.surroundings import SPACING_M
 from models.city.types import Floats
 from models.posterior.locate import Located
 from models.posterior.posterior import LogPrior
+from models.posterior.surroundings import SPACING_M
 
 HEAT_POINTS = 500
 NOTHING_SAID = (

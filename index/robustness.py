@@ -18,13 +18,13 @@ from models.city.cells import CellTable, Parts
 from models.city.hints import direction_index
 from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
-from models.city.surroundings import STEP_M, Surroundings
 from models.city.types import DIRECTIONS, Direction, Floats, Hint
 from models.errors import DataError
 from models.language.hints_text import TEMPLATES, render_hint
 from models.language.paraphrase import Wording
 from models.language.said import Fact, Said
 from models.language.typos import typos
+from models.posterior.surroundings import STEP_M, Surroundings
 
 MOST_QUERIES = 300
 SEED = 0

@@ -13,7 +13,7 @@ import torch
 from index.build import build_index
 from index.localizer import Localizer
 from models.city.cells import CellTable, cut_cells
-from models.city.osm import load_osm
+from models.city.osm.map import load_osm
 from models.city.points import PointTable
 from models.city.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder

@@ -9,7 +9,7 @@ from torch import Tensor
 
 from models.city.colours import Palette
 from models.city.hints import ON_TOP_M
-from models.city.surroundings import STEP_M
+from models.posterior.surroundings import STEP_M
 
 TURNS: Final = (16, 4, 4)  # numbers beyond these are as their last
 OFFSET: Final = 128  # ways are int8; a pair of them numbers a row of the tables
@@ -22,7 +22,7 @@ class Around:
     Attributes:
         node: [R] node of each row, ascending.
         way: [R] number of the way from the instance's closest point, see `way_number`.
-        whole: [R] bool, see `models.city.surroundings.Surroundings`.
+        whole: [R] bool, see `models.posterior.surroundings.Surroundings`.
         turn: [R, 5] how many nearer instances there are, and how many in all, see `turns_of`.
         part: [R] row of `label` and `word`.
         label: [P] label of each part.

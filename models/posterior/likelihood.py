@@ -8,8 +8,8 @@ import torch
 from torch import Tensor, nn
 
 from models.city.colours import Palette
-from models.city.surroundings import STEP_M
 from models.posterior.around import OFFSET, TURNS, Around, colour_words
+from models.posterior.surroundings import STEP_M
 
 HABITS: Final = 3
 FAINT: Final = 5e-3  # what fits a hint less than this is left to chance

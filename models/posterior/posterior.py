@@ -13,10 +13,10 @@ from torch import Tensor
 from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.points import Ints, ranges
-from models.city.surroundings import SPACING_M, STEP_M, Surroundings
 from models.city.types import Floats
 from models.posterior.around import turns_of, usual_statements, way_number
 from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
 SECTORS = 9  # of a statement: the eight winds and "on-top"

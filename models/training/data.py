@@ -12,7 +12,7 @@ from torch import Tensor
 from models.city.cells import CellTable, cut_cubes
 from models.city.hints import BEST_CELL_REACH_M, NUM_HINTS, STRATEGIES, HintTable, choose_hints, hint_table
 from models.city.points import PointTable
-from models.city.pose_store import PoseStore
+from models.city.store.pose_store import PoseStore
 from models.city.types import DIRECTIONS, CityMap, Floats, Hint
 from models.errors import DataError
 from models.language.hints_text import TEMPLATES, render_hint

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import torch
 
-from models.city.surroundings import SPACING_M
 from models.language.grammar_files import Grammar
 from models.language.text_encoder import load_text_encoder
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, save_posterior
+from models.posterior.surroundings import SPACING_M
 from models.training.loop import Progress, run_training
 from models.training.places import Place, load_place
 from models.training.posterior import Texts, fit_likelihood

@@ -10,11 +10,10 @@ import numpy.typing as npt
 from models.city.cells import CellTable, cut_cells
 from models.city.colours import KITTI360_PALETTE, Palette
 from models.city.hints import describe_poses, sample_positions
-from models.city.osm import load_osm
+from models.city.osm.map import load_osm
 from models.city.points import Ints, PointTable
-from models.city.pose_files import load_data
 from models.city.regions import split_regions
-from models.city.surroundings import Bodies, Surroundings
+from models.city.store.files import load_data
 from models.city.types import DIRECTIONS, CutRules, Floats, Hint
 from models.language.grammar_files import Grammar
 from models.language.paraphrase import Wording
@@ -23,6 +22,7 @@ from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
 from models.posterior.posterior import HintPosterior
+from models.posterior.surroundings import Bodies, Surroundings
 
 READ_AT_ONCE = 16
 POSITION_SPACING_M = 10.0

@@ -10,11 +10,11 @@ import numpy.typing as npt
 
 from models.city.cells import CellTable, cut_cells
 from models.city.hints import describe_poses, sample_positions
-from models.city.osm import load_osm
+from models.city.osm.map import load_osm
 from models.city.points import PointTable
-from models.city.pose_files import load_data
-from models.city.pose_store import PoseStore
 from models.city.regions import split_regions
+from models.city.store.files import load_data
+from models.city.store.pose_store import PoseStore
 from models.city.types import CityMap, Floats, Pose
 from models.language.hints_text import render_hint
 from models.language.text_encoder import TextEncoder

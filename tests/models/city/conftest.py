@@ -12,14 +12,14 @@ from unittest import mock
 import numpy as np
 import pytest
 
-from models.city import kitti360_job
-from models.city.kitti360_job import prepare_data
-from models.city.kitti360_rules import PrepareConfig
-from models.city.kitti360pose import Scene, save_scene
-from models.city.pose_store import PoseStore
-from models.city.published import PublishedCell, PublishedHint, PublishedObject, PublishedPose
-from models.city.published_standins import RECORD_MODULE, RECORDS, Record
-from models.city.published_writer import RecordPickler
+from models.city.kitti360 import job as kitti360_job
+from models.city.kitti360.job import prepare_data
+from models.city.kitti360.rules import PrepareConfig
+from models.city.kitti360pose.files import Scene, save_scene
+from models.city.kitti360pose.pickle_values import RECORD_MODULE, RECORDS, Record
+from models.city.kitti360pose.pickle_writer import RecordPickler
+from models.city.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
+from models.city.store.pose_store import PoseStore
 from models.city.types import DIRECTIONS
 from tests.models.city.raw_scenes import write_town
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import plyfile
 
-from models.city.kitti360 import RawScene
-from models.city.kitti360_rules import CLASSES
+from models.city.kitti360.raw import RawScene
+from models.city.kitti360.rules import CLASSES
 from models.city.types import Instance
 
 FOLDER = "2013_05_28_drive_0042_sync"

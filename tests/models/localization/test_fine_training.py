@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.kitti360_job import prepare_data
-from models.city.pose_files import load_data
+from models.city.kitti360.job import prepare_data
+from models.city.store.files import load_data
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineConfig, FineModel
 from models.localization.regressor import Regressor, RegressorConfig

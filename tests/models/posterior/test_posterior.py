@@ -7,12 +7,12 @@ import pytest
 import torch
 
 from models.city.hints import describe_poses, sample_positions
-from models.city.surroundings import Bodies, Surroundings
 from models.language.said import RELATIONS
 from models.posterior.around import colour_words
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
 from models.posterior.posterior import HintPosterior
+from models.posterior.surroundings import Bodies, Surroundings
 from models.training.places import Place
 from models.training.posterior import Texts, around_cells, fit_likelihood, surprise
 

@@ -7,7 +7,7 @@ import torch
 
 from index.ranking import Ranker
 from models.city.hints import direction_index, sample_positions
-from models.city.kitti360_job import prepare_data
+from models.city.kitti360.job import prepare_data
 from models.city.types import DIRECTIONS
 from models.errors import DataError
 from models.retrieval.checkpoint import METHODS, load_retriever

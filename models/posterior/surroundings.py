@@ -1,0 +1,264 @@
+"""What lies around every position of a map: the table that the hint posterior reads.
+
+Positions are the nodes of a fine grid, each owned by the cell whose centre is nearest. A node knows, of every instance
+within 15 m, the way from the instance's closest point, whether or not the instance is in the owner's cube: hints speak
+of things that a cell has cut off.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save_file
+from scipy.spatial import cKDTree
+
+from models.city.cells import CellTable
+from models.city.hints import BEST_CELL_REACH_M, HINT_REACH_M
+from models.city.kitti360.rules import CLASSES
+from models.city.points import Ints, PointTable, ranges
+from models.city.processes import map_forked
+from models.city.store.pose_store import PoseStore
+from models.city.types import CityMap, Floats
+from models.errors import IndexBroken
+
+SPACING_M = 1.5
+STEP_M = HINT_REACH_M / 127  # of the stored ways
+FILE = "surroundings.safetensors"
+CHUNK = 64  # instances a task
+VOXEL_M = 0.2
+STUFF = [rule.label for rule in CLASSES if rule.is_stuff]
+LARGE_M = 8.0  # things no larger than this are counted as whole wherever they are near
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bodies:
+    """The instances of a map (or of several scenes) with all their points.
+
+    Attributes:
+        xyz: [P, 3] float32 metres, ordered by instance.
+        starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
+        is_thing: [I] bool, True for what is mentioned only where a share of it is near (CutRules.thing_share).
+        scene: [I] number of the scene of each.
+        part_instance: [R] instance of each row of the cells' parts.
+    """
+
+    xyz: Floats
+    starts: Ints
+    is_thing: npt.NDArray[np.bool_]
+    scene: Ints
+    part_instance: Ints
+
+    @classmethod
+    def of_map(cls, city_map: CityMap, points: PointTable, cells: CellTable) -> "Bodies":
+        """Those of a map, every point."""
+        scene = np.zeros(len(city_map.instances), dtype=np.int64)
+        return cls(points.xyz, points.starts, ~points.is_stuff, scene, cells.parts.instance)
+
+    @classmethod
+    def of_store(cls, store: PoseStore, cells: CellTable) -> "Bodies":
+        """Those of a data set: of each instance the points that its cells show, one a cube of VOXEL_M."""
+        scene = np.unique(cells.scenes, return_inverse=True)[1][cells.parts.cube]
+        pairs = np.column_stack([scene, store.instance_ids])
+        known, part_instance = np.unique(pairs, axis=0, return_inverse=True)
+        order = np.argsort(part_instance, kind="stable")
+        corner = cells.center_m[cells.parts.cube] - cells.size_m / 2
+        groups = np.split(order, np.flatnonzero(np.diff(part_instance[order])) + 1)
+        xyz = []
+        for rows in groups:
+            seen = np.concatenate([store.instance_points(int(r))[0] * cells.size_m + corner[r] for r in rows])
+            voxel = np.floor(seen / VOXEL_M).astype(np.int64) & 0x1FFFFF
+            key = (voxel[:, 0] << 42) | (voxel[:, 1] << 21) | voxel[:, 2]
+            xyz.append(seen[np.unique(key, return_index=True)[1]].astype(np.float32))
+        labels = np.array(store.labels)[[rows[0] for rows in groups]]
+        starts = np.concatenate([[0], np.cumsum([len(points) for points in xyz])])
+        return cls(np.concatenate(xyz), starts, ~np.isin(labels, STUFF), known[:, 0], part_instance)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surroundings:
+    """Nodes, and what is around each.
+
+    Attributes:
+        cell_starts: [N + 1] int64, cell n owns the nodes cell_starts[n] to cell_starts[n + 1].
+        nodes_m: [M, 2] float32, map frame.
+        starts: [M + 1] int64, node m has the rows starts[m] to starts[m + 1]: whole ones first, nearest first.
+        part: [R] int32, row of the cells' parts; that of the owner's cell if it has one of the instance.
+        way: [R, 2] int8, node minus the instance's closest point (east, north), in steps of STEP_M.
+        whole: [R] bool, False for a thing of which less than CutRules.thing_share is in the cube around the node.
+    """
+
+    cell_starts: Ints
+    nodes_m: Floats
+    starts: Ints
+    part: Ints
+    way: npt.NDArray[np.int8]
+    whole: npt.NDArray[np.bool_]
+
+    @classmethod
+    def of(
+        cls,
+        bodies: Bodies,
+        cells: CellTable,
+        thing_share: float,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> "Surroundings":
+        """Measure a gallery's surroundings; in several processes when there is much to do.
+
+        Args:
+            bodies: what stands in the map.
+            cells: the gallery.
+            thing_share: see `CutRules`.
+            progress: called with (instances done, instances to do).
+        """
+        scene = np.unique(cells.scenes, return_inverse=True)[1]
+        nodes, owner = _grid(cells, scene)
+        trees = {int(s): (rows, cKDTree(nodes[rows])) for s in np.unique(scene) if len(rows := _of(scene[owner], s))}
+        height = cells.center_m[owner, 2]
+        chunks = [np.arange(i, min(i + CHUNK, len(bodies.scene))) for i in range(0, len(bodies.scene), CHUNK)]
+        work = partial(_measure, bodies, nodes, height, trees, cells.size_m / 2, thing_share)
+        found, done = [], 0
+        for measured in map_forked(work, chunks):
+            found.append(measured)
+            done += CHUNK
+            if progress:
+                progress(min(done, len(bodies.scene)), len(bodies.scene))
+        node, instance, way, whole = (np.concatenate(column) for column in zip(*found, strict=True))
+        part = _parts_of(cells, bodies.part_instance, owner[node], instance)
+        known = part >= 0
+        node, part, way, whole = node[known], part[known], way[known], whole[known]
+        # nearest first
+        order = np.lexsort(((way.astype(np.int32) ** 2).sum(axis=1), ~whole, node))
+        return cls(
+            cell_starts=np.searchsorted(owner, np.arange(len(cells) + 1)),
+            nodes_m=nodes.astype(np.float32),
+            starts=np.searchsorted(node[order], np.arange(len(nodes) + 1)),
+            part=part[order].astype(np.int32),
+            way=way[order],
+            whole=whole[order],
+        )
+
+    @property
+    def bytes_a_cell(self) -> float:
+        """What it costs on disk, on average."""
+        total: int = sum(getattr(self, f.name).nbytes for f in fields(self))
+        return total / max(1, len(self.cell_starts) - 1)
+
+    def take(self, cells: Ints, part_of: Ints) -> "Surroundings":
+        """Those of some cells.
+
+        Args:
+            cells: rows, in the order wanted.
+            part_of: [R of all] new row of each part, -1 for parts that are gone, whose rows are left out.
+        """
+        nodes = ranges(self.cell_starts[cells], self.cell_starts[cells + 1])
+        rows = ranges(self.starts[nodes], self.starts[nodes + 1])
+        part = part_of[self.part[rows]]
+        node = np.repeat(np.arange(len(nodes)), np.diff(self.starts)[nodes])
+        kept = part >= 0
+        return Surroundings(
+            cell_starts=np.concatenate([[0], np.cumsum(np.diff(self.cell_starts)[cells])]),
+            nodes_m=self.nodes_m[nodes],
+            starts=np.searchsorted(node[kept], np.arange(len(nodes) + 1)),
+            part=part[kept].astype(np.int32),
+            way=self.way[rows][kept],
+            whole=self.whole[rows][kept],
+        )
+
+    def save(self, directory: Path) -> None:
+        """Write one file."""
+        save_file({f.name: np.ascontiguousarray(getattr(self, f.name)) for f in fields(self)}, directory / FILE)
+
+    @classmethod
+    def load(cls, directory: Path) -> "Surroundings":
+        """Read what `save` wrote.
+
+        Raises:
+            IndexBroken: the file is missing or holds something else.
+        """
+        try:
+            with safe_open(directory / FILE, framework="numpy") as file:
+                return cls(**{f.name: file.get_tensor(f.name) for f in fields(cls)})
+        except (OSError, SafetensorError, TypeError) as error:
+            raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
+
+
+def _of(values: Ints, wanted: int) -> Ints:
+    rows: Ints = np.flatnonzero(values == wanted)
+    return rows
+
+
+def _grid(cells: CellTable, scene: Ints) -> tuple[Floats, Ints]:
+    """Nodes [M, 2] within 15 m of a centre, and the cell [M] that owns each, in order of owner."""
+    nodes, owners = [], []
+    for s in np.unique(scene):
+        rows = np.flatnonzero(scene == s)
+        centers = cells.center_m[rows, :2]
+        low, high = centers.min(axis=0) - BEST_CELL_REACH_M, centers.max(axis=0) + BEST_CELL_REACH_M
+        axes = [
+            np.arange(np.floor(a / SPACING_M), np.ceil(b / SPACING_M) + 1) * SPACING_M
+            for a, b in zip(low, high, strict=True)
+        ]
+        grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+        distance, nearest = cKDTree(centers).query(grid, distance_upper_bound=BEST_CELL_REACH_M)
+        near = np.isfinite(distance)
+        nodes.append(grid[near])
+        owners.append(rows[nearest[near]])
+    owner = np.concatenate(owners)
+    order = np.argsort(owner, kind="stable")
+    return np.concatenate(nodes)[order], owner[order]
+
+
+def _measure(
+    bodies: Bodies,
+    nodes: Floats,
+    height: Floats,
+    trees: dict[int, tuple[Ints, cKDTree]],
+    half_m: float,
+    thing_share: float,
+    instances: Ints,
+) -> tuple[Ints, Ints, npt.NDArray[np.int8], npt.NDArray[np.bool_]]:
+    """(node, instance, way, whole) of the nodes around some instances."""
+    empty = np.zeros(0, np.int64)
+    found = [(empty, empty, np.zeros((0, 2), np.int8), np.zeros(0, np.bool_))]
+    for i in instances:
+        xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]].astype(np.float64)
+        if not len(xyz) or int(bodies.scene[i]) not in trees:
+            continue
+        rows, tree = trees[int(bodies.scene[i])]
+        low, high = xyz[:, :2].min(axis=0), xyz[:, :2].max(axis=0)
+        reach = np.linalg.norm(high - low) / 2 + HINT_REACH_M
+        near = rows[np.sort(np.array(tree.query_ball_point((low + high) / 2, reach), dtype=np.int64))]
+        if not len(near):
+            continue
+        at = np.column_stack([nodes[near], height[near]])
+        distance, closest = cKDTree(xyz, balanced_tree=False).query(at, distance_upper_bound=2 * HINT_REACH_M)
+        within = np.isfinite(distance)
+        way = nodes[near[within]] - xyz[closest[within], :2]
+        kept = np.hypot(*way.T) <= HINT_REACH_M
+        near, way = near[within][kept], way[kept]
+        whole = np.ones(len(near), np.bool_)
+        if bodies.is_thing[i] and (high - low).max() > LARGE_M and len(near):
+            plane = cKDTree(xyz[:, :2], balanced_tree=False)
+            inside = plane.query_ball_point(nodes[near], half_m, p=np.inf, return_length=True)
+            whole = inside >= thing_share * len(xyz)
+        found.append((near, np.full(len(near), i), np.round(way / STEP_M).astype(np.int8), whole))
+    node, instance, ways, wholes = (np.concatenate(column) for column in zip(*found, strict=True))
+    return node, instance, ways, wholes
+
+
+def _parts_of(cells: CellTable, part_instance: Ints, owner: Ints, instance: Ints) -> Ints:
+    """[R] part that shows an instance in a cell; of another cell if that has none; -1 if none has."""
+    count = int(part_instance.max()) + 1 if len(part_instance) else 1
+    known = np.where(instance < count, instance, -1)
+    keys = cells.parts.cube.astype(np.int64) * count + part_instance
+    order = np.lexsort((-cells.parts.count, keys))  # the largest part of an instance first
+    position = np.minimum(np.searchsorted(keys[order], owner * count + known), len(keys) - 1)
+    own = order[position]
+    anywhere = np.full(count + 1, -1, dtype=np.int64)
+    anywhere[part_instance[::-1]] = np.arange(len(part_instance))[::-1]
+    found: Ints = np.where(keys[own] == owner * count + known, own, anywhere[known])
+    return found

@@ -1,0 +1,206 @@
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from models.city.colours import parse_colour
+from models.city.osm.map import OsmClass, load_classes, load_osm
+from models.errors import MapError
+
+HEADER = "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>"
+STREET = (
+    '<node id="1" lat="60.0" lon="25.0"/><node id="2" lat="60.0" lon="25.001"/><node id="3" lat="60.0" lon="25.002"/>'
+    '<way id="1"><nd ref="1"/><nd ref="2"/><tag k="highway" v="residential"/><tag k="name" v="High Street"/></way>'
+)
+
+
+def write(tmp_path: Path, body: str) -> Path:
+    path = tmp_path / "map.osm"
+    path.write_text(HEADER + STREET + body + "</osm>")
+    return path
+
+
+def instances(tmp_path: Path, body: str, label: str):
+    return [i for i in load_osm(write(tmp_path, body)).instances if i.label == label]
+
+
+def test_reads_all_kinds_of_a_town(city) -> None:
+    count = Counter(i.label for i in city.instances)
+    assert count["building"] == 25
+    assert count["road"] == 6, "streets of two ways are one instance each"
+    assert set(count) == {
+        "building",
+        "road",
+        "footpath",
+        "street lamp",
+        "tree",
+        "bench",
+        "bollard",
+        "trash bin",
+        "post box",
+    }
+    assert [i.id for i in city.instances] == list(range(len(city.instances)))
+    assert city.frame.is_georeferenced
+    assert {"building", "road", "footpath"} <= city.stuff
+    assert "tree" not in city.stuff
+
+
+def test_geometry_is_metric(city) -> None:
+    building = next(i for i in city.instances if i.label == "building")
+    size = np.ptp(building.points_m, axis=0)
+    assert size[:2] == pytest.approx([18, 18], abs=0.3)
+    assert size[2] == pytest.approx(3 * 3.2, abs=0.7)
+    road = next(i for i in city.instances if i.label == "road")
+    assert np.ptp(road.points_m[:, 0]) == pytest.approx(300, abs=2)
+    assert np.ptp(road.points_m[:, 1]) == pytest.approx(6, abs=1.1)
+
+
+def test_ground_points_are_not_shared(city) -> None:
+    ground = np.concatenate([i.points_m for i in city.instances if i.label in ("road", "footpath")])
+    assert len(np.unique(ground, axis=0)) == len(ground)
+
+
+def test_colour_comes_from_tags_or_is_unknown(city) -> None:
+    words = Counter((i.label, None if i.rgb is None else city.palette.word(i.rgb)) for i in city.instances)
+    assert words["bench", "green"] == sum(v for (label, _), v in words.items() if label == "bench")
+    assert words["road", "gray"] == 6
+    assert words["tree", None] == sum(v for (label, _), v in words.items() if label == "tree")
+    assert {c for label, c in words if label == "building"} == {"red", "white", "brown", None}
+
+
+def test_a_road_in_pieces_is_one_and_keeps_its_name(tmp_path) -> None:
+    piece = '<way id="2"><nd ref="2"/><nd ref="3"/><tag k="highway" v="residential"/><tag k="name" v="{}"/></way>'
+    (road,) = instances(tmp_path, piece.format("High Street"), "road")
+    assert road.name == "High Street"
+    assert road.source_id == "way/1"
+    assert len(instances(tmp_path, piece.format("Low Street"), "road")) == 2
+
+
+def test_a_lamp_that_carries_a_sign_is_one(tmp_path) -> None:
+    lamp = '<node id="9" lat="60.0001" lon="25.0"><tag k="highway" v="street_lamp"/></node>'
+    sign = '<node id="10" lat="60.000104" lon="25.0"><tag k="traffic_sign" v="FI:372"/></node>'
+    assert len(instances(tmp_path, lamp + sign, "street lamp")) == 1
+    assert not instances(tmp_path, lamp + sign, "traffic sign")
+    far = sign.replace("60.000104", "60.0002")
+    assert len(instances(tmp_path, lamp + far, "traffic sign")) == 1
+
+
+@pytest.mark.parametrize(
+    "tag", ['k="layer" v="-1"', 'k="indoor" v="yes"', 'k="location" v="underground"', 'k="level" v="2"']
+)
+def test_what_cannot_be_seen_is_left_out(tmp_path, tag) -> None:
+    bench = '<node id="9" lat="60.0001" lon="25.0"><tag k="amenity" v="bench"/>{}</node>'
+    assert len(instances(tmp_path, bench.format(""), "bench")) == 1
+    assert not instances(tmp_path, bench.format(f"<tag {tag}/>"), "bench")
+
+
+def test_a_closed_path_is_a_loop_and_a_closed_square_an_area(tmp_path) -> None:
+    ring = "".join(
+        f'<node id="{n}" lat="{lat}" lon="{lon}"/>'
+        for n, (lat, lon) in enumerate([(60.001, 25.0), (60.001, 25.001), (60.0016, 25.001), (60.0016, 25.0)], 20)
+    )
+    refs = "".join(f'<nd ref="{n}"/>' for n in (20, 21, 22, 23, 20))
+    path = f'<way id="5">{refs}<tag k="highway" v="footway"/></way>'
+    square = f'<way id="5">{refs}<tag k="highway" v="pedestrian"/><tag k="area" v="yes"/></way>'
+    (loop,) = instances(tmp_path, ring + path, "footpath")
+    (filled,) = instances(tmp_path, ring + square, "square")
+    assert len(filled.points_m) > 5 * len(loop.points_m)
+
+
+def test_a_multipolygon_keeps_its_hole(tmp_path) -> None:
+    def ring(first: int, low: float, high: float) -> str:
+        corners = [(low, low), (low, high), (high, high), (high, low)]
+        return "".join(f'<node id="{first + n}" lat="{60 + a}" lon="{25 + b}"/>' for n, (a, b) in enumerate(corners))
+
+    def way(number: int, first: int) -> str:
+        return f'<way id="{number}">' + "".join(f'<nd ref="{first + n}"/>' for n in (0, 1, 2, 3, 0)) + "</way>"
+
+    relation = (
+        '<relation id="7"><member type="way" ref="31" role="outer"/><member type="way" ref="32" role="inner"/>'
+        '<tag k="type" v="multipolygon"/><tag k="leisure" v="park"/></relation>'
+    )
+    body = ring(30, 0.001, 0.003) + ring(40, 0.0015, 0.0025) + way(31, 30) + way(32, 40) + relation
+    (park,) = instances(tmp_path, body, "park")
+    middle = park.points_m[:, :2].mean(axis=0)
+    assert np.linalg.norm(park.points_m[:, :2] - middle, axis=1).min() > 20
+    assert park.source_id == "relation/7"
+
+
+def test_names_heights_and_widths_are_read(tmp_path) -> None:
+    ring = "".join(
+        f'<node id="{n}" lat="{lat}" lon="{lon}"/>'
+        for n, (lat, lon) in enumerate([(60.001, 25.0), (60.001, 25.001), (60.0016, 25.001), (60.0016, 25.0)], 20)
+    )
+    refs = "".join(f'<nd ref="{n}"/>' for n in (20, 21, 22, 23, 20))
+    tags = '<tag k="building" v="yes"/><tag k="height" v="6 m"/><tag k="name" v="Talo"/><tag k="name:en" v="House"/>'
+    (house,) = instances(tmp_path, f'{ring}<way id="5">{refs}{tags}</way>', "building")
+    assert house.name == "House"
+    assert house.points_m[:, 2].max() == pytest.approx(6, abs=0.7)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("gone.osm.pbf", None, "no such file"),
+        ("empty.osm.pbf", b"", "empty"),
+        ("noise.osm.pbf", b"\x00\x00\x00\x0d\x0a\x09OSMHeaderjunk" * 50, "cannot be read"),
+        ("noise.osm", b"this is no XML", "cannot be read"),
+        ("map.txt", b"hello", "not an OpenStreetMap file"),
+        ("bare.osm", (HEADER + "</osm>").encode(), "no building, street"),
+        (
+            "nostreet.osm",
+            (HEADER + '<node id="1" lat="60" lon="25"><tag k="natural" v="tree"/></node></osm>').encode(),
+            "no street",
+        ),
+    ],
+)
+def test_bad_files_say_what_is_wrong(tmp_path, name, content, message) -> None:
+    path = tmp_path / name
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(MapError, match=message):
+        load_osm(path)
+
+
+def test_a_truncated_pbf_is_refused(tmp_path) -> None:
+    whole = (Path(__file__).parents[4] / "models/maps/alexanderplatz.osm.pbf").read_bytes()
+    path = tmp_path / "cut.osm.pbf"
+    path.write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(MapError, match="cut short"):
+        load_osm(path)
+
+
+@pytest.mark.parametrize(("lat", "lon"), [("95.0", "25.0"), ("nan", "25.0"), ("60.0", "725.0")])
+def test_coordinates_out_of_range(tmp_path, lat, lon) -> None:
+    path = write(tmp_path, f'<node id="9" lat="{lat}" lon="{lon}"><tag k="natural" v="tree"/></node>')
+    with pytest.raises(MapError, match="cannot be read"):
+        load_osm(path)
+
+
+def test_a_way_without_its_nodes_is_left_out(tmp_path) -> None:
+    body = '<way id="5"><nd ref="900"/><nd ref="901"/><tag k="highway" v="residential"/><tag k="name" v="Lost"/></way>'
+    assert [i.name for i in instances(tmp_path, body, "road")] == ["High Street"]
+
+
+def test_the_table_is_well_formed() -> None:
+    rows = load_classes()
+    assert len(rows) > 60
+    assert all(row.height_m > 0 for row in rows if row.shape not in ("ground",))
+    assert any(row.walkable for row in rows)
+
+
+def test_tag_conditions() -> None:
+    row = OsmClass("x", "ground", ("highway=footway|path", "name=*", "!area=yes"))
+    assert row.matches({"highway": "path", "name": "a"})
+    assert not row.matches({"highway": "path"})
+    assert not row.matches({"highway": "road", "name": "a"})
+    assert not row.matches({"highway": "path", "name": "a", "area": "yes"})
+
+
+@pytest.mark.parametrize(
+    ("text", "rgb"),
+    [("#ff0000", (1, 0, 0)), ("white;red", (1, 1, 1)), ("light_grey", (211 / 255,) * 3), ("shiny", None), ("", None)],
+)
+def test_written_colours(text, rgb) -> None:
+    assert parse_colour(text) == (None if rgb is None else pytest.approx(rgb))
