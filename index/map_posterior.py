@@ -13,10 +13,10 @@ from index.answers import Evidence
 from index.gallery import Gallery
 from models.city.colours import Palette
 from models.city.points import ranges
+from models.language.grammar.labelled_text import RELATIONS
 from models.language.landmarks import Landmarks
-from models.language.noticed import Noticed
+from models.language.parsed_hint import Noticed
 from models.language.reader import COLOURS
-from models.language.said import RELATIONS
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading
 from models.posterior.locate import Located, locate

@@ -20,10 +20,10 @@ from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
 from models.city.types import DIRECTIONS, Direction, Floats, Hint
 from models.errors import DataError
+from models.language.grammar.labelled_text import Fact, Said
+from models.language.grammar.typos import typos
+from models.language.grammar.wording import Wording
 from models.language.hints_text import TEMPLATES, render_hint
-from models.language.paraphrase import Wording
-from models.language.said import Fact, Said
-from models.language.typos import typos
 from models.posterior.surroundings import STEP_M, Surroundings
 
 MOST_QUERIES = 300

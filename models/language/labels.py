@@ -8,8 +8,8 @@ from functools import cache
 import torch
 from torch import Tensor, nn
 
-from models.language.grammar_files import GRAMMARS
-from models.language.paraphrase import Wording
+from models.language.grammar.files import GRAMMARS
+from models.language.grammar.wording import Wording
 from models.language.spelling import Spelling
 from models.language.text_encoder import TextEncoder
 

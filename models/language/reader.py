@@ -10,9 +10,9 @@ import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
-from models.language.noticed import SENTENCE_END, Noticed, resolve
-from models.language.paraphrase import Wording
-from models.language.said import RELATIONS, Mention
+from models.language.grammar.labelled_text import RELATIONS, Mention
+from models.language.grammar.wording import Wording
+from models.language.parsed_hint import SENTENCE_END, Noticed, resolve
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, run_layers
 
 # Of tokens: outside, further token of what is named; first token of a noun, of a plural, of what stands for a thing.
@@ -62,7 +62,7 @@ class Reader(nn.Module):
 
     The lower layers of the text encoder are frozen, some after them are trained on, over the whole description, so that
     pronouns, joined clauses and colours said apart find their noun. Trained on the paraphrase grammar
-    (`models.language.paraphrase`).
+    (`models.language.grammar.wording`).
     """
 
     def __init__(self, text_encoder: TextEncoder, config: ReaderConfig) -> None:

@@ -7,10 +7,10 @@ import torch
 from torch import Tensor
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
+from models.language.grammar.labelled_text import RELATIONS
 from models.language.labels import BoundLabels, LabelMatcher
-from models.language.noticed import Noticed
+from models.language.parsed_hint import Noticed
 from models.language.reader import COLOURS
-from models.language.said import RELATIONS
 from models.posterior.around import colour_words
 from models.posterior.likelihood import Reading
 

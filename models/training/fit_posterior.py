@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from models.language.grammar_files import Grammar
+from models.language.grammar.files import Grammar
 from models.language.text_encoder import load_text_encoder
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate

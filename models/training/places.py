@@ -15,9 +15,9 @@ from models.city.points import Ints, PointTable
 from models.city.regions import split_regions
 from models.city.store.files import load_data
 from models.city.types import DIRECTIONS, CutRules, Floats, Hint
-from models.language.grammar_files import Grammar
-from models.language.paraphrase import Wording
-from models.language.said import Fact
+from models.language.grammar.files import Grammar
+from models.language.grammar.labelled_text import Fact
+from models.language.grammar.wording import Wording
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel

@@ -8,10 +8,10 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from models.language.grammar_files import Grammar
-from models.language.paraphrase import Wording
+from models.language.grammar.files import Grammar
+from models.language.grammar.labelled_text import RELATIONS, WINDS, Fact, Mention, Said
+from models.language.grammar.wording import Wording
 from models.language.reader import COLOURS, Reader, example_targets
-from models.language.said import RELATIONS, WINDS, Fact, Mention, Said
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
 ENCODED_AT_ONCE = 32

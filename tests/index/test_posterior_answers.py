@@ -11,9 +11,9 @@ from index.localizer import Localizer
 from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.posterior_answers import PosteriorAnswers
-from models.language.noticed import Noticed
+from models.language.grammar.labelled_text import RELATIONS
+from models.language.parsed_hint import Noticed
 from models.language.reader import COLOURS
-from models.language.said import RELATIONS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 
 SENTENCE = re.compile(r"The pose is (\S+) of a ([^.]+)\.")

@@ -2,10 +2,11 @@ import pytest
 import torch
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
+from models.language.grammar.labelled_text import RELATIONS, Fact, Mention
+from models.language.grammar.wording import Wording
 from models.language.labels import LabelMatcher, bound_names, meaning_in
 from models.language.landmarks import Landmarks
-from models.language.noticed import Noticed
-from models.language.paraphrase import Wording
+from models.language.parsed_hint import Noticed
 from models.language.reader import (
     COLOURS,
     TAGS,
@@ -17,7 +18,6 @@ from models.language.reader import (
     example_targets,
     said_distances,
 )
-from models.language.said import RELATIONS, Fact, Mention
 from models.posterior.around import colour_words
 from models.posterior.binding import Binding, colour_table
 from models.training.loop import LoopConfig, run_training

@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
-from models.language.said import RELATIONS
+from models.language.grammar.labelled_text import RELATIONS
 from models.posterior.around import Around, colour_words, turns_of, usual_statements, way_number
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
 from models.posterior.surroundings import STEP_M

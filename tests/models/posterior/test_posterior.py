@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from models.city.hints import describe_poses, sample_positions
-from models.language.said import RELATIONS
+from models.language.grammar.labelled_text import RELATIONS
 from models.posterior.around import colour_words
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate

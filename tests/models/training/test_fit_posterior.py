@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from models.city.colours import KITTI360_PALETTE
-from models.language.said import WINDS, Fact
+from models.language.grammar.labelled_text import WINDS, Fact
 from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
 from models.training import fit_posterior

@@ -6,14 +6,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
-GRAMMARS = Path(__file__).parent / "grammar"
+GRAMMARS = Path(__file__).parent
 Grammar = Literal["train", "val", "test"]
 _KEPT = ("labels", "colours", "compass", "distance")  # tables that are not phrases of their own
 
 
 @cache
 def load_grammar(grammar: Grammar) -> dict[str, Any]:
-    """The tables of a grammar, of all its files together; see models.language.paraphrase."""
+    """The tables of a grammar, of all its files together; see models.language.grammar.wording."""
     tables = tomllib.loads((GRAMMARS / f"{grammar}.toml").read_text())
     for more in sorted(GRAMMARS.glob(f"{grammar}_*.toml")):
         for name, table in tomllib.loads(more.read_text()).items():

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 import torch
 
-from models.language.noticed import Noticed, resolve
+from models.language.parsed_hint import Noticed, resolve
 
 TEXT = "Two garages by the bridge, one gray and north, the other south. A tree is east and another west."
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from models.language.said import Said
+from models.language.grammar.labelled_text import Said
 
 # shares of the texts with typos, in lower case, without full stops
 TYPO_TEXTS, LOWER_TEXTS, BARE_TEXTS = 0.2, 0.15, 0.1

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from models.language.grammar_files import load_grammar
-from models.language.paraphrase import Wording
-from models.language.passages import Passage, plural
-from models.language.said import WINDS, Fact
+from models.language.grammar.files import load_grammar
+from models.language.grammar.labelled_text import WINDS, Fact
+from models.language.grammar.passages import Passage, plural
+from models.language.grammar.wording import Wording
 
 FACTS = [
     Fact("lamp", "north", "black"),

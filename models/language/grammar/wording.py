@@ -1,8 +1,8 @@
 """Facts about a position in many wordings: what the reader of free language is trained and tested on.
 
-A grammar is a TOML file in grammar/, data only, or several (`models.language.grammar_files`). Ways to name each class
+A grammar is a TOML file in grammar/, data only, or several (`models.language.grammar.files`). Ways to name each class
 (`labels`) and colour, the eight winds (`compass`), and phrases by kind: two to six things at once (`passages`, see
-`models.language.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`; `bare`
+`models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`; `bare`
 without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`;
 `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a direction, the
 second at hand or underfoot; `two_near` both at hand), and what surrounds them (`opener`, `closer`, `irrelevant`,
@@ -17,10 +17,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from models.language.grammar_files import Grammar, load_grammar
-from models.language.passages import Passage, plural
-from models.language.said import WINDS, Fact, Mention, Said, opposite
-from models.language.typos import spoil
+from models.language.grammar.files import Grammar, load_grammar
+from models.language.grammar.labelled_text import WINDS, Fact, Mention, Said, opposite
+from models.language.grammar.passages import Passage, plural
+from models.language.grammar.typos import spoil
 
 PASSAGES, TRIES = 0.5, 16  # share of the times that a passage is looked for, and among how many; first of all among
 # those with plurals, if there are several things of a class

@@ -1,6 +1,6 @@
 """Passages: phrases about several things at once, and which facts they can tell.
 
-A passage is a phrase with numbered slots, as in `models.language.paraphrase`, and these besides. {o12}: the direction
+A passage is a phrase with numbered slots, as in `models.language.grammar.wording`, and these besides. {o12}: the direction
 that things 1 and 2 share; {c12}: their colour, if they have the same; {ns12}: the noun of both in the plural, if they
 are of one class, without colour; {1:one}, {2:the other}: words that stand for one of them; {c1=}, {c2=}: the colours
 of each, which stand for it ("three poles, a gray, a black and a beige"). {a3!}, {ns34!}: a thing that the
@@ -17,7 +17,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Any, Final
 
-from models.language.said import Fact, opposite
+from models.language.grammar.labelled_text import Fact, opposite
 
 SLOT: Final = re.compile(r"\{(?:(\d):([^{}]+)|([a-zA-Z]+)(\d*)([!~=]?))\}")
 _NAMING = ("a", "A", "the", "The", "n", "b", "theb", "nb")
@@ -132,7 +132,7 @@ class Passage:
         """The facts that its things may be, in the order of its numbers; None if they cannot.
 
         Args:
-            facts: of `models.language.said.Fact`.
+            facts: of `models.language.grammar.labelled_text.Fact`.
             left: which of them may be taken, in the order that they are tried in.
         """
         taken: list[int] = []

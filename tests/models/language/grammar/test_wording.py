@@ -4,11 +4,11 @@ import re
 import numpy as np
 import pytest
 
-from models.language.grammar_files import load_grammar
-from models.language.paraphrase import Wording
-from models.language.passages import Passage
-from models.language.said import RELATIONS, WINDS, Fact, opposite
-from models.language.typos import typos
+from models.language.grammar.files import load_grammar
+from models.language.grammar.labelled_text import RELATIONS, WINDS, Fact, opposite
+from models.language.grammar.passages import Passage
+from models.language.grammar.typos import typos
+from models.language.grammar.wording import Wording
 
 GRAMMARS = ("train", "val", "test")
 FACTS = [
