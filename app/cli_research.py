@@ -18,7 +18,7 @@ from models.errors import DataError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from models.training.loop import Progress
+    from models.training.engine.loop import Progress
 
 
 def train(
@@ -50,7 +50,7 @@ def train(
     """
     from models.errors import TrainingError
     from models.localization.checkpoint import FINE_METHODS
-    from models.training import distributed
+    from models.training.engine import distributed
     from models.training.settings import load_settings
 
     if resume and run_dir is None:
@@ -73,7 +73,7 @@ def _train_retriever(
 ) -> str:
     """Train a retriever; its figures in words."""
     from models.retrieval.checkpoint import METHODS
-    from models.training.fit import train_retriever
+    from models.training.fit_retriever import train_retriever
     from models.training.sources import load_source
 
     out, *rest = where
@@ -86,7 +86,7 @@ def _train_retriever(
 
 def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
     """Train a model of the fine stage; its figures in words."""
-    from models.training.fine import train_fine
+    from models.training.fit_fine import train_fine
     from models.training.sources import load_source
 
     out, *rest = where

@@ -21,10 +21,10 @@ from index.ranking import RERANKED, Ranker
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.retriever import Retriever
+from models.training.engine.run_dir import METRICS_FILE, replace_file
 from models.training.experiments import FINE, GROWTH, MNCL, Run, Scale, runs_of
-from models.training.fine import train_fine
-from models.training.fit import train_retriever
-from models.training.run_dir import METRICS_FILE, replace_file
+from models.training.fit_fine import train_fine
+from models.training.fit_retriever import train_retriever
 from models.training.settings import load_settings
 from models.training.sources import load_source
 

@@ -11,8 +11,8 @@ from models.language.grammar.labelled_text import RELATIONS
 from models.language.labels import BoundLabels, LabelMatcher
 from models.language.parsed_hint import Noticed
 from models.language.reader import COLOURS
-from models.posterior.around import colour_words
 from models.posterior.likelihood import Reading
+from models.posterior.node_batch import colour_words
 
 _ALIKE = 0.15  # in units of rgb: how far a colour may be from one that the palette has
 

@@ -8,7 +8,7 @@ import torch
 from torch import Tensor, nn
 
 from models.city.colours import Palette
-from models.posterior.around import OFFSET, TURNS, Around, colour_words
+from models.posterior.node_batch import OFFSET, TURNS, Around, colour_words
 from models.posterior.surroundings import STEP_M
 
 HABITS: Final = 3
@@ -57,7 +57,7 @@ class Likelihood(nn.Module):
     pi falls with distance and rank and is shared among what is near; an instance that explains several hints counts
     less for each (at most one hint an instance, softly). eps, a hint that nothing explains, is likelier for what is
     said often in the map. About a hundred weights, fitted by maximum likelihood on training towns
-    (`models.training.posterior`).
+    (`models.training.fit_likelihood`).
     """
 
     def __init__(self) -> None:

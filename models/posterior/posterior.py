@@ -14,8 +14,8 @@ from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.points import Ints, ranges
 from models.city.types import Floats
-from models.posterior.around import turns_of, usual_statements, way_number
 from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.node_batch import turns_of, usual_statements, way_number
 from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at

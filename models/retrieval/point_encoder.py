@@ -68,7 +68,7 @@ class SetAbstraction(nn.Module):
 class PointEncoder(nn.Module):
     """PointNet++ with three set-abstraction levels, one scale each, the last over all that is left.
 
-    Trained to tell label and colour (`models.training.points`), then frozen (MNCL's point backbone, Text2Pos).
+    Trained to tell label and colour (`models.training.fit_points`), then frozen (MNCL's point backbone, Text2Pos).
     """
 
     def __init__(self) -> None:

@@ -15,7 +15,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.localization.fine_model import FineModel, Truth
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
-from models.training.data import APART_M, SYMMETRIES, TrainingSet, turn
+from models.training.retrieval_data import APART_M, SYMMETRIES, TrainingSet, turn
 from models.training.sources import Asked
 
 CLONED = 0.5  # share of the examples whose cell is a neighbour
@@ -182,5 +182,5 @@ def offsets_in(cells: CellTable, rows: npt.NDArray[Any], positions_m: Floats) ->
 
 
 def turn_offset(offset: Tensor, matrix: Tensor) -> Tensor:
-    """Positions [B, 2] in cells (0..1) under symmetries of the compass [B, 2, 2], as `models.training.data.turn`."""
+    """Positions [B, 2] in cells (0..1) under symmetries of the compass [B, 2, 2], as `models.training.retrieval_data.turn`."""
     return torch.einsum("bij,bj->bi", matrix, offset - 0.5) + 0.5

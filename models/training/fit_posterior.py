@@ -14,10 +14,10 @@ from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, save_posterior
 from models.posterior.surroundings import SPACING_M
-from models.training.loop import Progress, run_training
+from models.training.engine.loop import Progress, run_training
+from models.training.fit_likelihood import Texts, fit_likelihood
+from models.training.fit_reader import ReadingSet, ReadingTask, reading_figures
 from models.training.places import Place, load_place
-from models.training.posterior import Texts, fit_likelihood
-from models.training.reading import ReadingSet, ReadingTask, reading_figures
 from models.training.settings import TrainingConfig
 
 TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chosen by

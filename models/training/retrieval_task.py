@@ -10,8 +10,8 @@ from torch import Tensor
 
 from models.retrieval.levels import Levels
 from models.retrieval.retriever import Retriever
-from models.training import distributed
-from models.training.data import Batch, HintVocabulary
+from models.training.engine import distributed
+from models.training.retrieval_data import Batch, HintVocabulary
 from models.training.sources import Source
 from models.training.validation import Validation, mean_recall
 

@@ -12,8 +12,8 @@ from models.errors import TrainingError
 from models.localization.checkpoint import FINE_METHODS
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.retrieval.checkpoint import METHODS
-from models.training.data import Wording
-from models.training.loop import LoopConfig
+from models.training.engine.loop import LoopConfig
+from models.training.retrieval_data import Wording
 
 CONFIG_TYPES: dict[str, type[BaseModel]] = {
     **{name: method.config_type for name, method in METHODS.items()},

@@ -18,7 +18,7 @@ from models.city.store.pose_store import PoseStore
 from models.city.types import CityMap, Floats, Pose
 from models.language.hints_text import render_hint
 from models.language.text_encoder import TextEncoder
-from models.training.data import Taught, TrainingSet
+from models.training.retrieval_data import Taught, TrainingSet
 from models.training.settings import TrainingConfig
 
 VALIDATION_SPACING_M = 10.0

@@ -2,8 +2,8 @@
 
 A grammar is a TOML file in grammar/, data only, or several (`models.language.grammar.files`). Ways to name each class
 (`labels`) and colour, the eight winds (`compass`), and phrases by kind: two to six things at once (`passages`, see
-`models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`; `bare`
-without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`;
+`models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`;
+`bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`;
 `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a direction, the
 second at hand or underfoot; `two_near` both at hand), and what surrounds them (`opener`, `closer`, `irrelevant`,
 `link`, `leads`). Slots: {d} where the speaker is, seen from the thing, {o} the opposite; {a}, {A}, {the}, {The}, {n}

@@ -18,10 +18,10 @@ from models.language.reader import (
     example_targets,
     said_distances,
 )
-from models.posterior.around import colour_words
 from models.posterior.binding import Binding, colour_table
-from models.training.loop import LoopConfig, run_training
-from models.training.reading import ReadingSet, ReadingTask, _wanted, draw_facts, reading_figures
+from models.posterior.node_batch import colour_words
+from models.training.engine.loop import LoopConfig, run_training
+from models.training.fit_reader import ReadingSet, ReadingTask, _wanted, draw_facts, reading_figures
 
 KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "vegetation")
 

@@ -5,8 +5,8 @@ import torch
 from models.city.hints import sample_positions
 from models.localization.checkpoint import FINE_METHODS
 from models.retrieval.instance_encoder import CellFeatures
-from models.training.data import Taught, TrainingSet
 from models.training.fine_data import FineSet
+from models.training.retrieval_data import Taught, TrainingSet
 
 
 @pytest.fixture(scope="session")

@@ -9,9 +9,9 @@ from models.city.store.files import load_data
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineConfig, FineModel
 from models.localization.regressor import Regressor, RegressorConfig
-from models.training.data import SYMMETRIES, Taught, TrainingSet, turn
-from models.training.fine import FineTask, train_fine
 from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, turn_offset
+from models.training.fit_fine import FineTask, train_fine
+from models.training.retrieval_data import SYMMETRIES, Taught, TrainingSet, turn
 from models.training.settings import TrainingConfig
 from models.training.sources import Asked, Source, load_source, source_of_map
 from tests.models.city.raw_scenes import write_town

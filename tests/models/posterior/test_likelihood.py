@@ -6,8 +6,8 @@ import torch
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.grammar.labelled_text import RELATIONS
-from models.posterior.around import Around, colour_words, turns_of, usual_statements, way_number
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
+from models.posterior.node_batch import Around, colour_words, turns_of, usual_statements, way_number
 from models.posterior.surroundings import STEP_M
 
 WORDS = len(colour_words(KITTI360_PALETTE))

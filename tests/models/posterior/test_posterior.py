@@ -8,13 +8,13 @@ import torch
 
 from models.city.hints import describe_poses, sample_positions
 from models.language.grammar.labelled_text import RELATIONS
-from models.posterior.around import colour_words
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
+from models.posterior.node_batch import colour_words
 from models.posterior.posterior import HintPosterior
 from models.posterior.surroundings import Bodies, Surroundings
+from models.training.fit_likelihood import Texts, around_cells, fit_likelihood, surprise
 from models.training.places import Place
-from models.training.posterior import Texts, around_cells, fit_likelihood, surprise
 
 
 @dataclass

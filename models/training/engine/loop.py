@@ -13,8 +13,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor, nn
 
 from models.errors import TrainingError
-from models.training import distributed
-from models.training.run_dir import Row, RunDir, RunState
+from models.training.engine import distributed
+from models.training.engine.run_dir import Row, RunDir, RunState
 
 _AMP = {"bfloat16": torch.bfloat16, "float16": torch.float16}
 _Schedule = torch.optim.lr_scheduler.OneCycleLR | torch.optim.lr_scheduler.StepLR

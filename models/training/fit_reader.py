@@ -181,7 +181,7 @@ def _wanted(fact: Fact, mention: Mention) -> tuple[int, int, int]:
 
 
 class ReadingTask:
-    """What `run_training` makes of the reader (models.training.loop.Task).
+    """What `run_training` makes of the reader (models.training.engine.loop.Task).
 
     Args:
         model: trained in place.

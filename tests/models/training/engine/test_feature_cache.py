@@ -1,7 +1,7 @@
 import pytest
 import torch
 
-from models.training.feature_cache import cache_directory, frozen_features
+from models.training.engine.feature_cache import cache_directory, frozen_features
 
 SAID = ["I stand on a gray road.", "There is a park to my west.", "A wall."]
 

@@ -18,7 +18,7 @@ from models.errors import DataError
 from models.language.hints_text import TEMPLATES, render_hint
 from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
-from models.training.feature_cache import frozen_features
+from models.training.engine.feature_cache import frozen_features
 
 MIN_HINTS, MAX_HINTS = 2, 8
 KNOWS_COLOUR, CANONICAL = 0.8, 0.5  # shares of the hints of varied wording: people leave colours out

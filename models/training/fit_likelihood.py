@@ -11,8 +11,8 @@ from torch import Tensor
 
 from models.city.cells import CellTable
 from models.city.points import Ints, ranges
-from models.posterior.around import Around, turns_of, way_number
 from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.node_batch import Around, turns_of, way_number
 from models.posterior.posterior import HintPosterior
 from models.training.places import Place
 

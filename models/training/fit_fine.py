@@ -13,16 +13,16 @@ from torch import Tensor
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.localization.checkpoint import FINE_METHODS, save_fine
 from models.localization.fine_model import FineConfig, FineModel, Truth
-from models.training import distributed
-from models.training.data import HintVocabulary
+from models.training.engine import distributed
+from models.training.engine.loop import History, Progress, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
-from models.training.loop import History, Progress, run_training
+from models.training.retrieval_data import HintVocabulary
 from models.training.settings import TrainingConfig
 from models.training.sources import Source
 
 
 class FineTask:
-    """What `run_training` makes of the fine stage (models.training.loop.Task).
+    """What `run_training` makes of the fine stage (models.training.engine.loop.Task).
 
     Args:
         model: trained in place.

@@ -11,10 +11,10 @@ import torch
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
 from models.retrieval.retriever import Retriever, RetrieverConfig
-from models.training import distributed
 from models.training.calibration import calibrate
-from models.training.loop import History, Progress, run_training
-from models.training.points import train_points
+from models.training.engine import distributed
+from models.training.engine.loop import History, Progress, run_training
+from models.training.fit_points import train_points
 from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
 from models.training.sources import Source

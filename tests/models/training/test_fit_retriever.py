@@ -13,8 +13,8 @@ from models.errors import DataError
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
-from models.training.data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, Taught, TrainingSet, turn
-from models.training.fit import train_retriever
+from models.training.fit_retriever import train_retriever
+from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, Taught, TrainingSet, turn
 from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
 from models.training.sources import load_source, source_of_map
@@ -136,9 +136,9 @@ def test_a_run_directory_goes_on(city, tmp_path) -> None:
 
 
 def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("models.training.points.STEPS", 40)
-    monkeypatch.setattr("models.training.points.VALIDATE_EVERY", 20)
-    monkeypatch.setattr("models.training.points.BATCH", 32)
+    monkeypatch.setattr("models.training.fit_points.STEPS", 40)
+    monkeypatch.setattr("models.training.fit_points.VALIDATE_EVERY", 20)
+    monkeypatch.setattr("models.training.fit_points.BATCH", 32)
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
@@ -156,7 +156,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, tmp_path,
     assert figures["label"] > commonest
     with pytest.raises(KeyboardInterrupt):
         train_retriever(load, tmp_path / "b", Mncl, model, config, tmp_path / "run", progress=kill)
-    monkeypatch.setattr("models.training.points._PointTask.loss", None)  # it is not trained again
+    monkeypatch.setattr("models.training.fit_points._PointTask.loss", None)  # it is not trained again
     train_retriever(load, tmp_path / "b", Mncl, model, config, tmp_path / "run", resume=True)
     assert (tmp_path / "a" / "config.json").read_text() == (tmp_path / "b" / "config.json").read_text()
     retriever = load_retriever(tmp_path / "a")

@@ -12,9 +12,9 @@ from torch import nn
 from models.language.text_encoder import TokenFeatures
 from models.retrieval.instance_encoder import NUM_GEOMETRY, CellBatch
 from models.retrieval.mncl import Mncl, MnclConfig
-from models.training import distributed
-from models.training.data import Batch
-from models.training.loop import LoopConfig, run_training
+from models.training.engine import distributed
+from models.training.engine.loop import LoopConfig, run_training
+from models.training.retrieval_data import Batch
 from models.training.retrieval_task import RetrievalTask, SourceBatch
 
 WIDTH, SENTENCES, LABELS = 12, 9, 4

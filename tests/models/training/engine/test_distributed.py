@@ -4,8 +4,8 @@ from safetensors.torch import load_file
 from torch import nn
 
 from models.errors import TrainingError
-from models.training import distributed
-from tests.models.training import two_processes
+from models.training.engine import distributed
+from tests.models.training.engine import two_processes
 
 
 @pytest.fixture(scope="module")

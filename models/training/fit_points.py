@@ -12,8 +12,8 @@ from torch import Tensor, nn
 from models.city.colours import KITTI360_PALETTE
 from models.retrieval.instance_encoder import GEOMETRY, CellFeatures
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
-from models.training import distributed
-from models.training.loop import LoopConfig, Progress, run_training
+from models.training.engine import distributed
+from models.training.engine.loop import LoopConfig, Progress, run_training
 from models.training.sources import Source
 
 CELLS_A_SOURCE, CHOSEN_BY_CELLS = 800, 100  # whose instances it is trained on, and chosen by
@@ -73,7 +73,7 @@ class _Classifier(nn.Module):
 
 
 class _PointTask:
-    """What `run_training` makes of it (models.training.loop.Task)."""
+    """What `run_training` makes of it (models.training.engine.loop.Task)."""
 
     criterion = "label"
 

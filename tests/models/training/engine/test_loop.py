@@ -8,8 +8,8 @@ import torch
 from torch import nn
 
 from models.errors import TrainingError
-from models.training.loop import LoopConfig, pick_device, run_training
-from models.training.run_dir import RunDir
+from models.training.engine.loop import LoopConfig, pick_device, run_training
+from models.training.engine.run_dir import RunDir
 
 SMALL = LoopConfig(steps=12, batch_size=8, validate_every=4, learning_rate=1e-2)
 

@@ -14,7 +14,7 @@ from safetensors.torch import load_file, save
 from torch import Tensor
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.training.run_dir import replace_file
+from models.training.engine.run_dir import replace_file
 
 ENCODE_BATCH = 256  # sentences
 _FORMAT = 1  # of the files; counted up when what is in them changes
