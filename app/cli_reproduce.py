@@ -22,8 +22,8 @@ def reproduce(
     """Make the tables 1-4 and figures 4-5 of MNCL: train what is missing, measure, print beside what is published."""
     from app.progress import stage_bars
     from app.threads import usable_cpus
-    from index.reproduce import reproduce as run
-    from index.reproduce_report import write_reproduction
+    from index.evaluation.reproduce import reproduce as run
+    from index.evaluation.reproduce_report import write_reproduction
     from models.training.experiments import SCALES
 
     numbers = _numbers(seeds)

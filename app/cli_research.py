@@ -153,7 +153,7 @@ def evaluate(
     from app.evaluation import WEIGHTS_DIRS, Evaluation, read_evaluation
     from app.progress import stage_bars
     from app.settings import load_settings
-    from index.evaluation import rescore as run_again
+    from index.evaluation.evaluation import rescore as run_again
 
     if (data is None) == (rescore is None):
         raise DataError("name either --data, what to ask about, or --rescore, the directory of an earlier report")
@@ -178,8 +178,8 @@ def evaluate(
 
 
 def _print_robustness(found: dict[str, Any]) -> None:
-    from index.candidates import candidate_table
-    from index.robustness import robustness_table
+    from index.evaluation.candidates import candidate_table
+    from index.evaluation.robustness import robustness_table
 
     Console(width=140).print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
     for head, rows in (robustness_table(found["trials"]), candidate_table(found["candidates"])):
@@ -197,7 +197,7 @@ def _radii(grow: str | None) -> list[float]:
 
 
 def _print_report(report: dict[str, Any]) -> None:
-    from index.report import group_table, growth_table, main_table
+    from index.evaluation.report import group_table, growth_table, main_table
 
     console = Console(width=120)
     console.print(f"{report['data']}, {report['split']}: {report['queries']} queries, {report['cells']} cells")

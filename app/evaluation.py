@@ -54,7 +54,7 @@ class Evaluation(BaseModel):
         """Do the work.
 
         Args:
-            report_dir: as `index.evaluation.evaluate`, which gives the report.
+            report_dir: as `index.evaluation.evaluation.evaluate`, which gives the report.
             progress: called as the work goes on.
 
         Raises:
@@ -62,7 +62,7 @@ class Evaluation(BaseModel):
         """
         import torch  # noqa: PLC0415  # takes seconds
 
-        from index.evaluation import evaluate  # noqa: PLC0415
+        from index.evaluation.evaluation import evaluate  # noqa: PLC0415
         from index.localizer import Localizer  # noqa: PLC0415
         from index.map_data import ask, load_queries  # noqa: PLC0415
         from index.map_posterior import MapPosterior  # noqa: PLC0415
@@ -91,7 +91,7 @@ class Evaluation(BaseModel):
         return evaluate(data, queries, answering, report_dir, self.grow_m, progress, refiner)
 
     def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
-        """Retriever and posterior side by side under every trial of `index.robustness`, and where candidates come from.
+        """Retriever and posterior side by side under every trial of `index.evaluation.robustness`, and where candidates come from.
 
         Args:
             report_dir: where robustness.json and robustness.md go; None to write nothing.
@@ -102,12 +102,12 @@ class Evaluation(BaseModel):
         """
         import torch  # noqa: PLC0415  # takes seconds
 
-        from index.candidates import candidate_recall, candidate_table  # noqa: PLC0415
+        from index.evaluation.candidates import candidate_recall, candidate_table  # noqa: PLC0415
+        from index.evaluation.report import as_markdown  # noqa: PLC0415
+        from index.evaluation.robustness import robustness, robustness_table, some_of  # noqa: PLC0415
         from index.map_data import load_queries  # noqa: PLC0415
         from index.map_posterior import MapPosterior  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
-        from index.report import as_markdown  # noqa: PLC0415
-        from index.robustness import robustness, robustness_table, some_of  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 

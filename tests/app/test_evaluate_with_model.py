@@ -78,7 +78,7 @@ def test_data_set_by_name_gets_the_report_of_the_command_line(served, command_li
 
 def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, localizer):
     """The index's own vectors against vectors made anew."""
-    from index.evaluation import evaluate as run
+    from index.evaluation.evaluation import evaluate as run
     from index.map_data import ask
 
     data = localizer.map_data()

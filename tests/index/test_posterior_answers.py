@@ -6,7 +6,7 @@ import pytest
 import torch
 
 from index.answers import Box, Circle, Prior, Query
-from index.evaluation import evaluate
+from index.evaluation.evaluation import evaluate
 from index.localizer import Localizer
 from index.map_data import load_queries
 from index.map_posterior import MapPosterior

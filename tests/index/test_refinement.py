@@ -5,10 +5,10 @@ import pytest
 import torch
 
 from index.answers import Query
-from index.evaluation import evaluate
+from index.evaluation.evaluation import evaluate
+from index.evaluation.predictions import FILE, Predictions
 from index.localizer import Localizer
 from index.map_data import load_queries
-from index.predictions import FILE, Predictions
 from index.ranking import Ranker
 from index.refinement import Refinement
 from models.errors import WeightsError

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from index.predictions import Predictions
+from index.evaluation.predictions import Predictions
 from models.city.types import Floats
 from models.training.metrics import (
     LOCALIZATION_KS,

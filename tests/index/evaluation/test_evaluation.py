@@ -4,10 +4,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.ambiguity import ambiguity
-from index.evaluation import evaluate, grow, rescore
+from index.evaluation.ambiguity import ambiguity
+from index.evaluation.evaluation import evaluate, grow, rescore
+from index.evaluation.predictions import FILE, Predictions
 from index.map_data import ask, load_map, load_queries
-from index.predictions import FILE, Predictions
 from index.ranking import Ranker
 from models.city.hints import hint_table
 from models.city.types import DIRECTIONS

@@ -11,14 +11,14 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 from scipy.special import logsumexp
 
-from index.ambiguity import ambiguity
+from index.evaluation.ambiguity import ambiguity
+from index.evaluation.predictions import FILE, Predictions
+from index.evaluation.report import write_report
+from index.evaluation.scoring import score
 from index.map_data import MapData, Progress, Queries
 from index.map_posterior import MapPosterior
-from index.predictions import FILE, Predictions
 from index.ranking import Ranker
 from index.refinement import Refinement, Refiner
-from index.report import write_report
-from index.scoring import score
 from models.city.types import Floats
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
@@ -49,7 +49,7 @@ def evaluate(
         refiner: gives the positions inside the retrieved cells; None for the cells' centres, or the posterior's own.
 
     Returns:
-        The report (`index.scoring.score`).
+        The report (`index.evaluation.scoring.score`).
     """
     report = progress or (lambda stage, done, total: None)
     predictions = predict(data, queries, ranker, report, refiner)

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from index.predictions import Predictions
-from index.scoring import calibration, score
+from index.evaluation.predictions import Predictions
+from index.evaluation.scoring import calibration, score
 
 
 def made_up(queries: int, right: float, rng: np.random.Generator) -> Predictions:

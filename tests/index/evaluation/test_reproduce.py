@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from index import reproduce as module
-from index.reproduce_report import _cost_table, markdown, write_reproduction
+from index.evaluation.reproduce_report import _cost_table, markdown, write_reproduction
 from models.training.experiments import EXPERIMENTS, FINE, MNCL, Run, Scale, runs_of
 
 TEXT2LOC, REGRESSOR = Run("text2loc"), Run("regressor")

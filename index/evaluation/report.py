@@ -11,7 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from scipy.stats import ecdf
 
-from index.predictions import Predictions
+from index.evaluation.predictions import Predictions
 from models.city.types import Floats
 from models.training.metrics import LOCALIZATION_RADII_M
 

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from index.evaluation import predict
+from index.evaluation.evaluation import predict
+from index.evaluation.report import Table
+from index.evaluation.scoring import score
 from index.gallery import Gallery
 from index.map_data import MapData, Progress, Queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
-from index.report import Table
-from index.scoring import score
 from models.city.cells import CellTable, Parts
 from models.city.hints import direction_index
 from models.city.point_sample import Sampler

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from index.report import DPI, Table, as_markdown
+from index.evaluation.report import DPI, Table, as_markdown
 from models.training.experiments import (
     EXPERIMENTS,
     FIGURE_4A,
@@ -34,7 +34,7 @@ def write_reproduction(directory: Path, found: Found, name: str) -> None:
 
     Args:
         directory: made if it is missing.
-        found: what `index.reproduce.reproduce` gave.
+        found: what `index.evaluation.reproduce.reproduce` gave.
         name: of the data.
     """
     directory.mkdir(parents=True, exist_ok=True)

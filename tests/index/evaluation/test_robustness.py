@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 import torch
 
-from index.candidates import SIZES, SOURCES, candidate_recall, candidate_table, in_turns
+from index.evaluation.candidates import SIZES, SOURCES, candidate_recall, candidate_table, in_turns
+from index.evaluation.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_table
 from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
-from index.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_table
 from models.city.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel

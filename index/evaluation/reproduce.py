@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import torch
 
-from index.ambiguity import ambiguity
-from index.evaluation import evaluate
+from index.evaluation.ambiguity import ambiguity
+from index.evaluation.evaluation import evaluate
 from index.map_data import MapData, Progress, Queries, fingerprint, load_queries
 from index.ranking import RERANKED, Ranker
 from models.localization.checkpoint import FINE_METHODS, load_fine
