@@ -201,7 +201,7 @@ def _wait_until_ready(client: httpx.Client, server: "subprocess.Popen[bytes]") -
 
 
 def _hereabouts() -> list[str]:
-    return [sys.executable, "-m", "app.cli"]
+    return [sys.executable, "-m", "app.cli.main"]
 
 
 def _tree(pid: int) -> Iterator[int]:

@@ -9,14 +9,14 @@ from asgi_correlation_id import CorrelationIdMiddleware
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
-from app.errors import add_error_handlers
-from app.jobs import EvaluationJobs
-from app.middleware import AccessLog, StrictBody, is_sane_request_id
-from app.openapi import describe, error_table
-from app.protocol import LocalizerLike
-from app.queue import InferenceQueue
-from app.routes import cells, evaluate, health
-from app.routes.localize import build_router
+from app.http.errors import add_error_handlers
+from app.http.middleware import AccessLog, StrictBody, is_sane_request_id
+from app.http.openapi import describe, error_table
+from app.http.protocol import LocalizerLike
+from app.http.queue import InferenceQueue
+from app.http.routes import cells, evaluate, health
+from app.http.routes.localize import build_router
+from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 
 ABOUT = """Say in plain words what you see around you, and it says where in the city you are.
@@ -65,7 +65,7 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
     app.add_middleware(AccessLog)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
-    app.openapi = partial(describe, app)  # type: ignore[method-assign]
+    app.http.openapi = partial(describe, app)  # type: ignore[method-assign]
     return app
 
 

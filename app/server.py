@@ -6,8 +6,8 @@ from types import FrameType
 import uvicorn
 from fastapi import FastAPI
 
-from app.jobs import EvaluationJobs
-from app.queue import InferenceQueue
+from app.http.queue import InferenceQueue
+from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 
 CLOSING_S = 5

@@ -15,7 +15,7 @@ from models.city.colours import Palette
 from models.city.points import ranges
 from models.language.grammar.labelled_text import RELATIONS
 from models.language.landmarks import Landmarks
-from models.language.parsed_hint import Noticed
+from models.language.parsed_hint import ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading
@@ -48,7 +48,7 @@ class MapPosterior:
         self.binding = Binding(model.matcher, self.labels.tolist(), palette)
         self.landmarks = Landmarks(gallery.names)
         self.extent_m = float(np.linalg.norm(np.ptp(gallery.cells.center_m[:, :2], axis=0)) + gallery.cells.size_m)
-        self._noticed: OrderedDict[str, tuple[Noticed, ...]] = OrderedDict()
+        self._noticed: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
 
     def take(self, rows: npt.NDArray[np.intp]) -> "MapPosterior":
         """The same of some cells of the gallery."""
@@ -59,7 +59,7 @@ class MapPosterior:
         gallery = replace(self.gallery, cells=self.gallery.cells.take(rows))
         return MapPosterior(self.model, gallery, self._palette, self.surroundings.take(rows, part_of))
 
-    def notice(self, hints: Sequence[str]) -> tuple[Noticed, ...]:
+    def notice(self, hints: Sequence[str]) -> tuple[ParsedHint, ...]:
         """What a description names; sentences are read together, so that one may speak of another's thing."""
         return tuple(thing for piece in _pieces(hints) for thing in self._read([piece])[0])
 
@@ -67,7 +67,7 @@ class MapPosterior:
         """Read many descriptions at once, so that `notice` of them costs nothing."""
         self._read([piece for hints in descriptions for piece in _pieces(hints)])
 
-    def _read(self, texts: Sequence[str]) -> list[tuple[Noticed, ...]]:
+    def _read(self, texts: Sequence[str]) -> list[tuple[ParsedHint, ...]]:
         """What each text names; the latest texts are remembered."""
         noticed = self._noticed
         new = sorted({text for text in texts if text not in noticed}, key=len)  # those of like length together
@@ -81,7 +81,7 @@ class MapPosterior:
             noticed.popitem(last=False)
         return found
 
-    def reading(self, noticed: Sequence[Noticed]) -> Reading:
+    def reading(self, noticed: Sequence[ParsedHint]) -> Reading:
         """Hints in the map's own labels, colours and names; of no hint, one that anything fits."""
         if not noticed:
             return self.binding.nothing()
@@ -108,13 +108,13 @@ class MapPosterior:
         p50, p90 = located.radii_m((0.5, 0.9), self.extent_m, SPACING_M)
         return min(p50 * scale, self.extent_m), min(p90 * scale, self.extent_m)
 
-    def evidence(self, noticed: Sequence[Noticed], reading: Reading, located: Located) -> tuple[Evidence, ...]:
+    def evidence(self, noticed: Sequence[ParsedHint], reading: Reading, located: Located) -> tuple[Evidence, ...]:
         """How each hint was understood, and what explains it at the best position."""
         node = int(located.nodes[((located.nodes_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
         found = self.posterior.explain(reading, node)
         return tuple(self._evidence(*row, node) for row in zip(noticed, reading.label, found, strict=True))
 
-    def _evidence(self, thing: Noticed, label: Any, found: tuple[int, float], node: int) -> Evidence:
+    def _evidence(self, thing: ParsedHint, label: Any, found: tuple[int, float], node: int) -> Evidence:
         part, explained = found
         colour = int(thing.colour.argmax())
         shown: dict[str, Any] = {}

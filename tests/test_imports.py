@@ -21,7 +21,7 @@ ONLY_IN = {
 WITHOUT_TORCH = [
     ROOT / "models/city",
     ROOT / "models/training/metrics.py",
-    ROOT / "app/schemas.py",
+    ROOT / "app/http/requests.py",
     ROOT / "index/answers.py",
 ]
 

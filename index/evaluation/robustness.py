@@ -20,7 +20,7 @@ from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
 from models.city.types import DIRECTIONS, Direction, Floats, Hint
 from models.errors import DataError
-from models.language.grammar.labelled_text import Fact, Said
+from models.language.grammar.labelled_text import Fact, LabelledText
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
 from models.language.hints_text import TEMPLATES, render_hint
@@ -171,11 +171,11 @@ def _other(words: Sequence[str], hint: Hint, rng: np.random.Generator) -> str:
     return others[int(rng.integers(len(others)))]
 
 
-def _write(wording: Wording, hints: tuple[Hint, ...], rng: np.random.Generator) -> Said:
+def _write(wording: Wording, hints: tuple[Hint, ...], rng: np.random.Generator) -> LabelledText:
     return wording.write([Fact(hint.label, hint.direction, hint.colour) for hint in hints], rng)
 
 
-def _pieces(said: Said) -> tuple[str, ...]:
+def _pieces(said: LabelledText) -> tuple[str, ...]:
     return tuple(line for line in said.text.split("\n") if line.strip())
 
 

@@ -96,22 +96,22 @@ def choose_hints(
     if strategy == "closest":
         return rows[:count]
     keys = labels[table.instance[rows]] if strategy == "class" else table.direction[rows]
-    return rows[np.argsort(_turn(keys), kind="stable")[:count]]
+    return rows[np.argsort(_occurrence(keys), kind="stable")[:count]]
 
 
-def _turn(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
+def _occurrence(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """[M] how many earlier entries have the same key: round-robin over the keys is a sort by it."""
     order = np.argsort(keys, kind="stable")
     starts = np.flatnonzero(np.diff(keys[order], prepend=-1))
-    turn = np.empty(len(keys), dtype=np.intp)
-    turn[order] = np.arange(len(keys)) - np.repeat(starts, np.diff(starts, append=len(keys)))
-    return turn
+    nth = np.empty(len(keys), dtype=np.intp)
+    nth[order] = np.arange(len(keys)) - np.repeat(starts, np.diff(starts, append=len(keys)))
+    return nth
 
 
 def round_robin(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """[M] order in which the keys take turns, each with its next entry; keys go in the order they first appear."""
     _, first, key = np.unique(keys, return_index=True, return_inverse=True)
-    return np.lexsort((first[key], _turn(keys)))
+    return np.lexsort((first[key], _occurrence(keys)))
 
 
 def sample_positions(locations_m: Floats, spacing_m: float, rng: np.random.Generator) -> Floats:

@@ -31,7 +31,7 @@ SENTENCE_END: Final = re.compile(r"[.!?;\n](?:\s|$)")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Noticed:
+class ParsedHint:
     """One thing that a description names.
 
     Attributes:
@@ -52,7 +52,7 @@ class Noticed:
     distance_m: float | None
 
 
-def resolve(text: str, things: Sequence[Noticed], kinds: Sequence[str]) -> list[Noticed]:
+def resolve(text: str, things: Sequence[ParsedHint], kinds: Sequence[str]) -> list[ParsedHint]:
     """Hints from what was noticed: stand-ins get their noun, plurals become as many hints as they count.
 
     Args:
@@ -74,14 +74,14 @@ def resolve(text: str, things: Sequence[Noticed], kinds: Sequence[str]) -> list[
             nouns[n] = nouns[before[-1]] if before else ""
             if open_plurals:
                 told[before[-1]] += 1
-    found: list[Noticed] = []
+    found: list[ParsedHint] = []
     for n, thing in enumerate(things):
         copies = 0 if told[n] or not nouns[n] or n in again else counts[n]
         found += [replace(thing, noun=nouns[n])] * copies
     return found
 
 
-def _once_each(text: str, things: Sequence[Noticed], kinds: Sequence[str]) -> tuple[list[Noticed], set[int]]:
+def _once_each(text: str, things: Sequence[ParsedHint], kinds: Sequence[str]) -> tuple[list[ParsedHint], set[int]]:
     """What a thing is said to be where it is named again goes to where it was named first; and which name nothing new.
 
     "I see a gray house. The house is north of me", "a house is north of me. The house is gray", and "a patch of grass",
@@ -104,12 +104,12 @@ def _once_each(text: str, things: Sequence[Noticed], kinds: Sequence[str]) -> tu
     return merged, again
 
 
-def _is_like(one: Noticed, other: Noticed) -> bool:
+def _is_like(one: ParsedHint, other: ParsedHint) -> bool:
     longer, shorter = sorted((one.noun.casefold(), other.noun.casefold()), key=len, reverse=True)
     return f" {longer}".endswith(f" {shorter}")
 
 
-def _merged(first: Noticed, later: Noticed, first_placed: bool, later_placed: bool) -> Noticed | None:
+def _merged(first: ParsedHint, later: ParsedHint, first_placed: bool, later_placed: bool) -> ParsedHint | None:
     """Two mentions as one; None if both say a place or a colour, so that they may be two things."""
     coloured = [x.colour[-1] < 0.5 for x in (first, later)]
     if (first_placed and later_placed) or all(coloured) or max(first.absent, later.absent) > 0.5:
@@ -122,14 +122,14 @@ def _merged(first: Noticed, later: Noticed, first_placed: bool, later_placed: bo
     )
 
 
-def _says_where(text: str, thing: Noticed) -> bool:
+def _says_where(text: str, thing: ParsedHint) -> bool:
     """Whether the sentence that names a thing says where anything is."""
     begin = max((m.end() for m in SENTENCE_END.finditer(text, 0, thing.start)), default=0)
     end = SENTENCE_END.search(text, thing.end)
     return bool(_WHERE.search(text, begin, end.start() if end else len(text)))
 
 
-def _count(text: str, thing: Noticed) -> int:
+def _count(text: str, thing: ParsedHint) -> int:
     """How many a plural names: the last number before it in its clause, else one hint's worth."""
     before = re.split(r"[.;:!?\n]", text[max(0, thing.start - BEFORE) : thing.start])[-1]
     said = _NUMBER.findall(before)

@@ -12,7 +12,7 @@ from torch import Tensor, nn
 
 from models.language.grammar.labelled_text import RELATIONS, Mention
 from models.language.grammar.wording import Wording
-from models.language.parsed_hint import SENTENCE_END, Noticed, resolve
+from models.language.parsed_hint import SENTENCE_END, ParsedHint, resolve
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, run_layers
 
 # Of tokens: outside, further token of what is named; first token of a noun, of a plural, of what stands for a thing.
@@ -95,12 +95,12 @@ class Reader(nn.Module):
         return self.relation(spans), self.colour(spans), self.absent(spans).squeeze(-1)
 
     @torch.no_grad()
-    def read(self, texts: Sequence[str]) -> list[list[Noticed]]:
+    def read(self, texts: Sequence[str]) -> list[list[ParsedHint]]:
         """What each text names, in its order."""
         tokens, characters = self.text_encoder.read(texts, self.config.frozen_layers)
         features = self(tokens)
         tags = self.tag(features).argmax(dim=-1)
-        found: list[list[Noticed]] = []
+        found: list[list[ParsedHint]] = []
         for n, text in enumerate(texts):
             spans = _spans(tags[n], characters[n], tokens.mask[n], text)
             if not spans:
@@ -113,7 +113,7 @@ class Reader(nn.Module):
             rows = zip(
                 places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), distances, strict=True
             )
-            things = [Noticed(_noun(text, a, b), a, b, *rest) for (a, b), *rest in rows]
+            things = [ParsedHint(_noun(text, a, b), a, b, *rest) for (a, b), *rest in rows]
             found.append(resolve(text, things, [TAGS[tag] for *_, tag in spans]))
         return found
 

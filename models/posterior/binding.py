@@ -9,7 +9,7 @@ from torch import Tensor
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
 from models.language.grammar.labelled_text import RELATIONS
 from models.language.labels import BoundLabels, LabelMatcher
-from models.language.parsed_hint import Noticed
+from models.language.parsed_hint import ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.likelihood import Reading
 from models.posterior.node_batch import colour_words
@@ -33,7 +33,7 @@ class Binding:
         self._colours = colour_table(palette)
 
     @torch.no_grad()
-    def reading(self, noticed: Sequence[Noticed]) -> Reading:
+    def reading(self, noticed: Sequence[ParsedHint]) -> Reading:
         """Hints as distributions over what the map has."""
         nouns = self.matcher.embed([thing.noun for thing in noticed])
         said = [float("nan") if thing.distance_m is None else thing.distance_m for thing in noticed]

@@ -8,7 +8,7 @@ import torch
 from torch import Tensor, nn
 
 from models.city.colours import Palette
-from models.posterior.node_batch import OFFSET, TURNS, Around, colour_words
+from models.posterior.node_batch import OFFSET, RANKS, NodeBatch, colour_words
 from models.posterior.surroundings import STEP_M
 
 HABITS: Final = 3
@@ -69,7 +69,7 @@ class Likelihood(nn.Module):
         # log pi by metres / 10, and by their square / 100
         self.distance = nn.Parameter(torch.full((2, HABITS), -0.33))
         # People tell of the nearest things, of one of each kind, or of one in each direction: a mixture of habits.
-        self.turns = nn.ParameterList(nn.Parameter(_falling(size, n)) for n, size in enumerate(TURNS))
+        self.ranks = nn.ParameterList(nn.Parameter(_falling(size, n)) for n, size in enumerate(RANKS))
         # Of what a habit tells one of, each is told of the less, the more there are: powers of their number.
         self.among = nn.Parameter(torch.tensor([[0.0, 0.5, 0.0], [0.0, 0.0, 0.5]]))
         self.habit = nn.Parameter(torch.zeros(HABITS))  # log weights of the mixture
@@ -86,13 +86,13 @@ class Likelihood(nn.Module):
         x = (torch.arange(256) - OFFSET) * STEP_M
         self._way = (x[:, None].expand(256, 256).reshape(-1), x[None].expand(256, 256).reshape(-1))
 
-    def share_of(self, way: Tensor, whole: Tensor, turn: Tensor, node: Tensor, nodes: int) -> Tensor:
-        """[R, 3] pi of each row of M nodes by habit, shared among what is near, the same for every text; see Around."""
+    def share_of(self, way: Tensor, whole: Tensor, rank: Tensor, node: Tensor, nodes: int) -> Tensor:
+        """[R, 3] pi of each row of M nodes by habit, shared among what is near, of any text; see NodeBatch."""
         radius = torch.hypot(*self._way)[:, None]
         log_pi = (self.distance[0] * radius + self.distance[1] * radius**2 / 10) / 10
-        turned = torch.stack([weight[turn[:, n]] for n, weight in enumerate(self.turns)]).sum(dim=0)
-        turned = turned - turn[:, len(TURNS) :].float().log() @ self.among
-        pi = (log_pi[way] + torch.where(whole, 0.0, self.partly)[:, None] + turned).exp()
+        ranked = torch.stack([weight[rank[:, n]] for n, weight in enumerate(self.ranks)]).sum(dim=0)
+        ranked = ranked - rank[:, len(RANKS) :].float().log() @ self.among
+        pi = (log_pi[way] + torch.where(whole, 0.0, self.partly)[:, None] + ranked).exp()
         mass = torch.zeros(nodes, HABITS).index_add(0, node, pi) + 1e-3
         return pi / mass[node] ** self.crowding
 
@@ -118,7 +118,7 @@ class Likelihood(nn.Module):
         radius = torch.hypot(east, north)
         on_top = torch.sigmoid((self.on_top_m[0].exp() - radius) / self.on_top_m[1].exp())
         half = 2**-0.5
-        # North, say, is where north exceeds east and west; northeast the same, half a quarter turn on.
+        # North, say, is where north exceeds east and west; northeast the same, half a quarter rank on.
         axes = torch.stack([north, (north + east) * half, east, (east - north) * half])
         axes = torch.cat([axes, -axes])
         winds = torch.sigmoid((axes - axes.roll(2, 0).abs()) / self.border_m.exp()) * (1 - on_top)
@@ -189,10 +189,10 @@ class Likelihood(nn.Module):
         mixed: Tensor = (said @ torch.ones(hints) + self.habit.log_softmax(0)[:, None]).logsumexp(dim=0)
         return self.temper.exp() * mixed
 
-    def forward(self, reading: Reading, around: Around, palette: Palette, usual: Tensor) -> Tensor:
+    def forward(self, reading: Reading, around: NodeBatch, palette: Palette, usual: Tensor) -> Tensor:
         """[M] log p(T | x), up to a constant; `usual` as `usual_statements`."""
         fits = self.parts(reading, around.label, self.words(around.rgb, palette))
-        share = self.share_of(around.way, around.whole, around.turn, around.node, around.nodes)
+        share = self.share_of(around.way, around.whole, around.rank, around.node, around.nodes)
         pairs = self.pairs(reading, fits, around.part, self.ways(), around.way)
         eps = self.chance(reading, usual)
         return self.combine(reading, around.node, around.nodes, pairs, share.index_select(0, pairs.row), eps)

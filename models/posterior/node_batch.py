@@ -11,19 +11,19 @@ from models.city.colours import Palette
 from models.city.hints import ON_TOP_M
 from models.posterior.surroundings import STEP_M
 
-TURNS: Final = (16, 4, 4)  # numbers beyond these are as their last
+RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
 OFFSET: Final = 128  # ways are int8; a pair of them numbers a row of the tables
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Around:
+class NodeBatch:
     """The surroundings of M nodes, as torch takes them.
 
     Attributes:
         node: [R] node of each row, ascending.
         way: [R] number of the way from the instance's closest point, see `way_number`.
         whole: [R] bool, see `models.posterior.surroundings.Surroundings`.
-        turn: [R, 5] how many nearer instances there are, and how many in all, see `turns_of`.
+        rank: [R, 5] how many nearer instances there are, and how many in all, see `ranks_of`.
         part: [R] row of `label` and `word`.
         label: [P] label of each part.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
@@ -33,7 +33,7 @@ class Around:
     node: Tensor
     way: Tensor
     whole: Tensor
-    turn: Tensor
+    rank: Tensor
     part: Tensor
     label: Tensor
     rgb: Tensor
@@ -46,7 +46,7 @@ def way_number(way: Tensor) -> Tensor:
     return shifted[:, 0] * 256 + shifted[:, 1]
 
 
-def turns_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
+def ranks_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
     """[R, 5] nearer instances of a node: in all, of the same class, in the same direction; then all of the last two.
 
     Args:
@@ -58,8 +58,8 @@ def turns_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
     sector = torch.where(east.abs() > north.abs(), (east > 0).long(), 2 + (north > 0).long())
     sector = torch.where(torch.hypot(east.float(), north.float()) * STEP_M < ON_TOP_M, 4, sector)
     keys = [node, node * (int(label.max()) + 1) + label if len(label) else node, node * 5 + sector]
-    turns, numbers = zip(*(_counted(key) for key in keys), strict=True)
-    nearer = [c.clamp(max=size - 1) for c, size in zip(turns, TURNS, strict=True)]
+    ranks, numbers = zip(*(_counted(key) for key in keys), strict=True)
+    nearer = [c.clamp(max=size - 1) for c, size in zip(ranks, RANKS, strict=True)]
     return torch.stack([*nearer, *numbers[1:]], dim=1)
 
 

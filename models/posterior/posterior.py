@@ -15,7 +15,7 @@ from models.city.colours import Palette
 from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.node_batch import turns_of, usual_statements, way_number
+from models.posterior.node_batch import ranks_of, usual_statements, way_number
 from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
@@ -88,9 +88,9 @@ class HintPosterior:
             rows = slice(int(s.starts[begin]), int(s.starts[end]))
             node = torch.from_numpy(np.repeat(np.arange(end - begin), np.diff(s.starts[begin : end + 1])))
             way, part = torch.from_numpy(s.way[rows]), torch.from_numpy(s.part[rows]).long()
-            turn = turns_of(node, way, self._label[part]) if len(node) else torch.zeros(0, 5, dtype=torch.long)
+            rank = ranks_of(node, way, self._label[part]) if len(node) else torch.zeros(0, 5, dtype=torch.long)
             whole = torch.from_numpy(s.whole[rows])
-            blocks.append(self.likelihood.share_of(way_number(way), whole, turn, node, end - begin))
+            blocks.append(self.likelihood.share_of(way_number(way), whole, rank, node, end - begin))
         return torch.cat(blocks)
 
     def _tabulate(self) -> tuple[csc_array, Tensor]:

@@ -12,7 +12,7 @@ from models.retrieval.retriever import Retriever
 from models.training.validation import Encoded, Validation
 
 QUERIES = 500  # of each source
-Asked = tuple[int, npt.NDArray[np.floating[Any]], npt.NDArray[np.intp]]
+ScoredQueries = tuple[int, npt.NDArray[np.floating[Any]], npt.NDArray[np.intp]]
 
 
 def calibrate(retriever: Retriever, validations: Sequence[Validation], rng: np.random.Generator) -> dict[str, Any]:
@@ -32,7 +32,7 @@ def calibrate(retriever: Retriever, validations: Sequence[Validation], rng: np.r
     return found | ({"level_weights": weights} if len(weights) > 1 else {})
 
 
-def most_likely(asked: Sequence[Asked]) -> tuple[tuple[float, ...], float, float]:
+def most_likely(asked: Sequence[ScoredQueries]) -> tuple[tuple[float, ...], float, float]:
     """(weights of the levels, temperature, decay) that give the true cells most likelihood.
 
     The probability of a cell is the softmax over the gallery of (sum over levels of w * similarity) / T, with
@@ -56,11 +56,11 @@ def most_likely(asked: Sequence[Asked]) -> tuple[tuple[float, ...], float, float
     return weights, float(np.exp(found[0])), float(found[1])
 
 
-def _ask(retriever: Retriever, validation: Validation, rng: np.random.Generator) -> list[Asked]:
+def _ask(retriever: Retriever, validation: Validation, rng: np.random.Generator) -> list[ScoredQueries]:
     gallery = Encoded(retriever, validation.features)
     longest = min(len(hints) for hints in validation.descriptions)
     rows = np.arange(0, len(validation.truth), max(1, len(validation.truth) // QUERIES))
-    asked: list[Asked] = []
+    asked: list[ScoredQueries] = []
     for count in range(1, longest + 1):
         texts = [rng.permutation(list(validation.descriptions[int(row)]))[:count].tolist() for row in rows]
         by_level = gallery.level_scores(texts)

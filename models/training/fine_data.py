@@ -15,8 +15,8 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.localization.fine_model import FineModel, Truth
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
-from models.training.retrieval_data import APART_M, SYMMETRIES, TrainingSet, turn
-from models.training.sources import Asked
+from models.training.retrieval_data import APART_M, SYMMETRIES, TrainingSet, reflect
+from models.training.sources import ValidationQueries
 
 CLONED = 0.5  # share of the examples whose cell is a neighbour
 
@@ -48,8 +48,8 @@ class FineSet:
     """
 
     def __init__(self, training: TrainingSet, pmc: bool = True) -> None:
-        self.training, self.taught, self.pmc = training, training.taught, pmc
-        starts, rows = containing_cells(self.taught.cells, self.taught.positions_m[:, :2], training.best)
+        self.training, self.place, self.pmc = training, training.place, pmc
+        starts, rows = containing_cells(self.place.cells, self.place.positions_m[:, :2], training.best)
         self.neighbour_starts, self.neighbours = starts, rows
 
     def __len__(self) -> int:
@@ -79,24 +79,24 @@ class FineSet:
         match = np.full(said.mask.shape, -1, dtype=np.int64)
         for row in range(size) if with_matches else ():
             hints = said.hints[row, said.mask[row]]
-            match[row, : len(hints)] = self._match(hints, int(cells[row]), self.taught.positions_m[positions[row], :2])
+            match[row, : len(hints)] = self._match(hints, int(cells[row]), self.place.positions_m[positions[row], :2])
         matrix = torch.from_numpy(SYMMETRIES[symmetry])
-        offset = offsets_in(self.taught.cells, cells, self.taught.positions_m[positions, :2]).astype(np.float32)
+        offset = offsets_in(self.place.cells, cells, self.place.positions_m[positions, :2]).astype(np.float32)
         return FineBatch(
-            cells=turn(self.training.features.batch(cells), matrix),
+            cells=reflect(self.training.features.batch(cells), matrix),
             sentences=torch.from_numpy(said.sentences),
             hint_mask=torch.from_numpy(said.mask),
-            truth=Truth(turn_offset(torch.from_numpy(offset), matrix), torch.from_numpy(match)),
+            truth=Truth(reflect_offset(torch.from_numpy(offset), matrix), torch.from_numpy(match)),
         )
 
     def _match(self, hints: Ints, cell: int, position_m: Floats) -> Ints:
         """[H] which instance of a cell each hint means; of several parts of one, that nearest to the position."""
-        parts = self.taught.cells.parts
+        parts = self.place.cells.parts
         rows = slice(parts.starts[cell], parts.starts[cell + 1])
         low, high = parts.low_m[rows, :2], parts.high_m[rows, :2]
         distance = np.linalg.norm(np.maximum(0, np.maximum(low - position_m, position_m - high)), axis=1)
-        said = self.taught.said_number[hints]
-        is_meant = (self.taught.part_number[rows] == said[:, None]) & (said >= 0)[:, None]
+        said = self.place.said_number[hints]
+        is_meant = (self.place.part_number[rows] == said[:, None]) & (said >= 0)[:, None]
         nearest: Ints = np.where(is_meant, distance, np.inf).argmin(axis=1)
         return np.where(is_meant.any(axis=1), nearest, -1)
 
@@ -120,7 +120,7 @@ class FineValidation:
     offset: Floats
 
     @classmethod
-    def of(cls, asked: Asked) -> "FineValidation":
+    def of(cls, asked: ValidationQueries) -> "FineValidation":
         """Of queries, each in its best cell and in another that contains its position."""
         positions = asked.positions_m[:, :2]
         starts, neighbours = containing_cells(asked.cells, positions, asked.truth)
@@ -181,6 +181,6 @@ def offsets_in(cells: CellTable, rows: npt.NDArray[Any], positions_m: Floats) ->
     return offset
 
 
-def turn_offset(offset: Tensor, matrix: Tensor) -> Tensor:
-    """Positions [B, 2] in cells (0..1) under symmetries of the compass [B, 2, 2], as `models.training.retrieval_data.turn`."""
+def reflect_offset(offset: Tensor, matrix: Tensor) -> Tensor:
+    """Positions [B, 2] in cells (0..1) under symmetries of the compass [B, 2, 2], as `reflect`."""
     return torch.einsum("bij,bj->bi", matrix, offset - 0.5) + 0.5

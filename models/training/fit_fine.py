@@ -45,7 +45,7 @@ class FineTask:
     @cached_property
     def validations(self) -> list[FineValidation]:
         """Of each source; the first process alone asks for them."""
-        return [FineValidation.of(source.asked) for source in self.sources]
+        return [FineValidation.of(source.queries) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
         """Which source, and examples of it."""

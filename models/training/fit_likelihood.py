@@ -12,7 +12,7 @@ from torch import Tensor
 from models.city.cells import CellTable
 from models.city.points import Ints, ranges
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.node_batch import Around, turns_of, way_number
+from models.posterior.node_batch import NodeBatch, ranks_of, way_number
 from models.posterior.posterior import HintPosterior
 from models.training.places import Place
 
@@ -49,7 +49,7 @@ def fit_likelihood(
 
     Args:
         likelihood: from where to start.
-        texts: what to fit to, drawn from in turn by their numbers.
+        texts: what to fit to, drawn from in rank by their numbers.
         steps: of Adam, `BATCH` texts each.
         rng: draws texts and cells.
         progress: called with (steps done, steps, mean loss of the last ones).
@@ -90,7 +90,7 @@ def surprise(likelihood: Likelihood, texts: Texts, query: int, cells: Ints, usua
     return loss
 
 
-def around_cells(place: Place, cells: Ints) -> tuple[Ints, Around]:
+def around_cells(place: Place, cells: Ints) -> tuple[Ints, NodeBatch]:
     """The nodes of some cells, and their surroundings."""
     s = place.surroundings
     nodes = ranges(s.cell_starts[cells], s.cell_starts[cells + 1])
@@ -99,12 +99,12 @@ def around_cells(place: Place, cells: Ints) -> tuple[Ints, Around]:
     parts, part = np.unique(s.part[rows], return_inverse=True)
     way, label = torch.from_numpy(s.way[rows]), torch.from_numpy(place.label)
     rgb = torch.from_numpy(place.cells.parts.rgb[parts].astype(np.float32))
-    turn = turns_of(node, way, label[torch.from_numpy(s.part[rows]).long()])
-    around = Around(
+    rank = ranks_of(node, way, label[torch.from_numpy(s.part[rows]).long()])
+    around = NodeBatch(
         node=node,
         way=way_number(way),
         whole=torch.from_numpy(s.whole[rows]),
-        turn=turn,
+        rank=rank,
         part=torch.from_numpy(part),
         label=label[torch.from_numpy(parts).long()],
         rgb=rgb,

@@ -134,7 +134,7 @@ def train_points(
     galleries = [source.training.features for source in sources]
     labels = sorted({label for gallery in galleries for label in gallery.labels})
     training = PointExamples.of(galleries, labels, CELLS_A_SOURCE, config.seed)
-    asked = [CellFeatures.of(source.asked.cells, source.asked.labels) for source in sources]
+    asked = [CellFeatures.of(source.queries.cells, source.queries.labels) for source in sources]
     validation = PointExamples.of(asked, labels, CHOSEN_BY_CELLS, config.seed)
     model = _Classifier(encoder.requires_grad_(True), len(labels))
     loop = LoopConfig(

@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from models.language.grammar.files import Grammar
-from models.language.grammar.labelled_text import RELATIONS, WINDS, Fact, Mention, Said
+from models.language.grammar.labelled_text import RELATIONS, WINDS, Fact, LabelledText, Mention
 from models.language.grammar.wording import Wording
 from models.language.reader import COLOURS, Reader, example_targets
 from models.language.text_encoder import TextEncoder, TokenFeatures
@@ -35,7 +35,7 @@ NAME_FRAMES = (
 )  # fmt: skip
 
 
-def draw_text(wording: Wording, rng: np.random.Generator) -> tuple[list[Fact], Said]:
+def draw_text(wording: Wording, rng: np.random.Generator) -> tuple[list[Fact], LabelledText]:
     """Made-up facts, and a text that tells them."""
     if rng.random() >= WHOLE:
         facts = draw_facts(wording, rng)
@@ -88,7 +88,7 @@ def _draw_name(rng: np.random.Generator) -> str:
     return frame.format(word)
 
 
-def _say(wording: Wording, facts: Sequence[Fact], rng: np.random.Generator) -> Said:
+def _say(wording: Wording, facts: Sequence[Fact], rng: np.random.Generator) -> LabelledText:
     plain = all(f.relation != "near" and not f.absent and f.name is None and f.distance_m is None for f in facts)
     return wording.published(facts) if plain and rng.random() < PUBLISHED else wording.write(facts, rng)
 

@@ -59,7 +59,7 @@ class Batch:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Said:
+class DrawnHints:
     """What is said at B positions.
 
     Attributes:
@@ -114,7 +114,7 @@ class HintVocabulary:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Taught:
+class TrainingPlace:
     """What a part of a map or a data set teaches.
 
     Attributes:
@@ -140,7 +140,7 @@ class Taught:
     said_number: npt.NDArray[Any]
 
     @classmethod
-    def of_map(cls, city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats) -> "Taught":
+    def of_map(cls, city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats) -> "TrainingPlace":
         """Positions of a map, [N, 3] metres; those further than 15 m from every centre are left out."""
         distance, best = cKDTree(cells.center_m).query(positions_m)
         near = distance <= BEST_CELL_REACH_M
@@ -152,7 +152,7 @@ class Taught:
         return cls(cells, labels, positions[:, :2], best[near], table, labels, words, part_number, table.instance)
 
     @classmethod
-    def of_store(cls, store: PoseStore) -> "Taught":
+    def of_store(cls, store: PoseStore) -> "TrainingPlace":
         """The poses of a data set; what is said there is what their descriptions say."""
         cells, poses = store.cell_table(), store.poses
         scene = np.unique(cells.scenes, return_inverse=True)[1][poses.cell]
@@ -175,7 +175,7 @@ class TrainingSet:
     """Positions to train on, with everything that can be said at each of them.
 
     Args:
-        taught: the positions.
+        place: the positions.
         encoder: the frozen text encoder.
         wording: "varied" draws which hints are said, how many, in which words, and leaves colours out now and then;
             "published" says what the data set says (of a map: the nearest six), in the benchmark's words.
@@ -184,17 +184,17 @@ class TrainingSet:
         DataError: no position has hints enough.
     """
 
-    def __init__(self, taught: Taught, encoder: TextEncoder, wording: Wording = "varied") -> None:
-        self.taught, self.table, self.best, self.wording = taught, taught.table, taught.best, wording
-        self.features = CellFeatures.of(taught.cells, taught.cell_labels)
+    def __init__(self, place: TrainingPlace, encoder: TextEncoder, wording: Wording = "varied") -> None:
+        self.place, self.table, self.best, self.wording = place, place.table, place.best, wording
+        self.features = CellFeatures.of(place.cells, place.cell_labels)
         self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)
         if not len(self.usable):
             raise DataError(f"none of {len(self.best)} positions has {MIN_HINTS} things around it; take a larger map")
-        self._tree = cKDTree(taught.positions_m[self.usable])
-        names, self.label_of = np.unique(taught.labels, return_inverse=True)
+        self._tree = cKDTree(place.positions_m[self.usable])
+        names, self.label_of = np.unique(place.labels, return_inverse=True)
         said = np.column_stack([self.label_of[self.table.instance], self.table.colour])
         pairs = np.unique(np.concatenate([said, np.column_stack([said[:, 0], np.full(len(said), -1)])]), axis=0)
-        self.vocabulary = HintVocabulary(encoder, tuple(names.tolist()), taught.words, pairs)
+        self.vocabulary = HintVocabulary(encoder, tuple(names.tolist()), place.words, pairs)
         self.label_embeddings = encoder.embed(self.features.labels)
 
     def __len__(self) -> int:
@@ -210,7 +210,7 @@ class TrainingSet:
         """Positions for a batch: groups of `cluster` near each other, whose cells are hard to tell apart."""
         groups = max(1, size // cluster)
         seeds = rng.choice(self.usable, groups, replace=len(self.usable) < groups)
-        near = self._tree.query_ball_point(self.taught.positions_m[seeds], NEIGHBOUR_M)
+        near = self._tree.query_ball_point(self.place.positions_m[seeds], NEIGHBOUR_M)
         drawn: npt.NDArray[np.intp] = self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
         return drawn
 
@@ -220,13 +220,13 @@ class TrainingSet:
         said = self.say(positions, symmetry, rng)
         best = self.best[positions]
         return Batch(
-            cells=turn(self.features.batch(best), torch.from_numpy(SYMMETRIES[symmetry])),
+            cells=reflect(self.features.batch(best), torch.from_numpy(SYMMETRIES[symmetry])),
             sentences=torch.from_numpy(said.sentences),
             hint_mask=torch.from_numpy(said.mask),
             cell=torch.from_numpy(best.astype(np.int64)),
         )
 
-    def say(self, positions: npt.NDArray[np.intp], symmetry: npt.NDArray[Any], rng: np.random.Generator) -> Said:
+    def say(self, positions: npt.NDArray[np.intp], symmetry: npt.NDArray[Any], rng: np.random.Generator) -> DrawnHints:
         """Hints at some positions, each position turned by one of SYMMETRIES, worded as `wording` says."""
         varied = self.wording == "varied"
         hints = np.zeros((len(positions), MAX_HINTS), dtype=np.int64)
@@ -242,7 +242,7 @@ class TrainingSet:
         direction = DIRECTION_UNDER_SYMMETRY[symmetry[:, None], self.table.direction[hints]]
         label = self.label_of[self.table.instance[hints]]
         sentences = np.where(mask, self.vocabulary.sentence(label, colour, direction, template), 0)
-        return Said(sentences, mask, np.where(mask, hints, -1))
+        return DrawnHints(sentences, mask, np.where(mask, hints, -1))
 
     def _draw(self, position: int, rng: np.random.Generator) -> npt.NDArray[Any]:
         count = int(rng.integers(MIN_HINTS, MAX_HINTS + 1)) if rng.random() < 0.5 else NUM_HINTS
@@ -254,7 +254,7 @@ class TrainingSet:
         return np.arange(start, min(end, start + NUM_HINTS))
 
 
-def turn(batch: CellBatch, matrix: Tensor) -> CellBatch:
+def reflect(batch: CellBatch, matrix: Tensor) -> CellBatch:
     """Cells seen under a symmetry of the compass; what a point encoder made of their points stays as it is.
 
     Args:

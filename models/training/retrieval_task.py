@@ -53,7 +53,7 @@ class RetrievalTask:
     @cached_property
     def validations(self) -> list[Validation]:
         """Of each source; the first process alone asks for them."""
-        return [Validation(source.asked, self.model) for source in self.sources]
+        return [Validation(source.queries, self.model) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> SourceBatch:
         """See Task; all processes draw from the first one's choice of source."""

@@ -18,14 +18,14 @@ from models.city.store.pose_store import PoseStore
 from models.city.types import CityMap, Floats, Pose
 from models.language.hints_text import render_hint
 from models.language.text_encoder import TextEncoder
-from models.training.retrieval_data import Taught, TrainingSet
+from models.training.retrieval_data import TrainingPlace, TrainingSet
 from models.training.settings import TrainingConfig
 
 VALIDATION_SPACING_M = 10.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Asked:
+class ValidationQueries:
     """Queries with known answers, in the benchmark's wording.
 
     Attributes:
@@ -43,7 +43,7 @@ class Asked:
     truth: npt.NDArray[np.intp]
 
     @classmethod
-    def of_map(cls, city_map: CityMap, cells: CellTable, poses: Sequence[Pose]) -> "Asked":
+    def of_map(cls, city_map: CityMap, cells: CellTable, poses: Sequence[Pose]) -> "ValidationQueries":
         """Poses of a map as queries against some of its cells."""
         row = {cell_id: n for n, cell_id in enumerate(cells.ids)}
         return cls(
@@ -55,7 +55,7 @@ class Asked:
         )
 
     @classmethod
-    def of_store(cls, store: PoseStore) -> "Asked":
+    def of_store(cls, store: PoseStore) -> "ValidationQueries":
         """The poses of a data set as queries against its cells."""
         poses = store.poses
         said = [[render_hint(hint) for hint in poses.hints(q)] for q in range(len(poses))]
@@ -67,12 +67,12 @@ class Source:
     """One map or data set to train on.
 
     Attributes:
-        training, asked: parts of it that share no cell; the second is for choosing.
+        training, queries: parts of it that share no cell; the second is for choosing.
         facts: what it is, for the record beside the weights.
     """
 
     training: TrainingSet
-    asked: Asked
+    queries: ValidationQueries
     facts: dict[str, Any]
 
 
@@ -100,7 +100,9 @@ def load_source(
         "data": data.resolve().name,
         "scenes": {s: [n.name for n in p.scenes] for s, p in zip(splits, (training, asked), strict=True)},
     }
-    return Source(TrainingSet(Taught.of_store(training), encoder, config.wording), Asked.of_store(asked), facts)
+    return Source(
+        TrainingSet(TrainingPlace.of_store(training), encoder, config.wording), ValidationQueries.of_store(asked), facts
+    )
 
 
 def source_of_map(city_map: CityMap, encoder: TextEncoder, config: TrainingConfig, rng: np.random.Generator) -> Source:
@@ -118,7 +120,7 @@ def source_of_map(city_map: CityMap, encoder: TextEncoder, config: TrainingConfi
         "regions": {name: [region.west_m, region.east_m] for name, region in regions.items()},
     }
     return Source(
-        TrainingSet(Taught.of_map(city_map, points, west.cells(cells), positions), encoder, config.wording),
-        Asked.of_map(city_map, gallery, describe_poses(city_map, points, gallery, asked)),
+        TrainingSet(TrainingPlace.of_map(city_map, points, west.cells(cells), positions), encoder, config.wording),
+        ValidationQueries.of_map(city_map, gallery, describe_poses(city_map, points, gallery, asked)),
         facts,
     )

@@ -10,7 +10,7 @@ from models.retrieval.level_table import LevelTable
 from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
 from models.training.metrics import RETRIEVAL_KS, retrieval_recall
-from models.training.sources import Asked
+from models.training.sources import ValidationQueries
 
 
 class Validation:
@@ -21,7 +21,7 @@ class Validation:
         retriever: that will be asked, with a point encoder that does not change.
     """
 
-    def __init__(self, asked: Asked, retriever: Retriever) -> None:
+    def __init__(self, asked: ValidationQueries, retriever: Retriever) -> None:
         self.features = retriever.seen(CellFeatures.of(asked.cells, asked.labels))
         self.descriptions, self.truth = asked.descriptions, asked.truth
 

@@ -23,6 +23,6 @@ class TellingLocalizer(FakeLocalizer):
 settings = load_settings(port=int(sys.argv[1]))
 configure_logging("info")
 app = create_app(settings, TellingLocalizer)
-app.state.jobs._command = (sys.executable, Path(__file__).parent / "fake_worker.py")
+app.state.jobs._command = (sys.executable, Path(__file__).parent / "jobs/fake_worker.py")
 app.add_api_route("/waiting", lambda: len(app.state.queue._jobs))
 serve(app, settings)

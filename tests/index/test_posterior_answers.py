@@ -12,7 +12,7 @@ from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.posterior_answers import PosteriorAnswers
 from models.language.grammar.labelled_text import RELATIONS
-from models.language.parsed_hint import Noticed
+from models.language.parsed_hint import ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 
@@ -28,7 +28,7 @@ def _noticed(relation, thing, start):
     colour = next((c for c in COLOURS if thing.startswith(c + " ")), None)
     noun = thing.removeprefix(f"{colour} ")
     said = torch.eye(len(COLOURS) + 1)[COLOURS.index(colour) if colour else -1]
-    return Noticed(
+    return ParsedHint(
         noun, start, start + len(noun), torch.eye(len(RELATIONS))[RELATIONS.index(relation)], said, 0.0, None
     )
 

@@ -60,7 +60,7 @@ class Mention:
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class LabelledText:
     """A text, and what of it means what.
 
     Attributes:
@@ -71,8 +71,8 @@ class Said:
     text: str
     mentions: tuple[Mention, ...]
 
-    def then(self, other: "Said", between: str) -> "Said":
+    def then(self, other: "LabelledText", between: str) -> "LabelledText":
         """Both, one after the other."""
         shift = len(self.text) + len(between)
         moved = tuple(replace(m, start=m.start + shift, end=m.end + shift) for m in other.mentions)
-        return Said(self.text + between + other.text, self.mentions + moved)
+        return LabelledText(self.text + between + other.text, self.mentions + moved)

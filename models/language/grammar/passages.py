@@ -1,9 +1,9 @@
 """Passages: phrases about several things at once, and which facts they can tell.
 
 A passage is a phrase with numbered slots, as in `models.language.grammar.wording`, and these besides. {o12}: the
-direction that things 1 and 2 share; {c12}: their colour, if they have the same; {ns12}: the noun of both in the plural, if they
-are of one class, without colour; {1:one}, {2:the other}: words that stand for one of them; {c1=}, {c2=}: the colours
-of each, which stand for it ("three poles, a gray, a black and a beige"). {a3!}, {ns34!}: a thing that the
+direction that things 1 and 2 share; {c12}: their colour, if they have the same; {ns12}: the noun of both in the plural,
+if they are of one class, without colour; {1:one}, {2:the other}: words that stand for one of them; {c1=}, {c2=}: the
+colours of each, which stand for it ("three poles, a gray, a black and a beige"). {a3!}, {ns34!}: a thing that the
 speaker stands on or touches; {a3~}: one that is close by in no direction. {nb1}: the noun alone. {x12} is no words, and
 says that things 1 and 2 lie opposite each other. A direction with an ending, {o1}ern, is the plain word.
 What a passage's slots ask of its things is its pattern: a thing with neither mark needs a direction, and a slot {c1}

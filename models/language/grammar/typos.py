@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from models.language.grammar.labelled_text import Said
+from models.language.grammar.labelled_text import LabelledText
 
 # shares of the texts with typos, in lower case, without full stops
 TYPO_TEXTS, LOWER_TEXTS, BARE_TEXTS = 0.2, 0.15, 0.1
 
 
-def spoil(said: Said, rng: np.random.Generator) -> Said:
+def spoil(said: LabelledText, rng: np.random.Generator) -> LabelledText:
     """A text as it is typed in a hurry."""
     drawn = rng.random(3)
     if drawn[0] < LOWER_TEXTS:
@@ -25,14 +25,14 @@ def spoil(said: Said, rng: np.random.Generator) -> Said:
     return said
 
 
-def typos(said: Said, count: int, rng: np.random.Generator) -> Said:
+def typos(said: LabelledText, count: int, rng: np.random.Generator) -> LabelledText:
     """The same text with some mistyped letters."""
     for _ in range(count):
         said = _typo(said, rng)
     return said
 
 
-def _typo(said: Said, rng: np.random.Generator) -> Said:
+def _typo(said: LabelledText, rng: np.random.Generator) -> LabelledText:
     """One letter left out, doubled, or changed places with the next."""
     places = [m.start() for m in re.finditer(r"(?<=[a-z])[a-z](?=[a-z])", said.text)]
     if not places:
@@ -49,4 +49,4 @@ def _typo(said: Said, rng: np.random.Generator) -> Said:
     moved = tuple(
         replace(m, start=m.start + grown * (m.start > at), end=m.end + grown * (m.end > at)) for m in said.mentions
     )
-    return Said(spoiled, moved)
+    return LabelledText(spoiled, moved)

@@ -3,8 +3,8 @@
 A grammar is a TOML file in grammar/, data only, or several (`models.language.grammar.files`). Ways to name each class
 (`labels`) and colour, the eight winds (`compass`), and phrases by kind: two to six things at once (`passages`, see
 `models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`;
-`bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`, `two_same`;
-`two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a direction, the
+`bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`,
+`two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a direction, the
 second at hand or underfoot; `two_near` both at hand), and what surrounds them (`opener`, `closer`, `irrelevant`,
 `link`, `leads`). Slots: {d} where the speaker is, seen from the thing, {o} the opposite; {a}, {A}, {the}, {The}, {n}
 the thing with its colour, {b}, {theb} without, {c} the colour; {dist}, {name}; numbered with several things. Validation
@@ -18,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 
 from models.language.grammar.files import Grammar, load_grammar
-from models.language.grammar.labelled_text import WINDS, Fact, Mention, Said, opposite
+from models.language.grammar.labelled_text import WINDS, Fact, LabelledText, Mention, opposite
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.typos import spoil
 
@@ -45,7 +45,7 @@ class Wording:
         self._phrases["plurals"] = [passage for passage in self._phrases["passages"] if passage.shared("ns")]
         self._phrases["whole"] = [passage for passage in self._phrases["passages"] if passage.things >= LONG]
 
-    def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> Said:
+    def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> LabelledText:
         """A description.
 
         Args:
@@ -57,7 +57,7 @@ class Wording:
         said = self._surround(self._sentences(facts, order, rng), rng)
         return spoil(said, rng) if noise else said
 
-    def whole(self, facts: Sequence[Fact], rng: np.random.Generator) -> tuple[list[Fact], Said]:
+    def whole(self, facts: Sequence[Fact], rng: np.random.Generator) -> tuple[list[Fact], LabelledText]:
         """A description that is one long passage, and the facts that it tells: some of these, changed to suit it.
 
         Args:
@@ -69,18 +69,18 @@ class Wording:
         said = self._surround([self._fill(passage, suited, range(passage.things), rng)], rng)
         return suited, spoil(said, rng)
 
-    def published(self, facts: Sequence[Fact]) -> Said:
+    def published(self, facts: Sequence[Fact]) -> LabelledText:
         """The benchmark's sentences, one a fact (kitti360pose.md, rule 8), in the order of the facts."""
-        said = Said("", ())
+        said = LabelledText("", ())
         for n, fact in enumerate(facts):
             before = f"The pose is {fact.relation} of a {fact.colour + ' ' if fact.colour else ''}"
             end = len(before) + len(fact.label)
             mention = Mention((n,), len(before), end, fact.label, coloured=fact.colour is not None)
-            sentence = Said(f"{before}{fact.label}.", (mention,))
+            sentence = LabelledText(f"{before}{fact.label}.", (mention,))
             said = said.then(sentence, " ") if said.text else sentence
         return said
 
-    def _sentences(self, facts: Sequence[Fact], order: list[int], rng: np.random.Generator) -> list[Said]:
+    def _sentences(self, facts: Sequence[Fact], order: list[int], rng: np.random.Generator) -> list[LabelledText]:
         left, sentences = list(order), []
         while left:
             phrase, taken = self._passage(facts, left, rng) or self._phrase(facts, left, rng)
@@ -147,7 +147,9 @@ class Wording:
         phrases = self._phrases[kind]
         return phrases[int(rng.integers(len(phrases)))]
 
-    def _fill(self, phrase: Passage, facts: Sequence[Fact], taken: Sequence[int], rng: np.random.Generator) -> Said:
+    def _fill(
+        self, phrase: Passage, facts: Sequence[Fact], taken: Sequence[int], rng: np.random.Generator
+    ) -> LabelledText:
         """A phrase with its slots filled."""
         told = [facts[n] for n in taken]
         nouns = [fact.name or self._word(self.labels, fact.label, rng) for fact in told]
@@ -167,7 +169,7 @@ class Wording:
                 mentions.append(replace(mention, facts=tuple(taken[n] for n in mention.facts)))
                 named.update(numbers)
             text += lead + noun
-        return Said(text + phrase.end, tuple(mentions))
+        return LabelledText(text + phrase.end, tuple(mentions))
 
     def _slot(
         self, what: str, mark: str, fact: Fact, noun: str, colour: str | None, rng: np.random.Generator
@@ -195,23 +197,23 @@ class Wording:
         plain = key if rng.random() < 0.5 else key.replace("-", " ")
         return _one_of(others, rng) if others and rng.random() < 0.6 else plain
 
-    def _lead(self, said: Said, rng: np.random.Generator) -> Said:
+    def _lead(self, said: LabelledText, rng: np.random.Generator) -> LabelledText:
         drawn = rng.random()
         if drawn < 0.08:
-            return Said(self._pick("leads", rng).phrase, ()).then(_lower_first(said), ", ")
+            return LabelledText(self._pick("leads", rng).phrase, ()).then(_lower_first(said), ", ")
         if drawn < 0.18:
-            return Said(self._pick("link", rng).phrase, ()).then(_lower_first(said), " ")
+            return LabelledText(self._pick("link", rng).phrase, ()).then(_lower_first(said), " ")
         return said
 
-    def _surround(self, sentences: list[Said], rng: np.random.Generator) -> Said:
+    def _surround(self, sentences: list[LabelledText], rng: np.random.Generator) -> LabelledText:
         """Sentences joined, with what people say besides."""
         if rng.random() < 0.3:
             place = int(rng.integers(len(sentences) + 1))
-            sentences = [*sentences[:place], Said(self._pick("irrelevant", rng).phrase, ()), *sentences[place:]]
+            sentences = [*sentences[:place], LabelledText(self._pick("irrelevant", rng).phrase, ()), *sentences[place:]]
         if rng.random() < 0.3:
-            sentences = [Said(self._pick("opener", rng).phrase, ()), *sentences]
+            sentences = [LabelledText(self._pick("opener", rng).phrase, ()), *sentences]
         if rng.random() < 0.2:
-            sentences = [*sentences, Said(self._pick("closer", rng).phrase, ())]
+            sentences = [*sentences, LabelledText(self._pick("closer", rng).phrase, ())]
         said = sentences[0]
         for sentence in sentences[1:]:
             said = _join(said, sentence, rng)
@@ -253,18 +255,18 @@ def _article(noun: str) -> str:
     return "an " if noun[0].lower() in "aeiou" else "a "
 
 
-def _lower_first(said: Said) -> Said:
+def _lower_first(said: LabelledText) -> LabelledText:
     text = said.text
     if text[:1].isupper() and not re.match(r"(I\b|[A-Z]{2})", text) and not any(m.start == 0 for m in said.mentions):
         return replace(said, text=text[0].lower() + text[1:])
     return said
 
 
-def _join(one: Said, other: Said, rng: np.random.Generator) -> Said:
+def _join(one: LabelledText, other: LabelledText, rng: np.random.Generator) -> LabelledText:
     """Two sentences, now and then as one long one."""
     if rng.random() < 0.15 and one.text.endswith("."):
         joint = _one_of((", and ", ", ", "; ", " and ", " - "), rng)
-        return Said(one.text[:-1], one.mentions).then(_lower_first(other), joint)
+        return LabelledText(one.text[:-1], one.mentions).then(_lower_first(other), joint)
     if not one.text.endswith((".", "!", "?", ":", ";")):
         return one.then(other, _one_of(("; ", ". ", ", ", "\n"), rng))
     return one.then(other, " " if rng.random() < 0.95 else "\n")

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 import torch
 
-from index import reproduce as module
+from index.evaluation import reproduce as module
 from index.evaluation.reproduce_report import _cost_table, markdown, write_reproduction
 from models.training.experiments import EXPERIMENTS, FINE, MNCL, Run, Scale, runs_of
 

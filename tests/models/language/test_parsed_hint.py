@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 import torch
 
-from models.language.parsed_hint import Noticed, resolve
+from models.language.parsed_hint import ParsedHint, resolve
 
 TEXT = "Two garages by the bridge, one gray and north, the other south. A tree is east and another west."
 
@@ -12,7 +12,7 @@ def things(text, words):
     found, at = [], 0
     for word in words:
         at = text.index(word, at)
-        found.append(Noticed(word, at, at + len(word), torch.ones(10), torch.ones(16), 0.0, None))
+        found.append(ParsedHint(word, at, at + len(word), torch.ones(10), torch.ones(16), 0.0, None))
     return found
 
 
@@ -81,7 +81,7 @@ def test_what_is_named_again_is_one_thing(text, said, hints):
     found, at = [], 0
     for noun, relation, colour in said:
         at = text.index(noun, at)
-        found.append(Noticed(noun, at, at + len(noun), relation, colour, 0.0, None))
+        found.append(ParsedHint(noun, at, at + len(noun), relation, colour, 0.0, None))
         at += len(noun)
     merged = resolve(text, found, ["noun"] * len(found))
     assert [(t.noun, int(t.relation.argmax()), int(t.colour.argmax())) for t in merged] == [

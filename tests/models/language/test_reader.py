@@ -6,7 +6,7 @@ from models.language.grammar.labelled_text import RELATIONS, Fact, Mention
 from models.language.grammar.wording import Wording
 from models.language.labels import LabelMatcher, bound_names, meaning_in
 from models.language.landmarks import Landmarks
-from models.language.parsed_hint import Noticed
+from models.language.parsed_hint import ParsedHint
 from models.language.reader import (
     COLOURS,
     TAGS,
@@ -190,7 +190,7 @@ def test_a_binding_reads_what_was_noticed(text_encoder):
     sure = torch.eye(10)[2]
     grey = torch.eye(len(COLOURS) + 1)[COLOURS.index("gray")]
     reading = binding.reading(
-        [Noticed("lamp post", 0, 9, sure, grey, 0.0, 4.0), Noticed("tree", 0, 4, sure, grey, 1.0, None)]
+        [ParsedHint("lamp post", 0, 9, sure, grey, 0.0, 4.0), ParsedHint("tree", 0, 4, sure, grey, 1.0, None)]
     )
     assert KITTI[int(reading.label[0].argmax())] == "lamp"
     assert KITTI[int(reading.label[1].argmax())] == "vegetation"

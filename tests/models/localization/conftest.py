@@ -6,13 +6,13 @@ from models.city.hints import sample_positions
 from models.localization.checkpoint import FINE_METHODS
 from models.retrieval.instance_encoder import CellFeatures
 from models.training.fine_data import FineSet
-from models.training.retrieval_data import Taught, TrainingSet
+from models.training.retrieval_data import TrainingPlace, TrainingSet
 
 
 @pytest.fixture(scope="session")
 def fine_set(city, points, cells, text_encoder):
     positions = sample_positions(city.locations_m, 30.0, np.random.default_rng(0))
-    return FineSet(TrainingSet(Taught.of_map(city, points, cells, positions), text_encoder))
+    return FineSet(TrainingSet(TrainingPlace.of_map(city, points, cells, positions), text_encoder))
 
 
 @pytest.fixture(scope="session")

@@ -9,11 +9,11 @@ from models.city.store.files import load_data
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineConfig, FineModel
 from models.localization.regressor import Regressor, RegressorConfig
-from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, turn_offset
+from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, reflect_offset
 from models.training.fit_fine import FineTask, train_fine
-from models.training.retrieval_data import SYMMETRIES, Taught, TrainingSet, turn
+from models.training.retrieval_data import SYMMETRIES, TrainingPlace, TrainingSet, reflect
 from models.training.settings import TrainingConfig
-from models.training.sources import Asked, Source, load_source, source_of_map
+from models.training.sources import Source, ValidationQueries, load_source, source_of_map
 from tests.models.city.raw_scenes import write_town
 
 FOLDERS = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0002_sync", "2013_05_28_drive_0010_sync")
@@ -31,7 +31,7 @@ def data_set(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def store_set(data_set, text_encoder):
-    return FineSet(TrainingSet(Taught.of_store(load_data(data_set, "train")), text_encoder))
+    return FineSet(TrainingSet(TrainingPlace.of_store(load_data(data_set, "train")), text_encoder))
 
 
 @pytest.fixture(scope="module", params=["map", "store"])
@@ -40,12 +40,12 @@ def either(request, fine_set, store_set):
 
 
 def test_cloned_cells_contain_the_position_and_are_of_its_scene(either) -> None:
-    cells, training = either.taught.cells, either.training
+    cells, training = either.place.cells, either.training
     assert len(either.neighbours) > len(training)
     for n in range(0, len(training.best), 7):
         found = either.neighbours[either.neighbour_starts[n] : either.neighbour_starts[n + 1]]
         best = int(training.best[n])
-        away = np.abs(cells.center_m[:, :2] - training.taught.positions_m[n, :2]).max(axis=1)
+        away = np.abs(cells.center_m[:, :2] - training.place.positions_m[n, :2]).max(axis=1)
         naive = [c for c in range(len(cells)) if away[c] <= cells.size_m / 2 and cells.scenes[c] == cells.scenes[best]]
         assert sorted([best, *found.tolist()]) == naive
 
@@ -62,14 +62,14 @@ def test_half_of_the_cells_are_cloned_or_none(either) -> None:
 
 def test_targets_turn_with_the_cell(either) -> None:
     rows = np.arange(8)
-    positions = either.taught.cells.center_m[rows, :2] + np.random.default_rng(0).uniform(-9, 9, (8, 2))
-    offset = torch.from_numpy(offsets_in(either.taught.cells, rows, positions).astype(np.float32))
+    positions = either.place.cells.center_m[rows, :2] + np.random.default_rng(0).uniform(-9, 9, (8, 2))
+    offset = torch.from_numpy(offsets_in(either.place.cells, rows, positions).astype(np.float32))
     assert torch.allclose(
-        offset, (torch.from_numpy(positions - either.taught.cells.center_m[rows, :2]) / 30 + 0.5).float()
+        offset, (torch.from_numpy(positions - either.place.cells.center_m[rows, :2]) / 30 + 0.5).float()
     )
     matrix = torch.from_numpy(SYMMETRIES)
     before = either.training.features.batch(rows)
-    after, moved = turn(before, matrix), turn_offset(offset, matrix)
+    after, moved = reflect(before, matrix), reflect_offset(offset, matrix)
     # From the closest point of every instance to the position: the same way, turned.
     way, turned = (2 * o[:, None] - 1 - cells.geometry[..., 3:5] for o, cells in ((offset, before), (moved, after)))
     expected = torch.einsum("bij,bnj->bni", matrix, way)
@@ -113,12 +113,14 @@ def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(eith
 
 
 def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(either) -> None:
-    cells, training = either.taught.cells, either.training
+    cells, training = either.place.cells, either.training
     queries = training.usable[:40]
     total = len(queries)
-    positions = training.taught.positions_m[queries, :2]
+    positions = training.place.positions_m[queries, :2]
     labels = np.array(["thing"] * (int(cells.parts.instance.max()) + 1))
-    asked = FineValidation.of(Asked(cells, labels, [["I am here."]] * total, positions, training.best[queries]))
+    asked = FineValidation.of(
+        ValidationQueries(cells, labels, [["I am here."]] * total, positions, training.best[queries])
+    )
     assert set(asked.figures(Told(asked.offset)).values()) == {1.0}
     away = np.linalg.norm(positions - cells.center_m[training.best[queries], :2], axis=1)
     figures = asked.center_figures()
@@ -147,7 +149,7 @@ def test_matches_name_the_instances_that_the_store_says(store_set, data_set) -> 
 
 def test_both_methods_overfit_a_few_positions(city, points, cells, text_encoder) -> None:
     positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 12, replace=False)]
-    training = TrainingSet(Taught.of_map(city, points, cells, positions), text_encoder)
+    training = TrainingSet(TrainingPlace.of_map(city, points, cells, positions), text_encoder)
     examples = FineSet(training, pmc=False).batch(12, np.random.default_rng(0))
     for method, config in (
         ("regressor", RegressorConfig(width=32, dropout=0.0)),

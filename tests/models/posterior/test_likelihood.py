@@ -7,7 +7,7 @@ import torch
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.grammar.labelled_text import RELATIONS
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
-from models.posterior.node_batch import Around, colour_words, turns_of, usual_statements, way_number
+from models.posterior.node_batch import NodeBatch, colour_words, ranks_of, usual_statements, way_number
 from models.posterior.surroundings import STEP_M
 
 WORDS = len(colour_words(KITTI360_PALETTE))
@@ -35,8 +35,8 @@ def around(rng, nodes=5, labels=4, parts=9):
     rgb = torch.from_numpy(rng.random((parts, 3)).astype(np.float32))
     rgb[0] = math.nan
     whole = torch.from_numpy(rng.random(len(node)) < 0.8)
-    turn = turns_of(torch.from_numpy(node), way, label[part])
-    return Around(torch.from_numpy(node), way_number(way), whole, turn, part, label, rgb, nodes), way
+    rank = ranks_of(torch.from_numpy(node), way, label[part])
+    return NodeBatch(torch.from_numpy(node), way_number(way), whole, rank, part, label, rgb, nodes), way
 
 
 def place_of(model, relation, east, north):
@@ -84,8 +84,8 @@ def naive(model, said, here, way, palette):
             for r in rows:
                 radius = float((way[r].double() * STEP_M).norm())
                 log_pi = (float(model.distance[0, k]) * radius + float(model.distance[1, k]) * radius**2 / 10) / 10
-                log_pi -= sum(math.log(int(here.turn[r, 3 + n])) * float(model.among[n, k]) for n in range(2))
-                log_pi += sum(float(w[int(here.turn[r, n]), k]) for n, w in enumerate(model.turns))
+                log_pi -= sum(math.log(int(here.rank[r, 3 + n])) * float(model.among[n, k]) for n in range(2))
+                log_pi += sum(float(w[int(here.rank[r, n]), k]) for n, w in enumerate(model.ranks))
                 pi.append(math.exp(log_pi + (0.0 if here.whole[r] else float(model.partly))))
             mass = sum(pi) + 1e-3
             terms = []
@@ -155,12 +155,12 @@ def test_the_order_of_hints_does_not_matter(model):
     rng = np.random.default_rng(2)
     here, _ = around(rng)
     said = reading(rng, 5, 4)
-    turned = Reading(
+    ranked = Reading(
         *(column.flip(0) for column in (said.relation, said.label, said.colour, said.distance_m, said.absent))
     )
     assert torch.allclose(
         model(said, here, KITTI360_PALETTE, usual_of(here)),
-        model(turned, here, KITTI360_PALETTE, usual_of(here)),
+        model(ranked, here, KITTI360_PALETTE, usual_of(here)),
         atol=1e-4,
     )
 
@@ -191,8 +191,8 @@ def test_what_is_absent_is_not_near(model):
     way = torch.tensor([[0, 40]], dtype=torch.int8)
     node = torch.zeros(1, dtype=torch.long)
     label = torch.zeros(1, dtype=torch.long)
-    here = Around(
-        node, way_number(way), torch.ones(1, dtype=torch.bool), turns_of(node, way, label),
+    here = NodeBatch(
+        node, way_number(way), torch.ones(1, dtype=torch.bool), ranks_of(node, way, label),
         torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4), 2,
     )  # fmt: skip
     relation = torch.zeros(1, len(RELATIONS))
@@ -209,7 +209,7 @@ def test_turns_count_what_is_nearer():
     node = torch.tensor([0, 0, 0, 0, 1])
     way = torch.tensor([[0, 2], [0, 20], [0, 40], [50, 0], [0, 30]], dtype=torch.int8)
     label = torch.tensor([1, 0, 1, 0, 0])
-    assert turns_of(node, way, label).tolist() == [
+    assert ranks_of(node, way, label).tolist() == [
         [0, 0, 0, 2, 1],  # on top
         [1, 0, 0, 2, 2],
         [2, 1, 1, 2, 2],

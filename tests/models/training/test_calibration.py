@@ -3,7 +3,7 @@ import pytest
 
 from models.city.hints import describe_poses, sample_positions
 from models.training.calibration import calibrate, most_likely
-from models.training.sources import Asked
+from models.training.sources import ValidationQueries
 from models.training.validation import Validation
 
 
@@ -42,4 +42,4 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
 @pytest.fixture(scope="module")
 def region_queries(city, points, cells, model):
     positions = sample_positions(city.locations_m, 40.0, np.random.default_rng(0))
-    return Validation(Asked.of_map(city, cells, describe_poses(city, points, cells, positions)), model)
+    return Validation(ValidationQueries.of_map(city, cells, describe_poses(city, points, cells, positions)), model)

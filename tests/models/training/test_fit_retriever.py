@@ -14,7 +14,7 @@ from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.training.fit_retriever import train_retriever
-from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, Taught, TrainingSet, turn
+from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingPlace, TrainingSet, reflect
 from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
 from models.training.sources import load_source, source_of_map
@@ -24,7 +24,7 @@ from tests.models.city.raw_scenes import write_town
 @pytest.fixture(scope="module")
 def region(city, points, cells, text_encoder):
     positions = sample_positions(city.locations_m, 30.0, np.random.default_rng(0))
-    return TrainingSet(Taught.of_map(city, points, cells, positions), text_encoder)
+    return TrainingSet(TrainingPlace.of_map(city, points, cells, positions), text_encoder)
 
 
 def test_directions_turn_with_the_map() -> None:
@@ -38,7 +38,7 @@ def test_directions_turn_with_the_map() -> None:
 def test_turning_a_cell_keeps_distances_and_turns_directions(cells, city) -> None:
     features = CellFeatures.of(cells, np.array([i.label for i in city.instances]))
     batch = features.batch(np.arange(8))
-    turned = turn(batch, torch.from_numpy(SYMMETRIES))
+    turned = reflect(batch, torch.from_numpy(SYMMETRIES))
     assert torch.equal(turned.geometry[0], batch.geometry[0]), "the first symmetry is none"
     assert torch.allclose(turned.geometry[..., 3:5].norm(dim=-1), batch.geometry[..., 3:5].norm(dim=-1))
     assert (turned.geometry[..., 8:11] >= 0).all()
@@ -57,7 +57,7 @@ def test_batches_are_seeded_and_say_what_is_true(region, city) -> None:
 
 def test_published_wording_says_what_is_there_in_the_benchmarks_words(city, points, cells, text_encoder) -> None:
     positions = sample_positions(city.locations_m, 60.0, np.random.default_rng(0))
-    region = TrainingSet(Taught.of_map(city, points, cells, positions), text_encoder, "published")
+    region = TrainingSet(TrainingPlace.of_map(city, points, cells, positions), text_encoder, "published")
     chosen = region.usable[:20]
     said = region.say(chosen, np.zeros(len(chosen), int), np.random.default_rng(0))
     vocabulary, table = region.vocabulary, region.table

@@ -1,0 +1,166 @@
+"""The command line. Heavy imports are inside the commands, so that --help is quick."""
+# ruff: noqa: PLC0415
+
+import json
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+from typer.core import TyperGroup
+
+from app.cli import data as cli_data
+from app.cli import reproduce as cli_reproduce
+from app.cli import research as cli_research
+from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
+from index.answers import Refine
+from models.errors import HereaboutsError
+
+if TYPE_CHECKING:
+    from index.answers import Answer
+
+
+class _Commands(TyperGroup):
+    """Commands whose users see one line, not a traceback, when the input is wrong."""
+
+    def invoke(self, ctx: Any) -> Any:  # typer does not export the types of its base class
+        try:
+            return super().invoke(ctx)
+        except HereaboutsError as error:
+            Console(stderr=True).print(Text(str(error), style="red"), soft_wrap=True)
+            raise typer.Exit(1) from None
+
+
+app = typer.Typer(
+    cls=_Commands,
+    help="Say in plain words what you see around you, and it says where in the city you are.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_show_locals=False,
+)
+
+
+@app.callback()
+def before() -> None:
+    """Before any command, and so before torch is imported, which reads the number of threads once."""
+    from app.threads import set_thread_env
+
+    set_thread_env()
+
+
+@app.command()
+def index(
+    map_path: Annotated[Path, typer.Option("--map", help=DATA_HELP)],
+    out: Annotated[Path, typer.Option(envvar="HEREABOUTS_INDEX_DIR", help="directory of the index")] = INDEX_DIR,
+    split: Split = None,
+    keep_current: Annotated[
+        bool, typer.Option("--keep-current", help="build nothing if the index is of this map and this model")
+    ] = False,
+) -> None:
+    """Build an index of a map."""
+    from app.cli.progress import stage_bars
+    from app.settings import load_settings
+    from index.build import build_index
+
+    with stage_bars() as show:
+        version_dir = build_index(map_path, out, load_settings().weights_dir, split, keep_current, show)
+    typer.echo(f"index {version_dir.name} is in {version_dir}; serve it with: hereabouts serve --index {out}")
+
+
+@app.command()
+def serve(
+    index_dir: IndexDir = INDEX_DIR,
+    host: Annotated[str, typer.Option(envvar="HEREABOUTS_HOST", help="address to listen on")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(envvar="HEREABOUTS_PORT", help="0 takes a free one")] = 8000,
+) -> None:
+    """Serve an index over HTTP; the other settings are HEREABOUTS_ variables."""
+    from app.logs import configure_logging
+    from app.main import create_app
+    from app.server import serve as serve_app
+    from app.settings import load_settings
+
+    settings = load_settings(index_dir=index_dir, host=host, port=port)
+    configure_logging(settings.log_level)
+    serve_app(create_app(settings), settings)
+
+
+@app.command()
+def localize(
+    text: Annotated[str, typer.Argument(help="what is around you, for example 'I am north of a gray building.'")],
+    index_dir: IndexDir = INDEX_DIR,
+    top_k: Annotated[int, typer.Option(min=1, max=40, help="candidates to list")] = 5,
+    refine: Annotated[Refine, typer.Option(help="how the position is found")] = "posterior",
+    as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
+    picture: Annotated[Path | None, typer.Option(help="PNG to draw the answer into")] = None,
+) -> None:
+    """Say where the speaker of a description is."""
+    from app.settings import load_settings
+    from index.answers import Query
+    from index.localizer import Localizer
+    from models.language.hints_text import split_hints
+
+    query = Query(hints=split_hints(text), top_k=top_k, refine=refine)
+    settings = load_settings(index_dir=index_dir)
+    localizer = Localizer.open(
+        settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
+    )
+    [answer] = localizer.localize([query])
+    if picture:
+        from index.picture import draw_answer
+
+        draw_answer(localizer, text, answer, picture)
+    if as_json:
+        _print_json(answer)
+    else:
+        _print_table(answer)
+
+
+def _print_json(answer: "Answer") -> None:
+    json.dump(asdict(answer), sys.stdout, allow_nan=False, indent=2, ensure_ascii=False)
+    sys.stdout.write("\n")
+
+
+def _print_table(answer: "Answer") -> None:
+    console = Console()
+    table = Table("rank", "cell", "probability", "position (m)", "lat, lon")
+    for candidate in answer.candidates:
+        place = candidate.wgs84
+        table.add_row(
+            str(candidate.rank),
+            Text(candidate.cell_id),
+            f"{candidate.probability:.3f}",
+            f"{candidate.position[0]:.1f}, {candidate.position[1]:.1f}",
+            f"{place.lat:.6f}, {place.lon:.6f}" if place else "-",
+        )
+    console.print(table)
+    if answer.estimate is None:
+        console.print(f"{answer.status}: no cell to answer with")
+    else:
+        x, y = answer.estimate.position
+        radius = answer.estimate.radius_m
+        console.print(
+            f"{answer.status}: at {x:.1f}, {y:.1f} m, within {radius.p50:.0f} m (p50) or {radius.p90:.0f} m (p90), "
+            f"probability {answer.estimate.probability:.2f}"
+        )
+    for warning in answer.warnings:
+        console.print(Text(f"warning: {warning}", style="yellow"))
+
+
+for command in (
+    cli_data.prepare,
+    cli_data.convert,
+    cli_data.synth,
+    cli_research.train,
+    cli_research.evaluate,
+    cli_research.benchmark,
+    cli_reproduce.reproduce,
+):
+    app.command()(command)
+
+
+if __name__ == "__main__":
+    app()

@@ -1,0 +1,231 @@
+"""Commands that train and measure. Heavy imports are inside the commands, so that --help is quick."""
+# ruff: noqa: PLC0415
+
+import json
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
+from index.answers import Refine
+from models.errors import DataError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from models.training.engine.loop import Progress
+
+
+def train(
+    out: Annotated[Path, typer.Option(help="directory for the weights")],
+    data: Annotated[list[Path], typer.Option(help=DATA_HELP + "; may be given several times")],
+    method: Annotated[
+        str,
+        typer.Option(
+            help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching) or posterior"
+        ),
+    ] = "mncl",
+    change: Annotated[
+        list[str] | None,
+        typer.Option("--set", help="a setting: model.levels=global,instance or training.batch_size=64; repeatable"),
+    ] = None,
+    split: Annotated[str, typer.Option(help="of a data set: what to train on")] = "train",
+    val_split: Annotated[str, typer.Option(help="of a data set: what to choose by")] = "val",
+    steps: Annotated[int | None, typer.Option(min=1, help="optimisation steps")] = None,
+    seed: Annotated[int | None, typer.Option(min=0, help="of everything that is drawn")] = None,
+    text_encoder: Annotated[str | None, typer.Option(help="minilm, or the directory or hub id of a T5")] = None,
+    run_dir: Annotated[
+        Path | None, typer.Option(help="directory for metrics, curves, best weights and what --resume goes on from")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="go on with the run in --run-dir, if there is one")] = False,
+) -> None:
+    """Train a model: on the train scenes of a data set, or the west of an OpenStreetMap file.
+
+    For several processes or GPUs: torchrun --nproc-per-node 2 -m app.cli.main train ...
+    """
+    from models.errors import TrainingError
+    from models.localization.checkpoint import FINE_METHODS
+    from models.training.engine import distributed
+    from models.training.settings import load_settings
+
+    if resume and run_dir is None:
+        raise TrainingError("--resume goes on with the run in --run-dir; name that directory")
+    options = {"training.seed": seed, "training.steps": steps, "model.text_encoder": text_encoder}
+    named = [f"{name}={value}" for name, value in options.items() if value is not None]
+    model, config = load_settings(method, [*(change or []), *named])
+    given = data, (split, val_split), method, model, config, out, run_dir, resume
+
+    with distributed.process_group(), _training_bar(distributed.is_first()) as show:
+        train_it = _train_posterior if method == "posterior" else None
+        train_it = train_it or (_train_fine if method in FINE_METHODS else _train_retriever)
+        found = train_it(*given, show)
+        if distributed.is_first():
+            typer.echo(f"weights are in {out}; validation {found}")
+
+
+def _train_retriever(
+    data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any
+) -> str:
+    """Train a retriever; its figures in words."""
+    from models.retrieval.checkpoint import METHODS
+    from models.training.fit_retriever import train_retriever
+    from models.training.sources import load_source
+
+    out, *rest = where
+    recall = train_retriever(
+        lambda encoder, rng: [load_source(path, encoder, config, rng, splits) for path in data],
+        out, METHODS[method], model, config, *rest,
+    )  # fmt: skip
+    return f"recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
+
+
+def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
+    """Train a model of the fine stage; its figures in words."""
+    from models.training.fit_fine import train_fine
+    from models.training.sources import load_source
+
+    out, *rest = where
+    figures = train_fine(
+        lambda encoder, rng: [load_source(path, encoder, config, rng, splits) for path in data],
+        out, method, model, config, *rest,
+    )  # fmt: skip
+    return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
+
+
+def _train_posterior(
+    data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any
+) -> str:
+    """Train the hint posterior; its figures in words."""
+    from models.training.fit_posterior import train_posterior
+
+    out, *rest = where
+    figures = train_posterior(data, splits, out, model, config, *rest)
+    return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
+
+
+@contextmanager
+def _training_bar(shown: bool) -> "Iterator[Callable[[Progress], None]]":
+    """A progress bar with the loss, the last validation and the speed."""
+    from rich import progress as bars
+
+    columns = (
+        bars.TextColumn("{task.description}"),
+        bars.BarColumn(),
+        bars.MofNCompleteColumn(),
+        bars.TimeRemainingColumn(),
+    )
+    with bars.Progress(*columns, console=Console(stderr=True), disable=not shown) as bar:
+        task = bar.add_task("preparing", total=None)
+        measured = ""
+
+        def show(at: "Progress") -> None:
+            nonlocal measured
+            measured = "  ".join(f"{name} {value:.3f}" for name, value in (at.figures or {}).items()) or measured
+            text = f"loss {at.loss:.3f}  {measured}  {at.descriptions_per_second:.0f} descriptions/s"
+            bar.update(task, total=at.steps, completed=at.step, description=text)
+
+        yield show
+
+
+def evaluate(
+    data: Annotated[
+        Path | None,
+        typer.Option(help=f"{DATA_HELP}; or a .json file with the queries of a POST /evaluate, asked of --index"),
+    ] = None,
+    split: Split = None,
+    index_dir: IndexDir = INDEX_DIR,
+    report: Annotated[Path | None, typer.Option(help="directory for predictions, report.json, tables, plots")] = None,
+    grow: Annotated[str | None, typer.Option(help="radii in metres of a growing gallery: 200,300,400,500")] = None,
+    refine: Annotated[
+        Refine | None, typer.Option(help="how positions are found; posterior, or what a .json says, if left out")
+    ] = None,
+    hard: Annotated[
+        bool, typer.Option("--robustness", help="fewer, wrong and misspelt hints, free wording, an outdated map")
+    ] = False,
+    rescore: Annotated[Path | None, typer.Option(help="score the predictions of this report's directory again")] = None,
+) -> None:
+    """Recall on queries with known positions, beside chance, an oracle and exact matching of the hints."""
+    from app.cli.progress import stage_bars
+    from app.jobs.order import WEIGHTS_DIRS, Evaluation, read_evaluation
+    from app.settings import load_settings
+    from index.evaluation.evaluation import rescore as run_again
+
+    if (data is None) == (rescore is None):
+        raise DataError("name either --data, what to ask about, or --rescore, the directory of an earlier report")
+    if data is None or rescore is not None:
+        _print_report(run_again(Path(str(rescore))))
+        return
+    radii = _radii(grow)
+    settings = load_settings(index_dir=index_dir)
+    if data.suffix == ".json":
+        asked = read_evaluation(data, settings, split, radii)
+    else:
+        weights = {name: getattr(settings, name) for name in WEIGHTS_DIRS}
+        asked = Evaluation(**weights, data=data, split=split, grow_m=radii, refine="posterior")
+    if refine:
+        asked = asked.model_copy(update={"refine": refine})
+    with stage_bars() as show:
+        found = asked.run_robustness(report, show) if hard else asked.run(report, show)
+    if hard:
+        _print_robustness(found)
+    else:
+        _print_report(found)
+
+
+def _print_robustness(found: dict[str, Any]) -> None:
+    from index.evaluation.candidates import candidate_table
+    from index.evaluation.robustness import robustness_table
+
+    Console(width=140).print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
+    for head, rows in (robustness_table(found["trials"]), candidate_table(found["candidates"])):
+        table = Table(*head)
+        for row in rows:
+            table.add_row(*row)
+        Console(width=140).print(table)
+
+
+def _radii(grow: str | None) -> list[float]:
+    try:
+        return [float(radius) for radius in grow.split(",")] if grow else []
+    except ValueError:
+        raise DataError(f"--grow {grow}: no list of metres; give it as 200,300,400,500") from None
+
+
+def _print_report(report: dict[str, Any]) -> None:
+    from index.evaluation.report import group_table, growth_table, main_table
+
+    console = Console(width=120)
+    console.print(f"{report['data']}, {report['split']}: {report['queries']} queries, {report['cells']} cells")
+    tables = [main_table(report)]
+    tables += [group_table(name, report[key]) for name, key in (("scene", "by_scene"), ("strategy", "by_strategy"))]
+    if "growth" in report:
+        tables.append(growth_table(report["growth"]))
+    for head, rows in tables:
+        if len(rows) > 1:
+            table = Table(*head)
+            for row in rows:
+                table.add_row(*row)
+            console.print(table)
+    low, high = report["intervals"]["retrieval"]["5"]
+    line = f"R@5 95 % interval {low:.3f}-{high:.3f}; calibration error of the probability: "
+    line += f"{report['calibration']['expected_calibration_error']:.3f}"
+    if "ambiguity" in report:
+        fits = report["ambiguity"]["median_cells_that_fit_as_well"]
+        line += f"; cells that fit a description as well as the true one (median): {fits:.0f}"
+    console.print(line)
+
+
+def benchmark(
+    map_path: Annotated[Path, typer.Option("--map", help="map to index")],
+    index_dir: IndexDir = INDEX_DIR,
+) -> None:
+    """Seconds, memory and latency on this machine."""
+    from app.benchmark import run_benchmark
+
+    json.dump(run_benchmark(map_path, index_dir), sys.stdout, indent=2)
+    sys.stdout.write("\n")

@@ -1,0 +1,108 @@
+"""Recall on queries with known positions: jobs that a client starts, follows and cancels."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from pathlib import Path
+from typing import Any
+
+from fastapi import APIRouter, Response
+from pydantic import BaseModel
+from sse_starlette import EventSourceResponse, ServerSentEvent
+
+from app.http.dependencies import Jobs, Localizer, Queue
+from app.http.errors import Code
+from app.http.openapi import problems
+from app.http.requests import EvaluateRequest, evaluate_model
+from app.jobs.job import FINISHED, Job, JobState, Status
+from app.jobs.order import to_evaluation
+from app.settings import Settings
+
+PATH = "/evaluate"
+PING_S = 15  # between two signs of life on a stream without news
+POST_ERRORS = (
+    Code.INVALID_JSON,
+    Code.BODY_TOO_LARGE,
+    Code.UNSUPPORTED_MEDIA_TYPE,
+    Code.INVALID_REQUEST,
+    Code.JOBS_FULL,
+    Code.INTERNAL_ERROR,
+    Code.NOT_READY,
+    Code.DRAINING,
+    Code.LOAD_FAILED,
+)
+EVENT_STREAM: dict[str, Any] = {
+    "description": "server-sent events `progress`, then one of `done`, `failed` and `cancelled`; the data of each is "
+    "what GET /evaluate/{job} answers. Who comes late is told the state at once; who leaves cancels nothing.",
+    "content": {"text/event-stream": {"schema": {"type": "string"}}},
+}
+
+
+class JobLinks(BaseModel):
+    """Where to follow a job."""
+
+    status: str
+    events: str
+
+
+class JobAccepted(BaseModel):
+    """An evaluation that waits for its turn."""
+
+    job: str
+    status: Status
+    links: JobLinks
+
+
+def build_router(settings: Settings) -> APIRouter:
+    """The routes, with the settings' limits in their request bodies."""
+    router = APIRouter(tags=["evaluate"])
+    body_model = evaluate_model(settings)
+
+    @router.post(PATH, status_code=202, responses=problems(*POST_ERRORS))
+    async def evaluate(
+        body: body_model,  # type: ignore[valid-type]  # FastAPI reads this class, made from the settings
+        response: Response,
+        queue: Queue,
+        localizer: Localizer,
+        jobs: Jobs,
+    ) -> JobAccepted:
+        """Start an evaluation: queries of one's own, or a data set of the service by its name."""
+        queue.check_accepting()
+        asked: EvaluateRequest = body
+        index_dir = version_dir(settings.index_dir, localizer.index_version)
+        job = await jobs.submit(await asyncio.to_thread(to_evaluation, asked, settings, index_dir, localizer.frame))
+        links = JobLinks(status=f"{PATH}/{job.id}", events=f"{PATH}/{job.id}/events")
+        response.headers["Location"] = links.status
+        return JobAccepted(job=job.id, status="queued", links=links)
+
+    @router.get(PATH + "/{job}", responses=problems(Code.JOB_NOT_FOUND))
+    async def evaluation(job: str, jobs: Jobs) -> JobState:
+        """How far an evaluation is, and its report once it is done."""
+        return jobs.get(job).state()
+
+    @router.delete(PATH + "/{job}", responses=problems(Code.JOB_NOT_FOUND))
+    async def cancel(job: str, jobs: Jobs) -> JobState:
+        """Cancel an evaluation; one that is finished is forgotten."""
+        return (await jobs.delete(job)).state()
+
+    @router.get(
+        PATH + "/{job}/events",
+        response_class=EventSourceResponse,
+        responses={200: EVENT_STREAM, **problems(Code.JOB_NOT_FOUND)},
+    )
+    async def follow(job: str, jobs: Jobs) -> EventSourceResponse:
+        """Follow an evaluation."""
+        return EventSourceResponse(events(jobs.get(job)), ping=PING_S)
+
+    return router
+
+
+async def events(job: Job) -> AsyncIterator[ServerSentEvent]:
+    """A job's states as events."""
+    async for state in job.follow():
+        name = state.status if state.status in FINISHED else "progress"
+        yield ServerSentEvent(state.model_dump_json(), event=name)
+
+
+def version_dir(index_dir: Path, version: str) -> Path:
+    """The directory of the version that is served, whatever the alias names by now."""
+    return index_dir / version if (index_dir / version).is_dir() else index_dir

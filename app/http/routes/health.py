@@ -1,0 +1,42 @@
+"""Is it alive, is it ready, what is it."""
+
+from importlib.metadata import version
+
+from fastapi import APIRouter
+
+from app.http.dependencies import Queue, SettingsNow
+from app.http.errors import Code, Problem
+from app.http.openapi import problems
+from app.http.responses import Health, IndexInfo, InfoResponse, Limits
+from app.jobs.order import data_sets
+
+router = APIRouter(tags=["service"])
+
+
+@router.get("/healthz")
+async def healthz() -> Health:
+    """Whether the process runs; never waits for the model."""
+    return Health(status="ok")
+
+
+@router.get("/readyz", responses=problems(Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED))
+async def readyz(queue: Queue) -> Health:
+    """Whether a description would be answered now."""
+    queue.check_accepting()
+    return Health(status="ready")
+
+
+@router.get("/info")
+async def info(queue: Queue, settings: SettingsNow) -> InfoResponse:
+    """The service's version and limits, and the index it serves."""
+    try:
+        index = IndexInfo.of(queue.localizer)
+    except Problem:
+        index = None
+    return InfoResponse(
+        service="hereabouts",
+        version=version("hereabouts"),
+        limits=Limits.model_validate(settings),
+        index=index,
+        data_sets=[path.name for path in data_sets(settings.data_dir)],
+    )

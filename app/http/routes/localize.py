@@ -1,0 +1,119 @@
+"""From a description to a position."""
+
+import asyncio
+import time
+from collections.abc import Coroutine
+from typing import Any
+
+import numpy as np
+from asgi_correlation_id import correlation_id
+from fastapi import APIRouter, Request
+from starlette.responses import Response
+
+from app.http.dependencies import Localizer, Queue
+from app.http.errors import Code, Problem
+from app.http.geojson import localize_collection
+from app.http.negotiation import GEOJSON, negotiate, respond
+from app.http.openapi import geojson_content, problems
+from app.http.queue import Served
+from app.http.requests import LocalizeRequest, request_model
+from app.http.responses import LocalizeResponse
+from app.settings import Settings
+from index.answers import Query
+from models.city.frame import Frame
+from models.language.hints_text import split_hints
+
+
+def build_router(settings: Settings) -> APIRouter:
+    """The routes, with the settings' limits in their request bodies."""
+    router = APIRouter(tags=["localize"])
+    body_model = request_model(settings)
+    never_here = {Code.NOT_FOUND, Code.CELL_NOT_FOUND, Code.METHOD_NOT_ALLOWED, Code.CONFLICT}
+    never_here |= {Code.JOB_NOT_FOUND, Code.JOBS_FULL}
+    errors = problems(*(code for code in Code if code not in never_here | {Code.CLIENT_CLOSED_REQUEST}))
+
+    @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **errors})
+    async def localize(
+        request: Request,
+        body: body_model,  # type: ignore[valid-type]  # FastAPI reads this class, made from the settings
+        queue: Queue,
+        localizer: Localizer,
+    ) -> Response:
+        """Where the speaker of a description is, as JSON, or as GeoJSON if Accept says so."""
+        started_s = time.monotonic()
+        asked: LocalizeRequest = body
+        media_type = negotiate(request, localizer.frame)
+        query = to_query(asked, settings.max_hints, localizer.frame)
+        served = await unless_client_leaves(request, queue.submit(query, started_s + asked.deadline_ms / 1000))
+        total_ms = (time.monotonic() - started_s) * 1000
+        response = LocalizeResponse.of(
+            served.answer, localizer, correlation_id.get() or "", {"queue": served.queue_ms, "total": total_ms}
+        )
+        geojson = localize_collection(response, localizer.frame) if media_type == GEOJSON else None
+        return respond(geojson or response, media_type)
+
+    return router
+
+
+def to_query(asked: LocalizeRequest, max_hints: int, frame: Frame) -> Query:
+    """A request as the localizer takes it.
+
+    Raises:
+        Problem: too many sentences, or wgs84 where the map cannot take it.
+        DescriptionError: no words in the description.
+    """
+    if asked.crs == "wgs84":
+        check_reach(asked, frame)
+    if asked.description is not None:
+        hints = split_hints(asked.description)
+    else:
+        hints = tuple(hint.strip() for hint in asked.hints or ())
+    if len(hints) > max_hints:
+        raise Problem.of_field("description", f"has {len(hints)} sentences, at most {max_hints} are taken; shorten it")
+    return Query(
+        hints=hints,
+        top_k=asked.top_k,
+        within=asked.within.filter() if asked.within else None,
+        prior=asked.prior.prior() if asked.prior else None,
+        crs=asked.crs,
+        refine=asked.refine,
+        heat_map=asked.heat_map,
+    )
+
+
+def check_reach(asked: LocalizeRequest, frame: Frame) -> None:
+    """Refuse degrees that are no place in the map's frame.
+
+    Raises:
+        Problem: the map has no georeference, or a point is on another side of the Earth.
+    """
+    if not frame.is_georeferenced:
+        raise Problem.of_field("crs", "this map has no georeference; give within and prior in metres, with crs map")
+    for field, (lon, lat) in asked.points():
+        # A box is compared in degrees; only single points are projected.
+        if field != "within.bbox" and not np.isfinite(frame.from_wgs84(lat, lon)).all():
+            raise Problem.of_field(field, "is too far from the map; give [longitude, latitude] near it")
+
+
+async def unless_client_leaves(request: Request, work: Coroutine[Any, Any, Served]) -> Served:
+    """The result of some work, which is cancelled when the client disconnects (FastAPI itself goes on).
+
+    Raises:
+        Problem: the client left.
+    """
+    working = asyncio.create_task(work)
+    leaving = asyncio.create_task(_disconnected(request))
+    try:
+        await asyncio.wait({working, leaving}, return_when=asyncio.FIRST_COMPLETED)
+        if working.done():
+            return working.result()
+        raise Problem(Code.CLIENT_CLOSED_REQUEST)
+    finally:
+        working.cancel()
+        leaving.cancel()
+        await asyncio.gather(working, leaving, return_exceptions=True)
+
+
+async def _disconnected(request: Request) -> None:
+    while (await request.receive())["type"] != "http.disconnect":
+        pass

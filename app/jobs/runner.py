@@ -1,0 +1,214 @@
+"""Evaluations that run beside the service: one at a time, each in a process of its own, the others wait."""
+
+import asyncio
+import json
+import os
+import shutil
+import signal
+import sys
+from asyncio.subprocess import PIPE, Process
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import structlog
+
+from app.http.errors import Code, Problem
+from app.jobs.job import Job, JobError, JobProgress, Status
+from app.jobs.order import Evaluation
+from app.jobs.worker import ORDER, REPORT
+
+WORKER = (sys.executable, "-m", "app.jobs.worker")
+ROOT = Path(__file__).parents[2]  # where the worker finds this very code
+KEPT = 32  # finished jobs
+EXIT_S = 5.0
+ERRORS = "stderr.txt"
+SHOWN_BYTES = 4000  # of a crashed worker's last words, in the log
+
+log = structlog.get_logger()
+
+
+class EvaluationJobs:
+    """Runs evaluations in the order in which they came.
+
+    Args:
+        max_waiting: jobs that wait; one more is refused.
+        command: of the worker, which is given the job's directory.
+    """
+
+    def __init__(self, max_waiting: int, command: Sequence[str] = WORKER) -> None:
+        self._max_waiting = max_waiting
+        self._command = command
+        self._jobs: dict[str, Job] = {}
+        self._ready: asyncio.Queue[Job] = asyncio.Queue()
+        self._runner: asyncio.Task[None] | None = None
+        self._scratch: TemporaryDirectory[str] | None = None
+
+    def start(self) -> None:
+        """Begin to take jobs; called on the event loop that the jobs belong to."""
+        self._jobs, self._ready = {}, asyncio.Queue()
+        self._runner = asyncio.create_task(self._run())
+
+    async def close(self) -> None:
+        """Cancel all jobs, wait until no worker is left, remove what they wrote."""
+        runner, self._runner = self._runner, None
+        if runner is None:
+            return
+        await asyncio.gather(*(self._stop(job) for job in list(self._jobs.values())))
+        runner.cancel()
+        await asyncio.gather(runner, return_exceptions=True)
+        if self._scratch is not None:
+            self._scratch.cleanup()
+            self._scratch = None
+
+    async def submit(self, evaluation: Evaluation) -> Job:
+        """Queue an evaluation.
+
+        Raises:
+            Problem: shutting down, or too many wait.
+        """
+        if self._runner is None:
+            raise Problem(Code.DRAINING)
+        if sum(job.status == "queued" for job in self._jobs.values()) >= self._max_waiting:
+            raise Problem(Code.JOBS_FULL)
+        if self._scratch is None:
+            self._scratch = TemporaryDirectory(prefix="hereabouts-evaluate-", ignore_cleanup_errors=True)
+        job = Job(Path(self._scratch.name))
+        job.directory /= job.id
+        self._jobs[job.id] = job
+        try:
+            await asyncio.to_thread(_write, job.directory, evaluation)
+        except BaseException:
+            self._remove(job)
+            raise
+        if not job.stops:
+            self._ready.put_nowait(job)
+        return job
+
+    def get(self, job_id: str) -> Job:
+        """A job.
+
+        Raises:
+            Problem: there is none, or it was removed.
+        """
+        try:
+            return self._jobs[job_id]
+        except KeyError:
+            raise Problem(Code.JOB_NOT_FOUND) from None
+
+    async def delete(self, job_id: str) -> Job:
+        """Cancel a job, returning when its worker is gone; forget it if it is finished.
+
+        Raises:
+            Problem: there is none.
+        """
+        job = self.get(job_id)
+        if job.is_finished:
+            self._remove(job)
+        else:
+            await self._stop(job)
+        return job
+
+    async def _stop(self, job: Job) -> None:
+        if job.is_finished:
+            return
+        job.stops = True
+        if job.status == "queued":
+            self._finish(job, "cancelled")
+            return
+        _kill(job.process)
+        async for _state in job.follow():
+            pass
+
+    async def _run(self) -> None:
+        while True:
+            job = await self._ready.get()
+            if job.stops:
+                continue
+            job.begin()
+            try:
+                await self._work(job)
+            except Exception:
+                log.exception("evaluation failed", job=job.id)
+                self._finish(job, "failed", error=_fault())
+
+    async def _work(self, job: Job) -> None:
+        """Run a job's worker to its end."""
+        with (job.directory / ERRORS).open("wb") as errors:
+            job.process = process = await asyncio.create_subprocess_exec(
+                *self._command,
+                str(job.directory),
+                stdin=PIPE,  # its end is how the worker knows that this process is gone
+                stdout=PIPE,
+                stderr=errors,
+                cwd=ROOT,
+                start_new_session=True,
+            )
+        if job.stops:  # while it started
+            _kill(process)
+        failure = await self._follow(job, process)
+        if job.stops:
+            self._finish(job, "cancelled")
+        elif failure is not None:
+            self._finish(job, "failed", error=JobError(code="evaluation_failed", detail=failure))
+        elif process.returncode == 0:
+            report = await asyncio.to_thread((job.directory / REPORT / "report.json").read_text)
+            self._finish(job, "done", report=json.loads(report))
+        else:
+            said = (job.directory / ERRORS).read_bytes()[-SHOWN_BYTES:].decode(errors="replace")
+            log.error("evaluation crashed", job=job.id, exit_status=process.returncode, stderr=said)
+            self._finish(job, "failed", error=_fault())
+
+    async def _follow(self, job: Job, process: Process) -> str | None:
+        """Take up a worker's lines until it is gone.
+
+        Returns:
+            What it says is wrong with the input, if anything.
+        """
+        failure = None
+        assert process.stdout is not None
+        try:
+            async for line in process.stdout:
+                said = json.loads(line)
+                if "error" in said:
+                    failure = str(said["error"])
+                else:
+                    job.progress = JobProgress.model_validate(said)
+                    job.notify()
+        finally:
+            with suppress(TimeoutError):  # the pipe closes as it exits, unless it says what is no JSON
+                await asyncio.wait_for(process.wait(), EXIT_S)
+            _kill(process)  # what it has forked outlives it if it crashed
+            await process.communicate()
+        return failure
+
+    def _finish(
+        self, job: Job, status: Status, report: dict[str, Any] | None = None, error: JobError | None = None
+    ) -> None:
+        job.finish(status, report, error)
+        log.info("evaluation", job=job.id, status=status, seconds=job.state().seconds)
+        finished = [job for job in self._jobs.values() if job.is_finished]
+        for old in finished[:-KEPT]:
+            self._remove(old)
+
+    def _remove(self, job: Job) -> None:
+        self._jobs.pop(job.id, None)
+        shutil.rmtree(job.directory, ignore_errors=True)
+
+
+def _write(directory: Path, evaluation: Evaluation) -> None:
+    directory.mkdir()
+    (directory / ORDER).write_text(evaluation.model_dump_json())
+
+
+def _kill(process: Process | None) -> None:
+    """Kill a worker and all that it has forked; it holds nothing that is worth a farewell."""
+    if process is not None:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+
+
+def _fault() -> JobError:
+    return JobError(code="internal_error", detail="a fault in the service; the operator finds it in the log")

@@ -1,0 +1,89 @@
+"""prepare, convert, synth, and the commands that take what they make, on a made-up street."""
+
+import json
+import os
+
+import pytest
+from typer.testing import CliRunner
+
+from app.cli.main import app
+from tests.models.city.raw_scenes import write_town
+
+FOLDERS = ("2013_05_28_drive_0003_sync", "2013_05_28_drive_0010_sync")
+
+
+@pytest.fixture
+def run(monkeypatch, weights_dir):
+    monkeypatch.setenv("HEREABOUTS_WEIGHTS_DIR", str(weights_dir))
+    monkeypatch.setenv("COLUMNS", "160")
+    return lambda *args: CliRunner().invoke(app, [str(arg) for arg in args])
+
+
+@pytest.fixture(scope="module")
+def raw(tmp_path_factory):
+    root = tmp_path_factory.mktemp("raw")
+    for seed, folder in enumerate(FOLDERS):
+        write_town(root, folder, seed)
+    return root
+
+
+@pytest.fixture(scope="module")
+def prepared(raw, tmp_path_factory):
+    out = tmp_path_factory.mktemp("prepared")
+    result = CliRunner().invoke(app, ["prepare", "--raw", str(raw), "--out", str(out)])
+    assert result.exit_code == 0, result.output
+    return out
+
+
+def test_prepare_makes_one_scene_alone(run, raw, prepared, tmp_path) -> None:
+    result = run("prepare", "--raw", raw, "--out", tmp_path, "--scene", "0010")
+    assert result.exit_code == 0, result.output
+    assert os.listdir(tmp_path / "cells") == [f"{FOLDERS[1]}.pkl"]
+    name = f"cells/{FOLDERS[1]}.pkl"
+    assert (tmp_path / name).read_bytes() == (prepared / name).read_bytes()
+
+
+def test_what_prepare_made_is_converted_indexed_and_asked(run, prepared, tmp_path) -> None:
+    store, index = tmp_path / "store", tmp_path / "index"
+    assert run("convert", "--data", prepared, "--out", store).exit_code == 0
+    assert run("index", "--map", store, "--out", index).exit_code == 0
+    answer = run("localize", "The pose is north of a gray road.", "--index", index, "--json")
+    scenes = {c["cell_id"].split("_")[0] for c in json.loads(answer.output)["candidates"]}
+    assert scenes <= {"0003", "0010"}
+    reports = []
+    for data in (prepared, store):
+        result = run("evaluate", "--data", data, "--split", "test", "--report", tmp_path / "r")
+        assert result.exit_code == 0, result.output
+        reports.append(json.loads((tmp_path / "r" / "report.json").read_text()) | {"data": ""})
+    assert reports[0] == reports[1]
+    assert set(reports[0]["by_scene"]) == {"0003"}
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (("evaluate",), "--data"),
+        (("evaluate", "--data", "DATA", "--grow", "near,far"), "no list of metres"),
+        (("evaluate", "--data", "DATA", "--split", "train"), "no scene of split 'train'"),
+        (("evaluate", "--data", "NOTHING"), "NOTHING"),
+        (("index", "--map", "DATA", "--out", "OUT", "--split", "0042"), "0042"),
+        (("prepare", "--raw", "DATA", "--out", "OUT"), "published layout"),
+        (("convert", "--data", "DATA", "--out", "DATA"), "not empty"),
+        (("synth", "--out", "OUT", "--scale", "huge"), "demo, full"),
+    ],
+)
+def test_mistakes_get_one_line_that_helps(run, prepared, tmp_path, args, message) -> None:
+    places = {"DATA": prepared, "OUT": tmp_path / "out"}
+    result = run(*(places.get(arg, arg) for arg in args))
+    assert result.exit_code == 1
+    assert message in result.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_index_that_fits_is_kept(run, prepared, tmp_path) -> None:
+    versions = []
+    for split in ("0003", "0003", "0010"):
+        args = ("index", "--map", prepared, "--out", tmp_path, "--split", split, "--keep-current")
+        assert run(*args).exit_code == 0
+        versions.append(json.loads((tmp_path / "aliases.json").read_text())["default"])
+    assert versions[0] == versions[1] != versions[2]

@@ -1,0 +1,145 @@
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from fake_localizer import FakeLocalizer
+from typer.testing import CliRunner
+
+from app.cli.main import app
+from app.threads import THREAD_VARIABLES
+from models.city.frame import Frame
+from models.errors import IndexBroken, MapError
+
+TEXT = "I am north of a gray building. A black pole is to my west."
+
+
+@pytest.fixture(autouse=True)
+def _environment(monkeypatch):
+    for name in THREAD_VARIABLES:
+        monkeypatch.setenv(name, "1")  # commands set what is not set; this brings it back
+
+
+@pytest.fixture
+def opened(monkeypatch):
+    """Puts a fake localizer where the command looks for the real one; the list tells how it was opened."""
+    calls = []
+
+    def put(localizer):
+        def open_(index_dir, weights_dir, _fine_weights_dir, _posterior_weights_dir):
+            calls.append((index_dir, weights_dir))
+            if isinstance(localizer, Exception):
+                raise localizer
+            return localizer
+
+        monkeypatch.setitem(sys.modules, "index.localizer", SimpleNamespace(Localizer=SimpleNamespace(open=open_)))
+        return calls
+
+    return put
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, arguments, env={"COLUMNS": "200"})
+
+
+def test_table_has_the_candidates_and_the_radius(opened):
+    fake = FakeLocalizer()
+    calls = opened(fake)
+    result = run("localize", TEXT, "--top-k", "1")
+    assert result.exit_code == 0
+    assert "fakeville_00001" in result.stdout
+    assert "fakeville_00002" not in result.stdout
+    assert "60.170000, 24.940000" in result.stdout
+    assert "12 m (p50)" in result.stdout
+    assert fake.batches[0][0].hints == ("I am north of a gray building.", "A black pole is to my west.")
+    assert calls == [(Path("data/index"), None)]
+
+
+def test_table_without_georeference_and_without_match(opened):
+    opened(FakeLocalizer(Frame()))
+    assert "24.94" not in run("localize", "a tree").stdout
+    result = run("localize", "nowhere")
+    assert result.exit_code == 0
+    assert "no_match" in result.stdout
+    assert "warning: nothing there" in result.stdout
+
+
+def test_json_is_all_that_is_printed(opened, monkeypatch):
+    calls = opened(FakeLocalizer())
+    monkeypatch.setenv("HEREABOUTS_WEIGHTS_DIR", "/w")
+    body = json.loads(run("localize", TEXT, "--json", "--index", "/i").stdout)
+    assert body["estimate"]["radius_m"] == {"p50": 12, "p90": 21}
+    assert len(body["candidates"]) == 2
+    assert calls == [(Path("/i"), Path("/w"))]
+
+
+@pytest.mark.parametrize(
+    ("error", "text"), [(IndexBroken("no [bold] index; " + "build one " * 50), TEXT), (FakeLocalizer(), " ... ")]
+)
+def test_wrong_input_is_one_line_on_stderr(opened, error, text):
+    opened(error)
+    result = run("localize", text)
+    assert result.exit_code == 1
+    assert result.stdout == ""
+    assert len(result.stderr.splitlines()) == 1
+    assert ("[bold] index" in result.stderr) == isinstance(error, IndexBroken)
+
+
+def test_fault_is_not_taken_for_wrong_input(opened):
+    opened(ZeroDivisionError())
+    assert isinstance(run("localize", TEXT).exception, ZeroDivisionError)
+
+
+def test_index_builds_and_says_what_next(monkeypatch):
+    calls = []
+
+    def build_index(map_path, out_dir, weights_dir, *_rest):
+        calls.append((map_path, out_dir, weights_dir))
+        if map_path.name == "bad":
+            raise MapError("bad map")
+        return out_dir / "v1"
+
+    monkeypatch.setitem(sys.modules, "index.build", SimpleNamespace(build_index=build_index))
+    result = run("index", "--map", "a.osm", "--out", "o")
+    assert (result.exit_code, calls) == (0, [(Path("a.osm"), Path("o"), None)])
+    assert result.stdout == "index v1 is in o/v1; serve it with: hereabouts serve --index o\n"
+    assert run("index", "--map", "bad").exit_code == 1
+
+
+def test_serve_takes_options_then_environment(monkeypatch):
+    served = []
+    monkeypatch.setattr("app.server.serve", lambda _app, settings: served.append(settings))
+    monkeypatch.setattr("app.logs.configure_logging", lambda level: None)
+    monkeypatch.setenv("HEREABOUTS_HOST", "0.0.0.0")
+    monkeypatch.setenv("HEREABOUTS_MAX_BATCH", "7")
+    assert run("serve", "--index", "/i", "--port", "9").exit_code == 0
+    assert run("serve").exit_code == 0
+    first, second = served
+    assert (first.index_dir, first.host, first.port, first.max_batch) == (Path("/i"), "0.0.0.0", 9, 7)
+    assert (second.index_dir, second.port) == (Path("data/index"), 8000)
+    monkeypatch.setenv("HEREABOUTS_MAX_BATCH", "none")
+    result = run("serve")
+    assert result.exit_code == 1
+    assert "max_batch" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("module", "heavy"), [("app.cli.main", "torch faiss fastapi numpy"), ("app.main", "torch faiss")]
+)
+def test_import_is_light(module, heavy):
+    code = f"import sys, {module}; print(set('{heavy}'.split()) & set(sys.modules))"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert result.stdout == "set()\n"
+
+
+def test_threads_are_set_before_any_command(opened, monkeypatch):
+    monkeypatch.delenv("OMP_NUM_THREADS")
+    seen = []
+    fake = FakeLocalizer()
+    fake.localize, answer = lambda q: seen.append(os.environ["OMP_NUM_THREADS"]) or answer(q), fake.localize
+    opened(fake)
+    assert run("localize", TEXT).exit_code == 0
+    assert int(seen[0]) >= 1

@@ -1,0 +1,83 @@
+"""train, evaluate, localize --picture and benchmark, on the tiny town."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from app import benchmark
+from app.cli.main import app
+from models.errors import HereaboutsError
+
+
+@pytest.fixture
+def run(monkeypatch, weights_dir):
+    monkeypatch.setenv("HEREABOUTS_WEIGHTS_DIR", str(weights_dir))
+    monkeypatch.setenv("COLUMNS", "160")
+    return lambda *args: CliRunner().invoke(app, [str(arg) for arg in args])
+
+
+def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("models.training.calibration.QUERIES", 20)
+    result = run("train", "--data", osm_file, "--out", tmp_path / "w", "--steps", "1")
+    assert result.exit_code == 0, result.output
+    assert "recall@1/3/5" in result.output
+    record = json.loads((tmp_path / "w" / "config.json").read_text())
+    assert record["training"]["config"]["steps"] == 1
+    assert record["training"]["sources"][0]["validation"]["queries"] > 0
+
+
+def test_a_fine_stage_is_trained_and_refines_what_is_evaluated(run, osm_file, tmp_path, monkeypatch) -> None:
+    small = ("--set", "model.width=16", "--set", "training.batch_size=8", "--set", "training.validate_every=1")
+    result = run("train", "--method", "regressor", "--data", osm_file, "--out", tmp_path / "w", "--steps", "2", *small)
+    assert result.exit_code == 0, result.output
+    assert "within_5m" in result.output
+    monkeypatch.setenv("HEREABOUTS_FINE_WEIGHTS_DIR", str(tmp_path / "w"))
+    args = ("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r", "--refine", "regressor")
+    assert run(*args).exit_code == 0
+    report = json.loads((tmp_path / "r" / "report.json").read_text())
+    assert report["method"] == "regressor"
+    assert report["localization"] != report["cell_center"]
+
+
+def test_evaluate_prints_what_it_writes(run, osm_file, tmp_path) -> None:
+    results = [run("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r") for _ in range(2)]
+    assert results[0].exit_code == 0, results[0].output
+    assert results[0].stdout == results[1].stdout
+    report = json.loads((tmp_path / "r" / "report.json").read_text())
+    assert f"{report['retrieval']['5']:.3f}" in results[0].output
+    assert "oracle" in results[0].output
+
+
+def test_evaluate_refuses_an_unknown_split_in_one_line(run, osm_file) -> None:
+    result = run("evaluate", "--data", osm_file, "--split", "north")
+    assert result.exit_code == 1
+    assert "no split of a map" in result.output
+
+
+def test_localize_draws_a_picture(run, index_dir, tmp_path) -> None:
+    result = run("localize", "I am north of a red building.", "--index", index_dir, "--picture", tmp_path / "a.png")
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypatch) -> None:
+    monkeypatch.setattr(benchmark, "REQUESTS", 3)
+    result = run("benchmark", "--map", osm_file, "--index", index_dir)
+    assert result.exit_code == 0, result.output
+    figures = json.loads(result.output[result.output.index("{") :])
+    assert figures["index"]["peak_memory_mib"] > 100
+    assert figures["index"]["size_mib"] > 0
+    assert 0 < figures["localize_cached_hints_ms"]["p50"] <= figures["localize_cached_hints_ms"]["p99"]
+    parts = figures["one_thread"]
+    assert all(parts[f"{name}_ms"] > 0 for name in ("read", "posterior", "encode", "vector_search"))
+    assert parts["surroundings_bytes_a_cell"] > 100
+
+
+def test_benchmark_says_when_the_service_does_not_start(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(benchmark, "START_S", 3)
+    with (
+        pytest.raises(HereaboutsError, match="did not become ready"),
+        benchmark.serving(tmp_path / "nothing") as client,
+    ):
+        client.get("/healthz")

@@ -1,0 +1,181 @@
+"""What POST /evaluate takes and refuses; nothing is run."""
+
+import json
+from pathlib import Path
+
+import pytest
+from fake_localizer import FakeLocalizer
+
+from app.jobs.order import find_data, read_evaluation
+from models.city.frame import Frame
+from models.errors import DataError
+
+ASKED = {"description": "I am north of a gray building. A pole is to my west.", "position": [1.0, 2.0]}
+
+
+@pytest.fixture
+def submitted(monkeypatch):
+    """What reached the jobs, which run nothing."""
+    found = []
+
+    async def submit(self, evaluation):
+        from app.jobs.job import Job
+
+        found.append(evaluation)
+        return Job(Path("/nowhere"))
+
+    monkeypatch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
+    return found
+
+
+@pytest.fixture
+def data_dir(tmp_path):
+    for name in ("town.osm", "city.osm.pbf", "notes.txt", ".hidden.osm"):
+        (tmp_path / "data" / name).parent.mkdir(exist_ok=True)
+        (tmp_path / "data" / name).touch()
+    (tmp_path / "data" / "kitti").mkdir()
+    (tmp_path / "outside.osm").touch()
+    return tmp_path / "data"
+
+
+def test_queries_become_sentences_and_metres(api, submitted):
+    body = {"queries": [ASKED, {"hints": [" a tree "], "position": [3, 4]}], "grow": [200, 300.5]}
+    response = api.post("/evaluate", json=body)
+    assert response.status_code == 202
+    accepted = response.json()
+    assert response.headers["location"] == accepted["links"]["status"] == f"/evaluate/{accepted['job']}"
+    assert accepted["links"]["events"] == f"/evaluate/{accepted['job']}/events"
+    assert accepted["status"] == "queued"
+    [evaluation] = submitted
+    assert evaluation.sentences == [("I am north of a gray building.", "A pole is to my west."), ("a tree",)]
+    assert evaluation.positions_m == [(1, 2), (3, 4)]
+    assert evaluation.grow_m == [200, 300.5]
+    assert evaluation.index_dir.is_absolute()
+
+
+def test_wgs84_is_projected(api, submitted):
+    body = {"queries": [ASKED | {"position": [24.941, 60.171]}, ASKED | {"position": [24.94, 60.17]}], "crs": "wgs84"}
+    assert api.post("/evaluate", json=body).status_code == 202
+    assert submitted[0].positions_m[0] == pytest.approx((55.5, 111.4), abs=0.2)
+    assert submitted[0].positions_m[1] == pytest.approx((0, 0), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({}, "queries"),
+        ({"queries": []}, "queries"),
+        ({"queries": [ASKED], "data": "town"}, "queries"),
+        ({"queries": [ASKED], "split": "test"}, "split"),
+        ({"data": "town", "crs": "map"}, "crs"),
+        ({"queries": [ASKED, ASKED | {"position": [1]}]}, "queries[1].position[1]"),
+        ({"queries": [ASKED | {"position": [1, "2"]}]}, "queries[0].position[1]"),
+        ({"queries": [ASKED | {"position": [1, True]}]}, "queries[0].position[1]"),
+        ({"queries": [ASKED | {"position": [1, 1e9]}]}, "queries[0].position[1]"),
+        ({"queries": [ASKED | {"description": " . "}]}, "queries[0].description"),
+        ({"queries": [ASKED | {"description": "a\u0085tree"}]}, "queries[0].description"),
+        ({"queries": [ASKED | {"description": "A tree. " * 33}]}, "queries[0].description"),
+        ({"queries": [ASKED | {"description": "a" * 4001}]}, "queries[0].description"),
+        ({"queries": [ASKED | {"hints": ["a tree"]}]}, "queries[0].description"),
+        ({"queries": [{"position": [1, 2]}]}, "queries[0].description"),
+        ({"queries": [{"description": "a tree"}]}, "queries[0].position"),
+        ({"queries": [{"hints": ["a"] * 33, "position": [1, 2]}]}, "queries[0].hints"),
+        ({"queries": [ASKED | {"pose": 1}]}, "queries[0].pose"),
+        ({"queries": [ASKED], "path": "/etc"}, "path"),
+        ({"queries": [ASKED] * 11}, "queries"),
+        ({"queries": [ASKED], "crs": "utm"}, "crs"),
+        ({"queries": [ASKED, ASKED | {"position": [181, 2]}], "crs": "wgs84"}, "queries[1].position"),
+        ({"queries": [ASKED, ASKED | {"position": [115, 0]}], "crs": "wgs84"}, "queries[1].position"),
+        ({"queries": [ASKED], "grow": [0]}, "grow[0]"),
+        ({"queries": [ASKED], "grow": []}, "grow"),
+        ({"queries": [ASKED], "grow": list(range(1, 10))}, "grow"),
+        ({"data": "town", "split": "../x"}, "split"),
+        ({"data": "town"}, "data"),
+    ],
+)
+def test_what_cannot_be_used_is_named(settings, fake, start, submitted, problem, body, field):
+    with start(settings.model_copy(update={"max_queries": 10}), fake) as api:
+        response = api.post("/evaluate", json=body)
+    problem(response, 422, "invalid_request", field)
+    assert "utm" not in response.text
+    assert submitted == []
+
+
+def test_wgs84_needs_a_georeference(settings, start, submitted, problem):
+    with start(settings, FakeLocalizer(Frame())) as api:
+        body = {"queries": [ASKED], "crs": "wgs84"}
+        problem(api.post("/evaluate", json=body), 422, "invalid_request", "crs")
+
+
+def test_nan_is_no_json(api, problem):
+    content = b'{"queries": [{"description": "a tree", "position": [NaN, 1]}]}'
+    response = api.post("/evaluate", content=content, headers={"Content-Type": "application/json"})
+    problem(response, 400, "invalid_json")
+
+
+def test_its_own_limit_of_bytes(settings, fake, start, submitted, problem):
+    limits = {"max_bytes": 100, "max_evaluate_bytes": 100_000}
+    with start(settings.model_copy(update=limits), fake) as api:
+        body = {"queries": [ASKED] * 800}
+        assert 65_536 < len(json.dumps(body)) < 100_000
+        assert api.post("/evaluate", json=body).status_code == 202
+        problem(api.post("/evaluate", json={"queries": [ASKED] * 1200}), 413, "body_too_large")
+        problem(api.post("/localize", json={"description": "a tree" * 30}), 413, "body_too_large")
+        limits = api.get("/info").json()["limits"]
+        assert (limits["max_evaluate_bytes"], limits["max_queries"], limits["max_jobs"]) == (100_000, 10_000, 8)
+
+
+def test_refused_until_ready_and_while_draining(api, submitted, problem):
+    api.app.state.queue.drain()
+    problem(api.post("/evaluate", json={"queries": [ASKED]}), 503, "draining")
+
+
+@pytest.mark.parametrize(
+    ("name", "file"), [("town", "town.osm"), ("town.osm", "town.osm"), ("city", "city.osm.pbf"), ("kitti", "kitti")]
+)
+def test_data_set_by_name(settings, fake, start, submitted, data_dir, name, file):
+    with start(settings.model_copy(update={"data_dir": data_dir}), fake) as api:
+        assert api.get("/info").json()["data_sets"] == ["city.osm.pbf", "kitti", "town.osm"]
+        assert api.post("/evaluate", json={"data": name, "split": "test"}).status_code == 202
+    assert (submitted[0].data, submitted[0].split) == (data_dir / file, "test")
+
+
+@pytest.mark.parametrize(
+    "name", ["../outside", "../outside.osm", "..", ".", "/etc", "kitti/../town", "./town", ".hidden", "notes.txt", "x"]
+)
+def test_no_path_is_a_data_set(settings, fake, start, submitted, data_dir, problem, name):
+    with start(settings.model_copy(update={"data_dir": data_dir}), fake) as api:
+        for given in (name, str(data_dir / name)):
+            response = api.post("/evaluate", json={"data": given})
+            problem(response, 422, "invalid_request", "data")
+            assert str(data_dir) not in response.text
+    assert submitted == []
+
+
+def test_folder_and_file_of_one_name(data_dir):
+    (data_dir / "town").mkdir()
+    assert find_data(data_dir, "town") == data_dir / "town"
+    assert find_data(data_dir, "town.osm") == data_dir / "town.osm"
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("{", "not JSON"),
+        ('{"queries": NaN}', "NaN"),
+        ("{}", "queries: give either"),
+        ('{"queries": [{"description": "a tree", "position": [1]}]}', r"queries\[0\].position\[1\]"),
+        ('{"data": "town"}', "give its path to --data"),
+    ],
+)
+def test_file_that_is_no_such_body(settings, tmp_path, content, said):
+    (tmp_path / "q.json").write_text(content)
+    with pytest.raises(DataError, match=said):
+        read_evaluation(tmp_path / "q.json", settings, None, [])
+
+
+def test_file_has_no_split_and_has_to_be_there(settings, tmp_path):
+    with pytest.raises(DataError, match="no split"):
+        read_evaluation(tmp_path / "q.json", settings, "test", [])
+    with pytest.raises(DataError, match="cannot be read"):
+        read_evaluation(tmp_path / "q.json", settings, None, [])

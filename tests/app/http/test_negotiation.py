@@ -1,0 +1,31 @@
+import pytest
+
+from app.http.negotiation import choose
+
+JSON, GEO = "application/json", "application/geo+json"
+
+
+@pytest.mark.parametrize(
+    ("accept", "chosen"),
+    [
+        ("", JSON),
+        ("*/*", JSON),
+        ("application/*", JSON),
+        ("APPLICATION/GEO+JSON", GEO),
+        ("application/geo+json; charset=utf-8", GEO),
+        ("application/json, application/geo+json", JSON),
+        ("application/json;q=0.5, application/geo+json", GEO),
+        ("application/json;q=0, */*", GEO),
+        ("*/*;q=0.1, application/geo+json;q=0.2", GEO),
+        ("application/*;q=0.9, application/json;q=0.1", GEO),
+        ("text/html,application/xhtml+xml,*/*;q=0.8", JSON),
+        ("text/html", None),
+        ("application/json;q=0", None),
+        ("*/*;q=0", None),
+        ("nonsense", None),
+        ("application/json;q=high, application/geo+json", GEO),
+        ("*/json", None),
+    ],
+)
+def test_choice(accept, chosen):
+    assert choose(accept, (JSON, GEO)) == chosen

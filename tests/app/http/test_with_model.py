@@ -1,0 +1,79 @@
+"""The service as it is put together by default, on a real (tiny, untrained) index."""
+
+import json
+import shutil
+
+import pytest
+from fastapi.testclient import TestClient
+from typer.testing import CliRunner
+
+from app.cli import main as cli
+from app.main import create_app
+from app.settings import Settings
+
+
+@pytest.fixture(scope="module")
+def served(index_dir, weights_dir, until):
+    with TestClient(create_app(Settings(index_dir=index_dir, weights_dir=weights_dir))) as served:
+        until(lambda: served.get("/readyz").status_code == 200, 60)
+        yield served
+
+
+def test_description_gets_a_position_and_cells_that_exist(served, text):
+    response = served.post("/localize", json={"description": text, "top_k": 3})
+    assert response.status_code == 200, response.text
+    body = response.json()
+    assert len(body["candidates"]) == 3
+    assert sum(c["probability"] for c in body["candidates"]) + body["other_probability"] == pytest.approx(1)
+    cell = served.get(f"/cells/{body['candidates'][0]['cell_id']}").json()
+    assert cell["bbox"] == body["candidates"][0]["bbox"]
+    assert cell["instances"]
+    assert body["provenance"] == served.get("/info").json()["index"]["provenance"]
+
+
+@pytest.mark.parametrize(
+    "where",
+    [
+        {"prior": {"position": [-155, -60], "sigma_m": 0.001}, "crs": "wgs84"},
+        {"prior": {"position": [25.001, 60.001], "sigma_m": 30}, "crs": "wgs84"},
+        {"prior": {"position": [1e8, -1e8], "sigma_m": 0.001}},
+        {"prior": {"position": [0, 0], "sigma_m": 1e8}, "within": {"circle": {"center": [100, 100], "radius_m": 60}}},
+        {"within": {"bbox": [-180, -90, 180, 90]}, "crs": "wgs84"},
+    ],
+)
+def test_any_place_that_passes_the_checks_is_answered(served, text, where):
+    response = served.post("/localize", json={"description": text, **where})
+    assert response.status_code == 200, response.text
+    assert response.json()["status"] in {"ok", "ambiguous", "no_match"}
+
+
+def test_filter_off_the_map_is_no_match(served, text):
+    response = served.post("/localize", json={"description": text, "within": {"bbox": [9e5, 9e5, 1e6, 1e6]}})
+    assert (response.json()["status"], response.json()["estimate"]) == ("no_match", None)
+
+
+def test_geojson_is_where_the_estimate_is(served, text):
+    ask = {"json": {"description": text}}
+    place = served.post("/localize", **ask).json()["estimate"]["wgs84"]
+    features = served.post("/localize", **ask, headers={"Accept": "application/geo+json"}).json()["features"]
+    assert features[0]["geometry"]["coordinates"] == pytest.approx([place["lon"], place["lat"]], abs=1e-6)
+
+
+def test_command_line_answers_the_same(served, text, index_dir, weights_dir, monkeypatch):
+    monkeypatch.setenv("HEREABOUTS_WEIGHTS_DIR", str(weights_dir))
+    for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        monkeypatch.setenv(name, "1")
+    result = CliRunner().invoke(cli.app, ["localize", text, "--index", str(index_dir), "--json"])
+    assert result.exit_code == 0, result.output
+    said = json.loads(result.stdout)["estimate"]
+    assert said["position"] == served.post("/localize", json={"description": text}).json()["estimate"]["position"]
+
+
+def test_index_that_was_changed_is_not_served(index_dir, weights_dir, tmp_path, until, problem):
+    shutil.copytree(index_dir, tmp_path / "index")
+    for file in (tmp_path / "index").rglob("*.safetensors"):
+        file.write_bytes(file.read_bytes()[:-1])
+    settings = Settings(index_dir=tmp_path / "index", weights_dir=weights_dir)
+    with TestClient(create_app(settings)) as api:
+        until(lambda: api.get("/readyz").json()["code"] != "not_ready", 60)
+        problem(api.get("/readyz"), 503, "load_failed")

@@ -1,0 +1,38 @@
+"""Started by test_evaluate_jobs.py in place of app.jobs.worker: the same process, with work that a word of
+the first hint chooses."""
+
+import json
+import os
+import sys
+import time
+from pathlib import Path
+
+from app.jobs import worker as evaluation_worker
+from app.jobs.order import Evaluation
+from models.errors import DataError
+
+
+def run(self, report_dir, progress):
+    hint = self.sentences[0][0]
+    print("libraries may print what they like")
+    progress("ask", 0, 2)
+    if "held" in hint:
+        time.sleep(60)
+    if "wrong" in hint:
+        raise DataError(f"{self.index_dir}/cells: are wrong, make them right")
+    if "orphan" in hint and os.fork() == 0:
+        Path(report_dir).with_name("child").write_text(str(os.getpid()))
+        time.sleep(60)
+    if "orphan" in hint or "crash" in hint:
+        time.sleep(0.3)  # the child has written
+        print("secret of the crash", file=sys.stderr, flush=True)
+        os.abort()
+    if "slow" in hint:
+        time.sleep(0.4)
+    progress("ask", 2, 2)
+    report_dir.mkdir()
+    (report_dir / "report.json").write_text(json.dumps({"queries": len(self.sentences), "grow": self.grow_m}))
+
+
+Evaluation.run = run
+sys.exit(evaluation_worker.main(Path(sys.argv[1])))

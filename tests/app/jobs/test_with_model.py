@@ -1,0 +1,96 @@
+"""Evaluations that are really run, on the tiny town: HTTP says what the command line writes."""
+
+import json
+import time
+
+import pytest
+from fastapi.testclient import TestClient
+from typer.testing import CliRunner
+
+from app.cli import main as cli
+from app.main import create_app
+from app.settings import Settings
+from index.map_data import load_queries
+from index.ranking import Ranker
+
+TIMEOUT_S = 120
+
+
+@pytest.fixture(scope="module")
+def served(osm_file, index_dir, weights_dir, until):
+    settings = Settings(index_dir=index_dir, weights_dir=weights_dir, data_dir=osm_file.parent)
+    with TestClient(create_app(settings)) as served:
+        until(lambda: served.get("/readyz").status_code == 200, 60)
+        yield served
+
+
+@pytest.fixture
+def command_line(monkeypatch, weights_dir, index_dir, tmp_path):
+    """Runs `hereabouts evaluate` and gives its report."""
+    monkeypatch.setenv("HEREABOUTS_WEIGHTS_DIR", str(weights_dir))
+    monkeypatch.setenv("HEREABOUTS_INDEX_DIR", str(index_dir))
+
+    def run(*args):
+        result = CliRunner().invoke(cli.app, ["evaluate", "--report", str(tmp_path / "report"), *map(str, args)])
+        assert result.exit_code == 0, result.output
+        return json.loads((tmp_path / "report" / "report.json").read_text())
+
+    return run
+
+
+def evaluate(served, body):
+    accepted = served.post("/evaluate", json=body)
+    assert accepted.status_code == 202, accepted.text
+    end = time.monotonic() + TIMEOUT_S
+    while (now := served.get(accepted.headers["location"]).json())["status"] in {"queued", "running"}:
+        assert time.monotonic() < end, now
+        time.sleep(0.1)
+    return now
+
+
+@pytest.fixture(scope="module")
+def queries(osm_file):
+    _, asked = load_queries(osm_file, "test")
+    told = [
+        {"description": " ".join(asked.sentences[q]), "position": asked.positions_m[q].tolist()}
+        for q in range(0, len(asked), 8)
+    ]
+    return [*told, {"hints": ["I am nowhere near."], "position": [5000.0, 5000.0]}]
+
+
+def test_inline_queries_get_the_report_of_the_command_line(served, command_line, queries, tmp_path):
+    body = {"queries": queries, "grow": [60, 120]}
+    (tmp_path / "queries.json").write_text(json.dumps(body))
+    found = evaluate(served, body)
+    assert found["status"] == "done", found
+    report = found["report"]
+    assert report == command_line("--data", tmp_path / "queries.json")
+    assert (report["data"], report["split"]) == ("tinytown", "index")
+    assert (report["queries"], report["queries_without_cell"]) == (len(queries), 1)
+    assert [step["radius_m"] for step in report["growth"]] == [60, 120]
+
+
+def test_data_set_by_name_gets_the_report_of_the_command_line(served, command_line, osm_file):
+    found = evaluate(served, {"data": "tinytown", "split": "val"})
+    assert found["status"] == "done", found
+    assert found["report"] == command_line("--data", osm_file, "--split", "val")
+
+
+def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, localizer):
+    """The index's own vectors against vectors made anew."""
+    from index.evaluation.evaluation import evaluate as run
+    from index.map_data import ask
+
+    data = localizer.map_data()
+    _, asked = load_queries(osm_file)
+    mine = ask(data.cells, asked.sentences[::40], asked.positions_m[::40])
+    made = Ranker.of(localizer.retriever, data.cells, data.gallery.labels)
+    stored, anew = (run(data, mine, ranker) for ranker in (localizer.ranker, made))
+    assert stored == anew
+
+
+def test_what_is_wrong_with_the_data_is_the_jobs_error(served, osm_file):
+    found = evaluate(served, {"data": "tinytown", "split": "north"})
+    assert found["status"] == "failed"
+    assert "'north' is no split" in found["error"]["detail"]
+    assert str(osm_file.parent) not in found["error"]["detail"]
