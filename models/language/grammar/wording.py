@@ -4,11 +4,11 @@ A grammar is a TOML file in grammar/, data only, or several (`models.language.gr
 (`labels`) and colour, the eight winds (`compass`), and phrases by kind: two to six things at once (`passages`, see
 `models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`;
 `bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`,
-`two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a direction, the
-second at hand or underfoot; `two_near` both at hand), and what surrounds them (`opener`, `closer`, `irrelevant`,
-`link`, `leads`). Slots: {d} where the speaker is, seen from the thing, {o} the opposite; {a}, {A}, {the}, {The}, {n}
-the thing with its colour, {b}, {theb} without, {c} the colour; {dist}, {name}; numbered with several things. Validation
-leaves out every phrase and name that training has, and test also those of validation.
+`two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a
+direction, the second at hand or underfoot; `two_near` both at hand), and what surrounds them (`opener`, `closer`,
+`irrelevant`, `link`, `leads`). Slots: {d} where the speaker is, seen from the thing, {o} the opposite; {a}, {A},
+{the}, {The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour; {dist}, {name}; numbered with several
+things. Validation leaves out every phrase and name that training has, and test also those of validation.
 """
 
 import re
