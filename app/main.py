@@ -65,7 +65,7 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
     app.add_middleware(AccessLog)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
-    app.http.openapi = partial(describe, app)  # type: ignore[method-assign]
+    app.openapi = partial(describe, app)  # type: ignore[method-assign]
     return app
 
 
@@ -76,5 +76,5 @@ def _open_localizer(settings: Settings) -> LocalizerLike:
     localizer = Localizer.open(
         settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     )
-    localizer.localize([Query(("I am north of a building.",), refine="posterior")])  # or the first request waits
+    localizer.localize([Query("I am north of a building.")])  # or the first request waits
     return localizer

@@ -2,7 +2,11 @@
 
 <root>/aliases.json            {"default": "<version>"}
 <root>/<version>/manifest.json written last; names every other file with its sha256
-<root>/<version>/vectors.faiss, cells.safetensors, cells.json, surroundings.safetensors
+<root>/<version>/vectors.faiss                 a vector a cell
+<root>/<version>/hints.safetensors             what the retriever makes of every template hint about the map
+<root>/<version>/levels.starts.npy, levels.<level>.npy   the retriever's other levels, if they were asked for
+<root>/<version>/cells.safetensors, cells.json where the cells are and what is in them
+<root>/<version>/surroundings.safetensors      what lies around every position
 """
 
 import hashlib
@@ -22,7 +26,7 @@ from models.errors import IndexBroken, IndexMismatch
 
 MANIFEST = "manifest.json"
 ALIASES = "aliases.json"
-FORMAT = 2
+FORMAT = 3
 ADVICE = "build it with 'hereabouts index --map MAP --out DIR'"
 
 

@@ -178,11 +178,10 @@ def evaluate(
 
 
 def _print_robustness(found: dict[str, Any]) -> None:
-    from index.evaluation.candidates import candidate_table
-    from index.evaluation.robustness import robustness_table
+    from index.evaluation.robustness import robustness_tables
 
     Console(width=140).print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
-    for head, rows in (robustness_table(found["trials"]), candidate_table(found["candidates"])):
+    for head, rows in robustness_tables(found):
         table = Table(*head)
         for row in rows:
             table.add_row(*row)

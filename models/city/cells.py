@@ -86,6 +86,11 @@ class CellTable:
     def __len__(self) -> int:
         return len(self.ids)
 
+    @property
+    def extent_m(self) -> float:
+        """Radius of a circle round any position of the map that holds all of it."""
+        return float(np.linalg.norm(np.ptp(self.center_m[:, :2], axis=0)) + self.size_m)
+
     def take(self, rows: Ints) -> "CellTable":
         """Some cells, in the given order."""
         sample = self.sample

@@ -36,6 +36,11 @@ class PosteriorModel(nn.Module):
         self.likelihood = Likelihood()
 
     @property
+    def name(self) -> str:
+        """What kind of model this is, for people."""
+        return f"{self.method}/{self.reader.text_encoder.source}/{self.config.width}"
+
+    @property
     def fingerprint(self) -> str:
         """sha256 of all weights, the frozen ones included."""
         return hashlib.sha256((fingerprint_of(self) + self.reader.text_encoder.fingerprint).encode()).hexdigest()

@@ -2,10 +2,11 @@
 
 import hashlib
 from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar, Literal
 
 import numpy as np
+import numpy.typing as npt
 import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
@@ -32,6 +33,8 @@ class RetrieverConfig(BaseModel):
             until then: the levels' z-scores over the gallery are added.
         temperature: of a description of one hint, see `Retriever.temperature`; fitted on validation data.
         temperature_decay: how fast it falls with more hints; fitted on validation data.
+        global_temperature, global_temperature_decay: the same where cells are ranked by the global level alone; None
+            where that is the only one.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -42,6 +45,8 @@ class RetrieverConfig(BaseModel):
     level_weights: tuple[float, ...] = ()
     temperature: float = 0.2
     temperature_decay: float = 1.0
+    global_temperature: float | None = None
+    global_temperature_decay: float | None = None
 
     @property
     def shape_width(self) -> int:
@@ -135,14 +140,21 @@ class Retriever(nn.Module):
         """The frozen language model."""
         return self._text[0]
 
-    def temperature(self, num_hints: int) -> float:
-        """T for which softmax(similarity / T) over a gallery is the probability of each cell.
+    def temperature(self, num_hints: int, global_alone: bool = False) -> float:
+        """T for which softmax(score / T) over a gallery is the probability of each cell.
 
         A similarity is a cosine however much was said, so more hints make the same difference mean more:
         T = temperature * num_hints ** -temperature_decay.
+
+        Args:
+            num_hints: of the description.
+            global_alone: whether cells are ranked by the global level, though the retriever has others.
         """
-        decay: float = num_hints**-self.config.temperature_decay
-        return self.config.temperature * decay
+        config = self.config
+        of_one, decay = config.temperature, config.temperature_decay
+        if global_alone and config.global_temperature is not None and config.global_temperature_decay is not None:
+            of_one, decay = config.global_temperature, config.global_temperature_decay
+        return float(of_one * num_hints**-decay)
 
     def train(self, mode: bool = True) -> "Retriever":
         """Switch between training and evaluation; features cached under other weights are forgotten."""
@@ -177,15 +189,23 @@ class Retriever(nn.Module):
         return vectors
 
     @torch.inference_mode()
-    def encode_cells(self, cells: CellFeatures) -> Vectors:
-        """[N, D] float32 unit vectors of a gallery (`seen`), global level, in batches of cells of about equal size."""
+    def encode_cells(self, cells: CellFeatures) -> Iterator[tuple[npt.NDArray[np.intp], Levels]]:
+        """The cells of a gallery (`seen`) at all levels, in batches of about equal size: the rows of each, and it."""
         label_embeddings = self.text_encoder.embed(cells.labels)
         order = np.argsort(np.diff(cells.starts), kind="stable")
-        vectors = np.empty((len(cells), self.config.width), dtype=np.float32)
         for start in range(0, len(order), ENCODE_BATCH):
             rows = order[start : start + ENCODE_BATCH]
-            batch = cells.batch(rows).to(label_embeddings.device)
-            vectors[rows] = self.look(batch, label_embeddings).whole.cpu().numpy()
+            yield rows, self.look(cells.batch(rows).to(label_embeddings.device), label_embeddings)
+
+    def remember(self, sentences: Sequence[str], features: Vectors) -> None:
+        """Take up features [S, D] of sentences that were read before, so that they are not read again."""
+        self._hint_cache.update(zip(sentences, torch.from_numpy(features), strict=True))
+
+    @torch.inference_mode()
+    def encode_sentences(self, sentences: Sequence[str]) -> Vectors:
+        """[S, D] float32 features of hint sentences, each for itself."""
+        features = self._hint_features(dict.fromkeys(sentences))
+        vectors: Vectors = torch.stack([features[sentence] for sentence in sentences]).cpu().numpy()
         return vectors
 
     def _hint_features(self, sentences: dict[str, None]) -> dict[str, Tensor]:

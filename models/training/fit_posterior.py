@@ -13,7 +13,6 @@ from models.language.text_encoder import load_text_encoder
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, save_posterior
-from models.posterior.surroundings import SPACING_M
 from models.training.engine.loop import Progress, run_training
 from models.training.fit_likelihood import Texts, fit_likelihood
 from models.training.fit_reader import ReadingSet, ReadingTask, reading_figures
@@ -149,7 +148,6 @@ def _all_answers(likelihood: Likelihood, texts: Sequence[Texts]) -> Columns:
 def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
     """[Q, 4] error in metres, unscaled radius p90, whether the best cell is the first, and the first's probability."""
     place, posterior = texts.place, texts.place.posterior(likelihood)
-    extent_m = float(np.linalg.norm(np.ptp(place.cells.center_m[:, :2], axis=0)) + place.cells.size_m)
     scenes = np.array(place.cells.scenes)
     found = []
     for row, reading in zip(texts.rows, texts.readings, strict=True):
@@ -157,6 +155,6 @@ def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
         assert located is not None
         same = scenes[located.rows[0]] == scenes[place.truth[row]]
         error = float(np.linalg.norm(located.positions[0] - place.positions_m[row])) if same else np.inf
-        [p90] = located.radii_m((0.9,), extent_m, SPACING_M)
+        [p90] = located.radii_m(0.9)
         found.append((error, p90, float(located.rows[0] == place.truth[row]), located.probability[0]))
     return np.array(found)

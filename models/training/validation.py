@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.level_table import LevelTable
+from models.retrieval.level_table import encode_gallery
 from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
 from models.training.metrics import RETRIEVAL_KS, retrieval_recall
@@ -44,8 +44,8 @@ class Encoded:
     """
 
     def __init__(self, retriever: Retriever, features: CellFeatures) -> None:
-        self.retriever, self.vectors = retriever, retriever.encode_cells(features)
-        self.table = LevelTable.of(retriever, features)
+        self.retriever = retriever
+        self.vectors, self.table = encode_gallery(retriever, features)
 
     def level_scores(self, descriptions: Sequence[Sequence[str]]) -> dict[Level, npt.NDArray[np.float32]]:
         """[Q, N] similarities of descriptions with all cells, by level."""

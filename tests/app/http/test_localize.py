@@ -150,7 +150,7 @@ def test_box_may_reach_where_the_projection_does_not(api):
 def test_text_in_any_script_passes(api, fake):
     body = {"description": "我在一栋灰色建筑的北边。\n나무 옆에 있어요 🌳"}
     assert api.post("/localize", json=body).status_code == 200
-    assert fake.batches[0][0].hints == ("我在一栋灰色建筑的北边。", "나무 옆에 있어요 🌳")
+    assert fake.batches[0][0].description == body["description"]
 
 
 def test_limits_come_from_the_settings(settings, fake, start, problem):

@@ -9,6 +9,7 @@ from index.evaluation.evaluation import evaluate, grow, rescore
 from index.evaluation.predictions import FILE, Predictions
 from index.map_data import ask, load_map, load_queries
 from index.ranking import Ranker
+from index.vector_localizer import VectorLocalizer
 from models.city.hints import hint_table
 from models.city.types import DIRECTIONS
 from models.errors import DataError, MapError
@@ -20,14 +21,15 @@ def asked(osm_file):
 
 
 @pytest.fixture(scope="module")
-def ranker(asked, model):
-    return Ranker.of(model, asked[0].cells, asked[0].gallery.labels)
+def vectors(asked, model):
+    data = asked[0]
+    return VectorLocalizer.of_map(data, Ranker.of(model, data.cells, data.gallery.labels))
 
 
 @pytest.fixture(scope="module")
-def run_dir(asked, ranker, tmp_path_factory):
+def run_dir(asked, vectors, tmp_path_factory):
     directory = tmp_path_factory.mktemp("report")
-    evaluate(*asked, ranker, directory, [60, 120])
+    evaluate(*asked, vectors, directory, [60, 120])
     return directory
 
 
@@ -71,8 +73,8 @@ def test_chance_is_what_random_candidates_reach(report, asked) -> None:
     assert report["chance"]["localization"]["5"]["15"] == pytest.approx(np.mean(errors <= 15), abs=0.01)
 
 
-def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, ranker) -> None:
-    assert evaluate(*asked, ranker, None, [120, 60]) == report
+def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, vectors) -> None:
+    assert evaluate(*asked, vectors, None, [120, 60]) == report
     written = (run_dir / "report.json").read_bytes()
     assert rescore(run_dir) == report
     assert (run_dir / "report.json").read_bytes() == written
@@ -115,12 +117,12 @@ def test_another_scene_is_never_a_hit(run_dir) -> None:
     assert np.isinf(elsewhere.errors_m()).all()
 
 
-def test_a_query_far_from_every_cell_is_asked_and_missed(asked, ranker) -> None:
+def test_a_query_far_from_every_cell_is_asked_and_missed(asked, vectors) -> None:
     data, queries = asked
     positions = queries.positions_m[:2] + np.array([[0, 0], [1e4, 0]])
     own = ask(data.cells, queries.sentences[:2], positions)
     assert own.truth.tolist() == [queries.truth[0], -1]
-    found = evaluate(data, own, ranker)
+    found = evaluate(data, own, vectors)
     assert found["queries_without_cell"] == 1
     assert max(found["retrieval"]["5"], found["localization"]["10"]["15"]) <= 0.5
 

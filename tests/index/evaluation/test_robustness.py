@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 import torch
 
-from index.evaluation.candidates import SIZES, SOURCES, candidate_recall, candidate_table, in_turns
-from index.evaluation.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_table
+from index.evaluation.candidates import SIZES, SOURCES, candidate_recall
+from index.evaluation.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_tables
 from index.map_data import load_queries
-from index.map_posterior import MapPosterior
+from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
+from index.vector_localizer import VectorLocalizer
 from models.city.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel
@@ -63,25 +64,23 @@ def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
     some = queries.take(rows)
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
-    posterior = MapPosterior(untrained, data.gallery, data.palette, data.around(lambda *_: None))
-    found = robustness(data, some, ranker, posterior, lambda *_: None)
-    head, table = robustness_table(found)
+    posterior = PosteriorLocalizer.of_map(untrained, data, ranker, data.around(lambda *_: None))
+    vectors = VectorLocalizer.of_map(data, ranker)
+    found = robustness(data, some, vectors, posterior, lambda *_: None)
+    (head, table), *of_candidates = robustness_tables(found)
     assert len(table) == len(all_trials(data))
     assert all(len(row) == len(head) for row in table)
-    for row in found:
+    for row in found["trials"]:
         assert 0 <= row["posterior"]["retrieval"]["1"] <= 1
-    rows_of_candidates = candidate_recall(some, ranker, posterior)
-    assert len(candidate_table(rows_of_candidates)[1]) == len(SOURCES)
-    vectors, by_list, both = ([row["recall"][str(size)] for size in SIZES] for row in rows_of_candidates)
-    assert both[1] >= max(vectors[0], by_list[0]), "twenty of both hold ten of each"
-    first = [ranker.rank([ranker.retriever.encode_description(s)], 10)[1][0] for s in some.sentences]
-    assert vectors[0] == pytest.approx(np.mean([t in r for t, r in zip(some.truth, first, strict=True)]))
+    names = [head[0].split(":")[0] for head, _ in of_candidates]
+    assert names == list(found["candidates"]) == ["template text", "free wording, unseen grammar"]
+    assert all(len(rows) == len(SOURCES) for _, rows in of_candidates)
+    raw, _, by_list, both = ([row["recall"][str(n)] for n in SIZES] for row in candidate_recall(some, posterior))
+    assert all(b >= o for b, o in zip(both, by_list, strict=True)), "both hold what one holds"
+    first = [ranker.search([ranker.retriever.encode_description(s)], 10)[1][0] for s in some.sentences]
+    assert raw[0] == pytest.approx(np.mean([t in r for t, r in zip(some.truth, first, strict=True)]))
     with pytest.raises(DataError, match="what the hints mean"):
-        robustness(data, replace(some, hints=None), ranker, posterior, lambda *_: None)
-
-
-def test_two_orders_in_turns() -> None:
-    assert in_turns(np.array([3, 1, 2]), np.array([1, 4, 3])).tolist() == [3, 1, 4, 2]
+        robustness(data, replace(some, hints=None), vectors, posterior, lambda *_: None)
 
 
 def test_points_of_a_damaged_map_are_those_of_the_parts_that_are_left(asked) -> None:
