@@ -41,6 +41,9 @@ class LabelMatcher(nn.Module):
     no building where there are no benches.
     """
 
+    names: Tensor
+    names_of: Tensor
+
     def __init__(self, text_encoder: TextEncoder) -> None:
         super().__init__()
         self._text = (text_encoder,)
@@ -51,11 +54,11 @@ class LabelMatcher(nn.Module):
         self._spelling = Spelling(names, text_encoder.pieces, lambda part: len(text_encoder.pieces(part)) == 1)
         self._names = sorted({self._plain(name) for name in names}, key=lambda name: (len(name), name))
         # [N, W] vectors of these, stored with the weights; empty until they are loaded or a map asks for them.
-        self.names = nn.Buffer(torch.empty(0, text_encoder.width))
+        self.register_buffer("names", torch.empty(0, text_encoder.width))
         digest = hashlib.sha256("\n".join(self._names).encode()).digest()
-        self.names_of = nn.Buffer(torch.tensor(list(digest), dtype=torch.uint8))  # tells whether stored ones fit
+        self.register_buffer("names_of", torch.tensor(list(digest), dtype=torch.uint8))  # tells whether stored ones fit
         self._known: dict[str, Tensor] = {}
-        self.register_load_state_dict_pre_hook(LabelMatcher._take_names)
+        nn.Module.register_load_state_dict_pre_hook(self, LabelMatcher._take_names)
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
         """[S, W] unit vectors of the frozen text encoder, misspelt words mended; those seen before are kept."""
