@@ -19,10 +19,9 @@ from index.ranking import Ranker
 from models.city.colours import Palette
 from models.city.frame import Frame
 from models.city.points import ranges
-from models.language.grammar.labelled_text import RELATIONS
 from models.language.hints_text import reader_texts
 from models.language.landmarks import Landmarks
-from models.language.parsed_hint import ParsedHint
+from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.localization.located import Located
 from models.posterior.binding import Binding

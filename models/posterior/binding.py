@@ -8,10 +8,9 @@ from torch import Tensor
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
 from models.city.types import DIRECTIONS, Hint
-from models.language.grammar.labelled_text import RELATIONS
 from models.language.hints_text import render_hint
 from models.language.labels import BoundLabels, LabelMatcher
-from models.language.parsed_hint import ParsedHint
+from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.likelihood import Reading
 from models.posterior.node_batch import colour_words
