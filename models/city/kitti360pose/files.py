@@ -10,10 +10,11 @@ import numpy as np
 
 from models.city.kitti360pose.fields import Fields, Source, read_cell, read_pose
 from models.city.kitti360pose.pickle_reader import read_pickle
-from models.city.kitti360pose.pickle_writer import RecordPickler, cell_record, pose_record, replacing
+from models.city.kitti360pose.pickle_writer import RecordPickler, cell_record, pose_record
 from models.city.kitti360pose.records import PublishedCell, PublishedPose
 from models.city.types import Floats
 from models.errors import DataError
+from models.files import replacing
 
 STANDARD_SPLITS = {
     "train": ("0000", "0002", "0004", "0006", "0007"),
