@@ -11,7 +11,7 @@ from torch import Tensor, nn
 from models.language.grammar.files import GRAMMARS
 from models.language.grammar.wording import Wording
 from models.language.spelling import Spelling
-from models.language.text_encoder import TextEncoder
+from models.language.text_encoder import OnTextEncoder, TextEncoder
 
 MOST_KEPT = 20_000  # phrases; 30 MB
 
@@ -46,7 +46,7 @@ class BoundLabels:
     count: int
 
 
-class LabelMatcher(nn.Module):
+class LabelMatcher(OnTextEncoder):
     """Similarity of a noun with every name of every label, in the frozen text encoder's space.
 
     A label's score is the soft maximum over its names; names of things that the map has not compete, so that a bench is
@@ -54,8 +54,7 @@ class LabelMatcher(nn.Module):
     """
 
     def __init__(self, text_encoder: TextEncoder) -> None:
-        super().__init__()
-        self._text = (text_encoder,)
+        super().__init__(text_encoder)
         self.scale = nn.Parameter(torch.tensor(20.0).log())
         self.unknown = nn.Parameter(torch.tensor(0.4))  # similarity that a noun must exceed to mean anything
         self._known: dict[str, Tensor] = {}
@@ -70,7 +69,7 @@ class LabelMatcher(nn.Module):
             if len(self._known) > MOST_KEPT:
                 self._known.clear()
                 missing = list(dict.fromkeys(plain))
-            self._known.update(zip(missing, self._text[0].embed(missing), strict=True))
+            self._known.update(zip(missing, self.text_encoder.embed(missing), strict=True))
         return torch.stack([self._known[phrase] for phrase in plain])
 
     def bind(self, map_labels: Sequence[str]) -> BoundLabels:

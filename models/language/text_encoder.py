@@ -117,6 +117,24 @@ class TextEncoder(nn.Module):
         return nn.functional.normalize(mean, dim=-1)
 
 
+class OnTextEncoder(nn.Module):
+    """A model on a frozen text encoder, which is used, not owned: its weights are neither trained nor saved here."""
+
+    def __init__(self, text_encoder: TextEncoder) -> None:
+        super().__init__()
+        self._text = (text_encoder,)  # a tuple hides it from state_dict
+
+    @property
+    def text_encoder(self) -> TextEncoder:
+        """The frozen language model."""
+        return self._text[0]
+
+    @property
+    def fingerprint(self) -> str:
+        """sha256 of all weights, the frozen ones included: what makes two models give the same answers."""
+        return hashlib.sha256((fingerprint_of(self) + self.text_encoder.fingerprint).encode()).hexdigest()
+
+
 def run_layers(layers: nn.ModuleList, hidden: Tensor, mask: Tensor) -> Tensor:
     """[S, T, W] after some of a BERT-like model's attention layers; padding takes no part."""
     shut = torch.zeros(mask.shape, dtype=hidden.dtype, device=hidden.device).masked_fill(~mask, float("-inf"))

@@ -1,14 +1,11 @@
 """Everything that the hint posterior has learned, in one model: reader, names of labels, likelihood."""
 
-import hashlib
 from typing import ClassVar
-
-from torch import nn
 
 from models.checkpoint import SHIPPED, Checkpoints
 from models.language.labels import LabelMatcher
 from models.language.reader import Reader, ReaderConfig
-from models.language.text_encoder import TextEncoder, fingerprint_of
+from models.language.text_encoder import OnTextEncoder, TextEncoder
 from models.posterior.likelihood import Likelihood
 
 
@@ -22,23 +19,18 @@ class PosteriorConfig(ReaderConfig):
     radius_scale: float = 1.0
 
 
-class PosteriorModel(nn.Module):
+class PosteriorModel(OnTextEncoder):
     """The parts of the hint posterior that do not depend on a map."""
 
     method: ClassVar[str] = "posterior"
     config_type: ClassVar[type[PosteriorConfig]] = PosteriorConfig
 
     def __init__(self, text_encoder: TextEncoder, config: PosteriorConfig) -> None:
-        super().__init__()
+        super().__init__(text_encoder)
         self.config = config
         self.reader = Reader(text_encoder, config)
         self.matcher = LabelMatcher(text_encoder)
         self.likelihood = Likelihood()
-
-    @property
-    def fingerprint(self) -> str:
-        """sha256 of all weights, the frozen ones included."""
-        return hashlib.sha256((fingerprint_of(self) + self.reader.text_encoder.fingerprint).encode()).hexdigest()
 
 
 POSTERIORS = Checkpoints(

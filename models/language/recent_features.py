@@ -1,4 +1,4 @@
-"""Features of hint sentences that were read lately, so that the frozen text encoder runs only for new ones."""
+"""Features of sentences or phrases that were read lately, so that the frozen text encoder runs only for new ones."""
 
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Sequence
@@ -8,12 +8,12 @@ from torch import Tensor
 READ_BATCH = 256  # sentences
 
 
-class HintCache:
-    """Features by sentence.
+class RecentFeatures:
+    """Features by sentence or phrase.
 
     Args:
         read: [S, D] features of S sentences.
-        size: sentences to keep.
+        size: sentences to keep, those asked for last.
     """
 
     def __init__(self, read: Callable[[Sequence[str]], Tensor], size: int) -> None:
