@@ -28,6 +28,7 @@ from models.city.store.pose_store import PoseStore, StoredScene
 from models.errors import DataError
 from models.files import FileRecord, file_records, new_directory, sha256
 
+FORMAT = 2
 MANIFEST, STRINGS = "manifest.json", "strings.json"
 ADVICE = "convert the published files again with 'hereabouts convert --data DIR --out DIR'"
 Progress = Callable[[int, int], None]
@@ -51,7 +52,7 @@ class Manifest(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     kind: Literal["hereabouts pose store"] = "hereabouts pose store"
-    format: Literal[1] = 1
+    format: int = FORMAT
     scenes: tuple[SceneRecord, ...]
     files: dict[str, FileRecord]
 
@@ -204,6 +205,8 @@ def _read_manifest(path: Path) -> Manifest:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"])
         raise DataError(f"{path / MANIFEST}: {field}: {first['msg']}; {ADVICE}") from error
+    if manifest.format != FORMAT:
+        raise DataError(f"{path}: has format {manifest.format}, this hereabouts reads {FORMAT}; {ADVICE}")
     expected = {STRINGS, *(f"{name}.npy" for name in COLUMNS)}
     if set(manifest.files) != expected:
         odd = sorted(expected ^ set(manifest.files))
