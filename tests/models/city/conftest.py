@@ -17,7 +17,7 @@ from models.city.kitti360.job import prepare_data
 from models.city.kitti360.rules import PrepareConfig
 from models.city.kitti360pose.files import Scene, save_scene
 from models.city.kitti360pose.pickle_values import RECORD_MODULE, RECORDS, Record
-from models.city.kitti360pose.pickle_writer import RecordPickler
+from models.city.kitti360pose.pickle_writer import write_records
 from models.city.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 from models.city.store.pose_store import PoseStore
 from models.city.types import DIRECTIONS
@@ -148,7 +148,7 @@ def root(tmp_path: Path) -> Path:
 
 def dump(path: Path, records: list[Record]) -> Path:
     with path.open("wb") as file:
-        RecordPickler(file).dump(records)
+        write_records(file, records)
     return path
 
 
