@@ -102,23 +102,15 @@ def predict(
     if refiner:
         progress("refine positions", 0, 0)
         predicted = Refinement(refiner, data.gallery).positions_m(queries.sentences, ranked[:, :PREDICTED])
-    return Predictions(
-        facts={
-            "data": data.name,
-            "split": data.split,
-            "attribution": data.attribution,
-            "model": retriever.name,
-            "model_fingerprint": retriever.fingerprint,
-            "method": refiner.method if refiner else "cell_center",
-        }
-        | ({"refiner_fingerprint": refiner.fingerprint} if refiner else {}),
-        cell_ids=np.array(data.cells.ids),
-        cell_scenes=np.array(data.cells.scenes),
-        cell_centers_m=centers,
-        queried_cells=queries.truth,
-        positions_m=queries.positions_m,
-        scenes=np.array(queries.scenes),
-        strategies=np.array(queries.strategies),
+    model = {
+        "model": retriever.name,
+        "model_fingerprint": retriever.fingerprint,
+        "method": refiner.method if refiner else "cell_center",
+    } | ({"refiner_fingerprint": refiner.fingerprint} if refiner else {})
+    return _predictions(
+        data,
+        queries,
+        model,
         ranked=ranked,
         scores=scores,
         predicted_m=predicted,
@@ -145,11 +137,23 @@ def _predict_by_posterior(data: MapData, queries: Queries, posterior: MapPosteri
         positions[q, : len(near)] = near
         probability[q], radius_m[q] = located.probability[0], posterior.radii_m(located)
     progress("ask", total, total)
-    model = {"model": posterior.model.method, "model_fingerprint": posterior.model.fingerprint}
+    method = posterior.model.method
+    return _predictions(
+        data,
+        queries,
+        {"model": method, "model_fingerprint": posterior.model.fingerprint, "method": method},
+        ranked=ranked,
+        scores=scores,
+        predicted_m=positions,
+        probability=probability,
+        radius_m=radius_m,
+    )
+
+
+def _predictions(data: MapData, queries: Queries, model: dict[str, str], **answers: Any) -> Predictions:
+    """A model's answers, beside what was asked about which gallery."""
     return Predictions(
-        facts={"data": data.name, "split": data.split, "attribution": data.attribution}
-        | model
-        | {"method": posterior.model.method},
+        facts={"data": data.name, "split": data.split, "attribution": data.attribution} | model,
         cell_ids=np.array(data.cells.ids),
         cell_scenes=np.array(data.cells.scenes),
         cell_centers_m=data.cells.center_m[:, :2].astype(np.float64),
@@ -157,11 +161,7 @@ def _predict_by_posterior(data: MapData, queries: Queries, posterior: MapPosteri
         positions_m=queries.positions_m,
         scenes=np.array(queries.scenes),
         strategies=np.array(queries.strategies),
-        ranked=ranked,
-        scores=scores,
-        predicted_m=positions,
-        probability=probability,
-        radius_m=radius_m,
+        **answers,
     )
 
 

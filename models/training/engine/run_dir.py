@@ -168,13 +168,14 @@ class RunDir:
         Args:
             path: made if it is missing.
             resume: whether a run that stands there goes on; otherwise there must be none.
-            record: the settings, JSON; a run goes on with the same.
+            record: the settings, what JSON can hold; a run goes on with the same.
 
         Raises:
             TrainingError: a run stands there and is not to be resumed, or was made with other settings.
         """
         path.mkdir(parents=True, exist_ok=True)
         run_dir = cls(path)
+        record = json.loads(json.dumps(record))  # as it will be read
         if (path / STATE_FILE).is_file():
             if not resume:
                 raise TrainingError(f"{path} holds a run; go on with --resume, or take another directory")
