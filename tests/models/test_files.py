@@ -5,7 +5,7 @@ import pytest
 from models.files import file_records, new_directory, replace_file, replacing
 
 
-def mode(path) -> int:
+def mode(path):
     return path.stat().st_mode & 0o777
 
 
@@ -24,8 +24,8 @@ def test_a_file_is_replaced_only_when_all_is_written(tmp_path) -> None:
 def test_a_failure_leaves_the_old_file_and_no_scrap(tmp_path) -> None:
     replace_file(tmp_path / "a", b"old")
     for name in ("a", "b"):
-        with pytest.raises(TypeError), replacing(tmp_path / name) as file:
-            file.writelines([b"half", None])
+        with pytest.raises(ZeroDivisionError), replacing(tmp_path / name) as file:
+            file.write(b"half" * (file.write(b"half") // 0))
     assert [path.name for path in tmp_path.iterdir()] == ["a"]
     assert (tmp_path / "a").read_bytes() == b"old"
 
