@@ -6,17 +6,16 @@ from index.artifact import (
     FrameRecord,
     Manifest,
     check_model,
-    file_records,
     new_version,
     open_version,
     set_alias,
     write_manifest,
-    write_version,
 )
 from index.hint_features import save_hint_features, template_hints
 from index.map_data import MapData, Progress, fingerprint, load_map
 from index.ranking import Ranker
 from models.errors import IndexUnusable
+from models.files import file_records, new_directory
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever
@@ -61,7 +60,7 @@ def build_index(
     surroundings = data.around(report)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
-    with write_version(out_dir, origin["version"]) as directory:
+    with new_directory(out_dir / origin["version"]) as directory:
         ranker.save(directory)
         save_hint_features(directory, retriever, template_hints(data.gallery, data.palette))
         data.gallery.save(directory)

@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from index.artifact import file_sha256
 from index.gallery import Gallery
 from models.city.cells import CellTable, cut_cells
 from models.city.colours import KITTI360_PALETTE, Palette
@@ -24,6 +23,7 @@ from models.city.store.files import MANIFEST, load_data
 from models.city.store.pose_store import PoseStore
 from models.city.types import CityMap, CutRules, Floats, Hint
 from models.errors import DataError, MapError
+from models.files import sha256
 from models.language.hints_text import render_hint
 from models.posterior.surroundings import Bodies, Surroundings
 
@@ -113,7 +113,7 @@ def fingerprint(data: Path, split: str | None = None) -> str:
         files = [data / MANIFEST]  # has the sums of all others
     else:
         files = [data / "cells" / f"{s}.pkl" for s in select_scenes(list_scenes(data), split, data / "cells")]
-    parts = [f"{split}", *(f"{path.name} {file_sha256(path)}" for path in files)]
+    parts = [f"{split}", *(f"{path.name} {sha256(path)}" for path in files)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 

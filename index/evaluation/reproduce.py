@@ -19,11 +19,12 @@ from index.evaluation.evaluation import evaluate
 from index.map_data import MapData, Progress, Queries, fingerprint, load_queries
 from index.ranking import RERANKED, Ranker
 from index.vector_localizer import VectorLocalizer
+from models.files import replace_file
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineModel
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.retriever import Retriever
-from models.training.engine.run_dir import METRICS_FILE, replace_file
+from models.training.engine.run_dir import METRICS_FILE
 from models.training.experiments import FINE, GROWTH, MNCL, Run, Scale, runs_of
 from models.training.fit_fine import train_fine
 from models.training.fit_retriever import train_retriever

@@ -1,6 +1,5 @@
 """Training a model of the fine stage on parts of maps and data sets, chosen on others."""
 
-import json
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +16,7 @@ from models.training.engine import distributed
 from models.training.engine.loop import History, Progress, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
 from models.training.retrieval_data import HintVocabulary
-from models.training.settings import TrainingConfig
+from models.training.settings import TrainingConfig, settings_record
 from models.training.sources import Source
 
 
@@ -114,13 +113,7 @@ def train_fine(
     sources = load(encoder, rng)
     fine = FINE_METHODS[method](encoder, model)
     task = FineTask(fine, sources, config.batch_size, config.pmc)
-    record = {
-        "method": method,
-        "model": model.model_dump(mode="json"),
-        "training": config.model_dump(mode="json"),
-        "sources": [source.facts for source in sources],
-    }
-    record = json.loads(json.dumps(record))
+    record = settings_record(method, model, config) | {"sources": [source.facts for source in sources]}
     try:
         history = run_training(task, config, run_dir, resume, progress, rng, record)
         return distributed.from_first(lambda: _finish(task, out, config, history))
@@ -137,10 +130,9 @@ def _finish(task: FineTask, out: Path, config: TrainingConfig, history: History)
     training = {
         "config": config.model_dump(mode="json"),
         "sources": [_facts(*part) for part in zip(task.sources, validations, figures, strict=True)],
-        "history": [{"step": row.step, "loss": row.loss} | row.figures for row in history.rows],
-        "best_step": history.best_step,
+        **history.facts,
     }
-    save_fine(fine.cpu(), out, json.loads(json.dumps(training)))
+    save_fine(fine.cpu(), out, training)
     return _mean(figures)
 
 

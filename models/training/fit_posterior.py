@@ -1,6 +1,5 @@
 """Training the hint posterior: the reader on the paraphrase grammar, then the likelihood on training towns."""
 
-import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -17,7 +16,7 @@ from models.training.engine.loop import Progress, run_training
 from models.training.fit_likelihood import Texts, fit_likelihood
 from models.training.fit_reader import ReadingSet, ReadingTask, reading_figures
 from models.training.places import Place, load_place
-from models.training.settings import TrainingConfig
+from models.training.settings import TrainingConfig, settings_record
 
 TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chosen by
 FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
@@ -70,8 +69,8 @@ def train_posterior(
     training = ReadingSet(encoder, depth, "train", TEXTS, config.seed)
     validation = ReadingSet(encoder, depth, "val", VALIDATION_TEXTS, config.seed + 1)
     task = ReadingTask(trained.reader, training, validation, config.batch_size)
-    record = {"method": "posterior", "model": model.model_dump(), "training": config.model_dump(mode="json")}
-    history = run_training(task, config, run_dir, resume, progress, record=json.loads(json.dumps(record)))
+    record = settings_record(trained.method, model, config)
+    history = run_training(task, config, run_dir, resume, progress, record=record)
     return fit_and_save(trained, validation, data, splits, out, config, history.best_step)
 
 
@@ -98,7 +97,7 @@ def fit_and_save(
         "surprise": fitted,
         "validation": figures,
     }
-    save_posterior(trained, out, json.loads(json.dumps(facts)))
+    save_posterior(trained, out, facts)
     return figures
 
 

@@ -21,8 +21,8 @@ from models.city.kitti360.record import Recipe, Record, differences, read_record
 from models.city.kitti360.rules import PrepareConfig
 from models.city.kitti360pose.direction import find_neighbours, save_direction
 from models.city.kitti360pose.files import save_scene, select_scenes, short_name
-from models.city.kitti360pose.pickle_writer import replacing, sync
 from models.errors import DataError
+from models.files import replace_file, sync
 
 RELEASED = PrepareConfig()
 # In the order in which they are put in place: readers list scenes by their cells; the record says that all is there.
@@ -198,8 +198,7 @@ def _make(raw: Path, folder: str, making: Path, recipe: Recipe, config: PrepareC
         path.relative_to(making).as_posix(): path.stat().st_size for part, path in places.items() if part != "prepared"
     }
     record = Record(**recipe.model_dump(), cells=len(cells), poses=len(poses), files=files)
-    with replacing(places["prepared"]) as file:
-        file.write(record.model_dump_json(indent=2).encode() + b"\n")
+    replace_file(places["prepared"], record.model_dump_json(indent=2).encode() + b"\n")
 
 
 def _place(placing: Path, out: Path, scene: str) -> None:
