@@ -18,6 +18,8 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from models.city.kitti360pose.files import list_scenes, select_scenes
+from models.city.store.files import MANIFEST as STORE_MANIFEST
 from models.errors import IndexBroken, IndexMismatch
 
 MANIFEST = "manifest.json"
@@ -88,6 +90,22 @@ def file_sha256(path: Path) -> str:
     """sha256 of a file, in hex."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def fingerprint(data: Path, split: str | None = None) -> str:
+    """sha256 of what a map is read from.
+
+    Raises:
+        DataError: there is nothing to read.
+    """
+    if data.is_file():
+        files = [data]
+    elif (data / STORE_MANIFEST).is_file():
+        files = [data / STORE_MANIFEST]  # has the sums of all others
+    else:
+        files = [data / "cells" / f"{s}.pkl" for s in select_scenes(list_scenes(data), split, data / "cells")]
+    parts = [f"{split}", *(f"{path.name} {file_sha256(path)}" for path in files)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 def new_version(map_sha256: str, model_fingerprint: str) -> dict[str, str]:

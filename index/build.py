@@ -7,15 +7,19 @@ from index.artifact import (
     Manifest,
     check_model,
     file_records,
+    fingerprint,
     new_version,
     open_version,
     set_alias,
     write_manifest,
     write_version,
 )
-from index.map_data import MapData, Progress, fingerprint, load_map
 from index.ranking import Ranker
+from models.city.gallery import MapData
+from models.city.source import open_source
+from models.city.types import Progress
 from models.errors import IndexUnusable
+from models.posterior.surroundings import Surroundings
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.retriever import Retriever
 
@@ -31,10 +35,10 @@ def build_index(
     """Build an index version of a map and let the alias "default" name it.
 
     Args:
-        map_path: as `index.map_data.load_map`.
+        map_path: as `models.city.source.open_sources`.
         out_dir: index directory; older versions in it are kept.
         weights_dir: the retriever's weights; None for those that ship with the package.
-        split: as `index.map_data.load_map`.
+        split: as `models.city.source.open_sources`.
         keep_current: build nothing if the default version is of this map and this model.
         progress: called as the work goes on.
 
@@ -51,10 +55,11 @@ def build_index(
     current = _current(out_dir, map_path, split, retriever) if keep_current else None
     if current:
         return current
-    data = load_map(map_path, split, report)
+    source = open_source(map_path, split, report)
+    data = source.data
     report("encode cells", 0, 0)
     ranker = Ranker.of(retriever, data.cells, data.gallery.labels)
-    surroundings = data.around(report)
+    surroundings = Surroundings.of(source.bodies(), data.cells, report)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
     with write_version(out_dir, origin["version"]) as directory:

@@ -17,8 +17,6 @@ from index.answers import (
     Wgs84,
 )
 from index.artifact import Manifest, check_model, open_version
-from index.gallery import Gallery
-from index.map_data import MapData
 from index.map_posterior import MapPosterior
 from index.posterior_answers import PosteriorAnswers
 from index.ranking import Ranker
@@ -26,6 +24,7 @@ from index.refinement import Refinement, Refiner
 from index.vector_answers import VectorAnswers
 from models.city.colours import PALETTES
 from models.city.frame import Frame
+from models.city.gallery import Gallery, MapData
 from models.errors import WeightsError
 from models.localization.checkpoint import load_fine
 from models.posterior.model import load_posterior

@@ -10,8 +10,8 @@ import numpy.typing as npt
 import torch
 
 from index.answers import Evidence
-from index.gallery import Gallery
 from models.city.colours import Palette
+from models.city.gallery import Gallery
 from models.city.points import ranges
 from models.language.grammar.labelled_text import RELATIONS
 from models.language.landmarks import Landmarks

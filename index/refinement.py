@@ -6,7 +6,7 @@ from typing import Any, Literal, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from index.gallery import Gallery
+from models.city.gallery import Gallery
 from models.city.types import Floats
 from models.retrieval.instance_encoder import CellFeatures
 

@@ -9,11 +9,11 @@ import numpy.typing as npt
 from scipy.special import logsumexp
 
 from index.answers import Answer, Box, Candidate, Circle, Estimate, Method, Query, Wgs84
-from index.gallery import Gallery
 from index.ranking import Ranker
 from index.refinement import Refinement
 from index.uncertainty import covariance_of, radius_of
 from models.city.frame import Frame
+from models.city.gallery import Gallery
 from models.retrieval.levels import Levels
 
 Floats = npt.NDArray[np.floating[Any]]

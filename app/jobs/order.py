@@ -1,7 +1,7 @@
 """An evaluation as it is asked for, in a request or in a file, and the work itself; HTTP and command line share it."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +15,11 @@ from app.settings import Settings
 from index.answers import Refine
 from index.artifact import open_version
 from models.city.frame import Frame
+from models.city.types import Progress
 from models.errors import DataError
 from models.language.hints_text import split_hints
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
-Progress = Callable[[str, int, int], None]
-
 WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # of Settings and of Evaluation
 
 
@@ -32,7 +31,7 @@ class Evaluation(BaseModel):
         grow_m: radii of a growing gallery.
         refine: what finds positions inside the retrieved cells.
         fine_weights_dir, posterior_weights_dir: its model, as weights_dir.
-        data, split: as `index.map_data.load_queries`; None for queries of one's own.
+        data, split: as `models.city.source.open_sources`; None for queries of one's own.
         index_dir: an index directory or a version of it, which queries of one's own are asked of.
         sentences, positions_m: each query's hint sentences, and where they were said, map frame.
     """
@@ -64,20 +63,25 @@ class Evaluation(BaseModel):
 
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415
         from index.localizer import Localizer  # noqa: PLC0415
-        from index.map_data import ask, load_queries  # noqa: PLC0415
         from index.map_posterior import MapPosterior  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
+        from models.city.queries import Queries  # noqa: PLC0415
+        from models.city.source import open_source  # noqa: PLC0415
         from models.localization.checkpoint import load_fine  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
+        from models.posterior.surroundings import Surroundings  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         torch.set_num_threads(1)  # a model's last bits differ with their number; sentences are too short to need more
         refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
         if self.data is not None:
-            data, queries = load_queries(self.data, self.split, progress)
+            source = open_source(self.data, self.split, progress)
+            progress("describe positions", 0, 0)
+            data, queries = source.data, source.queries()
             if self.refine == "posterior":
                 model = load_posterior(self.posterior_weights_dir)
-                answerer = MapPosterior(model, data.gallery, data.palette, data.around(progress))
+                around = Surroundings.of(source.bodies(), data.cells, progress)
+                answerer = MapPosterior(model, data.gallery, data.palette, around)
                 return evaluate(data, queries, answerer, report_dir, self.grow_m, progress)
             progress("encode cells", 0, 0)
             ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
@@ -86,7 +90,7 @@ class Evaluation(BaseModel):
         progress("open index", 0, 0)
         localizer = Localizer.open(self.index_dir, self.weights_dir, posterior_weights_dir=self.posterior_weights_dir)
         data = localizer.map_data()
-        queries = ask(data.cells, self.sentences, np.array(self.positions_m))
+        queries = Queries.of_text(self.sentences, np.array(self.positions_m), data.cells)
         answering = localizer.map_posterior if self.refine == "posterior" else localizer.ranker
         return evaluate(data, queries, answering, report_dir, self.grow_m, progress, refiner)
 
@@ -105,10 +109,11 @@ class Evaluation(BaseModel):
         from index.evaluation.candidates import candidate_recall, candidate_table  # noqa: PLC0415
         from index.evaluation.report import as_markdown  # noqa: PLC0415
         from index.evaluation.robustness import robustness, robustness_table, some_of  # noqa: PLC0415
-        from index.map_data import load_queries  # noqa: PLC0415
         from index.map_posterior import MapPosterior  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
+        from models.city.source import open_source  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
+        from models.posterior.surroundings import Surroundings  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         if self.data is None:
@@ -116,10 +121,13 @@ class Evaluation(BaseModel):
                 "--robustness needs a data set or a map: nobody knows what the hints of one's own text mean"
             )
         torch.set_num_threads(1)
-        data, queries = load_queries(self.data, self.split, progress)
+        source = open_source(self.data, self.split, progress)
+        progress("describe positions", 0, 0)
+        data, queries = source.data, source.queries()
         ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
         model = load_posterior(self.posterior_weights_dir)
-        posterior = MapPosterior(model, data.gallery, data.palette, data.around(progress))
+        around = Surroundings.of(source.bodies(), data.cells, progress)
+        posterior = MapPosterior(model, data.gallery, data.palette, around)
         trials = robustness(data, queries, ranker, posterior, progress)
         some = some_of(queries)
         candidates = candidate_recall(some, ranker, posterior)

@@ -7,9 +7,9 @@ import numpy as np
 import numpy.typing as npt
 
 from index.evaluation.report import Table
-from index.map_data import Queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
+from models.city.queries import Queries
 
 SIZES = (10, 20, 50, 100, 200, 500)  # of the candidate set
 SOURCES = ("vector search", "inverted list", "both, in turns")

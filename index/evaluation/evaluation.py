@@ -15,11 +15,12 @@ from index.evaluation.ambiguity import ambiguity
 from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
-from index.map_data import MapData, Progress, Queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
 from index.refinement import Refinement, Refiner
-from models.city.types import Floats
+from models.city.gallery import MapData
+from models.city.queries import Queries
+from models.city.types import Floats, Progress
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 

@@ -10,15 +10,15 @@ import numpy.typing as npt
 from index.evaluation.evaluation import predict
 from index.evaluation.report import Table
 from index.evaluation.scoring import score
-from index.gallery import Gallery
-from index.map_data import MapData, Progress, Queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
 from models.city.cells import CellTable, Parts
+from models.city.gallery import Gallery, MapData
 from models.city.hints import direction_index
 from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
-from models.city.types import DIRECTIONS, Direction, Floats, Hint
+from models.city.queries import Queries
+from models.city.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
 from models.language.grammar.labelled_text import Fact, LabelledText
 from models.language.grammar.typos import typos

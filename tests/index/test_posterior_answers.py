@@ -8,13 +8,13 @@ import torch
 from index.answers import Box, Circle, Prior, Query
 from index.evaluation.evaluation import evaluate
 from index.localizer import Localizer
-from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.posterior_answers import PosteriorAnswers
 from models.language.grammar.labelled_text import RELATIONS
 from models.language.parsed_hint import ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
+from models.posterior.surroundings import Surroundings
 
 SENTENCE = re.compile(r"The pose is (\S+) of a ([^.]+)\.")
 
@@ -42,14 +42,9 @@ def posterior_model(text_encoder):
 
 
 @pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file, None)
-
-
-@pytest.fixture(scope="module")
-def posterior(posterior_model, asked):
-    data, _ = asked
-    return MapPosterior(posterior_model, data.gallery, data.palette, data.around(lambda *_: None))
+def posterior(posterior_model, source):
+    data = source.data
+    return MapPosterior(posterior_model, data.gallery, data.palette, Surroundings.of(source.bodies(), data.cells))
 
 
 @pytest.fixture(scope="module")
@@ -124,15 +119,7 @@ def test_things_that_the_map_has_not_are_no_match(answers):
 def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_path):
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 40))
-    some = replace(
-        queries,
-        sentences=[queries.sentences[q] for q in rows],
-        positions_m=queries.positions_m[rows],
-        truth=queries.truth[rows],
-        scenes=[queries.scenes[q] for q in rows],
-        strategies=[queries.strategies[q] for q in rows],
-        hints=None,
-    )
+    some = replace(queries.take(rows), hints=None)
     report = evaluate(data, some, posterior, tmp_path, grow_m=[60, 120])
     assert report["retrieval"]["1"] > 0.4
     assert report["method"] == "posterior"

@@ -8,7 +8,6 @@ from index.answers import Query
 from index.evaluation.evaluation import evaluate
 from index.evaluation.predictions import FILE, Predictions
 from index.localizer import Localizer
-from index.map_data import load_queries
 from index.ranking import Ranker
 from index.refinement import Refinement
 from models.errors import WeightsError
@@ -30,11 +29,6 @@ class Told:
         assert len(descriptions) == len(rows) == len(self.positions_m)
         self.asked.append(rows)
         return (self.positions_m[:, None] - self.cells.center_m[rows, :2]) / self.cells.size_m + 0.5
-
-
-@pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file)
 
 
 @pytest.fixture(scope="module")
@@ -64,15 +58,7 @@ def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> N
 
 def test_refined_positions_are_saved_and_lie_in_their_cells(asked, ranker, regressor, tmp_path) -> None:
     data, queries = asked
-    part = dataclasses.replace(
-        queries,
-        sentences=queries.sentences[:9],
-        positions_m=queries.positions_m[:9],
-        truth=queries.truth[:9],
-        scenes=queries.scenes[:9],
-        strategies=queries.strategies[:9],
-        hints=None,
-    )
+    part = dataclasses.replace(queries.take(np.arange(9)), hints=None)
     evaluate(data, part, ranker, tmp_path, refiner=regressor)
     saved = Predictions.load(tmp_path / FILE)
     first = saved.ranked[:, : saved.predicted_m.shape[1]]

@@ -6,12 +6,12 @@ import torch
 
 from index.evaluation.candidates import SIZES, SOURCES, candidate_recall, candidate_table, in_turns
 from index.evaluation.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_table
-from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.ranking import Ranker
 from models.city.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel
+from models.posterior.surroundings import Surroundings
 
 HINTS = tuple(
     Hint(direction, label, colour)
@@ -20,11 +20,6 @@ HINTS = tuple(
         ("west", "building", "red"), ("on-top", "footpath", "gray"), ("north", "bollard", None),
     )
 )  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file, None)
 
 
 def test_trials_say_what_their_name_says(asked):
@@ -41,10 +36,10 @@ def test_trials_say_what_their_name_says(asked):
     assert free not in (" ".join(plain), " ".join(said["free wording, three typos"]))
 
 
-def test_hints_about_the_nearest_things_are_true(asked):
+def test_hints_about_the_nearest_things_are_true(source, asked):
     data, queries = asked
     some = queries.take(np.arange(0, len(queries), 3))
-    around = data.around(lambda *_: None)
+    around = Surroundings.of(source.bodies(), data.cells)
     told = nearest_hints(data, some.positions_m, some.truth, around, 12)
     assert 6 < max(map(len, told)) <= 12
     shared = [
@@ -56,14 +51,14 @@ def test_hints_about_the_nearest_things_are_true(asked):
     assert np.mean(shared) > 0.8, "the six nearest things are among the eight nearest"
 
 
-def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
+def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_encoder):
     torch.manual_seed(0)
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 6))
     some = queries.take(rows)
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
-    posterior = MapPosterior(untrained, data.gallery, data.palette, data.around(lambda *_: None))
+    posterior = MapPosterior(untrained, data.gallery, data.palette, Surroundings.of(source.bodies(), data.cells))
     found = robustness(data, some, ranker, posterior, lambda *_: None)
     head, table = robustness_table(found)
     assert len(table) == len(all_trials(data))
