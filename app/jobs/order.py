@@ -3,7 +3,7 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
@@ -15,9 +15,14 @@ from app.settings import Settings
 from index.answers import Refine
 from index.artifact import open_version
 from models.city.frame import Frame
+from models.city.queries import Queries
+from models.city.source import Source, open_source
 from models.city.types import Progress
 from models.errors import DataError
 from models.language.hints_text import split_hints
+
+if TYPE_CHECKING:  # torch takes seconds
+    from index.map_posterior import MapPosterior
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
 WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # of Settings and of Evaluation
@@ -63,13 +68,8 @@ class Evaluation(BaseModel):
 
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415
         from index.localizer import Localizer  # noqa: PLC0415
-        from index.map_posterior import MapPosterior  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
-        from models.city.queries import Queries  # noqa: PLC0415
-        from models.city.source import open_source  # noqa: PLC0415
         from models.localization.checkpoint import load_fine  # noqa: PLC0415
-        from models.posterior.model import load_posterior  # noqa: PLC0415
-        from models.posterior.surroundings import Surroundings  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         torch.set_num_threads(1)  # a model's last bits differ with their number; sentences are too short to need more
@@ -79,10 +79,8 @@ class Evaluation(BaseModel):
             progress("describe positions", 0, 0)
             data, queries = source.data, source.queries()
             if self.refine == "posterior":
-                model = load_posterior(self.posterior_weights_dir)
-                around = Surroundings.of(source.bodies(), data.cells, progress)
-                answerer = MapPosterior(model, data.gallery, data.palette, around)
-                return evaluate(data, queries, answerer, report_dir, self.grow_m, progress)
+                posterior = self._posterior(source, progress)
+                return evaluate(data, queries, posterior, report_dir, self.grow_m, progress)
             progress("encode cells", 0, 0)
             ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
             return evaluate(data, queries, ranker, report_dir, self.grow_m, progress, refiner)
@@ -109,11 +107,7 @@ class Evaluation(BaseModel):
         from index.evaluation.candidates import candidate_recall, candidate_table  # noqa: PLC0415
         from index.evaluation.report import as_markdown  # noqa: PLC0415
         from index.evaluation.robustness import robustness, robustness_table, some_of  # noqa: PLC0415
-        from index.map_posterior import MapPosterior  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
-        from models.city.source import open_source  # noqa: PLC0415
-        from models.posterior.model import load_posterior  # noqa: PLC0415
-        from models.posterior.surroundings import Surroundings  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         if self.data is None:
@@ -125,9 +119,7 @@ class Evaluation(BaseModel):
         progress("describe positions", 0, 0)
         data, queries = source.data, source.queries()
         ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
-        model = load_posterior(self.posterior_weights_dir)
-        around = Surroundings.of(source.bodies(), data.cells, progress)
-        posterior = MapPosterior(model, data.gallery, data.palette, around)
+        posterior = self._posterior(source, progress)
         trials = robustness(data, queries, ranker, posterior, progress)
         some = some_of(queries)
         candidates = candidate_recall(some, ranker, posterior)
@@ -145,6 +137,15 @@ class Evaluation(BaseModel):
             tables = robustness_table(trials), candidate_table(candidates)
             (report_dir / "robustness.md").write_text("\n\n".join(as_markdown(table) for table in tables) + "\n")
         return found
+
+    def _posterior(self, source: Source, progress: Progress) -> "MapPosterior":
+        from index.map_posterior import MapPosterior  # noqa: PLC0415
+        from models.posterior.model import load_posterior  # noqa: PLC0415
+        from models.posterior.surroundings import Surroundings  # noqa: PLC0415
+
+        model = load_posterior(self.posterior_weights_dir)
+        around = Surroundings.of(source.bodies(), source.data.cells, progress)
+        return MapPosterior(model, source.data.gallery, source.data.palette, around)
 
     def public(self, message: str) -> str:
         """A message without the directories of the machine."""

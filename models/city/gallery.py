@@ -6,13 +6,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import load_file, save_file
 
 from models.city.cells import CellTable, Parts
 from models.city.colours import Palette
 from models.city.frame import Frame
-from models.city.types import CityMap
+from models.city.points import Ints
+from models.city.types import CityMap, Floats
 from models.errors import IndexBroken
 
 CELLS_FILE = "cells.safetensors"
@@ -102,3 +104,24 @@ class MapData:
     def cells(self) -> CellTable:
         """The cells."""
         return self.gallery.cells
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bodies:
+    """The instances of a map (or of several scenes) with all their points.
+
+    Attributes:
+        xyz: [P, 3] float32 metres, ordered by instance.
+        starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
+        is_thing: [I] bool, True for what is mentioned only where a share of it is near (`thing_share`).
+        scene: [I] number of the scene of each.
+        part_instance: [R] instance of each row of the cells' parts.
+        thing_share: see `CutRules`.
+    """
+
+    xyz: Floats
+    starts: Ints
+    is_thing: npt.NDArray[np.bool_]
+    scene: Ints
+    part_instance: Ints
+    thing_share: float

@@ -15,8 +15,8 @@ from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 from scipy.spatial import cKDTree
 
-from models.city.bodies import Bodies
 from models.city.cells import CellTable
+from models.city.gallery import Bodies
 from models.city.hints import BEST_CELL_REACH_M, HINT_REACH_M
 from models.city.points import Ints, ranges
 from models.city.processes import map_forked

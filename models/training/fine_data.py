@@ -13,7 +13,8 @@ from torch import Tensor
 from models.city.cells import CellTable
 from models.city.gallery import Gallery
 from models.city.points import Ints
-from models.city.queries import APART_M, Queries
+from models.city.queries import Queries
+from models.city.source import APART_M
 from models.city.types import Floats
 from models.localization.fine_model import FineModel, Truth
 from models.retrieval.instance_encoder import CellBatch, CellFeatures

@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from models.city.kitti360.job import prepare_data
-from models.city.queries import Queries, Statements
+from models.city.queries import Queries
 from models.city.source import open_source
 from models.city.store.files import load_data
 from models.localization.checkpoint import FINE_METHODS, load_fine
@@ -145,9 +145,9 @@ def test_matches_name_the_instances_that_the_store_says(store_set, data_set) -> 
     assert right / known > 0.9, "parts of one instance may be told apart wrongly, others not"
 
 
-def test_both_methods_overfit_a_few_positions(city, points, source, text_encoder) -> None:
+def test_both_methods_overfit_a_few_positions(city, source, text_encoder) -> None:
     positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 12, replace=False)]
-    training = TrainingSet(Statements.of_map(city, points, source.data.gallery, positions), text_encoder)
+    training = TrainingSet(source.statements_at(positions), text_encoder)
     examples = FineSet(training, pmc=False).batch(12, np.random.default_rng(0))
     for method, config in (
         ("regressor", RegressorConfig(width=32, dropout=0.0)),
