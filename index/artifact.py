@@ -17,6 +17,8 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from models.city.kitti360pose.files import list_scenes, select_scenes
+from models.city.store.files import MANIFEST as STORE_MANIFEST
 from models.errors import IndexBroken, IndexMismatch
 from models.files import FileRecord, replace_file, sha256
 
@@ -73,6 +75,22 @@ class Manifest(BaseModel):
     cells: int
     instances: int
     files: dict[str, FileRecord]
+
+
+def fingerprint(data: Path, split: str | None = None) -> str:
+    """sha256 of what a map is read from.
+
+    Raises:
+        DataError: there is nothing to read.
+    """
+    if data.is_file():
+        files = [data]
+    elif (data / STORE_MANIFEST).is_file():
+        files = [data / STORE_MANIFEST]  # has the sums of all others
+    else:
+        files = [data / "cells" / f"{s}.pkl" for s in select_scenes(list_scenes(data), split, data / "cells")]
+    parts = [f"{split}", *(f"{path.name} {sha256(path)}" for path in files)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 def new_version(map_sha256: str, model_fingerprint: str) -> dict[str, str]:

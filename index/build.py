@@ -6,16 +6,20 @@ from index.artifact import (
     FrameRecord,
     Manifest,
     check_model,
+    fingerprint,
     new_version,
     open_version,
     set_alias,
     write_manifest,
 )
 from index.hint_features import save_hint_features, template_hints
-from index.map_data import MapData, Progress, fingerprint, load_map
 from index.ranking import Ranker
+from models.city.gallery import MapData
+from models.city.source import open_source
+from models.city.types import Progress
 from models.errors import IndexUnusable
 from models.files import file_records, new_directory
+from models.posterior.surroundings import Surroundings
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever
@@ -33,10 +37,10 @@ def build_index(
     """Build an index version of a map and let the alias "default" name it.
 
     Args:
-        map_path: as `index.map_data.load_map`.
+        map_path: as `models.city.source.open_sources`.
         out_dir: index directory; older versions in it are kept.
         weights_dir: the retriever's weights; None for those that ship with the package.
-        split: as `index.map_data.load_map`.
+        split: as `models.city.source.open_sources`.
         keep_current: build nothing if the default version is of this map and this model.
         levels: keep the retriever's other levels too: `refine` none and regressor rank by them, the default does not.
         progress: called as the work goes on.
@@ -54,10 +58,11 @@ def build_index(
     current = _current(out_dir, map_path, split, retriever, levels) if keep_current else None
     if current:
         return current
-    data = load_map(map_path, split, report)
+    source = open_source(map_path, split, report)
+    data = source.data
     report("encode cells", 0, 0)
     ranker = Ranker.of(retriever, data.cells, data.gallery.labels, with_levels=levels)
-    surroundings = data.around(report)
+    surroundings = Surroundings.of(source.bodies(), data.cells, report)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
     with new_directory(out_dir / origin["version"]) as directory:

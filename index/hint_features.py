@@ -7,11 +7,11 @@ import numpy as np
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 
-from index.gallery import Gallery
 from models.city.colours import Palette
+from models.city.gallery import Gallery
+from models.city.templates import render_hint
 from models.city.types import DIRECTIONS, Hint
 from models.errors import IndexBroken
-from models.language.hints_text import render_hint
 from models.retrieval.retriever import Retriever
 
 FILE = "hints.safetensors"

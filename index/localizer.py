@@ -9,14 +9,13 @@ import numpy as np
 from index.answers import Answer, CellDetail, CellInstance, IndexFacts, LatLon, ModelName, Query, Refine
 from index.artifact import Manifest, check_model, open_version
 from index.finding import CellLocalizer, to_answer
-from index.gallery import Gallery
 from index.hint_features import load_hint_features
-from index.map_data import MapData
 from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer, raw_sentences
 from models.city.colours import PALETTES
 from models.city.frame import Frame
+from models.city.gallery import Gallery, MapData
 from models.city.types import Floats
 from models.localization.checkpoint import load_fine
 from models.localization.fine_model import FineModel

@@ -13,16 +13,15 @@ import torch
 from index.answers import Evidence, Method, ModelName, Query
 from index.filters import inside, log_prior
 from index.finding import Finding
-from index.gallery import Gallery
-from index.map_data import MapData
 from index.ranking import Ranker
 from models.city.colours import Palette
 from models.city.frame import Frame
+from models.city.gallery import Gallery, MapData
 from models.city.points import ranges
-from models.language.hints_text import reader_texts
 from models.language.landmarks import Landmarks
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
+from models.language.sentences import reader_texts
 from models.localization.located import Located
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading

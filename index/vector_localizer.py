@@ -10,13 +10,12 @@ from scipy.special import logsumexp
 from index.answers import Method, ModelName, Query
 from index.filters import inside, log_prior
 from index.finding import NOWHERE, Finding
-from index.gallery import Gallery
-from index.map_data import MapData
 from index.ranking import Ranker
 from models.city.frame import Frame
+from models.city.gallery import Gallery, MapData
 from models.city.points import Ints
 from models.city.types import Floats
-from models.language.hints_text import split_hints
+from models.language.sentences import split_hints
 from models.localization.fine_model import FineModel
 from models.localization.located import Located
 from models.retrieval.instance_encoder import CellFeatures

@@ -13,8 +13,11 @@ import torch
 from index.build import build_index
 from index.localizer import Localizer
 from models.city.cells import CellTable, cut_cells
+from models.city.gallery import MapData
 from models.city.osm.map import load_osm
 from models.city.points import PointTable
+from models.city.queries import Queries
+from models.city.source import MapSource
 from models.city.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
@@ -95,6 +98,24 @@ def points(city: CityMap) -> PointTable:
 @pytest.fixture(scope="session")
 def cells(city: CityMap, points: PointTable) -> CellTable:
     return cut_cells(city, points)
+
+
+@pytest.fixture(scope="session")
+def source(osm_file: Path, city: CityMap, points: PointTable, cells: CellTable) -> MapSource:
+    """As `open_source` gives it."""
+    return MapSource(osm_file, city, points, cells)
+
+
+@pytest.fixture(scope="session")
+def regions(osm_file: Path, city: CityMap, points: PointTable, cells: CellTable) -> list[MapSource]:
+    """The west to train on, and the strip beside it to choose by."""
+    return [MapSource(osm_file, city, points, cells, split) for split in ("train", "val")]
+
+
+@pytest.fixture(scope="session")
+def asked(source: MapSource) -> tuple[MapData, Queries]:
+    """The town, and what it is asked."""
+    return source.data, source.queries()
 
 
 @pytest.fixture(scope="session")

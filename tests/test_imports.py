@@ -59,7 +59,7 @@ def test_what_serves_knows_the_lexicon_and_no_grammar(path: Path) -> None:
 
 def test_the_city_model_loads_without_torch() -> None:
     code = """
-import sys, models.city.osm.map, models.city.hints, models.training.metrics, index.answers
+import sys, models.city.source, models.training.metrics, index.answers
 sys.exit("torch" in sys.modules)
 """
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0

@@ -105,7 +105,7 @@ def localize(
     from app.settings import load_settings
     from index.answers import Query
     from index.localizer import Localizer
-    from models.language.hints_text import split_hints
+    from models.language.sentences import split_hints
 
     split_hints(text)  # or DescriptionError, before anything is loaded
     query = Query(text, top_k=top_k, refine=refine)

@@ -19,7 +19,7 @@ from pydantic_core import PydanticCustomError
 from app.settings import Settings
 from index.answers import DEFAULT_REFINE, DEFAULT_TOP_K, Box, Circle, Crs, Prior, Query, Refine
 from models.errors import DescriptionError
-from models.language.hints_text import split_hints
+from models.language.sentences import split_hints
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
 EVALUATE_EXAMPLE: JsonValue = {

@@ -1,7 +1,7 @@
 """An evaluation as it is asked for, in a request or in a file, and the work itself; HTTP and command line share it."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,15 +15,15 @@ from app.settings import Settings
 from index.answers import DEFAULT_REFINE, Refine
 from index.artifact import open_version
 from models.city.frame import Frame
+from models.city.queries import Queries
+from models.city.source import Source, open_source
+from models.city.types import Progress
 from models.errors import DataError
 
 if TYPE_CHECKING:
     from index.finding import CellLocalizer
-    from index.map_data import MapData
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
-Progress = Callable[[str, int, int], None]
-
 WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # of Settings and of Evaluation
 
 
@@ -35,7 +35,7 @@ class Evaluation(BaseModel):
         grow_m: radii of a growing gallery.
         refine: what finds positions inside the retrieved cells.
         fine_weights_dir, posterior_weights_dir: its model, as weights_dir.
-        data, split: as `index.map_data.load_queries`; None for queries of one's own.
+        data, split: as `models.city.source.open_sources`; None for queries of one's own.
         index_dir: an index directory or a version of it, which queries of one's own are asked of.
         descriptions, positions_m: what was said, and where, map frame.
     """
@@ -65,36 +65,44 @@ class Evaluation(BaseModel):
         """
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415  # brings torch, which takes seconds
         from index.localizer import Localizer  # noqa: PLC0415
-        from index.map_data import ask, load_queries  # noqa: PLC0415
 
         if self.data is not None:
-            data, queries = load_queries(self.data, self.split, progress)
-            return evaluate(data, queries, self._localizer(data, progress), report_dir, self.grow_m, progress)
+            source, queries = self._open(progress)
+            return evaluate(source.data, queries, self._localizer(source, progress), report_dir, self.grow_m, progress)
         assert self.index_dir is not None
         progress("open index", 0, 0)
         dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
         localizer = Localizer.open(self.index_dir, *dirs)
         data = localizer.map_data()
-        queries = ask(data.cells, self.descriptions, np.array(self.positions_m))
+        sentences = [(description,) for description in self.descriptions]
+        queries = Queries.of_text(sentences, np.array(self.positions_m), data.cells)
         answering = localizer.posterior if self.refine == "posterior" else localizer.by_vectors(self.refine).raw()
         return evaluate(data, queries, answering, report_dir, self.grow_m, progress)
 
-    def _localizer(self, data: "MapData", progress: Progress) -> "CellLocalizer":
+    def _open(self, progress: Progress) -> tuple[Source, Queries]:
+        assert self.data is not None
+        source = open_source(self.data, self.split, progress)
+        progress("describe positions", 0, 0)
+        return source, source.queries()
+
+    def _localizer(self, source: Source, progress: Progress) -> "CellLocalizer":
         """What is evaluated, made for a data set; retrievers are given raw text and all their levels."""
         from index.posterior_localizer import PosteriorLocalizer  # noqa: PLC0415
         from index.ranking import Ranker  # noqa: PLC0415
         from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
         from models.localization.checkpoint import load_fine  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
+        from models.posterior.surroundings import Surroundings  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         progress("encode cells", 0, 0)
-        is_posterior = self.refine == "posterior"
+        data, is_posterior = source.data, self.refine == "posterior"
         retriever = load_retriever(self.weights_dir)
         ranker = Ranker.of(retriever, data.cells, data.gallery.labels, with_levels=not is_posterior)
         if is_posterior:
             model = load_posterior(self.posterior_weights_dir)
-            return PosteriorLocalizer.of_map(model, data, ranker, data.around(progress))
+            surroundings = Surroundings.of(source.bodies(), data.cells, progress)
+            return PosteriorLocalizer.of_map(model, data, ranker, surroundings)
         refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
         return VectorLocalizer.of_map(data, ranker, refiner)
 
@@ -110,20 +118,21 @@ class Evaluation(BaseModel):
         """
         from index.evaluation.report import as_markdown  # noqa: PLC0415  # brings torch, which takes seconds
         from index.evaluation.robustness import robustness, robustness_tables, some_of  # noqa: PLC0415
-        from index.map_data import load_queries  # noqa: PLC0415
 
         if self.data is None:
             raise DataError(
                 "--robustness needs a data set or a map: nobody knows what the hints of one's own text mean"
             )
-        data, queries = load_queries(self.data, self.split, progress)
-        of = {how: self.model_copy(update={"refine": how})._localizer(data, progress) for how in ("none", "posterior")}
+        source, queries = self._open(progress)
+        vectors, posterior = (
+            self.model_copy(update={"refine": how})._localizer(source, progress) for how in ("none", "posterior")
+        )
         found: dict[str, Any] = {
-            "data": data.name,
-            "split": data.split,
+            "data": source.data.name,
+            "split": source.data.split,
             "queries": len(some_of(queries)),
-            "cells": len(data.cells),
-            **robustness(data, queries, of["none"], of["posterior"], progress),
+            "cells": len(source.data.cells),
+            **robustness(source.data, queries, vectors, posterior, progress),
         }
         if report_dir:
             report_dir.mkdir(parents=True, exist_ok=True)

@@ -16,8 +16,9 @@ from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
 from index.finding import CellLocalizer
-from index.map_data import MapData, Progress, Queries
-from models.city.types import Floats
+from models.city.gallery import MapData
+from models.city.queries import Queries
+from models.city.types import Floats, Progress
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 

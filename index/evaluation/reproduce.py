@@ -14,11 +14,15 @@ from typing import Any
 import numpy as np
 import torch
 
+from index.artifact import fingerprint
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate
-from index.map_data import MapData, Progress, Queries, fingerprint, load_queries
 from index.ranking import RERANKED, Ranker
 from index.vector_localizer import VectorLocalizer
+from models.city.gallery import MapData
+from models.city.queries import Queries
+from models.city.source import open_source
+from models.city.types import Progress
 from models.files import replace_file
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineModel
@@ -29,7 +33,7 @@ from models.training.experiments import FINE, GROWTH, MNCL, Run, Scale, runs_of
 from models.training.fit_fine import train_fine
 from models.training.fit_retriever import train_retriever
 from models.training.settings import load_settings
-from models.training.sources import load_source
+from models.training.training_data import load_training
 
 RESULT_FILE, LOCALIZATION_FILE, WEIGHTS_DIR, RUN_DIR = "result.json", "localization.json", "weights", "run"
 RANKINGS = {"global level alone": 0, f"global, then all levels on {RERANKED}": RERANKED, "all levels on all cells": -1}
@@ -136,7 +140,7 @@ def _do(job: Job) -> None:
     given: Any = model, config, job.directory / RUN_DIR, True
 
     def load(encoder: Any, rng: np.random.Generator) -> list[Any]:
-        return [load_source(job.data, encoder, config, rng, ("train", CHOSEN_BY))]
+        return [load_training(job.data, ("train", CHOSEN_BY), encoder, config, rng)]
 
     is_fine = job.run.method in FINE_METHODS
     if is_fine:
@@ -237,13 +241,14 @@ def _localized(job: Job, fine_job: Job) -> dict[str, Any] | None:
 
 def _queries(data: Path, split: str) -> tuple[MapData, Queries]:
     """A split without the hints behind its sentences: exact matching is measured once, in `_facts`."""
-    found, queries = load_queries(data, split)
-    return found, replace(queries, hints=None)
+    source = open_source(data, split)
+    return source.data, replace(source.queries(), hints=None)
 
 
 def _facts(data: Path) -> dict[str, Any]:
     """What the test scenes are, and what can be had there at all."""
-    found, queries = load_queries(data, TEST)
+    source = open_source(data, TEST)
+    queries = source.queries()
     assert queries.hints is not None
-    exact = ambiguity(found, queries, queries.hints)
-    return {"cells": len(found.cells), "queries": len(queries), "exact_matching": exact["exact_matching"]}
+    exact = ambiguity(source.data, queries, queries.hints)
+    return {"cells": len(source.data.cells), "queries": len(queries), "exact_matching": exact["exact_matching"]}

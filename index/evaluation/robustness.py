@@ -12,21 +12,21 @@ from index.evaluation.evaluation import predict
 from index.evaluation.report import Table
 from index.evaluation.scoring import score
 from index.finding import CellLocalizer
-from index.gallery import Gallery
-from index.map_data import MapData, Progress, Queries
 from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.city.cells import CellTable, Parts
+from models.city.gallery import Gallery, MapData
 from models.city.hints import direction_index
 from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
-from models.city.types import DIRECTIONS, Direction, Floats, Hint
+from models.city.queries import Queries
+from models.city.templates import TEMPLATES, render_hint
+from models.city.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
 from models.language.grammar.labelled_text import Fact, LabelledText
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
-from models.language.hints_text import TEMPLATES, render_hint
 from models.posterior.surroundings import STEP_M, Surroundings
 
 TEMPLATE, FREE = CANDIDATES_OF = ("template text", "free wording, unseen grammar")

@@ -7,8 +7,8 @@ import torch
 from torch import Tensor
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
+from models.city.templates import render_hint
 from models.city.types import DIRECTIONS, Hint
-from models.language.hints_text import render_hint
 from models.language.labels import BoundLabels, LabelMatcher
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS

@@ -17,7 +17,7 @@ from models.training.engine.loop import History, Progress, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
 from models.training.retrieval_data import HintVocabulary
 from models.training.settings import TrainingConfig, settings_record
-from models.training.sources import Source
+from models.training.training_data import TrainingData
 
 
 class FineTask:
@@ -35,7 +35,7 @@ class FineTask:
 
     criterion = "within_5m"
 
-    def __init__(self, model: FineModel, sources: Sequence[Source], batch_size: int, pmc: bool = True) -> None:
+    def __init__(self, model: FineModel, sources: Sequence[TrainingData], batch_size: int, pmc: bool = True) -> None:
         self.model, self.sources, self.share = model, sources, distributed.share_of(batch_size)
         self.sets = [FineSet(source.training, pmc) for source in sources]
         sizes = np.array([len(source.training) for source in sources])
@@ -44,7 +44,7 @@ class FineTask:
     @cached_property
     def validations(self) -> list[FineValidation]:
         """Of each source; the first process alone asks for them."""
-        return [FineValidation.of(source.queries) for source in self.sources]
+        return [FineValidation.of(source.gallery, source.queries) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
         """Which source, and examples of it."""
@@ -78,7 +78,7 @@ def hint_features(model: FineModel, vocabulary: HintVocabulary, batch: FineBatch
 
 
 def train_fine(
-    load: Callable[[TextEncoder, np.random.Generator], Sequence[Source]],
+    load: Callable[[TextEncoder, np.random.Generator], Sequence[TrainingData]],
     out: Path,
     method: str,
     model: FineConfig,
@@ -136,7 +136,7 @@ def _finish(task: FineTask, out: Path, config: TrainingConfig, history: History)
     return _mean(figures)
 
 
-def _facts(source: Source, validation: FineValidation, figures: dict[str, float]) -> dict[str, Any]:
+def _facts(source: TrainingData, validation: FineValidation, figures: dict[str, float]) -> dict[str, Any]:
     measured = {"queries": len(validation.rows), "cell_center": validation.center_figures()} | figures
     return source.facts | {"positions": len(source.training), "validation": measured}
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import torch
 
+from models.city.source import CHOSEN_BY, open_sources
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
 from models.posterior.likelihood import Likelihood
@@ -15,7 +16,7 @@ from models.posterior.model import PosteriorConfig, PosteriorModel, save_posteri
 from models.training.engine.loop import Progress, run_training
 from models.training.fit_likelihood import Texts, fit_likelihood
 from models.training.fit_reader import ReadingSet, ReadingTask, reading_figures
-from models.training.places import Place, load_place
+from models.training.places import Place
 from models.training.settings import TrainingConfig, settings_record
 
 TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chosen by
@@ -45,7 +46,7 @@ def train_posterior(
     """Train, calibrate on validation places, save.
 
     Args:
-        data: maps and data sets, see `load_place`; nothing of them is needed to train the reader.
+        data: maps and data sets, see `open_sources`; nothing of them is needed to train the reader.
         splits: what the likelihood is fitted to, and what it is calibrated on.
         out: directory for model.safetensors and config.json.
         model: shape of the reader.
@@ -59,7 +60,7 @@ def train_posterior(
 
     Raises:
         TrainingError: see `run_training`.
-        MapError, DataError: see `load_place`.
+        MapError, DataError: see `open_sources`.
     """
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
@@ -86,8 +87,9 @@ def fit_and_save(
     """What is left to do when the reader is trained; arguments and return as `train_posterior`."""
     trained.eval()
     rng = np.random.default_rng(config.seed)
-    fitted = fit_places(trained, [load_place(path, splits[0]) for path in data], rng)
-    measured = calibrate_places(trained, [load_place(path, splits[1]) for path in data], rng)
+    places = [[Place.of(source, source.queries(CHOSEN_BY)) for source in open_sources(path, splits)] for path in data]
+    fitted = fit_places(trained, [of_fit for of_fit, _ in places], rng)
+    measured = calibrate_places(trained, [of_check for _, of_check in places], rng)
     figures = reading_figures(trained.reader, validation) | measured
     facts: dict[str, Any] = {
         "config": config.model_dump(mode="json"),

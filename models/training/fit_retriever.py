@@ -16,12 +16,12 @@ from models.training.engine.loop import History, Progress, run_training
 from models.training.fit_points import train_points
 from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig, settings_record
-from models.training.sources import Source
+from models.training.training_data import TrainingData
 from models.training.validation import Validation, mean_recall
 
 
 def train_retriever(
-    load: Callable[[TextEncoder, np.random.Generator], Sequence[Source]],
+    load: Callable[[TextEncoder, np.random.Generator], Sequence[TrainingData]],
     out: Path,
     method: type[Retriever],
     model: RetrieverConfig,
@@ -67,7 +67,7 @@ def train_retriever(
 
 def _look_at_points(
     retriever: Retriever,
-    sources: Sequence[Source],
+    sources: Sequence[TrainingData],
     config: TrainingConfig,
     run_dir: Path | None,
     resume: bool,
@@ -106,6 +106,6 @@ def _finish(
     return mean_recall(recalls)
 
 
-def _facts(source: Source, validation: Validation, recall: dict[int, float]) -> dict[str, Any]:
+def _facts(source: TrainingData, validation: Validation, recall: dict[int, float]) -> dict[str, Any]:
     size = {"cells": len(validation.features), "queries": len(validation.truth)}
     return source.facts | {"positions": len(source.training), "validation": size | {"retrieval": recall}}

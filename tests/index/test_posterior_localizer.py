@@ -9,12 +9,12 @@ from index.answers import Box, Circle, Prior, Query
 from index.evaluation.evaluation import evaluate
 from index.finding import to_answer
 from index.localizer import Localizer
-from index.map_data import load_queries
 from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
+from models.posterior.surroundings import Surroundings
 
 SENTENCE = re.compile(r"The pose is (\S+) of a ([^.]+)\.")
 
@@ -43,15 +43,10 @@ def posterior_model(text_encoder):
 
 
 @pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file, None)
-
-
-@pytest.fixture(scope="module")
-def posterior(posterior_model, model, asked):
-    data, _ = asked
+def posterior(posterior_model, model, source):
+    data = source.data
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
-    return PosteriorLocalizer.of_map(posterior_model, data, ranker, data.around(lambda *_: None))
+    return PosteriorLocalizer.of_map(posterior_model, data, ranker, Surroundings.of(source.bodies(), data.cells))
 
 
 @pytest.fixture(scope="module")
@@ -130,15 +125,7 @@ def test_things_that_the_map_has_not_are_no_match(answer):
 def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_path):
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 40))
-    some = replace(
-        queries,
-        sentences=[queries.sentences[q] for q in rows],
-        positions_m=queries.positions_m[rows],
-        truth=queries.truth[rows],
-        scenes=[queries.scenes[q] for q in rows],
-        strategies=[queries.strategies[q] for q in rows],
-        hints=None,
-    )
+    some = replace(queries.take(rows), hints=None)
     report = evaluate(data, some, posterior, tmp_path, grow_m=[60, 120])
     assert report["retrieval"]["1"] > 0.4
     assert report["method"] == "posterior"

@@ -8,7 +8,6 @@ from index.answers import Circle, Query
 from index.evaluation.evaluation import evaluate
 from index.evaluation.predictions import FILE, Predictions
 from index.localizer import Localizer
-from index.map_data import load_queries
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.errors import WeightsError
@@ -31,11 +30,6 @@ class Told:
         positions = self.positions_m[self.asked : self.asked + len(rows)]  # they are asked in order, some at a time
         self.asked += len(rows)
         return (positions[:, None] - self.cells.center_m[rows, :2]) / self.cells.size_m + 0.5
-
-
-@pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file)
 
 
 @pytest.fixture(scope="module")
@@ -65,15 +59,7 @@ def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> N
 
 def test_refined_positions_are_saved_and_lie_in_their_cells(asked, ranker, regressor, tmp_path) -> None:
     data, queries = asked
-    part = dataclasses.replace(
-        queries,
-        sentences=queries.sentences[:9],
-        positions_m=queries.positions_m[:9],
-        truth=queries.truth[:9],
-        scenes=queries.scenes[:9],
-        strategies=queries.strategies[:9],
-        hints=None,
-    )
+    part = dataclasses.replace(queries.take(np.arange(9)), hints=None)
     evaluate(data, part, VectorLocalizer.of_map(data, ranker, regressor), tmp_path)
     saved = Predictions.load(tmp_path / FILE)
     first = saved.ranked[:, : saved.predicted_m.shape[1]]

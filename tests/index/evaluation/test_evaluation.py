@@ -7,17 +7,13 @@ import pytest
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate, grow, rescore
 from index.evaluation.predictions import FILE, Predictions
-from index.map_data import ask, load_map, load_queries
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.city.hints import hint_table
+from models.city.queries import Queries
+from models.city.source import open_source
 from models.city.types import DIRECTIONS
-from models.errors import DataError, MapError
-
-
-@pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file)
+from models.errors import DataError
 
 
 @pytest.fixture(scope="module")
@@ -120,7 +116,7 @@ def test_another_scene_is_never_a_hit(run_dir) -> None:
 def test_a_query_far_from_every_cell_is_asked_and_missed(asked, vectors) -> None:
     data, queries = asked
     positions = queries.positions_m[:2] + np.array([[0, 0], [1e4, 0]])
-    own = ask(data.cells, queries.sentences[:2], positions)
+    own = Queries.of_text(queries.sentences[:2], positions, data.cells)
     assert own.truth.tolist() == [queries.truth[0], -1]
     found = evaluate(data, own, vectors)
     assert found["queries_without_cell"] == 1
@@ -142,17 +138,9 @@ def test_broken_predictions_are_refused(run_dir, tmp_path) -> None:
         rescore(tmp_path)
 
 
-def test_regions_ask_only_about_themselves(osm_file, asked) -> None:
-    data, queries = load_queries(osm_file, "test")
-    assert 0 < len(queries) < len(asked[1])
-    assert queries.positions_m[:, 0].min() > data.cells.center_m[:, 0].min() - 15
-    assert load_map(osm_file, "test").cells.ids == data.cells.ids
-    with pytest.raises(MapError, match="no split"):
-        load_map(osm_file, "east")
-
-
 def test_exact_matching_against_a_naive_count(osm_file) -> None:
-    data, queries = load_queries(osm_file, "val")
+    val = open_source(osm_file, "val")
+    data, queries = val.data, val.queries()
     assert queries.hints
     hints, truths = queries.hints[::9], queries.truth[::9]
     table = hint_table(data.palette, data.cells.parts, data.cells.center_m)

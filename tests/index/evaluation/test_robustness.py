@@ -6,13 +6,13 @@ import torch
 
 from index.evaluation.candidates import SIZES, SOURCES, candidate_recall
 from index.evaluation.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_tables
-from index.map_data import load_queries
 from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.city.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel
+from models.posterior.surroundings import Surroundings
 
 HINTS = tuple(
     Hint(direction, label, colour)
@@ -21,11 +21,6 @@ HINTS = tuple(
         ("west", "building", "red"), ("on-top", "footpath", "gray"), ("north", "bollard", None),
     )
 )  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file, None)
 
 
 def test_trials_say_what_their_name_says(asked):
@@ -42,10 +37,10 @@ def test_trials_say_what_their_name_says(asked):
     assert free not in (" ".join(plain), " ".join(said["free wording, three typos"]))
 
 
-def test_hints_about_the_nearest_things_are_true(asked):
+def test_hints_about_the_nearest_things_are_true(source, asked):
     data, queries = asked
     some = queries.take(np.arange(0, len(queries), 3))
-    around = data.around(lambda *_: None)
+    around = Surroundings.of(source.bodies(), data.cells)
     told = nearest_hints(data, some.positions_m, some.truth, around, 12)
     assert 6 < max(map(len, told)) <= 12
     shared = [
@@ -57,14 +52,14 @@ def test_hints_about_the_nearest_things_are_true(asked):
     assert np.mean(shared) > 0.8, "the six nearest things are among the eight nearest"
 
 
-def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
+def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_encoder):
     torch.manual_seed(0)
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 6))
     some = queries.take(rows)
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
-    posterior = PosteriorLocalizer.of_map(untrained, data, ranker, data.around(lambda *_: None))
+    posterior = PosteriorLocalizer.of_map(untrained, data, ranker, Surroundings.of(source.bodies(), data.cells))
     vectors = VectorLocalizer.of_map(data, ranker)
     found = robustness(data, some, vectors, posterior, lambda *_: None)
     (head, table), *of_candidates = robustness_tables(found)
