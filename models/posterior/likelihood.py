@@ -1,4 +1,4 @@
-"""How likely a description is at a position (method.md, the hint posterior)."""
+"""How likely a description is at a position (docs/method.md, the hint posterior)."""
 
 from dataclasses import dataclass, field
 from typing import Final

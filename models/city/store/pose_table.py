@@ -47,5 +47,5 @@ class PoseTable:
         )
 
     def text(self, q: int) -> str:
-        """The description of pose q in the published words (kitti360pose.md, rule 8)."""
+        """The description of pose q in the published words (docs/formats.md, rule 8)."""
         return " ".join(f"The pose is {h.direction} of a {h.colour} {h.label}." for h in self.hints(q))
