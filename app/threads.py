@@ -7,25 +7,15 @@ from pathlib import Path
 THREAD_VARIABLES = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 
 
-def set_thread_env(environ: MutableMapping[str, str] = os.environ) -> int:
-    """Set the thread variables to the CPUs this process may use; what the operator has set stays.
+def set_thread_env(threads: int = 1, environ: MutableMapping[str, str] = os.environ) -> None:
+    """Set the thread variables; what the operator has set stays.
 
+    One thread a process is the default: a description is small work, and its many parallel regions would each wait for
+    a thread that a busy neighbour keeps from running. Other CPUs are for other processes and other requests.
     OMP_NUM_THREADS, where it is set, speaks for the others too.
-
-    Returns:
-        The CPUs this process may use, at least 1.
     """
-    cpus = usable_cpus()
     for name in THREAD_VARIABLES:
-        environ.setdefault(name, environ.get("OMP_NUM_THREADS", str(cpus)))
-    return cpus
-
-
-def halve_thread_env(environ: MutableMapping[str, str] = os.environ) -> None:
-    """Half the threads, for work beside a service: two processes that each use all CPUs wait for each other."""
-    half = max(1, set_thread_env(environ) // 2)
-    for name in THREAD_VARIABLES:
-        environ[name] = str(half)
+        environ.setdefault(name, environ.get("OMP_NUM_THREADS", str(threads)))
 
 
 def usable_cpus(root: Path = Path("/")) -> int:

@@ -45,11 +45,11 @@ app = typer.Typer(
 
 
 @app.callback()
-def before() -> None:
+def before(context: typer.Context) -> None:
     """Before any command, and so before torch is imported, which reads the number of threads once."""
-    from app.threads import set_thread_env
+    from app.threads import set_thread_env, usable_cpus
 
-    set_thread_env()
+    set_thread_env(usable_cpus() if context.invoked_subcommand == "train" else 1)
 
 
 @app.command()

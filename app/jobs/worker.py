@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TextIO
 
 from app.jobs.order import Evaluation
-from app.threads import halve_thread_env
+from app.threads import set_thread_env
 from models.errors import HereaboutsError
 
 ORDER, REPORT = "evaluation.json", "report"
@@ -53,7 +53,7 @@ def main(job_dir: Path) -> int:
     """
     threading.Thread(target=_die_with_the_service, daemon=True).start()
     os.nice(NICENESS)
-    halve_thread_env()
+    set_thread_env()
     lines = Lines(_take_stdout())
     evaluation = Evaluation.model_validate_json((job_dir / ORDER).read_bytes())
     try:

@@ -22,6 +22,7 @@ COLOURS: Final = (
     "yellow", "blue", "purple", "pink",
 )  # fmt: skip
 REACH = 5  # tokens that a convolution sees
+FARTHEST_M = 1e5  # no map is so wide: what is said to be farther off is no distance
 _UNITS = {"m": 1.0, "met": 1.0, "ft": 0.3048, "f": 0.3048, "y": 0.9144, "s": 0.75, "p": 0.75}
 _WORDS = (
     "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve",
@@ -192,7 +193,8 @@ def said_distances(text: str, places: Sequence[tuple[int, int]]) -> list[float |
             nearest = min(inside, key=lambda n: max(places[n][0] - found.end(), found.start() - places[n][1]))
             number = found[1].lower()
             value = _NUMBERS[number] if number in _NUMBERS else float(number.replace(",", "."))
-            distances[nearest] = value * _metres(found[2])
+            metres = value * _metres(found[2])
+            distances[nearest] = metres if metres <= FARTHEST_M else None
     return distances
 
 

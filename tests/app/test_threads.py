@@ -1,8 +1,10 @@
 import os
 
 import pytest
+from typer.testing import CliRunner
 
-from app.threads import THREAD_VARIABLES, halve_thread_env, set_thread_env, usable_cpus
+from app.cli.main import app
+from app.threads import THREAD_VARIABLES, set_thread_env, usable_cpus
 
 MANY = 64
 
@@ -61,13 +63,20 @@ def test_affinity_counts(root, monkeypatch):
 
 def test_what_the_operator_has_set_stays():
     environ = {"OMP_NUM_THREADS": "7", "MKL_NUM_THREADS": "3"}
-    set_thread_env(environ)
+    set_thread_env(2, environ)
     assert environ == {"OMP_NUM_THREADS": "7", "MKL_NUM_THREADS": "3", "OPENBLAS_NUM_THREADS": "7"}
 
 
-def test_work_beside_the_service_takes_half(monkeypatch):
-    for cpus, expected in ((1, "1"), (2, "1"), (8, "4")):
-        monkeypatch.setattr("app.threads.usable_cpus", lambda cpus=cpus: cpus)
-        environ = {"OMP_NUM_THREADS": "8"}
-        halve_thread_env(environ)
-        assert environ == dict.fromkeys(THREAD_VARIABLES, expected)
+def test_a_process_has_one_thread():
+    environ = {}
+    set_thread_env(environ=environ)
+    assert environ == dict.fromkeys(THREAD_VARIABLES, "1")
+
+
+@pytest.mark.parametrize(("command", "threads"), [("train", "3"), ("localize", "1"), ("index", "1"), ("evaluate", "1")])
+def test_training_alone_takes_all_cpus(monkeypatch, command, threads):
+    environ = {}
+    monkeypatch.setattr("app.threads.usable_cpus", lambda: 3)
+    monkeypatch.setattr("app.threads.set_thread_env.__defaults__", (1, environ))
+    assert CliRunner().invoke(app, [command, "--no-such-option"]).exit_code == 2
+    assert environ == dict.fromkeys(THREAD_VARIABLES, threads)
