@@ -1,7 +1,7 @@
 """Reader: OpenStreetMap (.osm.pbf, .osm) -> CityMap.
 
-A real map with extruded geometry, not LiDAR: footprints, lines and nodes are read as mapped, and
-points are put on them as `classes.toml` says (docs/formats.md, OpenStreetMap). Colours come from colour, material and surface tags.
+A real map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): footprints, lines and nodes are read as
+mapped, and points are put on them as `classes.toml` says. Colours come from colour, material and surface tags.
 """
 
 import tomllib
