@@ -4,6 +4,7 @@ python docs/draw_flows.py
 """
 
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -129,7 +130,7 @@ def draw() -> Figure:
     files = city(axes)
     start, end = files[0] - files[2] / 2, reading[0] + reading[2] / 2
     arrow(axes, (start, reading[1]), (end, reading[1]))
-    note = {"ha": "center", "va": "top", "fontsize": 6.5, "color": INK, "style": "italic"}
+    note: dict[str, Any] = {"ha": "center", "va": "top", "fontsize": 6.5, "color": INK, "style": "italic"}
     axes.text((start + end) / 2, reading[1] - 1, "opened when\nthe service\nstarts", **note)
     for n, (layer, meaning) in enumerate(LAYERS.items()):
         corner = (79, 15 - 4.2 * n)

@@ -58,7 +58,7 @@ class Tracer:
         """Follow nothing any more."""
         self.is_on = False
         sys.settrace(None)
-        threading.settrace(None)  # type: ignore[arg-type]  # as its documentation says
+        threading.settrace(None)
 
     def begin(self, at: str | None = None) -> None:
         """Note what runs from now on; what runs before a file below `at` is entered goes to `before`."""
