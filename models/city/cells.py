@@ -1,7 +1,7 @@
 """Cutting a map into cells: the instances, whole or clipped, inside cubes around given centres.
 
 One function cuts both the cells of the grid and the cell around a pose from which its hints are made
-(kitti360pose.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
+(docs/formats.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
 """
 
 from collections.abc import Callable
@@ -107,7 +107,7 @@ class CellTable:
 def cut_cells(
     city_map: CityMap, points: PointTable | None = None, progress: Callable[[int, int], None] | None = None
 ) -> CellTable:
-    """Cut a map into overlapping cells on a grid over its locations (kitti360pose.md, rule 4).
+    """Cut a map into overlapping cells on a grid over its locations (docs/formats.md, rule 4).
 
     Args:
         city_map: the map.

@@ -11,7 +11,7 @@ OPPOSITE: Final[dict[Direction, Direction]] = {
     "west": "east",
     "on-top": "on-top",
 }
-# The first is the benchmark's (kitti360pose.md, rule 8); the others are how people say the same. {d} is where
+# The first is the benchmark's (docs/formats.md, rule 8); the others are how people say the same. {d} is where
 # the speaker is seen from the instance, {o} the opposite: where the instance is seen from the speaker.
 TEMPLATES: Final[tuple[str, ...]] = (
     "The pose is {d} of {a}.",

@@ -43,7 +43,7 @@ class Instance:
 
 @dataclass(frozen=True, slots=True)
 class CutRules:
-    """How a map is cut into cells (kitti360pose.md, rule 4); the defaults are the released set's.
+    """How a map is cut into cells (docs/formats.md, rule 4); the defaults are the released set's.
 
     Attributes:
         cell_size_m: edge of a cell's cube.

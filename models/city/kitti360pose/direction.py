@@ -1,4 +1,4 @@
-"""direction/<scene>.json: the neighbours of each cell, for prototype-based map cloning (method.md, fine stage).
+"""direction/<scene>.json: the neighbours of each cell, for prototype-based map cloning (docs/method.md, fine stage).
 
 One JSON object a scene: cell id -> {"east": cell id or null, ...} with the eight points of the compass. A neighbour's
 centre is one step of the grid away in x, in y or in both; heights do not count. Text2Loc's fine stage takes a pose's

@@ -1,4 +1,4 @@
-"""KITTI360Pose on disk, as it is published: scenes, cells and poses, read and written (kitti360pose.md)."""
+"""KITTI360Pose on disk, as it is published: scenes, cells and poses (docs/formats.md, published layout)."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -56,7 +56,7 @@ def empty(name: str) -> Column:
 
 
 def in_cell_units(world: Floats, low: Floats, size: float) -> Floats:
-    """[P, 3] float64 as preparation computes it (kitti360pose.md, rule 4) from [P, 3] float32 world metres."""
+    """[P, 3] float64 as preparation computes it (docs/formats.md, rule 4) from [P, 3] float32 world metres."""
     units: Floats = (world - low) / size
     return units
 

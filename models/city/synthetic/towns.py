@@ -1,7 +1,7 @@
 """Made-up towns in KITTI-360's raw format: nothing in them was ever scanned.
 
 They stand in for KITTI-360, which cannot be redistributed: streets, blocks and furniture with its classes, near-grey
-colours and point densities, so that they pass through the same preparation (kitti360pose.md) and give cells like its
+colours and point densities, so that they pass through the same preparation (docs/formats.md) and give cells like its
 own. The scenes take the names of KITTI-360's drives, so that the standard split works on what is prepared from them.
 Every number drawn comes from the seed: one seed, one set of files.
 """
