@@ -65,7 +65,7 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
     app.add_middleware(AccessLog)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
-    app.http.openapi = partial(describe, app)  # type: ignore[method-assign]
+    app.openapi = partial(describe, app)  # type: ignore[method-assign]
     return app
 
 
