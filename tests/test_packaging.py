@@ -3,6 +3,8 @@
 import tomllib
 from pathlib import Path
 
+from setuptools import find_packages
+
 ROOT = Path(__file__).parent.parent
 SETUPTOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
 TOP = ("app", "index", "models")
@@ -14,7 +16,7 @@ def test_every_package_is_named() -> None:
         for top in TOP
         for init in ROOT.glob(f"{top}/**/__init__.py")
     }
-    assert set(SETUPTOOLS["packages"]) == found
+    assert set(find_packages(ROOT, **SETUPTOOLS["packages"]["find"])) == found
 
 
 def test_every_file_that_is_read_is_taken_along() -> None:

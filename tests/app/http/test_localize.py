@@ -4,8 +4,11 @@ import time
 from itertools import pairwise
 
 import pytest
-from fake_localizer import FakeLocalizer
+from fake_localizer import TRUE_FRAME, FakeLocalizer
 
+from app.http.requests import request_model
+from app.http.routes.localize import to_query
+from app.settings import Settings
 from index.answers import Box, Circle, Prior, Query
 from models.city.frame import Frame
 from models.errors import WeightsError
@@ -131,9 +134,38 @@ def test_model_runs_on_the_inference_thread_only(api, fake, text):
         ({"prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
     ],
 )
-def test_wrong_field_is_named_and_not_computed(api, fake, problem, body, field):
+def test_wrong_field_is_named(refused, body, field):
     if not {"description", "hints"} & set(body) and body:
         body = {"description": "a tree", **body}
+    settings = Settings()
+    model = request_model(settings)
+    fields, _ = refused(lambda body: to_query(model.model_validate(body), settings.max_hints, TRUE_FRAME), body)
+    assert field in fields
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({}, "description"),  # a check of several fields
+        ({"description": "a\u0085tree"}, "description"),  # of the characters of one
+        ({"description": 5}, "description"),
+        ({"description": "x" * 4001}, "description"),
+        ({"description": "a tree. " * 33}, "description"),  # after the request's model
+        ({"hints": ["a tree", 7]}, "hints[1]"),
+        ({"description": "a", "top_k": 41}, "top_k"),
+        ({"description": "a", "refine": "guess"}, "refine"),
+        ({"description": "a", "heat": False}, "heat"),
+        ({"description": "a", "within": {"bbox": [0, 0, 1]}}, "within.bbox[3]"),
+        ({"description": "a", "within": {"bbox": [0, 0, 1, 10**400]}}, "within.bbox[3]"),
+        ({"description": "a", "within": {"bbox": [1, 0, 0, 1]}}, "within.bbox"),
+        ({"description": "a", "within": {"circle": {"center": [0, 91], "radius_m": 1}}, "crs": "wgs84"},
+         "within.circle.center"),
+        ({"description": "a", "prior": {"position": [0, 0]}}, "prior.sigma_m"),
+        ({"description": "a", "prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+    ],
+)  # fmt: skip
+def test_wrong_field_is_a_422_and_nothing_is_computed(api, fake, problem, body, field):
+    """One of each kind of the errors above."""
     problem(api.post("/localize", json=body), 422, "invalid_request", field)
     assert fake.batches == []
 

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.kitti360.job import prepare_data
 from models.city.store.files import load_data
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineConfig, FineModel
@@ -14,24 +13,11 @@ from models.training.fit_fine import FineTask, train_fine
 from models.training.retrieval_data import SYMMETRIES, TrainingPlace, TrainingSet, reflect
 from models.training.settings import TrainingConfig
 from models.training.sources import Source, ValidationQueries, load_source, source_of_map
-from tests.models.city.raw_scenes import write_town
-
-FOLDERS = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0002_sync", "2013_05_28_drive_0010_sync")
 
 
 @pytest.fixture(scope="module")
-def data_set(tmp_path_factory):
-    """Two scenes to train on, which lie over each other, and one to choose by."""
-    raw, prepared = (tmp_path_factory.mktemp("fine") / name for name in ("raw", "prepared"))
-    for seed, folder in enumerate(FOLDERS):
-        write_town(raw, folder, seed)
-    prepare_data(raw, prepared)
-    return prepared
-
-
-@pytest.fixture(scope="module")
-def store_set(data_set, text_encoder):
-    return FineSet(TrainingSet(TrainingPlace.of_store(load_data(data_set, "train")), text_encoder))
+def store_set(streets, text_encoder):
+    return FineSet(TrainingSet(TrainingPlace.of_store(load_data(streets, "train")), text_encoder))
 
 
 @pytest.fixture(scope="module", params=["map", "store"])
@@ -132,8 +118,8 @@ def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(eit
         assert asked.rows[q, 1] in others if len(others) else asked.rows[q, 1] == -1
 
 
-def test_matches_name_the_instances_that_the_store_says(store_set, data_set) -> None:
-    store = load_data(data_set, "train")
+def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> None:
+    store = load_data(streets, "train")
     poses, parts = store.poses, store.cell_table().parts
     right = known = 0
     for n in store_set.training.usable[::5]:
@@ -195,9 +181,9 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(city, tmp_path) -> No
     assert source["validation"]["cell_center"]["within_5m"] > 0
 
 
-def test_a_data_set_trains_either_method(data_set, tmp_path) -> None:
+def test_a_data_set_trains_either_method(streets, tmp_path) -> None:
     def load(encoder, rng):
-        return [load_source(data_set, encoder, TrainingConfig(), rng, ("train", "val"))] * 2
+        return [load_source(streets, encoder, TrainingConfig(), rng, ("train", "val"))] * 2
 
     for method, kind in FINE_METHODS.items():
         config = TrainingConfig(steps=2, batch_size=8, validate_every=2, pmc=False)

@@ -1,11 +1,9 @@
 import numpy as np
 import pytest
 
-from models.city.kitti360.job import prepare_data
 from models.city.store.files import load_data
 from models.errors import IndexBroken
 from models.posterior.surroundings import SPACING_M, STEP_M, Bodies, Surroundings
-from tests.models.city.raw_scenes import write_town
 
 
 @pytest.fixture(scope="module")
@@ -89,11 +87,8 @@ def test_saved_surroundings_come_back_and_broken_ones_are_named(around, tmp_path
         Surroundings.load(tmp_path)
 
 
-def test_a_data_set_has_the_points_that_its_cells_show(tmp_path) -> None:
-    raw, prepared = tmp_path / "raw", tmp_path / "prepared"
-    write_town(raw, "2013_05_28_drive_0000_sync", 0)
-    prepare_data(raw, prepared)
-    store = load_data(prepared, "train")
+def test_a_data_set_has_the_points_that_its_cells_show(streets) -> None:
+    store = load_data(streets, "train")
     cells = store.cell_table()
     bodies = Bodies.of_store(store, cells)
     for part in range(0, len(cells.parts.instance), 17):

@@ -7,7 +7,6 @@ import torch
 
 from index.ranking import Ranker
 from models.city.hints import direction_index, sample_positions
-from models.city.kitti360.job import prepare_data
 from models.city.types import DIRECTIONS
 from models.errors import DataError
 from models.retrieval.checkpoint import METHODS, load_retriever
@@ -18,7 +17,7 @@ from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES,
 from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
 from models.training.sources import load_source, source_of_map
-from tests.models.city.raw_scenes import write_town
+from tests.models.city.raw_scenes import TRAIN_STREETS, VAL_STREET
 
 
 @pytest.fixture(scope="module")
@@ -165,22 +164,17 @@ def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, tmp_path,
     assert store.vectors(np.arange(len(cells))).shape == (len(cells), 32)
 
 
-def test_a_data_set_trains_as_a_map_does(tmp_path) -> None:
-    raw, prepared = tmp_path / "raw", tmp_path / "prepared"
-    folders = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0010_sync")
-    for seed, folder in enumerate(folders):
-        write_town(raw, folder, seed)
-    prepare_data(raw, prepared)
+def test_a_data_set_trains_as_a_map_does(streets, tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=16, validate_every=4)
 
     def load(encoder, rng):
-        source = load_source(prepared, encoder, config, rng, ("train", "val"))
+        source = load_source(streets, encoder, config, rng, ("train", "val"))
         with pytest.raises(DataError, match="0042"):
-            load_source(prepared, encoder, config, rng, ("0042", "val"))
+            load_source(streets, encoder, config, rng, ("0042", "val"))
         batch = source.training.batch(source.training.draw(16, 4, rng), rng)
         assert batch.hint_mask.sum(dim=1).min() >= 2
         assert (batch.sentences[batch.hint_mask] >= 0).all()
-        assert source.facts["scenes"] == {"train": [folders[0]], "val": [folders[1]]}
+        assert source.facts["scenes"] == {"train": [*TRAIN_STREETS], "val": [VAL_STREET]}
         return [source, source]
 
     recall = train_retriever(load, tmp_path / "w", Mncl, MnclConfig(width=32), config)
