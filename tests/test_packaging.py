@@ -1,9 +1,8 @@
 """What `pip install .` takes along: everything that runs."""
 
 import tomllib
+from fnmatch import fnmatch
 from pathlib import Path
-
-from setuptools import find_packages
 
 ROOT = Path(__file__).parent.parent
 SETUPTOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
@@ -11,12 +10,12 @@ TOP = ("app", "index", "models")
 
 
 def test_every_package_is_named() -> None:
-    found = {
-        str(init.parent.relative_to(ROOT)).replace("/", ".")
-        for top in TOP
-        for init in ROOT.glob(f"{top}/**/__init__.py")
-    }
-    assert set(find_packages(ROOT, **SETUPTOOLS["packages"]["find"])) == found
+    named = SETUPTOOLS["packages"]["find"]["include"]
+    for folder in {path.parent for top in TOP for path in ROOT.glob(f"{top}/**/*.py")}:
+        package = folder.relative_to(ROOT)
+        assert any(fnmatch(".".join(package.parts), pattern) for pattern in named), package
+        for part in (package, *package.parents[:-1]):
+            assert (ROOT / part / "__init__.py").is_file(), "or setuptools does not find it"
 
 
 def test_every_file_that_is_read_is_taken_along() -> None:
