@@ -13,9 +13,8 @@ from index.answers import Evidence
 from index.gallery import Gallery
 from models.city.colours import Palette
 from models.city.points import ranges
-from models.language.grammar.labelled_text import RELATIONS
 from models.language.landmarks import Landmarks
-from models.language.parsed_hint import ParsedHint
+from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading

@@ -24,16 +24,20 @@ WITHOUT_TORCH = [
     ROOT / "app/http/requests.py",
     ROOT / "index/answers.py",
 ]
+# What trains and measures; all else serves, and must not change with a phrase that is trained on.
+MAY_USE_THE_GRAMMAR = [ROOT / "models/language/grammar", ROOT / "models/training", ROOT / "index/evaluation"]
+
+
+def modules(path: Path) -> set[str]:
+    nodes = list(ast.walk(ast.parse(path.read_text())))
+    found = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    return found | {
+        node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module and not node.level
+    }
 
 
 def imported(path: Path) -> set[str]:
-    found = set()
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.Import):
-            found |= {alias.name.split(".")[0] for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            found.add(node.module.split(".")[0])
-    return found
+    return {module.split(".")[0] for module in modules(path)}
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
@@ -45,6 +49,12 @@ def test_imports_run_one_way(path: Path) -> None:
         assert library not in imports or layer == home, f"{library} belongs in {home}/"
     if any(path == p or p in path.parents for p in WITHOUT_TORCH):
         assert "torch" not in imports
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_what_serves_knows_the_lexicon_and_no_grammar(path: Path) -> None:
+    if not any(home in path.parents for home in MAY_USE_THE_GRAMMAR):
+        assert not [m for m in modules(path) if m.startswith("models.language.grammar")]
 
 
 def test_the_city_model_loads_without_torch() -> None:

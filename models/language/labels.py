@@ -1,34 +1,22 @@
 """What a noun means in a map: any words compared with any labels, through the many names that things go by."""
 
-import tomllib
+import hashlib
+import logging
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from typing import Any
 
 import torch
 from torch import Tensor, nn
 
-from models.language.grammar.files import GRAMMARS
-from models.language.grammar.wording import Wording
+from models.language.lexicon.lexicon import load_lexicon
 from models.language.spelling import Spelling
 from models.language.text_encoder import TextEncoder
 
 MOST_KEPT = 20_000  # phrases; 30 MB
+READ_AT_ONCE = 64  # names, of like length, so that little is padding
 
-
-@cache
-def related_labels() -> tuple[tuple[str, ...], ...]:
-    """Groups of classes that go by one another's names, see grammar/related.toml."""
-    groups = tomllib.loads((GRAMMARS / "related.toml").read_text())["groups"]
-    return tuple(tuple(group) for group in groups)
-
-
-def meaning_in(label: str, map_labels: Sequence[str]) -> str | None:
-    """The label of a map that a class goes by there: itself, or the closest relative; None if the map has neither."""
-    if label in map_labels:
-        return label
-    groups = sorted((g for g in related_labels() if label in g), key=lambda group: group.index(label))
-    return next((other for group in groups for other in group if other in map_labels), None)
+_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,18 +46,23 @@ class LabelMatcher(nn.Module):
         self._text = (text_encoder,)
         self.scale = nn.Parameter(torch.tensor(20.0).log())
         self.unknown = nn.Parameter(torch.tensor(0.4))  # similarity that a noun must exceed to mean anything
-        self._known: dict[str, Tensor] = {}
-        lexicon = Wording("train").labels
-        names = [name.lower() for label, others in lexicon.items() for name in (label, *others)]
+        self.lexicon = load_lexicon()
+        names = [name.lower() for name in self.lexicon.names]
         self._spelling = Spelling(names, text_encoder.pieces, lambda part: len(text_encoder.pieces(part)) == 1)
+        self._names = sorted({self._plain(name) for name in names}, key=lambda name: (len(name), name))
+        # [N, W] vectors of these, stored with the weights; empty until they are loaded or a map asks for them.
+        self.names = nn.Buffer(torch.empty(0, text_encoder.width))
+        digest = hashlib.sha256("\n".join(self._names).encode()).digest()
+        self.names_of = nn.Buffer(torch.tensor(list(digest), dtype=torch.uint8))  # tells whether stored ones fit
+        self._known: dict[str, Tensor] = {}
+        self.register_load_state_dict_pre_hook(LabelMatcher._take_names)
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
         """[S, W] unit vectors of the frozen text encoder, misspelt words mended; those seen before are kept."""
-        plain = [self._spelling.mend(phrase.lower().replace("-", " ")) for phrase in phrases]
+        plain = [self._plain(phrase) for phrase in phrases]
+        if not self._known or len(self._known) > MOST_KEPT:
+            self._known = dict(zip(self._names, self.names, strict=False))
         if missing := [phrase for phrase in dict.fromkeys(plain) if phrase not in self._known]:
-            if len(self._known) > MOST_KEPT:
-                self._known.clear()
-                missing = list(dict.fromkeys(plain))
             self._known.update(zip(missing, self._text[0].embed(missing), strict=True))
         return torch.stack([self._known[phrase] for phrase in plain])
 
@@ -79,8 +72,26 @@ class LabelMatcher(nn.Module):
         Args:
             map_labels: its labels, each once.
         """
-        phrases, label = bound_names(tuple(map_labels))
+        if not len(self.names):
+            starts = range(0, len(self._names), READ_AT_ONCE)
+            self.names = torch.cat([self._text[0].embed(self._names[n : n + READ_AT_ONCE]) for n in starts])
+            self._known.clear()
+        phrases, label = self.lexicon.names_in(tuple(map_labels))
         return BoundLabels(self.embed(phrases), torch.tensor(label), len(map_labels))
+
+    def _plain(self, phrase: str) -> str:
+        return self._spelling.mend(phrase.lower().replace("-", " "))
+
+    def _take_names(self, state: dict[str, Any], prefix: str, *_: Any) -> None:
+        """Make room for stored vectors before they are loaded; those of other names are left out."""
+        key, of = f"{prefix}names", f"{prefix}names_of"
+        if key not in state or of not in state:
+            return  # what is missing is then said of all weights
+        if not torch.equal(state[of], self.names_of):
+            _log.warning("the names of the lexicon have changed and are embedded anew at every start; train again")
+            state[key], state[of] = self.names[:0], self.names_of
+        self.names = torch.empty_like(state[key])
+        self._known.clear()
 
     def forward(self, nouns: Tensor, bound: BoundLabels) -> Tensor:
         """[S, L + 1] log-probability of each label for nouns [S, W]; the last, of none of them.
@@ -95,22 +106,3 @@ class LabelMatcher(nn.Module):
         scores = mass.clamp(min=1e-30).log() + highest
         none = torch.logaddexp(scores[:, -1], (self.scale.exp() * self.unknown).expand(len(nouns)))
         return torch.cat([scores[:, :-1], none[:, None]], dim=1).log_softmax(dim=1)
-
-
-@cache
-def bound_names(map_labels: tuple[str, ...]) -> tuple[list[str], list[int]]:
-    """Every known name, and the number of the map's label that it leads to; the number of labels if to none.
-
-    What names a label of the map does not stand for its relatives too: trees are no bushes where there are trees.
-    """
-    lexicon = Wording("train").labels
-    own = {name for label in map_labels for name in (label, *lexicon.get(label, ()))}
-    phrases, numbers = [], []
-    for label in dict.fromkeys([*map_labels, *lexicon]):
-        meant = meaning_in(label, map_labels)
-        number = len(map_labels) if meant is None else map_labels.index(meant)
-        for phrase in (label, *lexicon.get(label, ())):
-            if label in map_labels or not own & {phrase, phrase.removesuffix("s")}:
-                phrases.append(phrase)
-                numbers.append(number)
-    return phrases, numbers

@@ -7,6 +7,9 @@ from typing import Final
 
 from torch import Tensor
 
+# Where the speaker is, seen from the thing: the eight winds, right at it, or not said.
+WINDS: Final = ("north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest")
+RELATIONS: Final = (*WINDS, "on-top", "near")
 BEFORE = 40  # characters before a plural in which its number stands
 MOST = 4  # hints that a plural is taken for
 _NUMBERS: Final = {

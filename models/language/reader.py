@@ -10,9 +10,8 @@ import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
-from models.language.grammar.labelled_text import RELATIONS, Mention
-from models.language.grammar.wording import Wording
-from models.language.parsed_hint import SENTENCE_END, ParsedHint, resolve
+from models.language.lexicon.lexicon import load_lexicon
+from models.language.parsed_hint import RELATIONS, SENTENCE_END, ParsedHint, resolve
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, run_layers
 
 # Of tokens: outside, further token of what is named; first token of a noun, of a plural, of what stands for a thing.
@@ -163,12 +162,15 @@ def _place(text: str, start: int, end: int) -> tuple[int, int]:
 @cache
 def _sizes() -> re.Pattern[str]:
     """A size that a noun's colour parts from it: "a small dark green pole"."""
-    colours = Wording("train").colours
+    lexicon = load_lexicon()
     words = {
-        word for colour, names in colours.items() for name in (colour, *names) for word in re.split(r"[\s-]", name)
+        word
+        for colour, names in lexicon.colours.items()
+        for name in (colour, *names)
+        for word in re.split(r"[\s-]", name)
     }
-    colour = "|".join(map(re.escape, sorted(words)))
-    return re.compile(rf"\b(big|little|low|short|small|tall|tiny)(?:[\s-]+(?:{colour}))+\s+$", re.I)
+    colour, size = ("|".join(map(re.escape, sorted(some))) for some in (words, lexicon.sizes))
+    return re.compile(rf"\b({size})(?:[\s-]+(?:{colour}))+\s+$", re.I)
 
 
 def _noun(text: str, start: int, end: int) -> str:
@@ -201,19 +203,3 @@ def said_distances(text: str, places: Sequence[tuple[int, int]]) -> list[float |
 def _metres(unit: str) -> float:
     key = max((k for k in _UNITS if unit.lower().startswith(k)), key=len)
     return _UNITS[key]
-
-
-def example_targets(
-    mentions: Sequence[Mention], characters: Tensor, mask: Tensor
-) -> tuple[Tensor, list[tuple[int, int]]]:
-    """What training wants of one text: tags [T] and the token range of each mention (empty if it was cut off)."""
-    tags = torch.zeros(len(mask), dtype=torch.long)
-    ranges = []
-    for mention in mentions:
-        inside = (characters[:, 0] < mention.end) & (characters[:, 1] > mention.start) & mask
-        tokens = inside.nonzero().flatten().tolist()
-        if tokens:
-            tags[tokens] = 1
-            tags[tokens[0]] = TAGS.index(mention.kind)
-        ranges.append((tokens[0], tokens[-1] + 1) if tokens else (0, 0))
-    return tags, ranges

@@ -2,7 +2,7 @@
 
 import hashlib
 import importlib.util
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -147,14 +147,14 @@ def load_text_encoder(source: str = DEFAULT_TEXT_ENCODER) -> TextEncoder:
             f"text encoder '{source}' cannot be loaded ({str(error).splitlines()[0]}); "
             f"give '{DEFAULT_TEXT_ENCODER}', a directory with config.json, weights and tokenizer, or a hub id"
         ) from error
-    fingerprint = MINILM_SHA256 if source == DEFAULT_TEXT_ENCODER else fingerprint_of(model)
+    fingerprint = MINILM_SHA256 if source == DEFAULT_TEXT_ENCODER else fingerprint_of(model.state_dict())
     return TextEncoder(model, tokenizer, source, fingerprint)
 
 
-def fingerprint_of(model: nn.Module) -> str:
-    """sha256 over the names and values of a model's weights."""
+def fingerprint_of(weights: Mapping[str, Tensor]) -> str:
+    """sha256 over the names and values of weights."""
     digest = hashlib.sha256()
-    for name, tensor in sorted(model.state_dict().items()):
+    for name, tensor in sorted(weights.items()):
         digest.update(name.encode())
         digest.update(tensor.detach().cpu().contiguous().numpy().tobytes())
     return digest.hexdigest()

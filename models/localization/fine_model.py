@@ -147,7 +147,7 @@ class FineModel(nn.Module):
     @property
     def fingerprint(self) -> str:
         """sha256 of all weights, the frozen ones included."""
-        return hashlib.sha256((fingerprint_of(self) + self.text_encoder.fingerprint).encode()).hexdigest()
+        return hashlib.sha256((fingerprint_of(self.state_dict()) + self.text_encoder.fingerprint).encode()).hexdigest()
 
     @property
     def text_encoder(self) -> TextEncoder:

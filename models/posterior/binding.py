@@ -7,9 +7,8 @@ import torch
 from torch import Tensor
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
-from models.language.grammar.labelled_text import RELATIONS
 from models.language.labels import BoundLabels, LabelMatcher
-from models.language.parsed_hint import ParsedHint
+from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.likelihood import Reading
 from models.posterior.node_batch import colour_words

@@ -17,9 +17,11 @@ class PosteriorConfig(ReaderConfig):
 
     Attributes:
         radius_scale: what the radii are multiplied with; fitted on validation data.
+        grammar_sha256: of the phrases that the reader was trained on.
     """
 
     radius_scale: float = 1.0
+    grammar_sha256: str = ""
 
 
 class PosteriorModel(nn.Module):
@@ -37,8 +39,9 @@ class PosteriorModel(nn.Module):
 
     @property
     def fingerprint(self) -> str:
-        """sha256 of all weights, the frozen ones included."""
-        return hashlib.sha256((fingerprint_of(self) + self.reader.text_encoder.fingerprint).encode()).hexdigest()
+        """sha256 of all weights, the frozen ones included, and of the lexicon, from which the names' vectors follow."""
+        parts = fingerprint_of(dict(self.named_parameters())), self.reader.text_encoder.fingerprint
+        return hashlib.sha256("".join([*parts, self.matcher.lexicon.sha256]).encode()).hexdigest()
 
 
 POSTERIORS = Checkpoints(

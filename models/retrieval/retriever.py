@@ -128,7 +128,7 @@ class Retriever(nn.Module):
     @property
     def fingerprint(self) -> str:
         """sha256 of all weights, the frozen ones included: what makes two models give the same vectors."""
-        return hashlib.sha256((fingerprint_of(self) + self.text_encoder.fingerprint).encode()).hexdigest()
+        return hashlib.sha256((fingerprint_of(self.state_dict()) + self.text_encoder.fingerprint).encode()).hexdigest()
 
     @property
     def text_encoder(self) -> TextEncoder:

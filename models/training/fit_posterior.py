@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from models.language.grammar.files import Grammar
+from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
@@ -65,6 +65,7 @@ def train_posterior(
     """
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
+    model = model.model_copy(update={"grammar_sha256": load_grammar("train").sha256})
     trained = PosteriorModel(encoder, model)
     depth = model.frozen_layers
     training = ReadingSet(encoder, depth, "train", TEXTS, config.seed)
@@ -94,6 +95,7 @@ def fit_and_save(
         "config": config.model_dump(mode="json"),
         "data": [path.resolve().name for path in data],
         "best_step": best_step,
+        "lexicon_sha256": trained.matcher.lexicon.sha256,
         "surprise": fitted,
         "validation": figures,
     }

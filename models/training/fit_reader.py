@@ -9,9 +9,10 @@ import torch
 from torch import Tensor, nn
 
 from models.language.grammar.files import Grammar
-from models.language.grammar.labelled_text import RELATIONS, WINDS, Fact, LabelledText, Mention
+from models.language.grammar.labelled_text import Fact, LabelledText, Mention
 from models.language.grammar.wording import Wording
-from models.language.reader import COLOURS, Reader, example_targets
+from models.language.parsed_hint import RELATIONS, WINDS
+from models.language.reader import COLOURS, TAGS, Reader
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
 ENCODED_AT_ONCE = 32
@@ -178,6 +179,22 @@ def _wanted(fact: Fact, mention: Mention) -> tuple[int, int, int]:
     """Relation, colour and absence that a text settles of a fact where it mentions it."""
     relation = -100 if fact.absent else RELATIONS.index(fact.relation)
     return relation, COLOURS.index(str(fact.colour)) if mention.coloured else len(COLOURS), int(fact.absent)
+
+
+def example_targets(
+    mentions: Sequence[Mention], characters: Tensor, mask: Tensor
+) -> tuple[Tensor, list[tuple[int, int]]]:
+    """What training wants of one text: tags [T] and the token range of each mention (empty if it was cut off)."""
+    tags = torch.zeros(len(mask), dtype=torch.long)
+    ranges = []
+    for mention in mentions:
+        inside = (characters[:, 0] < mention.end) & (characters[:, 1] > mention.start) & mask
+        tokens = inside.nonzero().flatten().tolist()
+        if tokens:
+            tags[tokens] = 1
+            tags[tokens[0]] = TAGS.index(mention.kind)
+        ranges.append((tokens[0], tokens[-1] + 1) if tokens else (0, 0))
+    return tags, ranges
 
 
 class ReadingTask:

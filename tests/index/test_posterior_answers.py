@@ -11,8 +11,7 @@ from index.localizer import Localizer
 from index.map_data import load_queries
 from index.map_posterior import MapPosterior
 from index.posterior_answers import PosteriorAnswers
-from models.language.grammar.labelled_text import RELATIONS
-from models.language.parsed_hint import ParsedHint
+from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 
@@ -37,6 +36,7 @@ def _noticed(relation, thing, start):
 def posterior_model(text_encoder):
     torch.manual_seed(0)
     model = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
+    model.matcher = load_posterior().matcher  # knows the names already
     model.reader.read = read_exactly
     return model
 

@@ -1,1 +1,1 @@
-"""grammar."""
+"""What only trains, validates and measures the reader: made-up facts, told in many wordings."""

@@ -1,47 +1,81 @@
 """Grammars from their files, each without what another one must not share with it."""
 
+import hashlib
 import re
 import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
+from models.language.lexicon.lexicon import Names, load_lexicon
+
 GRAMMARS = Path(__file__).parent
 Grammar = Literal["train", "val", "test"]
-_KEPT = ("labels", "colours", "compass", "distance")  # tables that are not phrases of their own
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tables:
+    """What a grammar holds, see models.language.grammar.wording.
+
+    Attributes:
+        labels, colours: names of classes and colours besides their own.
+        compass: words for each wind.
+        phrases: by kind.
+    """
+
+    labels: Names
+    colours: Names
+    compass: Names
+    phrases: Mapping[str, Sequence[str]]
+
+    @property
+    def sha256(self) -> str:
+        """Of the phrases and words for winds, whatever their files and order."""
+        said = {f"{kind}: {phrase}" for kind, some in [*self.compass.items(), *self.phrases.items()] for phrase in some}
+        return hashlib.sha256("\n".join(sorted(said)).encode()).hexdigest()
+
+    def without(self, known: "Tables") -> "Tables":
+        """What another grammar does not have, but for winds and distances."""
+        return replace(
+            self,
+            labels=_new_names(self.labels, known.labels),
+            colours=_new_names(self.colours, known.colours),
+            phrases={
+                kind: some if kind == "distance" else _new_phrases(some, known.phrases.get(kind, ()))
+                for kind, some in self.phrases.items()
+            },
+        )
 
 
 @cache
-def load_grammar(grammar: Grammar) -> dict[str, Any]:
-    """The tables of a grammar, of all its files together; see models.language.grammar.wording."""
-    tables = tomllib.loads((GRAMMARS / f"{grammar}.toml").read_text())
-    for more in sorted(GRAMMARS.glob(f"{grammar}_*.toml")):
-        for name, table in tomllib.loads(more.read_text()).items():
-            kept = tables.setdefault(name, {})
-            for key, words in table.items():
-                kept[key] = list(dict.fromkeys([*kept.get(key, []), *words]))
-    for name in tables.keys() - {"labels", "colours", "compass"}:
-        phrases = tables[name]["phrases"]
-        tables[name]["phrases"] = list({_gist(phrase): phrase for phrase in reversed(phrases)}.values())[::-1]
+def load_grammar(grammar: Grammar) -> Tables:
+    """A grammar of all its files; training calls things what the lexicon does."""
+    read: dict[str, Any] = {}
+    for file in sorted((GRAMMARS / grammar).glob("*.toml")):
+        read |= tomllib.loads(file.read_text())
+    lexicon = load_lexicon()
+    own = {name: read.pop(name, getattr(lexicon, name)) for name in ("labels", "colours")}
+    tables = Tables(compass=read.pop("compass"), phrases=read, **own)
     for other in {"train": (), "val": ("train",), "test": ("train", "val")}[grammar]:
-        _leave_out(tables, load_grammar(other))
+        tables = tables.without(load_grammar(other))
     return tables
 
 
-def _leave_out(tables: dict[str, Any], known: dict[str, Any]) -> None:
-    """Take from a grammar what another one has."""
-    for name, table in tables.items():
-        if name in ("labels", "colours"):
-            taken = {_plain(word) for key, words in known[name].items() for word in (key, *words)}
-            tables[name] = {key: [w for w in words if _plain(w) not in taken] for key, words in table.items()}
-        elif name not in _KEPT:
-            taken = {_gist(phrase) for phrase in known.get(name, {"phrases": ()})["phrases"]}
-            tables[name]["phrases"] = [phrase for phrase in table["phrases"] if _gist(phrase) not in taken]
-
-
-def _gist(phrase: str) -> str:
+def gist(phrase: str) -> str:
     """A phrase but for capitals, punctuation and articles: two that agree in it are one."""
     return " ".join(re.sub(r"[^a-z0-9{ ]", "", re.sub(r"\{(the|a|n)(?![a-z])", "{thing", phrase.lower())).split())
+
+
+def _new_phrases(phrases: Sequence[str], known: Sequence[str]) -> list[str]:
+    taken = {gist(phrase) for phrase in known}
+    return [phrase for phrase in phrases if gist(phrase) not in taken]
+
+
+def _new_names(names: Names, known: Names) -> Names:
+    taken = {_plain(word) for key, words in known.items() for word in (key, *words)}
+    return {key: [word for word in words if _plain(word) not in taken] for key, words in names.items()}
 
 
 def _plain(word: str) -> str:

@@ -1,11 +1,9 @@
 """Facts about a position, and texts that are known to tell them."""
 
 from dataclasses import dataclass, replace
-from typing import Final, Literal
+from typing import Literal
 
-# Where the speaker is, seen from the thing: the eight winds, right at it, or not said.
-WINDS: Final = ("north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest")
-RELATIONS: Final = (*WINDS, "on-top", "near")
+from models.language.parsed_hint import WINDS
 
 
 def opposite(wind: str) -> str:

@@ -1,14 +1,15 @@
 """Facts about a position in many wordings: what the reader of free language is trained and tested on.
 
-A grammar is a TOML file in grammar/, data only, or several (`models.language.grammar.files`). Ways to name each class
-(`labels`) and colour, the eight winds (`compass`), and phrases by kind: two to six things at once (`passages`, see
-`models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`, `named`, `named_near`;
-`bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things (`two`, `three`,
-`two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the first with a
-direction, the second at hand or underfoot; `two_near` both at hand), and what surrounds them (`opener`, `closer`,
-`irrelevant`, `link`, `leads`). Slots: {d} where the speaker is, seen from the thing, {o} the opposite; {a}, {A},
-{the}, {The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour; {dist}, {name}; numbered with several
-things. Validation leaves out every phrase and name that training has, and test also those of validation.
+A grammar is a folder of TOML files, data only (`models.language.grammar.files`). Ways to name each class (`labels`) and
+colour (`colours`), in training the lexicon's; the eight winds (`compass`), and phrases by kind: two to six things at
+once (`passages`, see `models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`,
+`named`, `named_near`; `bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things
+(`two`, `three`, `two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the
+first with a direction, the second at hand or underfoot; `two_near` both at hand), measures (`distance`), and what
+surrounds them (`opener`, `closer`, `irrelevant`, `link`, `leads`). Slots: {d} where the speaker is, seen from the
+thing, {o} the opposite; {a}, {A}, {the}, {The}, {n} the thing with its colour, {b}, {theb} without, {c} the colour;
+{dist}, {name}; numbered with several things. Validation leaves out every phrase and name that training has, and test
+also those of validation.
 """
 
 import re
@@ -18,9 +19,11 @@ from dataclasses import replace
 import numpy as np
 
 from models.language.grammar.files import Grammar, load_grammar
-from models.language.grammar.labelled_text import WINDS, Fact, LabelledText, Mention, opposite
+from models.language.grammar.labelled_text import Fact, LabelledText, Mention, opposite
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.typos import spoil
+from models.language.lexicon.lexicon import Names
+from models.language.parsed_hint import WINDS
 
 PASSAGES, TRIES = 0.5, 16  # share of the times that a passage is looked for, and among how many; first of all among
 # those with plurals, if there are several things of a class
@@ -36,12 +39,9 @@ class Wording:
 
     def __init__(self, grammar: Grammar) -> None:
         tables = load_grammar(grammar)
-        self.labels: dict[str, list[str]] = tables["labels"]
-        self.colours: dict[str, list[str]] = tables["colours"]
-        self.compass: dict[str, list[str]] = tables["compass"]
-        parsed = {name: table["phrases"] for name, table in tables.items() if "phrases" in table}
-        self._distances: list[str] = parsed["distance"]
-        self._phrases = {name: [Passage(phrase) for phrase in phrases] for name, phrases in parsed.items()}
+        self.labels, self.colours, self.compass = tables.labels, tables.colours, tables.compass
+        self._distances = tables.phrases["distance"]
+        self._phrases = {kind: [Passage(phrase) for phrase in phrases] for kind, phrases in tables.phrases.items()}
         self._phrases["plurals"] = [passage for passage in self._phrases["passages"] if passage.shared("ns")]
         self._phrases["whole"] = [passage for passage in self._phrases["passages"] if passage.things >= LONG]
 
@@ -191,7 +191,7 @@ class Wording:
             article = article.capitalize()
         return article + phrase, noun
 
-    def _word(self, table: dict[str, list[str]], key: str, rng: np.random.Generator) -> str:
+    def _word(self, table: Names, key: str, rng: np.random.Generator) -> str:
         """The key itself or another word for it."""
         others = table.get(key, [])
         plain = key if rng.random() < 0.5 else key.replace("-", " ")

@@ -2,26 +2,24 @@ import pytest
 import torch
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
-from models.language.grammar.labelled_text import RELATIONS, Fact, Mention
+from models.language.grammar.labelled_text import Fact, Mention
 from models.language.grammar.wording import Wording
-from models.language.labels import LabelMatcher, bound_names, meaning_in
 from models.language.landmarks import Landmarks
-from models.language.parsed_hint import ParsedHint
+from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import (
     COLOURS,
     TAGS,
     Reader,
     ReaderConfig,
-    _noun,
     _place,
     _spans,
-    example_targets,
     said_distances,
 )
 from models.posterior.binding import Binding, colour_table
+from models.posterior.model import load_posterior
 from models.posterior.node_batch import colour_words
 from models.training.engine.loop import LoopConfig, run_training
-from models.training.fit_reader import ReadingSet, ReadingTask, _wanted, draw_facts, reading_figures
+from models.training.fit_reader import ReadingSet, ReadingTask, _wanted, draw_facts, example_targets, reading_figures
 
 KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "vegetation")
 
@@ -30,6 +28,16 @@ KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "ve
 def reader(text_encoder):
     torch.manual_seed(0)
     return Reader(text_encoder, ReaderConfig(width=32)).eval()
+
+
+@pytest.fixture(scope="module")
+def trained():
+    return load_posterior()
+
+
+@pytest.fixture(scope="module")
+def matcher(trained):
+    return trained.matcher
 
 
 def test_padding_and_company_change_nothing(reader):
@@ -119,22 +127,21 @@ def test_said_distances_go_to_the_nearest_noun(text, noun, metres):
 
 
 @pytest.mark.parametrize(
-    ("text", "noun", "read"),
+    ("text", "nouns"),
     [
-        ("east of a small dark green pole", "pole", "small pole"),
-        ("east of a small pole", "pole", "pole"),  # is read with its size, or was not meant
-        ("a tall one and a gray pole", "pole", "pole"),
-        ("a low wall near green vegetation", "vegetation", "vegetation"),
-        ("a short distance from gray poles", "poles", "poles"),
-        ("the hedge is low. A gray pole", "pole", "pole"),
+        ("I am east of a small dark green pole.", ["small pole"]),
+        ("I am east of a small pole.", ["small pole"]),
+        ("There is a tall one, and a gray pole is north of me.", ["pole"]),
+        ("A low wall is near green vegetation.", ["low wall", "vegetation"]),
+        ("I am a short distance from gray poles.", ["poles"]),
+        ("The hedge is low. A gray pole is north of me.", ["hedge", "pole"]),
     ],
 )
-def test_a_size_belongs_to_the_noun_that_its_colour_parts_it_from(text, noun, read):
-    assert _noun(text, text.index(noun), text.index(noun) + len(noun)) == read
+def test_a_size_belongs_to_the_noun_that_its_colour_parts_it_from(trained, text, nouns):
+    assert [hint.noun for hint in trained.reader.read([text])[0]] == nouns
 
 
-def test_a_label_fits_as_well_as_all_its_names_together(text_encoder):
-    matcher = LabelMatcher(text_encoder)
+def test_a_label_fits_as_well_as_all_its_names_together(matcher):
     bound, nouns = matcher.bind(("building", "lamp")), matcher.embed(["street light", "house", "giraffe"])
     logits = matcher.scale.exp() * nouns @ bound.names.T
     by_hand = [logits[:, bound.label == n].logsumexp(dim=1) for n in range(3)]
@@ -142,29 +149,7 @@ def test_a_label_fits_as_well_as_all_its_names_together(text_encoder):
     assert torch.allclose(matcher(nouns, bound), torch.stack(by_hand, dim=1).log_softmax(dim=1), atol=1e-4)
 
 
-def test_what_a_class_means_in_a_map():
-    assert meaning_in("lamp", KITTI) == "lamp"
-    assert meaning_in("street lamp", KITTI) == "lamp"
-    assert meaning_in("hedge", KITTI) == "vegetation"
-    assert meaning_in("lifebuoy", KITTI) is None
-    phrases, numbers = bound_names(KITTI)
-    meant = dict(zip(phrases, numbers, strict=True))
-    assert meant["bus stop"] == KITTI.index("stop")
-    assert meant["lifebuoy"] == len(KITTI)
-
-
-def test_names_of_what_the_map_has_stand_for_nothing_else():
-    labels = ("bushes", "building", "tree")
-    meant = {}
-    for phrase, number in zip(*bound_names(labels), strict=True):
-        meant.setdefault(phrase, set()).add(number)
-    assert meant["tree"] == {2}
-    assert meant.get("trees", set()) <= {2}
-    assert meant["thicket"] == {0}, "vegetation, which this map calls bushes"
-
-
-def test_nouns_find_their_label_untrained(text_encoder):
-    matcher = LabelMatcher(text_encoder)
+def test_nouns_find_their_label(matcher):
     with torch.no_grad():
         bound = matcher.bind(KITTI)
         found = matcher(
@@ -185,8 +170,8 @@ def test_colours_keep_their_word_or_go_to_the_most_alike(palette):
         assert words[int(table[COLOURS.index("white")].argmax())] == "bright-gray"
 
 
-def test_a_binding_reads_what_was_noticed(text_encoder):
-    binding = Binding(LabelMatcher(text_encoder), KITTI, KITTI360_PALETTE)
+def test_a_binding_reads_what_was_noticed(matcher):
+    binding = Binding(matcher, KITTI, KITTI360_PALETTE)
     sure = torch.eye(10)[2]
     grey = torch.eye(len(COLOURS) + 1)[COLOURS.index("gray")]
     reading = binding.reading(

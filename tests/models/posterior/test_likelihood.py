@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
-from models.language.grammar.labelled_text import RELATIONS
+from models.language.parsed_hint import RELATIONS
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
 from models.posterior.node_batch import NodeBatch, colour_words, ranks_of, usual_statements, way_number
 from models.posterior.surroundings import STEP_M

@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from models.city.hints import describe_poses, sample_positions
-from models.language.grammar.labelled_text import RELATIONS
+from models.language.parsed_hint import RELATIONS
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
 from models.posterior.node_batch import colour_words

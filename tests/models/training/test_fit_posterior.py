@@ -5,7 +5,10 @@ import numpy as np
 import pytest
 
 from models.city.colours import KITTI360_PALETTE
-from models.language.grammar.labelled_text import WINDS, Fact
+from models.language.grammar.files import load_grammar
+from models.language.grammar.labelled_text import Fact
+from models.language.lexicon.lexicon import load_lexicon
+from models.language.parsed_hint import WINDS
 from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
 from models.training import fit_posterior
@@ -29,6 +32,9 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     record = json.loads((tmp_path / "config.json").read_text())
     assert record["fingerprint"] == model.fingerprint
     assert record["training"]["validation"] == figures
+    assert record["training"]["lexicon_sha256"] == load_lexicon().sha256
+    assert model.config.grammar_sha256 == load_grammar("train").sha256
+    assert len(model.matcher.names), "stored, so that a start embeds none"
 
 
 def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -> None:

@@ -2,9 +2,10 @@ import numpy as np
 import pytest
 
 from models.language.grammar.files import load_grammar
-from models.language.grammar.labelled_text import WINDS, Fact
+from models.language.grammar.labelled_text import Fact
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.wording import Wording
+from models.language.parsed_hint import WINDS
 
 FACTS = [
     Fact("lamp", "north", "black"),
@@ -77,14 +78,15 @@ def test_mentions_know_what_they_stand_for_and_whether_the_colour_is_said() -> N
 
 def test_opposites_are_no_words_and_a_direction_with_an_ending_is_the_plain_word() -> None:
     passage = Passage("{a1} on the {o1}ern side and, opposite,{x12} {a2}")
-    texts = [Wording("train")._fill(passage, FACTS, [0, 2], np.random.default_rng(n)).text for n in range(20)]
+    wording = Wording("train")
+    texts = [wording._fill(passage, FACTS, [0, 2], np.random.default_rng(n)).text for n in range(20)]
     assert all(" on the southern side and, opposite, a" in text for text in texts)
 
 
 @pytest.mark.parametrize("grammar", ["train", "val", "test"])
 def test_every_passage_tells_facts_that_are_made_to_suit_it(grammar) -> None:
     drawn = [Fact(f"thing {n}", WINDS[n], None if n % 2 else "gray") for n in range(6)]
-    passages = [Passage(phrase) for phrase in load_grammar(grammar)["passages"]["phrases"]]
+    passages = [Passage(phrase) for phrase in load_grammar(grammar).phrases["passages"]]
     for passage in passages:
         assert passage.problem() is None, passage.phrase
         facts = passage.suit(drawn[: passage.things], lambda: "black")
@@ -92,10 +94,10 @@ def test_every_passage_tells_facts_that_are_made_to_suit_it(grammar) -> None:
 
 
 def test_a_whole_description_tells_its_facts() -> None:
-    rng = np.random.default_rng(0)
+    wording, rng = Wording("train"), np.random.default_rng(0)
     drawn = [Fact("lamp", wind) for wind in WINDS]
     for _ in range(50):
-        facts, said = Wording("train").whole(drawn, rng)
+        facts, said = wording.whole(drawn, rng)
         assert len(facts) >= 4
         assert sorted(n for m in said.mentions for n in m.facts) == list(range(len(facts)))
 

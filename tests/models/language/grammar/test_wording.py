@@ -1,14 +1,18 @@
 import itertools
 import re
+import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from models.language.grammar.files import load_grammar
-from models.language.grammar.labelled_text import RELATIONS, WINDS, Fact, opposite
+from models.language.grammar.files import GRAMMARS as FOLDER
+from models.language.grammar.files import gist, load_grammar
+from models.language.grammar.labelled_text import Fact, opposite
 from models.language.grammar.passages import Passage
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
+from models.language.parsed_hint import RELATIONS, WINDS
 
 GRAMMARS = ("train", "val", "test")
 FACTS = [
@@ -45,10 +49,10 @@ def test_the_distance_and_the_name_are_said(grammar) -> None:
 
 @pytest.mark.parametrize("grammar", GRAMMARS)
 def test_phrases_have_only_known_slots_and_no_direction_of_their_own(grammar) -> None:
-    tables = load_grammar(grammar)
-    assert not [(p, problem) for p in tables["passages"]["phrases"] if (problem := Passage(p).problem())]
-    for table in tables.keys() - {"passages"}:
-        for phrase in tables[table].get("phrases", ()):
+    phrases = load_grammar(grammar).phrases
+    assert not [(p, problem) for p in phrases["passages"] if (problem := Passage(p).problem())]
+    for table in phrases.keys() - {"passages"}:
+        for phrase in phrases[table]:
             slots = set(re.findall(r"\{([a-zA-Z]+)\d?\}", phrase))
             assert slots <= {"d", "o", "a", "A", "the", "The", "n", "b", "theb", "c", "dist", "name", "m"}, phrase
             assert not re.search(r"\b(north|south|east|west)", phrase.lower()), (table, phrase)
@@ -63,23 +67,43 @@ def test_each_kind_says_what_it_is_for(grammar) -> None:
         **dict.fromkeys(("near", "on_top", "absent", "named_near", "two_near"), ()),
     }  # fmt: skip
     for table, numbers in directed.items():
-        for phrase in load_grammar(grammar).get(table, {}).get("phrases", ()):
+        for phrase in load_grammar(grammar).phrases.get(table, ()):
             said = {number if table != "two_same" else "" for number in re.findall(r"\{[do](\d?)\}", phrase)}
             assert said == set(numbers), (table, phrase)
 
 
 def test_validation_and_test_share_nothing_with_training() -> None:
     tables = {grammar: load_grammar(grammar) for grammar in GRAMMARS}
-    for one, other in itertools.combinations(GRAMMARS, 2):
-        for name in tables[other]:
-            if name in ("compass", "distance"):
-                continue
-            ours, theirs = (tables[g][name] for g in (one, other))
-            if "phrases" in theirs:
-                assert not set(ours["phrases"]) & set(theirs["phrases"]), name
-            else:
-                plain = [{w.lower().replace("-", " ") for words in t.values() for w in words} for t in (ours, theirs)]
-                assert not plain[0] & plain[1], name
+    for one, other in itertools.combinations(tables.values(), 2):
+        for kind in other.phrases.keys() - {"distance"}:
+            assert not {*map(gist, one.phrases[kind])} & {*map(gist, other.phrases[kind])}, kind
+        for names in ((one.labels, other.labels), (one.colours, other.colours)):
+            plain = [{w.lower().replace("-", " ") for words in t.values() for w in words} for t in names]
+            assert not plain[0] & plain[1]
+
+
+@pytest.mark.parametrize("grammar", GRAMMARS)
+def test_no_phrase_or_name_stands_twice(grammar) -> None:
+    tables = load_grammar(grammar)
+    for kind, phrases in tables.phrases.items():
+        assert len({*map(gist, phrases)}) == len(phrases), kind
+    for names in (tables.labels, tables.colours, tables.compass):
+        assert [key for key, words in names.items() if len({*words}) < len(words)] == []
+
+
+@pytest.mark.parametrize("grammar", GRAMMARS)
+def test_each_kind_of_phrase_has_one_file(grammar) -> None:
+    files = [tomllib.loads(file.read_text()) for file in (FOLDER / grammar).glob("*.toml")]
+    kinds = [kind for file in files for kind in file]
+    assert len(set(kinds)) == len(kinds)
+
+
+def test_the_hash_is_of_the_phrases_alone() -> None:
+    tables = load_grammar("val")
+    backwards = {kind: phrases[::-1] for kind, phrases in reversed(tables.phrases.items())}
+    assert replace(tables, phrases=backwards, labels={}).sha256 == tables.sha256
+    for kind in tables.phrases:
+        assert replace(tables, phrases={**tables.phrases, kind: tables.phrases[kind][1:]}).sha256 != tables.sha256
 
 
 def test_all_grammars_can_say_all_directions_and_kitti_classes() -> None:
