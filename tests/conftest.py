@@ -22,7 +22,6 @@ from models.city.osm.map import load_osm
 from models.city.points import PointTable
 from models.city.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
-from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 from models.retrieval.checkpoint import save_retriever
 from models.retrieval.mncl import Mncl, MnclConfig
 from tests.models.city.raw_scenes import TEST_STREET, TRAIN_STREETS, VAL_STREET, write_towns
@@ -144,24 +143,6 @@ def mncl(text_encoder: TextEncoder) -> Mncl:
 @pytest.fixture(scope="session")
 def weights_dir(model: Mncl, made_once: MadeOnce) -> Path:
     return made_once("weights", lambda out: save_retriever(model, out, {}))
-
-
-@pytest.fixture(scope="session")
-def posterior_dir(text_encoder: TextEncoder, made_once: MadeOnce) -> Path:
-    """Weights of an untrained hint posterior, which knows the names of things."""
-
-    def make(out: Path) -> None:
-        torch.manual_seed(0)
-        model = PosteriorModel(text_encoder, PosteriorConfig(width=32))
-        model.matcher.bind(("building",))
-        save_posterior(model, out, {})
-
-    return made_once("posterior", make)
-
-
-@pytest.fixture(scope="session")
-def posterior_model(posterior_dir: Path) -> PosteriorModel:
-    return load_posterior(posterior_dir)
 
 
 @pytest.fixture(scope="session")

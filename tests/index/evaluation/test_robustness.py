@@ -11,7 +11,7 @@ from index.map_posterior import MapPosterior
 from index.ranking import Ranker
 from models.city.types import Hint
 from models.errors import DataError
-from models.posterior.model import PosteriorConfig, PosteriorModel
+from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
 
 HINTS = tuple(
     Hint(direction, label, colour)
@@ -63,6 +63,7 @@ def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
     some = queries.take(rows)
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
+    untrained.matcher = load_posterior().matcher  # knows the names already
     posterior = MapPosterior(untrained, data.gallery, data.palette, data.around(lambda *_: None))
     found = robustness(data, some, ranker, posterior, lambda *_: None)
     head, table = robustness_table(found)

@@ -79,12 +79,12 @@ def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(eith
     assert (batch.sentences[batch.hint_mask] >= 0).all()
     vocabulary = either.training.vocabulary
     sentence = vocabulary.sentence
-    labels, colours = (np.arange(n) for n in vocabulary._pair.shape)
+    labels, colours = np.unique(either.training.label_of), np.unique(either.training.table.colour)
     direction_of = {}
     for d in range(5):
         for t in range(8):
             said = sentence(labels[:, None], colours[None, :], d, t)
-            direction_of |= dict.fromkeys(said[vocabulary._pair >= 0].tolist(), d)
+            direction_of |= dict.fromkeys(said[said >= 0].tolist(), d)  # less where nothing is of that colour
     agree = []
     for b, h in (batch.truth.match >= 0).nonzero().tolist():
         geometry = batch.cells.geometry[b, batch.truth.match[b, h]]

@@ -73,7 +73,7 @@ def test_the_vocabulary_numbers_its_sentences(region) -> None:
     said = [
         int(vocabulary.sentence(label, -1, d, t))
         for label, d, t in itertools.product(
-            np.flatnonzero(vocabulary._pair[:, -1] >= 0), range(len(DIRECTIONS)), range(2)
+            np.unique(region.label_of), range(len(DIRECTIONS)), range(2)
         )
     ]
     assert len(set(said)) == len(said)
