@@ -6,14 +6,16 @@ PORT ?= 8000
 MAP ?= models/maps/helsinki.osm.pbf
 INDEX ?= data/index
 IMAGE ?= hereabouts
+# Each process takes 1 to 2 GB. Files are shared out in runs, so that a module's fixtures are made by one of them.
+PYTEST := $(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist worksteal
 # What pip is asked for first; set it to choose another build of torch, for example TORCH=./torch-2.13.0+cu130.whl.
 TORCH ?= $(shell grep '^torch==' constraints.txt)
 TRAINED_ON := --data data/towns-0 --data data/towns-1 --data models/maps/helsinki.osm.pbf
 
-.PHONY: help install run test check format train index serve evaluate benchmark web wheels image clean
+.PHONY: help install run test test-fast check format train index serve evaluate benchmark web wheels image clean
 
 help:  ## what can be made
-	@sed -n 's/^\([a-z]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
+	@sed -n 's/^\([a-z-]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
 
 $(BIN)/.installed: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
@@ -33,7 +35,10 @@ serve: install  ## serve INDEX on PORT
 	$(BIN)/hereabouts serve --index $(INDEX) --port $(PORT)
 
 test: install  ## the whole test suite
-	$(BIN)/python -m pytest
+	$(PYTEST)
+
+test-fast: install  ## what is quick of it, of every package
+	$(PYTEST) -m 'not slow'
 
 check: install  ## ruff and mypy
 	$(BIN)/ruff check .

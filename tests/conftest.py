@@ -3,17 +3,24 @@
 import os
 
 os.environ.setdefault("HF_HUB_OFFLINE", "1")
+os.environ["OMP_NUM_THREADS"] = (
+    "1"  # before torch: the tests' models are small, and the other CPUs have tests of their own
+)
 
+import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 import torch
+from filelock import FileLock
 
 from index.build import build_index
 from index.localizer import Localizer
 from models.city.cells import CellTable, cut_cells
 from models.city.gallery import MapData
+from models.city.kitti360.job import prepare_data
 from models.city.osm.map import load_osm
 from models.city.points import PointTable
 from models.city.queries import Queries
@@ -22,7 +29,9 @@ from models.city.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
 from models.retrieval.mncl import Mncl, MnclConfig
+from tests.models.city.raw_scenes import TEST_STREET, TRAIN_STREETS, VAL_STREET, write_towns
 
+MadeOnce = Callable[[str, Callable[[Path], object]], Path]
 SIZE_M = 300
 LAT, LON = 60.0, 25.0
 LAT_M, LON_M = 1 / 111_412.0, 1 / 55_800.0  # degrees a metre, near enough at 60 degrees
@@ -75,14 +84,31 @@ def tiny_osm(seed: int = 0) -> str:
     return "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>" + "".join(nodes + ways) + "</osm>"
 
 
-torch.set_num_threads(1)  # the tests' models are small: on a busy machine a second thread waits more than it works
+@pytest.fixture(scope="session")
+def made_once(tmp_path_factory: pytest.TempPathFactory) -> MadeOnce:
+    """(name, make) -> a directory that `make` has filled, once for all processes of a run; nobody writes to it."""
+    root = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        root = root.parent  # that of the process which started the workers
+
+    def made(name: str, make: Callable[[Path], object]) -> Path:
+        path = root / "made-once" / name
+        path.parent.mkdir(exist_ok=True)
+        with FileLock(f"{path}.lock"):
+            if not path.exists():
+                half = path.with_name(f"{name}.half")
+                shutil.rmtree(half, ignore_errors=True)
+                half.mkdir()
+                make(half)
+                half.rename(path)
+        return path
+
+    return made
 
 
 @pytest.fixture(scope="session")
-def osm_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("map") / "tinytown.osm"
-    path.write_text(tiny_osm())
-    return path
+def osm_file(made_once: MadeOnce) -> Path:
+    return made_once("map", lambda out: (out / "tinytown.osm").write_text(tiny_osm())) / "tinytown.osm"
 
 
 @pytest.fixture(scope="session")
@@ -138,19 +164,32 @@ def mncl(text_encoder: TextEncoder) -> Mncl:
 
 
 @pytest.fixture(scope="session")
-def weights_dir(model: Mncl, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    directory = tmp_path_factory.mktemp("weights")
-    save_retriever(model, directory, {})
-    return directory
+def weights_dir(model: Mncl, made_once: MadeOnce) -> Path:
+    return made_once("weights", lambda out: save_retriever(model, out, {}))
 
 
 @pytest.fixture(scope="session")
-def index_dir(osm_file: Path, weights_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    root = tmp_path_factory.mktemp("index")
-    build_index(osm_file, root, weights_dir)
-    return root
+def index_dir(osm_file: Path, weights_dir: Path, made_once: MadeOnce) -> Path:
+    return made_once("index", lambda out: build_index(osm_file, out, weights_dir))
 
 
 @pytest.fixture(scope="session")
 def localizer(index_dir: Path, weights_dir: Path) -> Localizer:
     return Localizer.open(index_dir, weights_dir)
+
+
+@pytest.fixture(scope="session")
+def raw_root(made_once: MadeOnce) -> Path:
+    """Raw KITTI-360: a street of the test split and one of the validation split."""
+    return made_once("raw", lambda out: write_towns(out, TEST_STREET, VAL_STREET))
+
+
+@pytest.fixture(scope="session")
+def streets(made_once: MadeOnce) -> Path:
+    """A prepared data set: two streets to train on, which lie over each other, and one to choose by."""
+
+    def make(out: Path) -> None:
+        write_towns(out / "raw", *TRAIN_STREETS, VAL_STREET)
+        prepare_data(out / "raw", out / "prepared")
+
+    return made_once("streets", make) / "prepared"

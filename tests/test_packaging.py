@@ -1,6 +1,7 @@
 """What `pip install .` takes along: everything that runs."""
 
 import tomllib
+from fnmatch import fnmatch
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -9,12 +10,12 @@ TOP = ("app", "index", "models")
 
 
 def test_every_package_is_named() -> None:
-    found = {
-        str(init.parent.relative_to(ROOT)).replace("/", ".")
-        for top in TOP
-        for init in ROOT.glob(f"{top}/**/__init__.py")
-    }
-    assert set(SETUPTOOLS["packages"]) == found
+    named = SETUPTOOLS["packages"]["find"]["include"]
+    for folder in {path.parent for top in TOP for path in ROOT.glob(f"{top}/**/*.py")}:
+        package = folder.relative_to(ROOT)
+        assert any(fnmatch(".".join(package.parts), pattern) for pattern in named), package
+        for part in (package, *package.parents[:-1]):
+            assert (ROOT / part / "__init__.py").is_file(), "or setuptools does not find it"
 
 
 def test_every_file_that_is_read_is_taken_along() -> None:

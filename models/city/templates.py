@@ -1,4 +1,4 @@
-"""The benchmark's sentences, and other ways to say the same (kitti360pose.md, rule 8)."""
+"""The benchmark's sentences, and other ways to say the same (docs/formats.md, rule 8)."""
 
 from typing import Final
 

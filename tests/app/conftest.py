@@ -6,18 +6,20 @@ from pathlib import Path
 import pytest
 import structlog
 from fastapi.testclient import TestClient
+from pydantic import ValidationError
 
 sys.path.append(str(Path(__file__).parent))  # importlib mode does not; see also serve_fake.py
 
 from fake_localizer import FakeLocalizer
 
+from app.http.errors import Code, Problem, field_name
 from app.main import create_app
 from app.settings import Settings
 
 TEXT = "I am north of a gray building. A black pole is to my west."
 
 
-def wait_until(condition, timeout_s=5):
+def wait_until(condition, timeout_s=20):
     end = time.monotonic() + timeout_s
     while not condition():
         assert time.monotonic() < end, "waited in vain"
@@ -49,16 +51,36 @@ def fake():
     return FakeLocalizer()
 
 
+class TheTests:
+    """The localizer of the service that tests share: whichever the running test has."""
+
+    def __init__(self):
+        self.own = FakeLocalizer()
+
+    def __getattr__(self, name):
+        return getattr(self.own, name)
+
+
+@pytest.fixture(scope="session")
+def _shared():
+    localizer = TheTests()
+    with started(Settings(), localizer) as api:
+        yield api, localizer
+
+
 @pytest.fixture
-def api(settings, fake):
-    """A client of a service that is ready and answers with `fake`."""
-    with started(settings, fake) as api:
-        yield api
+def api(_shared, fake):
+    """A client of a service that is ready and answers with `fake`; who changes more of it has to `start` another."""
+    api, localizer = _shared
+    localizer.own = fake
+    yield api
+    fake.gate.set()
+    wait_until(lambda: api.app.state.queue.is_idle)
 
 
 @pytest.fixture
 def start():
-    """A context manager: (settings, localizer) -> client of a service that is ready."""
+    """A context manager: (settings, localizer) -> client of a service of its own that is ready."""
     return started
 
 
@@ -71,6 +93,24 @@ def until():
 @pytest.fixture
 def text():
     return TEXT
+
+
+@pytest.fixture(scope="session")
+def refused():
+    """Runs what takes a body apart, and gives (the names of the fields that it refuses, all that it says)."""
+
+    def check(take, body):
+        with pytest.raises((ValidationError, Problem)) as raised:
+            take(body)
+        error = raised.value
+        if isinstance(error, Problem):
+            assert error.code is Code.INVALID_REQUEST
+            return [wrong.field for wrong in error.errors], error.detail
+        found = error.errors()
+        fields = [field_name(("body", *wrong["loc"]), wrong.get("ctx", {})) for wrong in found]
+        return fields, " ".join(wrong["msg"] for wrong in found)
+
+    return check
 
 
 @pytest.fixture

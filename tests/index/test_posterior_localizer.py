@@ -153,8 +153,7 @@ def test_weights_are_saved_and_read_back(text_encoder, tmp_path):
 
 
 def test_a_localizer_answers_by_either_way(index_dir, weights_dir, posterior_model, tmp_path, query):
-    encoder, config = posterior_model.reader.text_encoder, posterior_model.config
-    save_posterior(PosteriorModel(encoder, config), tmp_path, {})
+    save_posterior(posterior_model, tmp_path, {})
     localizer = Localizer.open(index_dir, weights_dir, posterior_weights_dir=tmp_path)
     localizer.posterior.weights.reader.read = read_exactly
     by_vectors, by_posterior = localizer.localize([replace(query, refine="none"), query])

@@ -41,8 +41,7 @@ def build_router(settings: Settings) -> APIRouter:
         started_s = time.monotonic()
         asked: LocalizeRequest = body
         media_type = negotiate(request, localizer.frame)
-        if asked.crs == "wgs84":
-            check_reach(asked, localizer.frame)
+        check_reach(asked, localizer.frame)
         deadline_s = started_s + asked.deadline_ms / 1000
         served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
         total_ms = (time.monotonic() - started_s) * 1000
@@ -61,6 +60,8 @@ def check_reach(asked: LocalizeRequest, frame: Frame) -> None:
     Raises:
         Problem: the map has no georeference, or a point is on another side of the Earth.
     """
+    if asked.crs == "map":
+        return
     if not frame.is_georeferenced:
         raise Problem.of_field("crs", "this map has no georeference; give within and prior in metres, with crs map")
     for field, (lon, lat) in asked.points():

@@ -7,9 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.main import app
-from tests.models.city.raw_scenes import write_town
-
-FOLDERS = ("2013_05_28_drive_0003_sync", "2013_05_28_drive_0010_sync")
+from tests.models.city.raw_scenes import VAL_STREET
 
 
 @pytest.fixture
@@ -20,26 +18,18 @@ def run(monkeypatch, weights_dir):
 
 
 @pytest.fixture(scope="module")
-def raw(tmp_path_factory):
-    root = tmp_path_factory.mktemp("raw")
-    for seed, folder in enumerate(FOLDERS):
-        write_town(root, folder, seed)
-    return root
-
-
-@pytest.fixture(scope="module")
-def prepared(raw, tmp_path_factory):
+def prepared(raw_root, tmp_path_factory):
     out = tmp_path_factory.mktemp("prepared")
-    result = CliRunner().invoke(app, ["prepare", "--raw", str(raw), "--out", str(out)])
+    result = CliRunner().invoke(app, ["prepare", "--raw", str(raw_root), "--out", str(out)])
     assert result.exit_code == 0, result.output
     return out
 
 
-def test_prepare_makes_one_scene_alone(run, raw, prepared, tmp_path) -> None:
-    result = run("prepare", "--raw", raw, "--out", tmp_path, "--scene", "0010")
+def test_prepare_makes_one_scene_alone(run, raw_root, prepared, tmp_path) -> None:
+    result = run("prepare", "--raw", raw_root, "--out", tmp_path, "--scene", "0010")
     assert result.exit_code == 0, result.output
-    assert os.listdir(tmp_path / "cells") == [f"{FOLDERS[1]}.pkl"]
-    name = f"cells/{FOLDERS[1]}.pkl"
+    assert os.listdir(tmp_path / "cells") == [f"{VAL_STREET}.pkl"]
+    name = f"cells/{VAL_STREET}.pkl"
     assert (tmp_path / name).read_bytes() == (prepared / name).read_bytes()
 
 

@@ -4,9 +4,11 @@ import json
 from pathlib import Path
 
 import pytest
-from fake_localizer import FakeLocalizer
+from fake_localizer import TRUE_FRAME, FakeLocalizer
 
-from app.jobs.order import find_data, read_evaluation
+from app.http.requests import evaluate_model
+from app.jobs.order import find_data, read_evaluation, to_evaluation
+from app.settings import Settings
 from models.city.frame import Frame
 from models.errors import DataError
 
@@ -38,7 +40,7 @@ def data_dir(tmp_path):
     return tmp_path / "data"
 
 
-def test_queries_become_sentences_and_metres(api, submitted):
+def test_queries_become_texts_and_metres(api, submitted):
     body = {"queries": [ASKED, {"hints": [" a tree "], "position": [3, 4]}], "grow": [200, 300.5]}
     response = api.post("/evaluate", json=body)
     assert response.status_code == 202
@@ -47,7 +49,7 @@ def test_queries_become_sentences_and_metres(api, submitted):
     assert accepted["links"]["events"] == f"/evaluate/{accepted['job']}/events"
     assert accepted["status"] == "queued"
     [evaluation] = submitted
-    assert evaluation.sentences == [("I am north of a gray building.", "A pole is to my west."), ("a tree",)]
+    assert evaluation.descriptions == ["I am north of a gray building. A pole is to my west.", " a tree "]
     assert evaluation.positions_m == [(1, 2), (3, 4)]
     assert evaluation.grow_m == [200, 300.5]
     assert evaluation.index_dir.is_absolute()
@@ -93,7 +95,32 @@ def test_wgs84_is_projected(api, submitted):
         ({"data": "town"}, "data"),
     ],
 )
-def test_what_cannot_be_used_is_named(settings, fake, start, submitted, problem, body, field):
+def test_what_cannot_be_used_is_named(refused, body, field):
+    settings = Settings(max_queries=10)
+    model = evaluate_model(settings)
+    fields, said = refused(
+        lambda body: to_evaluation(model.model_validate(body), settings, Path("/nowhere"), TRUE_FRAME), body
+    )
+    assert field in fields
+    assert "utm" not in said
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({}, "queries"),
+        ({"queries": [ASKED, ASKED | {"position": [1]}]}, "queries[1].position[1]"),
+        ({"queries": [ASKED | {"hints": ["a tree"]}]}, "queries[0].description"),
+        ({"queries": [ASKED | {"description": "A tree. " * 33}]}, "queries[0].description"),
+        ({"queries": [ASKED | {"pose": 1}]}, "queries[0].pose"),
+        ({"queries": [ASKED] * 11}, "queries"),
+        ({"queries": [ASKED], "crs": "utm"}, "crs"),
+        ({"queries": [ASKED, ASKED | {"position": [115, 0]}], "crs": "wgs84"}, "queries[1].position"),
+        ({"data": "town"}, "data"),
+    ],
+)
+def test_what_cannot_be_used_is_a_422_and_no_job(settings, fake, start, submitted, problem, body, field):
+    """One of each kind of the errors above."""
     with start(settings.model_copy(update={"max_queries": 10}), fake) as api:
         response = api.post("/evaluate", json=body)
     problem(response, 422, "invalid_request", field)
@@ -125,9 +152,10 @@ def test_its_own_limit_of_bytes(settings, fake, start, submitted, problem):
         assert (limits["max_evaluate_bytes"], limits["max_queries"], limits["max_jobs"]) == (100_000, 10_000, 8)
 
 
-def test_refused_until_ready_and_while_draining(api, submitted, problem):
-    api.app.state.queue.drain()
-    problem(api.post("/evaluate", json={"queries": [ASKED]}), 503, "draining")
+def test_refused_until_ready_and_while_draining(settings, fake, start, submitted, problem):
+    with start(settings, fake) as api:
+        api.app.state.queue.drain()
+        problem(api.post("/evaluate", json={"queries": [ASKED]}), 503, "draining")
 
 
 @pytest.mark.parametrize(
@@ -143,9 +171,16 @@ def test_data_set_by_name(settings, fake, start, submitted, data_dir, name, file
 @pytest.mark.parametrize(
     "name", ["../outside", "../outside.osm", "..", ".", "/etc", "kitti/../town", "./town", ".hidden", "notes.txt", "x"]
 )
-def test_no_path_is_a_data_set(settings, fake, start, submitted, data_dir, problem, name):
+def test_no_path_is_a_data_set(refused, data_dir, name):
+    for given in (name, str(data_dir / name)):
+        fields, said = refused(lambda given: find_data(data_dir, given), given)
+        assert fields == ["data"]
+        assert str(data_dir) not in said
+
+
+def test_a_path_is_a_422(settings, fake, start, submitted, data_dir, problem):
     with start(settings.model_copy(update={"data_dir": data_dir}), fake) as api:
-        for given in (name, str(data_dir / name)):
+        for given in ("../outside.osm", str(data_dir / "town.osm")):
             response = api.post("/evaluate", json={"data": given})
             problem(response, 422, "invalid_request", "data")
             assert str(data_dir) not in response.text

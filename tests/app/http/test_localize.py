@@ -4,8 +4,11 @@ import time
 from itertools import pairwise
 
 import pytest
-from fake_localizer import FakeLocalizer
+from fake_localizer import TRUE_FRAME, FakeLocalizer
 
+from app.http.requests import request_model
+from app.http.routes.localize import check_reach
+from app.settings import Settings
 from index.answers import Box, Circle, Prior, Query
 from models.city.frame import Frame
 from models.errors import WeightsError
@@ -40,19 +43,17 @@ def test_answer_has_exactly_the_names_of_the_api(api, text):
     assert body["provenance"] == {
         "index": "default",
         "index_version": "v1",
-        "model": "fake",
-        "model_sha256": "ab" * 32,
+        "model": "posterior/fake",
+        "model_sha256": "cd" * 32,
         "map": "fakeville",
         "attribution": "© nobody",
     }
     assert set(body["timings_ms"]) == {"encode", "search", "estimate", "queue", "total"}
 
 
-def test_description_is_split_into_hints_and_defaults_are_the_apis(api, fake, text):
+def test_description_goes_on_as_it_is_and_defaults_are_the_apis(api, fake, text):
     api.post("/localize", json={"description": text})
-    assert fake.batches == [
-        [Query(("I am north of a gray building.", "A black pole is to my west."), top_k=5, refine="posterior")]
-    ]
+    assert fake.batches == [[Query(text, top_k=5, refine="posterior")]]
 
 
 def test_hints_filter_and_prior_reach_the_localizer(api, fake):
@@ -60,8 +61,8 @@ def test_hints_filter_and_prior_reach_the_localizer(api, fake):
     api.post("/localize", json={"hints": [" one tree ", "two trees"], "top_k": 1, **where})
     api.post("/localize", json={"hints": ["a tree"], "within": {"bbox": [24.9, 60.1, 25, 60.2]}, "crs": "wgs84"})
     assert fake.batches == [
-        [Query(("one tree", "two trees"), 1, Circle((1, 2.5), 30), Prior((3, 4), 50), refine="posterior")],
-        [Query(("a tree",), 5, Box(24.9, 60.1, 25, 60.2), crs="wgs84", refine="posterior")],
+        [Query(" one tree \ntwo trees", 1, Circle((1, 2.5), 30), Prior((3, 4), 50), refine="posterior")],
+        [Query("a tree", 5, Box(24.9, 60.1, 25, 60.2), crs="wgs84", refine="posterior")],
     ]
 
 
@@ -131,9 +132,38 @@ def test_model_runs_on_the_inference_thread_only(api, fake, text):
         ({"prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
     ],
 )
-def test_wrong_field_is_named_and_not_computed(api, fake, problem, body, field):
+def test_wrong_field_is_named(refused, body, field):
     if not {"description", "hints"} & set(body) and body:
         body = {"description": "a tree", **body}
+    settings = Settings()
+    model = request_model(settings)
+    fields, _ = refused(lambda body: check_reach(model.model_validate(body), TRUE_FRAME), body)
+    assert field in fields
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({}, "description"),  # a check of several fields
+        ({"description": "a\u0085tree"}, "description"),  # of the characters of one
+        ({"description": 5}, "description"),
+        ({"description": "x" * 4001}, "description"),
+        ({"description": "a tree. " * 33}, "description"),  # after the request's model
+        ({"hints": ["a tree", 7]}, "hints[1]"),
+        ({"description": "a", "top_k": 41}, "top_k"),
+        ({"description": "a", "refine": "guess"}, "refine"),
+        ({"description": "a", "heat": False}, "heat"),
+        ({"description": "a", "within": {"bbox": [0, 0, 1]}}, "within.bbox[3]"),
+        ({"description": "a", "within": {"bbox": [0, 0, 1, 10**400]}}, "within.bbox[3]"),
+        ({"description": "a", "within": {"bbox": [1, 0, 0, 1]}}, "within.bbox"),
+        ({"description": "a", "within": {"circle": {"center": [0, 91], "radius_m": 1}}, "crs": "wgs84"},
+         "within.circle.center"),
+        ({"description": "a", "prior": {"position": [0, 0]}}, "prior.sigma_m"),
+        ({"description": "a", "prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+    ],
+)  # fmt: skip
+def test_wrong_field_is_a_422_and_nothing_is_computed(api, fake, problem, body, field):
+    """One of each kind of the errors above."""
     problem(api.post("/localize", json=body), 422, "invalid_request", field)
     assert fake.batches == []
 

@@ -5,23 +5,29 @@ import json
 import os
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
 import structlog
 
-from app import jobs as jobs_module
 from app.http.routes import evaluate
 from app.jobs.job import Job
+from app.jobs.runner import EvaluationJobs
 
 COMMAND = (sys.executable, str(Path(__file__).parent / "fake_worker.py"))
-TIMEOUT_S = 20
+TIMEOUT_S = 60
 
 
 @pytest.fixture
-def api(settings, fake, start):
+def command():
+    return COMMAND
+
+
+@pytest.fixture
+def api(settings, fake, start, command, monkeypatch):
+    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=command))
     with start(settings.model_copy(update={"max_jobs": 2}), fake) as api:
-        api.app.state.jobs._command = COMMAND
         yield api
 
 
@@ -139,8 +145,8 @@ def test_crash_is_told_in_the_log_alone(api):
     assert wait_for(api, begin(api), "done"), "the next one runs"
 
 
+@pytest.mark.parametrize("command", [("/nowhere/python",)])
 def test_worker_that_does_not_start_is_a_failure(api):
-    api.app.state.jobs._command = ("/nowhere/python",)
     assert wait_for(api, begin(api), "failed")["error"]["code"] == "internal_error"
 
 
@@ -188,7 +194,7 @@ def test_one_runs_some_wait_and_one_more_is_refused(api, problem):
 
 
 def test_finished_jobs_are_kept_for_a_while(api, monkeypatch, problem):
-    monkeypatch.setattr(jobs_module, "KEPT", 2)
+    monkeypatch.setattr("app.jobs.runner.KEPT", 2)
     running = begin(api, "held")
     wait_for(api, running, "running")
     old = []
@@ -201,9 +207,9 @@ def test_finished_jobs_are_kept_for_a_while(api, monkeypatch, problem):
     assert state(api, running)["status"] == "running"
 
 
-def test_end_of_the_service_leaves_nothing(settings, fake, start):
+def test_end_of_the_service_leaves_nothing(settings, fake, start, monkeypatch):
+    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=COMMAND))
     with start(settings, fake) as api:
-        api.app.state.jobs._command = COMMAND
         jobs = [begin(api, "held"), begin(api, "held")]
         wait_for(api, jobs[0], "running")
         pid = api.app.state.jobs.get(jobs[0]).process.pid

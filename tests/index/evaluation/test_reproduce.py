@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from index.evaluation import reproduce as module
-from index.evaluation.reproduce_report import _cost_table, markdown, write_reproduction
+from index.evaluation.reproduce_report import markdown, write_reproduction
 from models.training.experiments import EXPERIMENTS, FINE, MNCL, Run, Scale, runs_of
 
 TEXT2LOC, REGRESSOR = Run("text2loc"), Run("regressor")
@@ -100,5 +100,7 @@ def test_costs_are_those_of_a_typical_seed():
     costs = [
         {"descriptions_per_second": s, "seconds_to_best": 100.0 / s, "peak_memory_mb": 900.0} for s in (2, 1, 0.01)
     ]
-    _, [row] = _cost_table({"runs": {"ret": [{"training": cost} for cost in costs]}})
-    assert row[:4] == ("ret", "1", "100 s", "900 MB")
+    runs = {run.name: [made_up(run, 0)] for run in runs_of(every_seed=False)}
+    runs["ret"] = [made_up(Run("ret"), seed) | {"training": cost} for seed, cost in enumerate(costs)]
+    data = {"cells": 10, "queries": 5, "exact_matching": {"1": 0.4}}
+    assert "| ret | 1 | 100 s | 900 MB |" in markdown({"seeds": [0, 1, 2], "data": data, "runs": runs}, "nowhere")

@@ -11,7 +11,7 @@ from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.city.types import Hint
 from models.errors import DataError
-from models.posterior.model import PosteriorConfig, PosteriorModel
+from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
 from models.posterior.surroundings import Surroundings
 
 HINTS = tuple(
@@ -59,6 +59,7 @@ def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_e
     some = queries.take(rows)
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
+    untrained.matcher = load_posterior().matcher  # knows the names already
     posterior = PosteriorLocalizer.of_map(untrained, data, ranker, Surroundings.of(source.bodies(), data.cells))
     vectors = VectorLocalizer.of_map(data, ranker)
     found = robustness(data, some, vectors, posterior, lambda *_: None)

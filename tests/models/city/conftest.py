@@ -21,11 +21,11 @@ from models.city.kitti360pose.pickle_writer import write_records
 from models.city.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 from models.city.store.pose_store import PoseStore
 from models.city.types import DIRECTIONS
-from tests.models.city.raw_scenes import write_town
+from tests.models.city.raw_scenes import TEST_STREET, VAL_STREET
 
 MINI = Path(__file__).parents[4] / "shared/data/k360-mini"
 needs_mini = pytest.mark.skipif(not MINI.is_dir(), reason="../shared/data/k360-mini is not on this machine")
-LONG, VAL = "2013_05_28_drive_0003_sync", "2013_05_28_drive_0010_sync"
+LONG, VAL = TEST_STREET, VAL_STREET
 QUICK = PrepareConfig(copies=1)
 LABELS = ["building", "pole", "trash bin", "road"]
 COLOURS = ["gray", "green", "beige"]
@@ -234,15 +234,8 @@ def data(scenes: list[Scene], tmp_path: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def raw_root(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    root = tmp_path_factory.mktemp("raw")
-    write_town(root, LONG, 0)
-    write_town(root, VAL, 1)
-    return root
-
-
-@pytest.fixture(scope="session")
 def prepared(raw_root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Of this process alone: who prepares a scene again, and finds it done, locks it."""
     out = tmp_path_factory.mktemp("prepared")
     assert prepare_data(raw_root, out, config=QUICK) == (LONG, VAL)
     return out

@@ -10,6 +10,8 @@ from models.city.kitti360.rules import CLASSES
 from models.city.types import Instance
 
 FOLDER = "2013_05_28_drive_0042_sync"
+TRAIN_STREETS = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0002_sync")
+TEST_STREET, VAL_STREET = "2013_05_28_drive_0003_sync", "2013_05_28_drive_0010_sync"
 STUFF = frozenset(rule.label for rule in CLASSES if rule.is_stuff)
 VERTEX = [(axis, "f4") for axis in "xyz"] + [(c, "u1") for c in ("red", "green", "blue")]
 VERTEX += [("semantic", "i4"), ("instance", "i4"), ("visible", "u1"), ("confidence", "f4")]
@@ -80,3 +82,9 @@ def write_town(root: Path, folder: str, seed: int = 0) -> None:
     for n, tile in enumerate(np.array_split(rng.permutation(vertex), 2)):
         write_ply(root / "data_3d_semantics" / folder / "static" / f"{n:010d}.ply", tile)
     write_trajectory(root, raw.trajectory_m, folder)
+
+
+def write_towns(root: Path, *folders: str) -> None:
+    """Towns of their own, which lie over each other."""
+    for seed, folder in enumerate(folders):
+        write_town(root, folder, seed)

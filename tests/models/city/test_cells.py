@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from sklearn.cluster import DBSCAN
 
-from models.city.cells import _cut_cube, cut_cells, cut_cubes, grid_centers
+from models.city.cells import cut_cells, cut_cube, cut_cubes, grid_centers
 from models.city.points import PointTable
 from models.city.types import CityMap, CutRules, Instance
 from models.errors import MapError
@@ -30,7 +30,7 @@ def test_cutting_equals_the_rules_read_literally(city, points, n) -> None:
     center = np.random.default_rng(n).uniform(-140, 140, 3) * [1, 1, 0]
     mine = [
         (int(points.instance[rows[0]]), frozenset((rows - points.starts[points.instance[rows[0]]]).tolist()))
-        for rows in _cut_cube(points, center, city.rules)
+        for rows in cut_cube(points, center, city.rules)
     ]
     assert sorted(mine, key=repr) == sorted(naive_parts(city, center), key=repr)
     assert len(mine) > 3
@@ -52,7 +52,7 @@ def test_ragged_stuff_is_split_as_scikit_learn_does(seed) -> None:
     center = np.array([13.0, 12.0, 0.0])  # most of the clouds are outside
     mine = [
         (int(points.instance[rows[0]]), frozenset((rows - points.starts[points.instance[rows[0]]]).tolist()))
-        for rows in _cut_cube(points, center, city.rules)
+        for rows in cut_cube(points, center, city.rules)
     ]
     assert mine == naive_parts(city, center)
 
@@ -60,7 +60,9 @@ def test_ragged_stuff_is_split_as_scikit_learn_does(seed) -> None:
 def test_the_summary_of_parts(city, points) -> None:
     center = np.array([[7.0, -12.0, 0.0]])
     parts = cut_cubes(points, center, city.rules)
-    for row, members in enumerate(_cut_cube(points, center[0], city.rules)):
+    members_of = cut_cube(points, center[0], city.rules)
+    assert len(members_of) == len(parts.instance) > 3
+    for row, members in zip(np.argsort(parts.instance, kind="stable"), members_of, strict=True):
         xyz = points.xyz[members]
         assert parts.count[row] == len(xyz)
         assert (parts.low_m[row] == xyz.min(axis=0)).all()
@@ -85,7 +87,7 @@ def test_colours_of_points_are_averaged_over_the_part() -> None:
     city = CityMap("c", clouds, city.stuff, city.locations_m, rules=city.rules)
     points = PointTable.of(city, 0.75)
     parts = cut_cubes(points, np.zeros((1, 3)), city.rules)
-    members = _cut_cube(points, np.zeros(3), city.rules)
+    members = cut_cube(points, np.zeros(3), city.rules)
     assert parts.rgb[0] == pytest.approx(rgb[members[0]].mean(axis=0), abs=1e-5)
 
 

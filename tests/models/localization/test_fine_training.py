@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.kitti360.job import prepare_data
 from models.city.queries import Queries
 from models.city.source import open_source
 from models.city.store.files import load_data
@@ -16,24 +15,11 @@ from models.training.fit_fine import FineTask, train_fine
 from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect
 from models.training.settings import TrainingConfig
 from models.training.training_data import TrainingData, load_training
-from tests.models.city.raw_scenes import write_town
-
-FOLDERS = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0002_sync", "2013_05_28_drive_0010_sync")
 
 
 @pytest.fixture(scope="module")
-def data_set(tmp_path_factory):
-    """Two scenes to train on, which lie over each other, and one to choose by."""
-    raw, prepared = (tmp_path_factory.mktemp("fine") / name for name in ("raw", "prepared"))
-    for seed, folder in enumerate(FOLDERS):
-        write_town(raw, folder, seed)
-    prepare_data(raw, prepared)
-    return prepared
-
-
-@pytest.fixture(scope="module")
-def store_set(data_set, text_encoder):
-    return FineSet(TrainingSet(open_source(data_set, "train").statements(0.0, np.random.default_rng(0)), text_encoder))
+def store_set(streets, text_encoder):
+    return FineSet(TrainingSet(open_source(streets, "train").statements(0.0, np.random.default_rng(0)), text_encoder))
 
 
 @pytest.fixture(scope="module", params=["map", "store"])
@@ -93,12 +79,12 @@ def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(eith
     assert (batch.sentences[batch.hint_mask] >= 0).all()
     vocabulary = either.training.vocabulary
     sentence = vocabulary.sentence
-    labels, colours = (np.arange(n) for n in vocabulary._pair.shape)
+    labels, colours = np.unique(either.training.label_of), np.unique(either.training.table.colour)
     direction_of = {}
     for d in range(5):
         for t in range(8):
             said = sentence(labels[:, None], colours[None, :], d, t)
-            direction_of |= dict.fromkeys(said[vocabulary._pair >= 0].tolist(), d)
+            direction_of |= dict.fromkeys(said[said >= 0].tolist(), d)  # less where nothing is of that colour
     agree = []
     for b, h in (batch.truth.match >= 0).nonzero().tolist():
         geometry = batch.cells.geometry[b, batch.truth.match[b, h]]
@@ -130,8 +116,8 @@ def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(eit
         assert asked.rows[q, 1] in others if len(others) else asked.rows[q, 1] == -1
 
 
-def test_matches_name_the_instances_that_the_store_says(store_set, data_set) -> None:
-    store = load_data(data_set, "train")
+def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> None:
+    store = load_data(streets, "train")
     poses, parts = store.poses, store.cell_table().parts
     right = known = 0
     for n in store_set.training.usable[::5]:
@@ -195,9 +181,9 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) ->
     assert source["validation"]["cell_center"]["within_5m"] > 0
 
 
-def test_a_data_set_trains_either_method(data_set, tmp_path) -> None:
+def test_a_data_set_trains_either_method(streets, tmp_path) -> None:
     def load(encoder, rng):
-        return [load_training(data_set, ("train", "val"), encoder, TrainingConfig(), rng)] * 2
+        return [load_training(streets, ("train", "val"), encoder, TrainingConfig(), rng)] * 2
 
     for method, kind in FINE_METHODS.items():
         config = TrainingConfig(steps=2, batch_size=8, validate_every=2, pmc=False)

@@ -1,11 +1,9 @@
 import numpy as np
 import pytest
 
-from models.city.kitti360.job import prepare_data
 from models.city.source import open_source
 from models.errors import IndexBroken
 from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
-from tests.models.city.raw_scenes import write_town
 
 
 @pytest.fixture(scope="module")
@@ -89,11 +87,8 @@ def test_saved_surroundings_come_back_and_broken_ones_are_named(around, tmp_path
         Surroundings.load(tmp_path)
 
 
-def test_a_data_set_has_the_points_that_its_cells_show(tmp_path) -> None:
-    raw, prepared = tmp_path / "raw", tmp_path / "prepared"
-    write_town(raw, "2013_05_28_drive_0000_sync", 0)
-    prepare_data(raw, prepared)
-    source = open_source(prepared, "train")
+def test_a_data_set_has_the_points_that_its_cells_show(streets) -> None:
+    source = open_source(streets, "train")
     cells, bodies = source.data.cells, source.bodies()
     for part in range(0, len(cells.parts.instance), 17):
         i = bodies.part_instance[part]

@@ -1,18 +1,20 @@
 import json
+import re
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from models.city.colours import KITTI360_PALETTE
+from models.city.types import Hint
 from models.language.grammar.files import load_grammar
-from models.language.grammar.labelled_text import Fact
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.parsed_hint import WINDS
 from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
 from models.training import fit_posterior
-from models.training.places import _slip
+from models.training.places import Place
 from models.training.settings import TrainingConfig
 
 
@@ -38,28 +40,55 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
 
 
 def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -> None:
-    likelihood = Likelihood()
-    fitted = float(likelihood.temper.detach())
+    model: Any = SimpleNamespace(likelihood=Likelihood(), config=PosteriorConfig())
+    fitted = float(model.likelihood.temper.detach())
 
-    def answers(model, part):
-        # What is claimed grows with it, and is true at 0.6.
-        scale = np.exp(float(model.temper.detach()) - fitted)
-        return np.array([[np.inf, 1.0, 1.0, scale * 0.5 / 0.6], [1.0, 1.0, 0.0, scale * 0.5 / 0.6]])
+    def locate(likelihood, is_right):
+        # What is claimed grows with temper; every other answer is true, so it is honest at 0.6.
+        claimed = np.exp(float(likelihood.temper.detach()) - fitted) * 0.5 / 0.6
+        return SimpleNamespace(
+            rows=np.array([int(is_right)]), positions=np.zeros((1, 2)), probability=np.array([claimed]),
+            radii_m=lambda *_: [1.0],
+        )  # fmt: skip
 
-    monkeypatch.setattr(fit_posterior, "_answers", answers)
-    places: list[Any] = [None, None]
-    fit_posterior._temper(likelihood, places)
-    assert float(likelihood.temper.detach()) - fitted == pytest.approx(np.log(0.6))
+    monkeypatch.setattr(fit_posterior, "locate", locate)
+    monkeypatch.setattr(fit_posterior, "fit_likelihood", lambda *_: None)
+    place: Any = SimpleNamespace(
+        hints=[(), ()], read=lambda *_: [True, False], posterior=lambda likelihood: likelihood,
+        truth=np.array([1, 1]), positions_m=np.zeros((2, 2)),
+        cells=SimpleNamespace(center_m=np.zeros((2, 3)), size_m=30.0, scenes=("town", "town")),
+    )  # fmt: skip
+    figures = fit_posterior.calibrate_places(model, [place, place], np.random.default_rng(0))
+    assert float(model.likelihood.temper.detach()) - fitted == pytest.approx(np.log(0.6))
+    assert figures["recall@1"] == 0.5
 
 
-def test_a_slip_changes_one_fact_to_what_is_not_true() -> None:
-    facts = [Fact("bench", "north", "gray"), Fact("tree", "on-top"), Fact("road", "east", "black")]
+def test_a_slip_changes_one_fact_to_what_is_not_true(monkeypatch) -> None:
+    """Of texts in the benchmark's wording."""
+    monkeypatch.setattr("models.training.places.SLIPS", 1.0)
+    shipped, texts = load_posterior(), []
+
+    def read(some):
+        texts.extend(some)
+        return [[] for _ in some]
+
+    model: Any = SimpleNamespace(matcher=shipped.matcher, reader=SimpleNamespace(read=read))
+    hints = (Hint("north", "bench", "gray"), Hint("on-top", "tree", None), Hint("east", "road", "black"))
+    nowhere: Any = None
+    place = Place(
+        nowhere, nowhere, np.zeros(0, np.int64), ("bench", "tree", "road"), KITTI360_PALETTE, [hints] * 20,
+        np.zeros((20, 2)), np.zeros(20, np.int64),
+    )  # fmt: skip
+    place.read(model, np.arange(20), (None,), np.random.default_rng(0))
+    facts = [("north", "gray bench"), ("on-top", "tree"), ("east", "black road")]
     seen = set()
-    for seed in range(20):
-        said = _slip(facts, KITTI360_PALETTE, ("bench", "tree", "road"), np.random.default_rng(seed))
+    for text in texts:
+        said = re.findall(r"The pose is (\S+) of a ([^.]+)\.", text)
         [(was, is_now)] = [(a, b) for a, b in zip(facts, said, strict=True) if a != b]
-        changed = {name for name in ("label", "relation", "colour") if getattr(was, name) != getattr(is_now, name)}
-        seen.add(frozenset(changed))
-        assert is_now.relation in (*WINDS, was.relation)
-        assert (is_now.colour is None) == (was.colour is None)
+        (*colour, label), (*now_colour, now_label) = was[1].split(), is_now[1].split()
+        changes = {"relation": was[0] != is_now[0], "colour": colour != now_colour, "label": label != now_label}
+        seen.add(frozenset(name for name, is_changed in changes.items() if is_changed))
+        assert is_now[0] in (*WINDS, was[0])
+        assert len(colour) == len(now_colour)
+    assert len(texts) == 20
     assert seen == {frozenset({"label"}), frozenset({"relation"}), frozenset({"relation", "colour"})}

@@ -57,14 +57,18 @@ def test_a_batch_must_split_evenly(monkeypatch) -> None:
     assert distributed.share_of(126) == 42
 
 
-def test_alone_nothing_is_gathered_and_batch_norm_is_torchs() -> None:
+def test_alone_nothing_is_gathered_and_batch_norm_is_torchs(tmp_path) -> None:
     x = torch.randn(6, 4, generator=torch.Generator().manual_seed(0))
     assert distributed.gather(x) is x
     inner = nn.Sequential(nn.BatchNorm1d(4))
     model = nn.Sequential(nn.Linear(4, 4), inner)
     expected = model(x)
     names = list(model.state_dict())
-    distributed._synchronise_batch_norm(model)
+    torch.distributed.init_process_group("gloo", init_method=f"file://{tmp_path}/meet", rank=0, world_size=1)
+    try:
+        distributed.prepare(model)
+    finally:
+        torch.distributed.destroy_process_group()
     assert isinstance(inner[0], distributed.SynchronisedBatchNorm)
     assert list(model.state_dict()) == names
     assert torch.equal(model(x), expected)
