@@ -9,6 +9,7 @@ from torch import Tensor
 
 from models.city.colours import Palette
 from models.city.hints import ON_TOP_M
+from models.city.points import Ints
 from models.posterior.surroundings import STEP_M
 
 RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
@@ -51,25 +52,36 @@ def ranks_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
 
     Args:
         node: [R] node of each row, ascending, nearest first.
-        way: [R, 2] int8, see Surroundings.
+        way: [R] of `way_number`.
         label: [R] label of each row.
     """
-    east, north = way.long().unbind(1)
-    sector = torch.where(east.abs() > north.abs(), (east > 0).long(), 2 + (north > 0).long())
-    sector = torch.where(torch.hypot(east.float(), north.float()) * STEP_M < ON_TOP_M, 4, sector)
+    sector = _SECTOR_OF_WAY[way]
     keys = [node, node * (int(label.max()) + 1) + label if len(label) else node, node * 5 + sector]
-    ranks, numbers = zip(*(_counted(key) for key in keys), strict=True)
-    nearer = [c.clamp(max=size - 1) for c, size in zip(ranks, RANKS, strict=True)]
-    return torch.stack([*nearer, *numbers[1:]], dim=1)
+    ranks, numbers = zip(*(_counted(key.numpy()) for key in keys), strict=True)
+    nearer = [np.minimum(c, size - 1) for c, size in zip(ranks, RANKS, strict=True)]
+    return torch.from_numpy(np.stack([*nearer, *numbers[1:]], axis=1))
 
 
-def _counted(key: Tensor) -> tuple[Tensor, Tensor]:
+def _counted(key: Ints) -> tuple[Ints, Ints]:
     """[R] how many earlier rows have the same key, [R] how many rows have it."""
-    ordered, order = key.sort(stable=True)
-    _, group, size = ordered.unique_consecutive(return_inverse=True, return_counts=True)
-    earlier = torch.arange(len(key)) - (size.cumsum(0) - size)[group]
-    back = torch.empty_like(order).index_put_((order,), torch.arange(len(key)))
-    return earlier[back], size[group][back]
+    # Key and row in one number: sorting plain numbers is an order of magnitude faster than a stable sort of rows.
+    packed = np.sort(key << 32 | np.arange(len(key)))
+    order, first = packed & 0xFFFFFFFF, np.flatnonzero(np.diff(packed >> 32, prepend=-1))
+    size = np.diff(first, append=len(key))
+    earlier, count = np.empty(len(key), np.int64), np.empty(len(key), np.int64)
+    earlier[order], count[order] = np.arange(len(key)) - np.repeat(first, size), np.repeat(size, size)
+    return earlier, count
+
+
+def _sectors_of_ways() -> Tensor:
+    """[65536] quarter of the compass, or "on-top" (4), of each way."""
+    steps = torch.arange(256) - OFFSET
+    east, north = steps[:, None].expand(256, 256).reshape(-1), steps[None].expand(256, 256).reshape(-1)
+    sector = torch.where(east.abs() > north.abs(), (east > 0).long(), 2 + (north > 0).long())
+    return torch.where(torch.hypot(east.float(), north.float()) * STEP_M < ON_TOP_M, 4, sector)
+
+
+_SECTOR_OF_WAY = _sectors_of_ways()
 
 
 def usual_statements(label: Tensor, rgb: Tensor, palette: Palette) -> Tensor:

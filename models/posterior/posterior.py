@@ -12,10 +12,11 @@ from torch import Tensor
 
 from models.city.cells import CellTable
 from models.city.colours import Palette
+from models.city.hints import ON_TOP_M
 from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.node_batch import ranks_of, usual_statements, way_number
+from models.posterior.node_batch import OFFSET, ranks_of, usual_statements, way_number
 from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
@@ -87,10 +88,10 @@ class HintPosterior:
             end = min(begin + 100_000, len(s.nodes_m))
             rows = slice(int(s.starts[begin]), int(s.starts[end]))
             node = torch.from_numpy(np.repeat(np.arange(end - begin), np.diff(s.starts[begin : end + 1])))
-            way, part = torch.from_numpy(s.way[rows]), torch.from_numpy(s.part[rows]).long()
-            rank = ranks_of(node, way, self._label[part]) if len(node) else torch.zeros(0, 5, dtype=torch.long)
+            way, part = self._way[rows].long(), torch.from_numpy(s.part[rows]).long()
+            rank = ranks_of(node, way, self._label[part])
             whole = torch.from_numpy(s.whole[rows])
-            blocks.append(self.likelihood.share_of(way_number(way), whole, rank, node, end - begin))
+            blocks.append(self.likelihood.share_of(way, whole, rank, node, end - begin))
         return torch.cat(blocks)
 
     def _tabulate(self) -> tuple[csc_array, Tensor]:
@@ -98,14 +99,13 @@ class HintPosterior:
         s = self.surroundings
         sizes = np.diff(s.starts)
         cell = np.repeat(np.repeat(np.arange(len(self.cells)), np.diff(s.cell_starts)), sizes)
-        east, north = s.way[:, 0].astype(np.float32), s.way[:, 1].astype(np.float32)
-        sector = np.round(np.arctan2(east, north) / (np.pi / 4)).astype(np.int64) % 8
-        sector[np.hypot(east, north) * STEP_M < 1.5] = 8
+        sector = _sectors_of_ways()[self._way.numpy()]
         word = self._words.argmax(dim=1).numpy()
         known = (self.cells.parts.rgb == self.cells.parts.rgb).all(axis=1)
         word = np.where(known, word, self._words.shape[1])
         key = (self._label.numpy() * (self._words.shape[1] + 1) + word)[s.part] * SECTORS + sector
-        number, column = np.unique(key, return_inverse=True)
+        number = np.flatnonzero(np.bincount(key))  # statements that hold anywhere; of some thousands that there are
+        column = np.searchsorted(number, np.arange(key.max() + 1))[key] if len(key) else key
         value = self._share.mean(dim=1).numpy() / np.maximum(1, np.diff(s.cell_starts))[cell]
         table = csc_array((value, (cell, column)), shape=(len(self.cells), len(number)), dtype=np.float32)
         return table, torch.from_numpy(number)
@@ -191,6 +191,14 @@ class HintPosterior:
         for hint, bears in reading.named.items():
             fits[:, hint] = bears[chosen]
         return rows, node, fits, torch.from_numpy(number[part])
+
+
+def _sectors_of_ways() -> Ints:
+    """[65536] the eighth of the compass, or "on-top" (8), of each way of `way_number`."""
+    steps = np.arange(256, dtype=np.float32) - OFFSET
+    east, north = np.meshgrid(steps, steps, indexing="ij")
+    sector = np.round(np.arctan2(east, north) / (np.pi / 4)).astype(np.int64) % 8
+    return np.where(np.hypot(east, north) * STEP_M < ON_TOP_M, 8, sector).ravel()
 
 
 def _sectors_of_relations() -> Tensor:

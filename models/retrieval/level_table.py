@@ -125,4 +125,4 @@ def encode_gallery(retriever: Retriever, cells: CellFeatures, with_levels: bool 
         rows = ranges(cells.starts[chosen], cells.starts[chosen + 1])
         for level in names:
             others[level][rows] = levels.of(level)[levels.mask].cpu().numpy()
-    return whole, LevelTable(np.asarray(cells.starts), others) if names else NO_LEVELS
+    return whole, LevelTable(np.asarray(cells.starts), others)

@@ -97,12 +97,12 @@ def around_cells(place: Place, cells: Ints) -> tuple[Ints, NodeBatch]:
     rows = ranges(s.starts[nodes], s.starts[nodes + 1])
     node = torch.from_numpy(np.repeat(np.arange(len(nodes)), np.diff(s.starts)[nodes]))
     parts, part = np.unique(s.part[rows], return_inverse=True)
-    way, label = torch.from_numpy(s.way[rows]), torch.from_numpy(place.label)
+    way, label = way_number(torch.from_numpy(s.way[rows])), torch.from_numpy(place.label)
     rgb = torch.from_numpy(place.cells.parts.rgb[parts].astype(np.float32))
     rank = ranks_of(node, way, label[torch.from_numpy(s.part[rows]).long()])
     around = NodeBatch(
         node=node,
-        way=way_number(way),
+        way=way,
         whole=torch.from_numpy(s.whole[rows]),
         rank=rank,
         part=torch.from_numpy(part),

@@ -35,7 +35,7 @@ def around(rng, nodes=5, labels=4, parts=9):
     rgb = torch.from_numpy(rng.random((parts, 3)).astype(np.float32))
     rgb[0] = math.nan
     whole = torch.from_numpy(rng.random(len(node)) < 0.8)
-    rank = ranks_of(torch.from_numpy(node), way, label[part])
+    rank = ranks_of(torch.from_numpy(node), way_number(way), label[part])
     return NodeBatch(torch.from_numpy(node), way_number(way), whole, rank, part, label, rgb, nodes), way
 
 
@@ -192,7 +192,7 @@ def test_what_is_absent_is_not_near(model):
     node = torch.zeros(1, dtype=torch.long)
     label = torch.zeros(1, dtype=torch.long)
     here = NodeBatch(
-        node, way_number(way), torch.ones(1, dtype=torch.bool), ranks_of(node, way, label),
+        node, way_number(way), torch.ones(1, dtype=torch.bool), ranks_of(node, way_number(way), label),
         torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4), 2,
     )  # fmt: skip
     relation = torch.zeros(1, len(RELATIONS))
@@ -205,11 +205,11 @@ def test_what_is_absent_is_not_near(model):
         assert int(log_p.argmax()) == better, "node 0 has the thing, node 1 has nothing"
 
 
-def test_turns_count_what_is_nearer():
+def test_ranks_count_what_is_nearer():
     node = torch.tensor([0, 0, 0, 0, 1])
     way = torch.tensor([[0, 2], [0, 20], [0, 40], [50, 0], [0, 30]], dtype=torch.int8)
     label = torch.tensor([1, 0, 1, 0, 0])
-    assert ranks_of(node, way, label).tolist() == [
+    assert ranks_of(node, way_number(way), label).tolist() == [
         [0, 0, 0, 2, 1],  # on top
         [1, 0, 0, 2, 2],
         [2, 1, 1, 2, 2],
