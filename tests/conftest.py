@@ -3,7 +3,9 @@
 import os
 
 os.environ.setdefault("HF_HUB_OFFLINE", "1")
-os.environ["OMP_NUM_THREADS"] = "1"  # before torch: the tests' models are small, and the other CPUs have tests of their own
+os.environ["OMP_NUM_THREADS"] = (
+    "1"  # before torch: the tests' models are small, and the other CPUs have tests of their own
+)
 
 import shutil
 from collections.abc import Callable
@@ -81,7 +83,7 @@ def tiny_osm(seed: int = 0) -> str:
 
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory: pytest.TempPathFactory) -> MadeOnce:
-    """(name, make) -> a directory that `make` has filled, once for all the processes of a test run; nobody writes to it."""
+    """(name, make) -> a directory that `make` has filled, once for all processes of a test run; nobody writes to it."""
     root = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         root = root.parent  # that of the process which started the workers

@@ -72,9 +72,7 @@ def test_the_vocabulary_numbers_its_sentences(region) -> None:
     vocabulary = region.vocabulary
     said = [
         int(vocabulary.sentence(label, -1, d, t))
-        for label, d, t in itertools.product(
-            np.unique(region.label_of), range(len(DIRECTIONS)), range(2)
-        )
+        for label, d, t in itertools.product(np.unique(region.label_of), range(len(DIRECTIONS)), range(2))
     ]
     assert len(set(said)) == len(said)
     assert max(said) < len(vocabulary.mask)
