@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import fields
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -39,28 +40,32 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
 
     Returns:
         Figures by stage: index building, then latencies of `POST /localize` with one client, warm, each
-        description of six hints: new text about places of the map, new text that fits many places, text whose
-        hints are cached, and, as the baseline of the same run, an endpoint that computes nothing; then the parts
-        of an answer, see `measure_parts`.
+        description of six hints: new text about places of the map, the same beside a process that keeps a CPU busy,
+        new text that fits many places, text that was read before, and, as the baseline of the same run, an endpoint
+        that computes nothing; then the parts of an answer, see `measure_parts`.
     """
     with tempfile.TemporaryDirectory() as scratch:
         index = measure_index(map_path, Path(scratch) / "index")
     settings = load_settings(index_dir=index_dir)
     localizer = _open(index_dir, settings.weights_dir, settings.posterior_weights_dir)
-    texts = descriptions(localizer, WARM_UP + max(REQUESTS, PARTS))
+    texts = descriptions(localizer, 2 * (WARM_UP + REQUESTS))
     with serving(index_dir) as client:
-        new, number = itertools.cycle(texts), itertools.count()
+        new, number = iter(texts), itertools.count()
         fresh = latencies(lambda: _localize(client, next(new)))
+        with busy_process():
+            beside = latencies(lambda: _localize(client, next(new)))
         vague = latencies(lambda: _localize(client, tuple(_vague_hint(next(number)) for _ in range(HINTS))))
         cached = latencies(lambda: _localize(client, texts[0]))
         nothing = latencies(lambda: client.get("/healthz").raise_for_status())
     return {
         "index": index,
         "localize_new_text_ms": fresh,
+        "localize_new_text_beside_a_busy_process_ms": beside,
         "localize_new_vague_text_ms": vague,
         "localize_cached_hints_ms": cached,
         "healthz_ms": nothing,
         "new_text_over_cached": round(fresh["p50"] / cached["p50"], 1),
+        "busy_over_idle": round(beside["p50"] / fresh["p50"], 2),
         "one_thread": measure_parts(localizer, texts[:PARTS]),
     }
 
@@ -73,10 +78,10 @@ def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
         count: descriptions; fewer where there is little to tell.
     """
     from index.evaluation.robustness import nearest_hints  # noqa: PLC0415 - heavy
-    from models.language.hints_text import render_hint  # noqa: PLC0415
+    from models.city.templates import render_hint  # noqa: PLC0415
 
     cells, rng = localizer.gallery.cells, np.random.default_rng(0)
-    around, data = localizer.map_posterior.surroundings, localizer.map_data()
+    around, data = localizer.posterior.surroundings, localizer.map_data()
     told = np.flatnonzero(np.diff(around.cell_starts))  # where something is
     rows = rng.choice(told, 2 * count)
     positions_m = cells.center_m[rows, :2] + rng.uniform(-cells.size_m / 4, cells.size_m / 4, (len(rows), 2))
@@ -85,36 +90,35 @@ def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
 
 
 def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, float]:
-    """What a description costs in one thread, and a cell in bytes.
+    """What a description costs, and a cell in bytes.
 
     Args:
         localizer: what to ask.
         texts: descriptions that it has not read.
 
     Returns:
-        Medians in milliseconds of reading a new description and of the posterior, and, as the baseline of the same
-        run, of encoding it and of vector search.
+        Medians in milliseconds of reading a new description, of its candidates from the vector index and of the
+        posterior, and, as the baseline of the same run, of encoding its sentences and of ranking by them.
     """
-    import torch  # noqa: PLC0415 - heavy
+    from index.vector_localizer import DEPTH  # noqa: PLC0415 - heavy
+    from models.posterior.locate import locate  # noqa: PLC0415 - heavy
 
-    from index.vector_answers import DEPTH  # noqa: PLC0415
-
-    posterior = localizer.map_posterior
-    steps: dict[str, list[float]] = {"read": [], "posterior": [], "encode": [], "vector_search": []}
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
+    posterior, retriever = localizer.posterior, localizer.retriever
+    ranker = localizer.by_vectors("none").ranker
+    steps: dict[str, list[float]] = {"read": [], "posterior": [], "candidates": [], "encode": [], "vector_search": []}
     for text in texts:
-        noticed = _timed(steps["read"], posterior.notice, text)
-        _timed(steps["posterior"], posterior.locate, posterior.reading(noticed))
-        encoded = _timed(steps["encode"], localizer.retriever.encode_texts, [text])
-        _timed(steps["vector_search"], localizer.ranker.rank, encoded, DEPTH)
-    torch.set_num_threads(threads)
-    surroundings = posterior.surroundings
+        [hints] = _timed(steps["read"], posterior.parse, [" ".join(text)])
+        reading = posterior.reading(hints)
+        also = _timed(steps["candidates"], posterior.candidates, hints, reading)
+        _timed(steps["posterior"], partial(locate, also=also), posterior.posterior, reading)
+        encoded = _timed(steps["encode"], retriever.encode_texts, [text])
+        _timed(steps["vector_search"], ranker.rank, encoded, DEPTH)
+    surroundings, cells = posterior.surroundings, len(localizer.gallery.cells)
     held = sum(getattr(surroundings, f.name).nbytes for f in fields(surroundings))
     return {f"{name}_ms": round(1000 * float(np.median(seconds)), 1) for name, seconds in steps.items()} | {
-        "cells": len(localizer.gallery.cells),
-        "surroundings_bytes_a_cell": round(held / len(localizer.gallery.cells)),
-        "vectors_bytes_a_cell": round(4 * localizer.dim + localizer.ranker.table.bytes_a_cell),
+        "cells": cells,
+        "surroundings_bytes_a_cell": round(held / cells),
+        "vectors_bytes_a_cell": round(4 * localizer.facts.dim + ranker.table.bytes_a_cell),
     }
 
 
@@ -147,6 +151,17 @@ def measure_index(map_path: Path, out: Path) -> dict[str, float]:
     size = sum(path.stat().st_size for path in out.rglob("*") if path.is_file())
     shutil.rmtree(out)
     return {"seconds": round(seconds, 1), "peak_memory_mib": round(peak / 2**20), "size_mib": round(size / 2**20, 1)}
+
+
+@contextmanager
+def busy_process() -> Iterator[None]:
+    """A neighbour that keeps one CPU busy."""
+    process = subprocess.Popen([sys.executable, "-c", "while True: pass"])
+    try:
+        yield
+    finally:
+        process.kill()
+        process.wait()
 
 
 @contextmanager

@@ -30,6 +30,8 @@ def configure_logging(level: str) -> None:
         )
     )
     logging.basicConfig(level=level.upper(), handlers=[handler], force=True)
+    # It says at info which of its builds it tries and loads: three lines that are of use when debugging alone.
+    logging.getLogger("faiss.loader").setLevel(logging.WARNING if level == "info" else logging.NOTSET)
     structlog.configure(
         processors=[
             structlog.stdlib.filter_by_level,

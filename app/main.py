@@ -76,5 +76,5 @@ def _open_localizer(settings: Settings) -> LocalizerLike:
     localizer = Localizer.open(
         settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     )
-    localizer.localize([Query(("I am north of a building.",), refine="posterior")])  # or the first request waits
+    localizer.localize([Query("I am north of a building.")])  # or the first request waits
     return localizer

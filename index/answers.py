@@ -1,7 +1,9 @@
-"""What a localizer is asked and what it answers, in plain dataclasses."""
+"""What a localizer is asked and what it answers: plain dataclasses, whose descriptions are those of the HTTP API."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal
+
+from pydantic import Field
 
 if TYPE_CHECKING:  # so that the command line starts without NumPy
     from models.city.frame import Frame
@@ -11,6 +13,8 @@ Crs = Literal["map", "wgs84"]
 Status = Literal["ok", "ambiguous", "no_match"]
 Refine = Literal["none", "regressor", "posterior"]
 Method = Literal["cell_center", "regressor", "matching", "posterior"]
+DEFAULT_REFINE: Final[Refine] = "posterior"
+DEFAULT_TOP_K: Final = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,34 +48,42 @@ class Query:
     """One description to localize.
 
     Attributes:
-        hints: sentences, at least one, each not blank.
+        description: any text with a word in it.
         top_k: candidates to list.
         within: filter, or None.
         prior: bias, or None.
         crs: what the coordinates of `within` and `prior` mean.
         refine: what finds positions inside the candidates; "none" leaves them at the centres; "posterior" ranks the
             candidates too, by the hint posterior.
-        heat_map: whether the answer shall have the distribution behind it; the posterior alone has one.
+        heat_map: whether the answer shall have the distribution behind it.
     """
 
-    hints: tuple[str, ...]
-    top_k: int = 5
+    description: str
+    top_k: int = DEFAULT_TOP_K
     within: Box | Circle | None = None
     prior: Prior | None = None
     crs: Crs = "map"
-    refine: Refine = "none"
+    refine: Refine = DEFAULT_REFINE
     heat_map: bool = False
 
 
 @dataclass(frozen=True, slots=True)
-class Wgs84:
-    """Degrees."""
+class ModelName:
+    """A model, and the sha256 of all its weights."""
+
+    name: str
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True)
+class LatLon:
+    """WGS84 degrees."""
 
     lat: float
     lon: float
 
     @classmethod
-    def of(cls, position_m: "Floats", frame: "Frame") -> "Wgs84 | None":
+    def of(cls, position_m: "Floats", frame: "Frame") -> "LatLon | None":
         """A position of the map; None if the map is not georeferenced."""
         if not frame.is_georeferenced:
             return None
@@ -89,92 +101,76 @@ class Radius:
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """Where the speaker is.
+    """Where the speaker is, how sure that is, and what made it."""
 
-    Attributes:
-        position: (x, y) metres, map frame.
-        method: what made it; "cell_center" is the centre of the best cell, "posterior" the hint posterior, the others
-            are models of the fine stage.
-        covariance: 2 x 2, square metres, of the true position around `position`; finite, wide when unsure.
-        radius_m: circles that hold the true position.
-        probability: that the best candidate is the right cell.
-        wgs84: None if the map has no georeference.
-    """
-
-    position: tuple[float, float]
-    method: Method
-    covariance: tuple[tuple[float, float], tuple[float, float]]
+    position: Annotated[tuple[float, float], Field(description="x, y in metres, map frame")]
+    method: Annotated[
+        Method,
+        Field(
+            description="posterior: the hint posterior; cell_center: the centre of the best cell; the others are "
+            "models of the fine stage"
+        ),
+    ]
+    covariance: Annotated[
+        tuple[tuple[float, float], tuple[float, float]],
+        Field(description="square metres, of the true position around `position`; wide when unsure"),
+    ]
     radius_m: Radius
-    probability: float
-    wgs84: Wgs84 | None
+    probability: Annotated[float, Field(description="that the best candidate is the right cell")]
+    wgs84: Annotated[LatLon | None, Field(description="null if the map has no georeference")]
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A cell that may be the right one.
+    """A cell that may be the right one."""
 
-    Attributes:
-        rank: 1 is the best.
-        cell_id: name of the cell.
-        score: similarity of text and cell, -1..1, comparable within one index only.
-        probability: calibrated on validation data.
-        center: (x, y) metres of the cell's centre.
-        bbox: (west, south, east, north) metres.
-        position: (x, y) metres, the best position inside this cell.
-        wgs84: of `position`.
-    """
-
-    rank: int
+    rank: Annotated[int, Field(description="1 is the best")]
     cell_id: str
-    score: float
-    probability: float
+    score: Annotated[
+        float,
+        Field(
+            description="what cells are ranked by, before any prior; with posterior the logarithm of the likelihood "
+            "summed over the part of the map that the cell owns, comparable within one answer; with none and regressor "
+            "the similarity of text and cell (a cosine, or the weighted sum of one a level), comparable within one "
+            "index"
+        ),
+    ]
+    probability: Annotated[float, Field(description="calibrated")]
     center: tuple[float, float]
-    bbox: tuple[float, float, float, float]
-    position: tuple[float, float]
-    wgs84: Wgs84 | None
+    bbox: Annotated[
+        tuple[float, float, float, float], Field(description="west, south, east, north in metres, map frame")
+    ]
+    position: Annotated[tuple[float, float], Field(description="the best position inside this cell")]
+    wgs84: Annotated[LatLon | None, Field(description="of `position`")]
 
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """How one hint was understood, and what explains it at the estimate.
+    """How one hint was understood, and what on the map explains it."""
 
-    Attributes:
-        text: the words for the thing.
-        label: the map's label that fits best, None if none does.
-        colour: word, None if none was said.
-        relation: where the speaker is, seen from the thing; one of RELATIONS.
-        distance_m: said distance, None if none was.
-        absent: whether the text says that there is none.
-        explained: probability that something on the map explains it.
-        instance: its label, None if nothing explains it.
-        name, source_id: of the instance, where the map has them.
-        away_m: from the instance's closest point to the estimate.
-    """
-
-    text: str
-    label: str | None
+    text: Annotated[str, Field(description="the words for the thing")]
+    label: Annotated[str | None, Field(description="the map's class that fits them best")]
     colour: str | None
-    relation: str
-    distance_m: float | None
-    absent: bool
-    explained: float
-    instance: str | None = None
+    relation: Annotated[
+        str, Field(description="where the speaker is, seen from the thing; near: no direction was said")
+    ]
+    distance_m: Annotated[float | None, Field(description="as it was said")]
+    absent: Annotated[bool, Field(description="the text says that there is none")]
+    explained: Annotated[float, Field(description="probability that something on the map explains the hint")]
+    instance: Annotated[str | None, Field(description="class of what explains it at the estimate")] = None
     name: str | None = None
     source_id: str | None = None
-    away_m: float | None = None
+    away_m: Annotated[float | None, Field(description="from its closest point to the estimate")] = None
 
 
 @dataclass(frozen=True, slots=True)
 class HeatMap:
-    """A distribution over positions.
+    """The distribution behind an answer."""
 
-    Attributes:
-        spacing_m: edge of the square that each point stands for.
-        points: (x, y, probability), likeliest first; metres, map frame.
-    """
-
-    spacing_m: float
-    points: tuple[tuple[float, float, float], ...]
+    spacing_m: Annotated[float, Field(description="edge of the square that each point stands for")]
+    points: Annotated[
+        tuple[tuple[float, float, float], ...], Field(description="x, y, probability, likeliest first, map frame")
+    ]
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,19 +180,21 @@ class Answer:
     Attributes:
         status: "ok"; "ambiguous" when the text fits several places; "no_match" when `within` holds no cell, or nothing
             that is said is on the map.
+        model: what answered.
         estimate: None only with "no_match".
         candidates: best first.
         other_probability: mass of all cells that are not listed.
         warnings: what the caller should know, in sentences.
-        timings_ms: "encode", "search", "estimate".
-        evidence: how each hint was understood, and what explains it; the posterior alone says.
-        heat_map: if it was asked for.
+        timings_ms: "encode", "search", "estimate"; what a batch shares counts for each of it.
+        evidence: one a hint; the posterior alone says.
+        heat_map: if it was asked for; the posterior alone has one.
     """
 
     status: Status
-    estimate: Estimate | None
-    candidates: tuple[Candidate, ...]
-    other_probability: float
+    model: ModelName
+    estimate: Estimate | None = None
+    candidates: tuple[Candidate, ...] = ()
+    other_probability: float = 1.0
     warnings: tuple[str, ...] = ()
     timings_ms: dict[str, float] = field(default_factory=dict)
     evidence: tuple[Evidence, ...] = ()
@@ -205,7 +203,7 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class CellInstance:
-    """One instance of a cell, as /cells/{id} shows it."""
+    """One instance of a cell; metres, map frame."""
 
     label: str
     name: str | None
@@ -214,7 +212,7 @@ class CellInstance:
     points: int
     center: tuple[float, float, float]
     size: tuple[float, float, float]
-    closest: tuple[float, float, float]
+    closest: Annotated[tuple[float, float, float], Field(description="its point nearest to the cell's centre")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,6 +222,30 @@ class CellDetail:
     cell_id: str
     scene: str
     center: tuple[float, float, float]
-    bbox: tuple[float, float, float, float]
-    wgs84: Wgs84 | None
+    bbox: Annotated[tuple[float, float, float, float], Field(description="west, south, east, north")]
+    wgs84: LatLon | None
     instances: tuple[CellInstance, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class IndexFacts:
+    """What an index says of itself.
+
+    Attributes:
+        version: the index directory that is served.
+        created: when it was built, ISO 8601.
+        map_name: the map.
+        attribution: what the map data's licence asks to show.
+        model: what made its vectors.
+        num_cells, num_instances: of the map.
+        dim: width of the vectors.
+    """
+
+    version: str
+    created: str
+    map_name: str
+    attribution: str
+    model: ModelName
+    num_cells: int
+    num_instances: int
+    dim: int

@@ -2,37 +2,30 @@
 
 <root>/aliases.json            {"default": "<version>"}
 <root>/<version>/manifest.json written last; names every other file with its sha256
-<root>/<version>/vectors.faiss, cells.safetensors, cells.json, surroundings.safetensors
+<root>/<version>/vectors.faiss                 a vector a cell
+<root>/<version>/hints.safetensors             what the retriever makes of every template hint about the map
+<root>/<version>/levels.starts.npy, levels.<level>.npy   the retriever's other levels, if they were asked for
+<root>/<version>/cells.safetensors, cells.json where the cells are and what is in them
+<root>/<version>/surroundings.safetensors      what lies around every position
 """
 
 import hashlib
 import json
-import os
-import shutil
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from datetime import UTC, datetime
 from importlib.metadata import version as package_version
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from models.city.kitti360pose.files import list_scenes, select_scenes
+from models.city.store.files import MANIFEST as STORE_MANIFEST
 from models.errors import IndexBroken, IndexMismatch
+from models.files import FileRecord, replace_file, sha256
 
 MANIFEST = "manifest.json"
 ALIASES = "aliases.json"
-FORMAT = 2
+FORMAT = 3
 ADVICE = "build it with 'hereabouts index --map MAP --out DIR'"
-
-
-class FileRecord(BaseModel):
-    """A file of a version."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    sha256: str
-    bytes: int
 
 
 class FrameRecord(BaseModel):
@@ -84,10 +77,20 @@ class Manifest(BaseModel):
     files: dict[str, FileRecord]
 
 
-def file_sha256(path: Path) -> str:
-    """sha256 of a file, in hex."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+def fingerprint(data: Path, split: str | None = None) -> str:
+    """sha256 of what a map is read from.
+
+    Raises:
+        DataError: there is nothing to read.
+    """
+    if data.is_file():
+        files = [data]
+    elif (data / STORE_MANIFEST).is_file():
+        files = [data / STORE_MANIFEST]  # has the sums of all others
+    else:
+        files = [data / "cells" / f"{s}.pkl" for s in select_scenes(list_scenes(data), split, data / "cells")]
+    parts = [f"{split}", *(f"{path.name} {sha256(path)}" for path in files)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 def new_version(map_sha256: str, model_fingerprint: str) -> dict[str, str]:
@@ -103,48 +106,15 @@ def new_version(map_sha256: str, model_fingerprint: str) -> dict[str, str]:
     }
 
 
-@contextmanager
-def write_version(root: Path, version: str) -> Iterator[Path]:
-    """A directory to write a version into, which appears under its name only when all is written.
-
-    The block writes its files and, last, the manifest (`write_manifest`). If it fails, nothing is left.
-    """
-    root.mkdir(parents=True, exist_ok=True)
-    directory = Path(tempfile.mkdtemp(prefix=".building-", dir=root))
-    try:
-        yield directory
-        directory.chmod(0o755)
-        directory.rename(root / version)
-        _sync(root)
-    finally:
-        shutil.rmtree(directory, ignore_errors=True)
-
-
-def file_records(directory: Path) -> dict[str, FileRecord]:
-    """Sizes and sums of the files of a directory, each flushed to disk and readable for whoever serves it."""
-    for path in directory.iterdir():
-        path.chmod(0o644)
-        _sync(path)
-    return {
-        path.name: FileRecord(sha256=file_sha256(path), bytes=path.stat().st_size)
-        for path in sorted(directory.iterdir())
-    }
-
-
 def write_manifest(directory: Path, manifest: Manifest) -> None:
-    """Write a version's manifest; after this the version is complete."""
+    """Write a version's manifest, its last file."""
     (directory / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
-    _sync(directory / MANIFEST)
 
 
 def set_alias(root: Path, alias: str, version: str) -> None:
     """Let an alias name another version, at once for whoever opens it next."""
     aliases = read_aliases(root) | {alias: version}
-    temporary = root / f".{ALIASES}.{os.getpid()}"
-    temporary.write_text(json.dumps(aliases, indent=2) + "\n")
-    _sync(temporary)
-    temporary.replace(root / ALIASES)
-    _sync(root)
+    replace_file(root / ALIASES, (json.dumps(aliases, indent=2) + "\n").encode())
 
 
 def read_aliases(root: Path) -> dict[str, str]:
@@ -183,7 +153,7 @@ def open_version(path: Path) -> tuple[Path, Manifest]:
         file = directory / Path(name).name
         if not file.is_file() or file.stat().st_size != record.bytes:
             raise IndexBroken(f"{file} is missing or cut short; {ADVICE}")
-        if file_sha256(file) != record.sha256:
+        if sha256(file) != record.sha256:
             raise IndexBroken(f"{file} was changed after it was written; {ADVICE}")
     return directory, manifest
 
@@ -199,11 +169,3 @@ def check_model(manifest: Manifest, fingerprint: str) -> None:
             f"index {manifest.version} was built by model {manifest.model_fingerprint[:12]}, "
             f"the loaded model is {fingerprint[:12]}; rebuild the index with this model"
         )
-
-
-def _sync(path: Path) -> None:
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

@@ -6,17 +6,22 @@ from index.artifact import (
     FrameRecord,
     Manifest,
     check_model,
-    file_records,
+    fingerprint,
     new_version,
     open_version,
     set_alias,
     write_manifest,
-    write_version,
 )
-from index.map_data import MapData, Progress, fingerprint, load_map
+from index.hint_features import save_hint_features, template_hints
 from index.ranking import Ranker
+from models.city.gallery import MapData
+from models.city.source import open_source
+from models.city.types import Progress
 from models.errors import IndexUnusable
+from models.files import file_records, new_directory
+from models.posterior.surroundings import Surroundings
 from models.retrieval.checkpoint import load_retriever
+from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever
 
 
@@ -26,16 +31,18 @@ def build_index(
     weights_dir: Path | None = None,
     split: str | None = None,
     keep_current: bool = False,
+    levels: bool = False,
     progress: Progress | None = None,
 ) -> Path:
     """Build an index version of a map and let the alias "default" name it.
 
     Args:
-        map_path: as `index.map_data.load_map`.
+        map_path: as `models.city.source.open_sources`.
         out_dir: index directory; older versions in it are kept.
         weights_dir: the retriever's weights; None for those that ship with the package.
-        split: as `index.map_data.load_map`.
+        split: as `models.city.source.open_sources`.
         keep_current: build nothing if the default version is of this map and this model.
+        levels: keep the retriever's other levels too: `refine` none and regressor rank by them, the default does not.
         progress: called as the work goes on.
 
     Returns:
@@ -48,17 +55,19 @@ def build_index(
     report = progress or (lambda stage, done, total: None)
     report("load model", 0, 0)
     retriever = load_retriever(weights_dir)
-    current = _current(out_dir, map_path, split, retriever) if keep_current else None
+    current = _current(out_dir, map_path, split, retriever, levels) if keep_current else None
     if current:
         return current
-    data = load_map(map_path, split, report)
+    source = open_source(map_path, split, report)
+    data = source.data
     report("encode cells", 0, 0)
-    ranker = Ranker.of(retriever, data.cells, data.gallery.labels)
-    surroundings = data.around(report)
+    ranker = Ranker.of(retriever, data.cells, data.gallery.labels, with_levels=levels)
+    surroundings = Surroundings.of(source.bodies(), data.cells, report)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
-    with write_version(out_dir, origin["version"]) as directory:
+    with new_directory(out_dir / origin["version"]) as directory:
         ranker.save(directory)
+        save_hint_features(directory, retriever, template_hints(data.gallery, data.palette))
         data.gallery.save(directory)
         surroundings.save(directory)
         manifest = Manifest(
@@ -88,11 +97,12 @@ def _describe(data: MapData) -> dict[str, object]:
     }
 
 
-def _current(out_dir: Path, map_path: Path, split: str | None, retriever: Retriever) -> Path | None:
-    """The default version's directory if it is whole, of this map and this model."""
+def _current(out_dir: Path, map_path: Path, split: str | None, retriever: Retriever, levels: bool) -> Path | None:
+    """The default version's directory if it is whole, of this map and this model, with levels if they are wanted."""
     try:
         directory, manifest = open_version(out_dir)
         check_model(manifest, retriever.fingerprint)
     except IndexUnusable:
         return None
-    return directory if manifest.map_sha256 == fingerprint(map_path, split) else None
+    is_rich = STARTS_FILE in manifest.files or retriever.levels == ("global",) or not levels
+    return directory if is_rich and manifest.map_sha256 == fingerprint(map_path, split) else None

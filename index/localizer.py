@@ -1,109 +1,59 @@
-"""From a description to candidates and a position, with what is not known stated."""
+"""An index, opened: from descriptions to answers, and what is in its cells."""
 
-import time
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from index.answers import (
-    Answer,
-    CellDetail,
-    CellInstance,
-    Query,
-    Wgs84,
-)
+from index.answers import Answer, CellDetail, CellInstance, IndexFacts, LatLon, ModelName, Query, Refine
 from index.artifact import Manifest, check_model, open_version
-from index.gallery import Gallery
-from index.map_data import MapData
-from index.map_posterior import MapPosterior
-from index.posterior_answers import PosteriorAnswers
+from index.finding import CellLocalizer, to_answer
+from index.hint_features import load_hint_features
+from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
-from index.refinement import Refinement, Refiner
-from index.vector_answers import VectorAnswers
+from index.vector_localizer import VectorLocalizer, raw_sentences
 from models.city.colours import PALETTES
 from models.city.frame import Frame
-from models.errors import WeightsError
+from models.city.gallery import Gallery, MapData
+from models.city.types import Floats
 from models.localization.checkpoint import load_fine
-from models.posterior.model import load_posterior
+from models.localization.fine_model import FineModel
+from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.surroundings import Surroundings
 from models.retrieval.checkpoint import load_retriever
-
-Floats = npt.NDArray[np.floating[Any]]
+from models.retrieval.level_table import STARTS_FILE
+from models.retrieval.retriever import Retriever
 
 
 class Localizer:
-    """Answers queries about one map, with one model. Not thread-safe: one thread owns it.
+    """Answers queries about one map. Not thread-safe: one thread owns it.
+
+    What only some queries need (posterior, fine stage, levels) is read when the first of them comes.
 
     Args:
-        ranker: the model, with its vectors of the gallery.
-        gallery: the cells.
-        manifest: what the index says of itself.
-        load_refiner: reads a model of the fine stage; called when the first query asks for one.
-        load_map_posterior: the same of the hint posterior; None if there is none.
+        directory: a version of an index, checked.
+        manifest: what it says of itself.
+        retriever: the model that made its vectors.
+        load_refiner: reads a model of the fine stage.
+        load_model: reads the hint posterior.
     """
 
     def __init__(
         self,
-        ranker: Ranker,
-        gallery: Gallery,
+        directory: Path,
         manifest: Manifest,
-        load_refiner: Callable[[], Refiner] = load_fine,
-        load_map_posterior: Callable[[], MapPosterior] | None = None,
+        retriever: Retriever,
+        load_refiner: Callable[[], FineModel] = load_fine,
+        load_model: Callable[[], PosteriorModel] = load_posterior,
     ) -> None:
-        self.ranker, self.gallery, self.manifest, self._load_refiner = ranker, gallery, manifest, load_refiner
-        self._load_map_posterior = load_map_posterior
-        self.retriever, self.store = ranker.retriever, ranker.store
-        self.frame = Frame(**manifest.frame.model_dump())
-        self._row = {cell_id: row for row, cell_id in enumerate(gallery.cells.ids)}
-
-    @property
-    def map_name(self) -> str:
-        """The map."""
-        return self.manifest.map_name
-
-    @property
-    def attribution(self) -> str:
-        """What the map data's licence asks to show."""
-        return self.manifest.attribution
-
-    @property
-    def index_version(self) -> str:
-        """The index that is served."""
-        return self.manifest.version
-
-    @property
-    def created(self) -> str:
-        """When the index was built, ISO 8601."""
-        return self.manifest.created
-
-    @property
-    def model(self) -> str:
-        """What kind of model answers."""
-        return self.retriever.name
-
-    @property
-    def model_sha256(self) -> str:
-        """Fingerprint of its weights."""
-        return self.manifest.model_fingerprint
-
-    @property
-    def num_cells(self) -> int:
-        """Cells in the index."""
-        return len(self.store)
-
-    @property
-    def num_instances(self) -> int:
-        """Instances of the map."""
-        return self.manifest.instances
-
-    @property
-    def dim(self) -> int:
-        """Width of the vectors."""
-        return self.store.dim
+        self.manifest, self.retriever = manifest, retriever
+        self._directory, self._load_refiner, self._load_model = directory, load_refiner, load_model
+        self.gallery = Gallery.load(directory)
+        self.ranker = Ranker.load(retriever, directory)
+        self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
+        self._known_hints = load_hint_features(directory, retriever)
+        self._row = {cell_id: row for row, cell_id in enumerate(self.gallery.cells.ids)}
 
     @classmethod
     def open(
@@ -129,106 +79,118 @@ class Localizer:
         directory, manifest = open_version(index_dir)
         retriever = load_retriever(weights_dir)
         check_model(manifest, retriever.fingerprint)
-        gallery = Gallery.load(directory)
+        load_refiner, load_model = partial(load_fine, fine_weights_dir), partial(load_posterior, posterior_weights_dir)
+        return cls(directory, manifest, retriever, load_refiner, load_model)
 
-        def load_map_posterior() -> MapPosterior:
-            palette = PALETTES[manifest.palette]
-            return MapPosterior(load_posterior(posterior_weights_dir), gallery, palette, Surroundings.load(directory))
+    @property
+    def facts(self) -> IndexFacts:
+        """What the index says of itself."""
+        said = self.manifest
+        return IndexFacts(
+            version=said.version,
+            created=said.created,
+            map_name=said.map_name,
+            attribution=said.attribution,
+            model=ModelName(self.retriever.name, said.model_fingerprint),
+            num_cells=said.cells,
+            num_instances=said.instances,
+            dim=said.dim,
+        )
 
-        load_refiner = partial(load_fine, fine_weights_dir)
-        return cls(Ranker.load(retriever, directory), gallery, manifest, load_refiner, load_map_posterior)
+    def localize(self, queries: Sequence[Query]) -> list[Answer]:
+        """Answer queries, in order; those of one kind go through their model together.
+
+        Raises:
+            WeightsError: a query asks for a model that cannot be loaded.
+            IndexBroken: what it needs of the index cannot be read.
+        """
+        answers: dict[int, Answer] = {}
+        for refine in {query.refine for query in queries}:
+            localizer = self.of(refine)
+            rows = [n for n, query in enumerate(queries) if query.refine == refine]
+            found = localizer.find([queries[n] for n in rows])
+            for n, finding in zip(rows, found, strict=True):
+                answers[n] = to_answer(queries[n], finding, localizer, self.gallery.cells, self.frame)
+        return [answers[n] for n in range(len(queries))]
+
+    def of(self, refine: Refine) -> CellLocalizer:
+        """What answers queries of one kind."""
+        return self.posterior if refine == "posterior" else self.by_vectors(refine)
+
+    def by_vectors(self, refine: Refine) -> VectorLocalizer:
+        """Vector search, with the fine stage if it is asked for."""
+        return self._vectors_refined if refine == "regressor" else self._vectors
+
+    @cached_property
+    def posterior(self) -> PosteriorLocalizer:
+        """The hint posterior on this gallery."""
+        surroundings = Surroundings.load(self._directory)
+        return PosteriorLocalizer(self._load_model(), self.gallery, self.palette, self.frame, surroundings, self.ranker)
+
+    @cached_property
+    def _vectors(self) -> VectorLocalizer:
+        """Vector search on this gallery, by all levels that the index has."""
+        has_levels = STARTS_FILE in self.manifest.files
+        ranker = Ranker.load(self.retriever, self._directory, with_levels=True) if has_levels else self.ranker
+        return VectorLocalizer(ranker, self.gallery, self.frame, self.manifest.grid_m, sentences=self.sentences)
+
+    @cached_property
+    def _vectors_refined(self) -> VectorLocalizer:
+        """The same with the fine stage."""
+        given = self._vectors.ranker, self.gallery, self.frame, self.manifest.grid_m
+        return VectorLocalizer(*given, self._load_refiner(), self.sentences)
+
+    def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
+        """Descriptions as the retriever knows them.
+
+        Template hints about this map stay as they are; of other descriptions, what was read of them is put in template
+        hints; of what cannot be read, the sentences.
+        """
+        raw = raw_sentences(descriptions)
+        free = [n for n, sentences in enumerate(raw) if not self._known_hints.issuperset(sentences)]
+        read = dict(zip(free, self.posterior.sentences([descriptions[n] for n in free]), strict=True))
+        return [read.get(n) or sentences for n, sentences in enumerate(raw)]
 
     def map_data(self) -> MapData:
         """The map of the index, as the evaluation takes it."""
         return MapData(
-            name=self.map_name,
+            name=self.manifest.map_name,
             split="index",
             gallery=self.gallery,
-            palette=PALETTES[self.manifest.palette],
+            palette=self.palette,
             frame=self.frame,
             grid_m=self.manifest.grid_m,
-            attribution=self.attribution,
+            attribution=self.manifest.attribution,
         )
-
-    @cached_property
-    def refinement(self) -> Refinement:
-        """The fine stage on this gallery.
-
-        Raises:
-            WeightsError: its model cannot be loaded.
-        """
-        return Refinement(self._load_refiner(), self.gallery)
-
-    @cached_property
-    def map_posterior(self) -> MapPosterior:
-        """The hint posterior on this gallery.
-
-        Raises:
-            WeightsError: its model cannot be loaded.
-            IndexBroken: nor can the surroundings.
-        """
-        if self._load_map_posterior is None:
-            raise WeightsError("this localizer has no posterior; ask with refine none")
-        return self._load_map_posterior()
-
-    def localize(self, queries: Sequence[Query]) -> list[Answer]:
-        """Answer queries, in order; the text encoder runs once for all that is new to it.
-
-        Raises:
-            WeightsError: a query asks for a model that cannot be loaded.
-        """
-        by_vectors = [query for query in queries if query.refine != "posterior"]
-        start = time.perf_counter()
-        texts = iter(self.retriever.encode_texts([query.hints for query in by_vectors]) if by_vectors else ())
-        encode_ms = (time.perf_counter() - start) * 1000
-        return [
-            self._posterior_answers.answer(query)
-            if query.refine == "posterior"
-            else self.vector_answers.answer(query, next(texts), encode_ms)
-            for query in queries
-        ]
-
-    @cached_property
-    def _posterior_answers(self) -> PosteriorAnswers:
-        return PosteriorAnswers(self.map_posterior, self.frame, self.manifest.cell_size_m)
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""
         row = self._row.get(cell_id)
         if row is None:
             return None
-        parts = self.gallery.cells.parts
-        rows = np.arange(parts.starts[row], parts.starts[row + 1])
-        palette = PALETTES[self.manifest.palette]
-        center, half_m = self.gallery.cells.center_m[row], self.manifest.cell_size_m / 2
-        x, y = (float(v) for v in center[:2])
+        cells, gallery = self.gallery.cells, self.gallery
+        parts, half_m = cells.parts, cells.size_m / 2
+        x, y = (float(v) for v in cells.center_m[row, :2])
         return CellDetail(
             cell_id=cell_id,
-            scene=self.gallery.cells.scenes[row],
-            center=_triple(center),
+            scene=cells.scenes[row],
+            center=_triple(cells.center_m[row]),
             bbox=(x - half_m, y - half_m, x + half_m, y + half_m),
-            wgs84=Wgs84.of(center, self.frame),
+            wgs84=LatLon.of(cells.center_m[row], self.frame),
             instances=tuple(
                 CellInstance(
-                    label=self.gallery.labels[parts.instance[r]],
-                    name=self.gallery.names[parts.instance[r]],
-                    source_id=self.gallery.sources[parts.instance[r]],
-                    colour=palette.word(parts.rgb[r]),
+                    label=gallery.labels[parts.instance[r]],
+                    name=gallery.names[parts.instance[r]],
+                    source_id=gallery.sources[parts.instance[r]],
+                    colour=self.palette.word(parts.rgb[r]),
                     points=int(parts.count[r]),
                     center=_triple((parts.low_m[r] + parts.high_m[r]) / 2),
                     size=_triple(parts.high_m[r] - parts.low_m[r]),
                     closest=_triple(parts.closest_m[r]),
                 )
-                for r in rows
+                for r in np.arange(parts.starts[row], parts.starts[row + 1])
             ),
         )
-
-    @cached_property
-    def vector_answers(self) -> VectorAnswers:
-        """Vector search on this gallery."""
-        manifest = self.manifest
-        size_m, grid_m = manifest.cell_size_m, manifest.grid_m
-        return VectorAnswers(self.ranker, self.gallery, self.frame, size_m, grid_m, lambda: self.refinement)
 
 
 def _triple(values: Floats) -> tuple[float, float, float]:

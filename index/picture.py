@@ -72,9 +72,8 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
             )
         else:
             axes.set(xlim=(xy[:, 0].min(), xy[:, 0].max()), ylim=(xy[:, 1].min(), xy[:, 1].max()))
-            axes.set_title(
-                f"{localizer.map_name}: {localizer.num_cells} cells, the best {len(answer.candidates)} framed",
-                fontsize=9,
-            )
-    figure.text(0.995, 0.005, localizer.attribution, fontsize=6, ha="right")
+            facts = localizer.facts
+            listed = len(answer.candidates)
+            axes.set_title(f"{facts.map_name}: {facts.num_cells} cells, the best {listed} framed", fontsize=9)
+    figure.text(0.995, 0.005, localizer.facts.attribution, fontsize=6, ha="right")
     FigureCanvasAgg(figure).print_png(path)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from index.store import FaissStore, Floats, Rows, VectorStore
 from models.city.cells import CellTable
 from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.level_table import LevelTable
+from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Levels
 from models.retrieval.retriever import Retriever
 
@@ -19,12 +19,12 @@ RERANKED = 100  # cells whose other levels are looked at
 
 
 class Ranker:
-    """Scores of a gallery's cells, by as many levels as the retriever has.
+    """Scores of a gallery's cells, by as many levels as there are.
 
     Args:
         retriever: the model that made store and table.
         store: the gallery's vectors, global level.
-        table: its other levels; empty if the retriever has none.
+        table: its other levels; empty if the retriever has none, or they are not needed.
         depth: cells whose other levels are looked at: 0 is the global level alone, the size of the gallery MNCL's
             released code.
     """
@@ -33,7 +33,14 @@ class Ranker:
         self.retriever, self.store, self.table, self.depth = retriever, store, table, depth
 
     @classmethod
-    def of(cls, retriever: Retriever, cells: CellTable, labels: Sequence[str], depth: int = RERANKED) -> "Ranker":
+    def of(
+        cls,
+        retriever: Retriever,
+        cells: CellTable,
+        labels: Sequence[str],
+        depth: int = RERANKED,
+        with_levels: bool = True,
+    ) -> "Ranker":
         """Encode a gallery.
 
         Args:
@@ -41,31 +48,40 @@ class Ranker:
             cells: the gallery.
             labels: of each instance that its parts name.
             depth: see Ranker.
+            with_levels: whether to keep more than the global level.
         """
         features = retriever.seen(CellFeatures.of(cells, np.array(labels)))
-        store = FaissStore.of(retriever.encode_cells(features))
-        return cls(retriever, store, LevelTable.of(retriever, features), depth)
+        vectors, table = encode_gallery(retriever, features, with_levels)
+        return cls(retriever, FaissStore.of(vectors), table, depth)
 
     def save(self, directory: Path) -> None:
         """Write the vectors, and the levels if there are any."""
         self.store.save(directory / VECTORS_FILE)
-        if self.table.vectors:
+        if not self.table.is_empty:
             self.table.save(directory)
 
     @classmethod
-    def load(cls, retriever: Retriever, directory: Path) -> "Ranker":
+    def load(cls, retriever: Retriever, directory: Path, with_levels: bool = False) -> "Ranker":
         """Read what `save` wrote.
+
+        Args:
+            retriever: the model that made it.
+            directory: where it is.
+            with_levels: whether to read the levels beside the global one too.
 
         Raises:
             IndexBroken: it is not an index of this model.
         """
-        has_levels = retriever.levels != ("global",)
-        table = LevelTable.load(directory, retriever.levels) if has_levels else LevelTable(np.zeros(1, np.int64), {})
+        table = LevelTable.load(directory, retriever.levels) if with_levels else NO_LEVELS
         return cls(retriever, FaissStore.load(directory / VECTORS_FILE), table)
 
     def take(self, rows: npt.NDArray[np.intp]) -> "Ranker":
         """The same of some cells of the gallery."""
         return Ranker(self.retriever, FaissStore.of(self.store.vectors(rows)), self.table.take(rows), self.depth)
+
+    def search(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
+        """The k best cells of each description by the global level alone; arguments and return as `rank`."""
+        return self.store.search(np.concatenate([text.whole.cpu().numpy() for text in texts]), k)
 
     def rank(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
         """The k best cells of each description.
@@ -77,9 +93,8 @@ class Ranker:
         Returns:
             scores [Q, k] and rows [Q, k], best first, equal scores by row.
         """
-        whole = np.concatenate([text.whole.cpu().numpy() for text in texts])
-        scores, rows = self.store.search(whole, max(k, self.depth) if self.table.vectors else k)
-        if self.table.vectors and self.depth:
+        scores, rows = self.search(texts, k if self._is_global else max(k, self.depth))
+        if not self._is_global:
             scores = np.stack([self._refine(*part) for part in zip(texts, rows, scores, strict=True)])
             order = np.lexsort((rows, -scores), axis=1)
             scores, rows = np.take_along_axis(scores, order, axis=1), np.take_along_axis(rows, order, axis=1)
@@ -88,12 +103,21 @@ class Ranker:
     def score(self, text: Levels, rows: npt.NDArray[np.int64]) -> Floats:
         """[len(rows)] scores of some cells, comparable with those of `rank`."""
         whole = self.store.score(text.whole[0].cpu().numpy(), rows)
-        if not (self.table.vectors and self.depth and len(rows)):
+        if self._is_global or not len(rows):
             return whole
         order = np.argsort(-whole, kind="stable")
         scores = np.empty_like(whole)
         scores[order] = self._refine(text, rows[order], whole[order])
         return scores
+
+    def temperature(self, num_hints: int) -> float:
+        """See `Retriever.temperature`."""
+        return self.retriever.temperature(num_hints, self._is_global)
+
+    @property
+    def _is_global(self) -> bool:
+        """Whether no other level is looked at."""
+        return self.table.is_empty or not self.depth
 
     def _refine(self, text: Levels, rows: npt.NDArray[np.integer[Any]], whole: Floats) -> Floats:
         """[C] scores of cells in order of the global level; those beyond the depth count as no better at the others."""

@@ -9,10 +9,11 @@ from typing import Any, ClassVar, Generic, Protocol, TypeVar
 import pydantic
 import safetensors
 import torch
-from safetensors.torch import load_file, save_file
+from safetensors.torch import load_file, save
 from torch import Tensor
 
 from models.errors import WeightsError
+from models.files import replace_file
 from models.language.text_encoder import TextEncoder, load_text_encoder
 
 SHIPPED = Path(__file__).parent / "weights"
@@ -68,10 +69,9 @@ class Checkpoints(Generic[M]):
             directory: made if it is missing.
             training: how it came about, for the record.
         """
-        directory.mkdir(parents=True, exist_ok=True)
         state = model.state_dict()
         kept = {name: tensor.half() if _is_large(tensor) else tensor for name, tensor in state.items()}
-        save_file({name: tensor.contiguous() for name, tensor in kept.items()}, directory / WEIGHTS_FILE)
+        replace_file(directory / WEIGHTS_FILE, save({name: tensor.contiguous() for name, tensor in kept.items()}))
         model.load_state_dict({name: tensor.to(state[name].dtype) for name, tensor in kept.items()})
         model.eval()  # forgets what it computed with the weights unrounded
         record = {
@@ -80,7 +80,7 @@ class Checkpoints(Generic[M]):
             "fingerprint": model.fingerprint,
             "training": training,
         }
-        (directory / CONFIG_FILE).write_text(json.dumps(record, indent=2) + "\n")
+        replace_file(directory / CONFIG_FILE, (json.dumps(record, indent=2) + "\n").encode())
 
     def load(self, directory: Path | None = None) -> M:
         """Read a model, ready to answer.

@@ -19,9 +19,12 @@ from filelock import FileLock
 from index.build import build_index
 from index.localizer import Localizer
 from models.city.cells import CellTable, cut_cells
+from models.city.gallery import MapData
 from models.city.kitti360.job import prepare_data
 from models.city.osm.map import load_osm
 from models.city.points import PointTable
+from models.city.queries import Queries
+from models.city.source import MapSource
 from models.city.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
@@ -83,7 +86,7 @@ def tiny_osm(seed: int = 0) -> str:
 
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory: pytest.TempPathFactory) -> MadeOnce:
-    """(name, make) -> a directory that `make` has filled, once for all processes of a test run; nobody writes to it."""
+    """(name, make) -> a directory that `make` has filled, once for all processes of a run; nobody writes to it."""
     root = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         root = root.parent  # that of the process which started the workers
@@ -121,6 +124,24 @@ def points(city: CityMap) -> PointTable:
 @pytest.fixture(scope="session")
 def cells(city: CityMap, points: PointTable) -> CellTable:
     return cut_cells(city, points)
+
+
+@pytest.fixture(scope="session")
+def source(osm_file: Path, city: CityMap, points: PointTable, cells: CellTable) -> MapSource:
+    """As `open_source` gives it."""
+    return MapSource(osm_file, city, points, cells)
+
+
+@pytest.fixture(scope="session")
+def regions(osm_file: Path, city: CityMap, points: PointTable, cells: CellTable) -> list[MapSource]:
+    """The west to train on, and the strip beside it to choose by."""
+    return [MapSource(osm_file, city, points, cells, split) for split in ("train", "val")]
+
+
+@pytest.fixture(scope="session")
+def asked(source: MapSource) -> tuple[MapData, Queries]:
+    """The town, and what it is asked."""
+    return source.data, source.queries()
 
 
 @pytest.fixture(scope="session")

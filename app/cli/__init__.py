@@ -1,1 +1,5 @@
-"""cli."""
+"""The command line: `main` has index, serve and localize, `data`, `research` and `reproduce` the other commands.
+
+`options` and `progress` are shared. May import everything below it; heavy imports stand inside the commands, so that
+--help is quick.
+"""

@@ -17,7 +17,7 @@ from app.cli import data as cli_data
 from app.cli import reproduce as cli_reproduce
 from app.cli import research as cli_research
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
-from index.answers import Refine
+from index.answers import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from models.errors import HereaboutsError
 
 if TYPE_CHECKING:
@@ -60,6 +60,10 @@ def index(
     keep_current: Annotated[
         bool, typer.Option("--keep-current", help="build nothing if the index is of this map and this model")
     ] = False,
+    levels: Annotated[
+        bool,
+        typer.Option("--levels", help="keep the retriever's other levels, for refine none and regressor: 6 kB a cell"),
+    ] = False,
 ) -> None:
     """Build an index of a map."""
     from app.cli.progress import stage_bars
@@ -67,7 +71,7 @@ def index(
     from index.build import build_index
 
     with stage_bars() as show:
-        version_dir = build_index(map_path, out, load_settings().weights_dir, split, keep_current, show)
+        version_dir = build_index(map_path, out, load_settings().weights_dir, split, keep_current, levels, show)
     typer.echo(f"index {version_dir.name} is in {version_dir}; serve it with: hereabouts serve --index {out}")
 
 
@@ -92,8 +96,8 @@ def serve(
 def localize(
     text: Annotated[str, typer.Argument(help="what is around you, for example 'I am north of a gray building.'")],
     index_dir: IndexDir = INDEX_DIR,
-    top_k: Annotated[int, typer.Option(min=1, max=40, help="candidates to list")] = 5,
-    refine: Annotated[Refine, typer.Option(help="how the position is found")] = "posterior",
+    top_k: Annotated[int, typer.Option(min=1, max=40, help="candidates to list")] = DEFAULT_TOP_K,
+    refine: Annotated[Refine, typer.Option(help="how the position is found")] = DEFAULT_REFINE,
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
     picture: Annotated[Path | None, typer.Option(help="PNG to draw the answer into")] = None,
 ) -> None:
@@ -101,9 +105,10 @@ def localize(
     from app.settings import load_settings
     from index.answers import Query
     from index.localizer import Localizer
-    from models.language.hints_text import split_hints
+    from models.language.sentences import split_hints
 
-    query = Query(hints=split_hints(text), top_k=top_k, refine=refine)
+    split_hints(text)  # or DescriptionError, before anything is loaded
+    query = Query(text, top_k=top_k, refine=refine)
     settings = load_settings(index_dir=index_dir)
     localizer = Localizer.open(
         settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir

@@ -34,8 +34,8 @@ def train(
         list[str] | None,
         typer.Option("--set", help="a setting: model.levels=global,instance or training.batch_size=64; repeatable"),
     ] = None,
-    split: Annotated[str, typer.Option(help="of a data set: what to train on")] = "train",
-    val_split: Annotated[str, typer.Option(help="of a data set: what to choose by")] = "val",
+    split: Annotated[str, typer.Option(help="what to train on")] = "train",
+    val_split: Annotated[str, typer.Option(help="what to choose by")] = "val",
     steps: Annotated[int | None, typer.Option(min=1, help="optimisation steps")] = None,
     seed: Annotated[int | None, typer.Option(min=0, help="of everything that is drawn")] = None,
     text_encoder: Annotated[str | None, typer.Option(help="minilm, or the directory or hub id of a T5")] = None,
@@ -74,11 +74,11 @@ def _train_retriever(
     """Train a retriever; its figures in words."""
     from models.retrieval.checkpoint import METHODS
     from models.training.fit_retriever import train_retriever
-    from models.training.sources import load_source
+    from models.training.training_data import load_training
 
     out, *rest = where
     recall = train_retriever(
-        lambda encoder, rng: [load_source(path, encoder, config, rng, splits) for path in data],
+        lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data],
         out, METHODS[method], model, config, *rest,
     )  # fmt: skip
     return f"recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
@@ -87,11 +87,11 @@ def _train_retriever(
 def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
     """Train a model of the fine stage; its figures in words."""
     from models.training.fit_fine import train_fine
-    from models.training.sources import load_source
+    from models.training.training_data import load_training
 
     out, *rest = where
     figures = train_fine(
-        lambda encoder, rng: [load_source(path, encoder, config, rng, splits) for path in data],
+        lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data],
         out, method, model, config, *rest,
     )  # fmt: skip
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
@@ -178,11 +178,10 @@ def evaluate(
 
 
 def _print_robustness(found: dict[str, Any]) -> None:
-    from index.evaluation.candidates import candidate_table
-    from index.evaluation.robustness import robustness_table
+    from index.evaluation.robustness import robustness_tables
 
     Console(width=140).print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
-    for head, rows in (robustness_table(found["trials"]), candidate_table(found["candidates"])):
+    for head, rows in robustness_tables(found):
         table = Table(*head)
         for row in rows:
             table.add_row(*row)

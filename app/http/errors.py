@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException as StarletteHTTPException
 from starlette.responses import JSONResponse, Response
 
-from models.errors import DescriptionError, WeightsError
+from models.errors import WeightsError
 
 PROBLEM_JSON = "application/problem+json"
 MAX_LISTED_ERRORS = 20
@@ -128,7 +128,6 @@ def add_error_handlers(app: FastAPI) -> None:
     """Make every error of an application a problem."""
     app.add_exception_handler(StarletteHTTPException, _on_http_exception)
     app.add_exception_handler(RequestValidationError, _on_validation_error)
-    app.add_exception_handler(DescriptionError, _on_description_error)
     app.add_exception_handler(WeightsError, _on_weights_error)
 
 
@@ -154,10 +153,6 @@ async def _on_validation_error(_request: Request, error: Exception) -> Response:
     if len(found) > 1:
         detail += f" (and {len(found) - 1} more)"
     return Problem(Code.INVALID_REQUEST, detail, listed).response()
-
-
-async def _on_description_error(_request: Request, error: Exception) -> Response:
-    return Problem.of_field("description", str(error)).response()
 
 
 async def _on_weights_error(_request: Request, _error: Exception) -> Response:

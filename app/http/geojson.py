@@ -1,6 +1,7 @@
 """Answers as GeoJSON (RFC 7946): longitude and latitude, rings counter-clockwise."""
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -46,14 +47,13 @@ def localize_collection(response: LocalizeResponse, frame: Frame) -> LocalizeCol
     """An answer in a georeferenced frame as features."""
     features = []
     if response.estimate is not None:
-        properties = response.estimate.model_dump(mode="json", exclude={"wgs84"})
+        properties = asdict(response.estimate)
+        del properties["wgs84"]
         point = _point(response.estimate.position, frame)
         features.append(_feature("estimate", point, {"kind": "estimate", **properties}))
     for candidate in response.candidates:
-        properties = candidate.model_dump(mode="json")
-        features.append(
-            _feature(candidate.cell_id, _polygon(candidate.bbox, frame), {"kind": "candidate", **properties})
-        )
+        properties = {"kind": "candidate", **asdict(candidate)}
+        features.append(_feature(candidate.cell_id, _polygon(candidate.bbox, frame), properties))
     shared = response.model_dump(include={"request_id", "status", "other_probability", "timings_ms", "warnings"})
     return LocalizeCollection(type="FeatureCollection", features=features, provenance=response.provenance, **shared)
 
@@ -64,7 +64,7 @@ def cell_collection(cell: CellResponse, frame: Frame) -> CellCollection:
     features = [_feature(cell.cell_id, _polygon(cell.bbox, frame), {"kind": "cell", **properties})]
     for instance in cell.instances:
         point = _point(instance.center[:2], frame)
-        features.append(_feature(None, point, {"kind": "instance", **instance.model_dump(mode="json")}))
+        features.append(_feature(None, point, {"kind": "instance", **asdict(instance)}))
     return CellCollection(type="FeatureCollection", features=features, provenance=cell.provenance)
 
 

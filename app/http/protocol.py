@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from typing import Protocol
 
-from index.answers import Answer, CellDetail, Query
+from index.answers import Answer, CellDetail, IndexFacts, Query
 from models.city.frame import Frame
 
 
 class LocalizerLike(Protocol):
-    """Answers queries about one map with one model."""
+    """Answers queries about one map."""
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
         """One answer a query, in order; blocks, and runs on the inference thread only."""
@@ -24,46 +24,6 @@ class LocalizerLike(Protocol):
         ...
 
     @property
-    def map_name(self) -> str:
-        """The map."""
-        ...
-
-    @property
-    def attribution(self) -> str:
-        """What the map data's licence asks to show."""
-        ...
-
-    @property
-    def index_version(self) -> str:
-        """The index directory that is served."""
-        ...
-
-    @property
-    def model(self) -> str:
-        """Name of the model."""
-        ...
-
-    @property
-    def model_sha256(self) -> str:
-        """Fingerprint of its weights."""
-        ...
-
-    @property
-    def num_cells(self) -> int:
-        """Cells in the index."""
-        ...
-
-    @property
-    def num_instances(self) -> int:
-        """Instances of the map."""
-        ...
-
-    @property
-    def dim(self) -> int:
-        """Width of the vectors."""
-        ...
-
-    @property
-    def created(self) -> str:
-        """When the index was built, ISO 8601."""
+    def facts(self) -> IndexFacts:
+        """What the index says of itself."""
         ...

@@ -163,7 +163,7 @@ class InferenceQueue:
             log.exception("load failed")
             self._failure = "a fault in the service while loading; the operator finds it in the log"
             return
-        log.info("ready", index_version=localizer.index_version, cells=localizer.num_cells)
+        log.info("ready", index_version=localizer.facts.version, cells=localizer.facts.num_cells)
         while batch := self._take():
             self._compute(localizer, [job for job in batch if job.begins()])
             with self._changed:

@@ -17,7 +17,9 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
-from index.answers import Box, Circle, Crs, Prior, Refine
+from index.answers import DEFAULT_REFINE, DEFAULT_TOP_K, Box, Circle, Crs, Prior, Query, Refine
+from models.errors import DescriptionError
+from models.language.sentences import split_hints
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
 EVALUATE_EXAMPLE: JsonValue = {
@@ -27,7 +29,6 @@ EVALUATE_EXAMPLE: JsonValue = {
     ],
     "crs": "map",
 }
-DEFAULT_TOP_K = 5
 MAX_RADII = 8
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
 # No map is wider than the Earth or finer than a millimetre, and the squares of these stay numbers.
@@ -126,9 +127,13 @@ class Told(_Body):
             raise _wrong("give either description or hints", "description")
         return self
 
+    def text(self) -> str:
+        """All that is said, hints a line each."""
+        return "\n".join(self.hints or ()) if self.description is None else self.description
+
 
 REFINE: Any = Field(
-    "posterior",
+    DEFAULT_REFINE,
     description="posterior: hints are matched with the map; regressor: vector search, then a regressor; "
     "none: vector search alone, cells' centres",
 )
@@ -155,6 +160,18 @@ class LocalizeRequest(Told):
                 if not (-180 <= lon <= 180 and -90 <= lat <= 90):
                     raise _wrong("is not [longitude -180..180, latitude -90..90]; or did you mean crs map?", field)
         return self
+
+    def query(self) -> Query:
+        """As the localizer takes it."""
+        return Query(
+            description=self.text(),
+            top_k=self.top_k,
+            within=self.within.filter() if self.within else None,
+            prior=self.prior.prior() if self.prior else None,
+            crs=self.crs,
+            refine=self.refine,
+            heat_map=self.heat_map,
+        )
 
     def points(self) -> list[tuple[str, tuple[float, float]]]:
         """All (x, y) or (lon, lat) of the request, each with the name of its field."""
@@ -208,14 +225,24 @@ def told_fields(settings: Settings) -> dict[str, Any]:
     """The fields of `Told` with a service's limits."""
     text = Annotated[str, Strict(), StringConstraints(max_length=settings.max_characters), AfterValidator(check_text)]
 
+    def check_sentences(description: str) -> str:
+        try:
+            count = len(split_hints(description))
+        except DescriptionError as error:
+            raise _wrong(str(error)) from None
+        if count > settings.max_hints:
+            raise _wrong(f"has {count} sentences, at most {settings.max_hints} are taken; shorten it")
+        return description
+
     def check_total(hints: list[str]) -> list[str]:
         if sum(map(len, hints)) > settings.max_characters:
             raise _wrong(f"have more than {settings.max_characters} characters together; send fewer or shorter ones")
         return hints
 
     hints = Annotated[list[text], Field(min_length=1, max_length=settings.max_hints), AfterValidator(check_total)]
+    description = Annotated[text, AfterValidator(check_sentences)]
     return {
-        "description": (text | None, Field(None, description="what is around the speaker, in plain words")),
+        "description": (description | None, Field(None, description="what is around the speaker, in plain words")),
         "hints": (hints | None, Field(None, description="the same in sentences, one hint each")),
     }
 

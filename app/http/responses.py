@@ -1,9 +1,22 @@
-"""What the service answers: models that are made from the localizer's dataclasses and refuse NaN."""
+"""What the service answers: the localizer's dataclasses with what the service knows besides; NaN is refused."""
+
+from dataclasses import fields
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
 from app.http.protocol import LocalizerLike
-from index.answers import Answer, CellDetail, Method, Status
+from index.answers import (
+    Answer,
+    Candidate,
+    CellDetail,
+    CellInstance,
+    Estimate,
+    Evidence,
+    HeatMap,
+    LatLon,
+    ModelName,
+    Status,
+)
 from models.city.frame import Frame
 
 INDEX_NAME = "default"
@@ -57,7 +70,7 @@ EXAMPLE: JsonValue = {
     "provenance": {
         "index": "default",
         "index_version": "20260101T120000Z-1a2b3c4d",
-        "model": "retriever",
+        "model": "posterior/minilm/192",
         "model_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
         "map": "helsinki",
         "attribution": "© OpenStreetMap contributors",
@@ -68,68 +81,8 @@ EXAMPLE: JsonValue = {
 
 
 class _Out(BaseModel):
-    model_config = ConfigDict(from_attributes=True, allow_inf_nan=False)
-
-
-class LatLon(_Out):
-    """WGS84 degrees."""
-
-    lat: float
-    lon: float
-
-
-class RadiusOut(_Out):
-    """Metres around the estimate that hold the true position with probability .5 and .9."""
-
-    p50: float
-    p90: float
-
-
-class EstimateOut(_Out):
-    """Where the speaker is, how sure that is, and what made it."""
-
-    position: tuple[float, float] = Field(description="x, y in metres, map frame")
-    method: Method
-    covariance: tuple[tuple[float, float], tuple[float, float]] = Field(description="square metres")
-    radius_m: RadiusOut
-    probability: float = Field(description="that the best candidate is the right cell")
-    wgs84: LatLon | None
-
-
-class CandidateOut(_Out):
-    """A cell that may be the right one."""
-
-    rank: int
-    cell_id: str
-    score: float = Field(description="comparable within one index only")
-    probability: float = Field(description="calibrated")
-    center: tuple[float, float]
-    bbox: tuple[float, float, float, float] = Field(description="west, south, east, north in metres, map frame")
-    position: tuple[float, float] = Field(description="the best position inside this cell")
-    wgs84: LatLon | None
-
-
-class EvidenceOut(_Out):
-    """How one hint was understood, and what on the map explains it."""
-
-    text: str = Field(description="the words for the thing")
-    label: str | None = Field(description="the map's class that fits them best")
-    colour: str | None
-    relation: str = Field(description="where the speaker is, seen from the thing; near: no direction was said")
-    distance_m: float | None = Field(description="as it was said")
-    absent: bool = Field(description="the text says that there is none")
-    explained: float = Field(description="probability that something on the map explains the hint")
-    instance: str | None = Field(description="class of what explains it at the estimate")
-    name: str | None
-    source_id: str | None
-    away_m: float | None = Field(description="from its closest point to the estimate")
-
-
-class HeatMapOut(_Out):
-    """The distribution behind an answer."""
-
-    spacing_m: float = Field(description="edge of the square that each point stands for")
-    points: list[tuple[float, float, float]] = Field(description="x, y, probability, likeliest first, map frame")
+    # An instance of a dataclass would pass unchecked; checked again, a NaN in it is found.
+    model_config = ConfigDict(allow_inf_nan=False, revalidate_instances="always")
 
 
 class CrsOut(_Out):
@@ -145,7 +98,7 @@ class CrsOut(_Out):
     def of(cls, frame: Frame) -> "CrsOut":
         """Of a map's frame."""
         lat, lon = frame.origin_lat, frame.origin_lon
-        origin = None if lat is None or lon is None else LatLon(lat=lat, lon=lon)
+        origin = None if lat is None or lon is None else LatLon(lat, lon)
         return cls(frame_id=frame.frame_id, epsg=frame.epsg, origin=origin)
 
 
@@ -154,21 +107,28 @@ class Provenance(_Out):
 
     index: str
     index_version: str
-    model: str
-    model_sha256: str
+    model: str = Field(description="what answered; of a cell or an index, what made its vectors")
+    model_sha256: str = Field(description="of all its weights")
     map: str
     attribution: str
 
     @classmethod
-    def of(cls, localizer: LocalizerLike) -> "Provenance":
-        """Of what a localizer answers."""
+    def of(cls, localizer: LocalizerLike, model: ModelName | None = None) -> "Provenance":
+        """Of what a localizer answers.
+
+        Args:
+            localizer: what answers.
+            model: what it answered with; None for the one that made the index.
+        """
+        facts = localizer.facts
+        model = model or facts.model
         return cls(
             index=INDEX_NAME,
-            index_version=localizer.index_version,
-            model=localizer.model,
-            model_sha256=localizer.model_sha256,
-            map=localizer.map_name,
-            attribution=localizer.attribution,
+            index_version=facts.version,
+            model=model.name,
+            model_sha256=model.sha256,
+            map=facts.map_name,
+            attribution=facts.attribution,
         )
 
 
@@ -179,15 +139,15 @@ class LocalizeResponse(_Out):
 
     request_id: str
     status: Status
-    estimate: EstimateOut | None = Field(description="null only with status no_match")
-    candidates: list[CandidateOut] = Field(description="best first")
+    estimate: Estimate | None = Field(description="null only with status no_match")
+    candidates: tuple[Candidate, ...] = Field(description="best first")
     other_probability: float = Field(description="mass outside the listed candidates")
-    evidence: list[EvidenceOut] = Field(description="one a hint; empty unless refine is posterior")
-    heat_map: HeatMapOut | None = Field(description="if it was asked for")
+    evidence: tuple[Evidence, ...] = Field(description="one a hint; empty unless refine is posterior")
+    heat_map: HeatMap | None = Field(description="if it was asked for")
     crs: CrsOut
     provenance: Provenance
     timings_ms: dict[str, float]
-    warnings: list[str]
+    warnings: tuple[str, ...]
 
     @classmethod
     def of(
@@ -201,32 +161,10 @@ class LocalizeResponse(_Out):
             request_id: of the request.
             timings_ms: the service's own, shown with the localizer's.
         """
-        return cls(
-            request_id=request_id,
-            status=answer.status,
-            estimate=None if answer.estimate is None else EstimateOut.model_validate(answer.estimate),
-            candidates=[CandidateOut.model_validate(candidate) for candidate in answer.candidates],
-            other_probability=answer.other_probability,
-            evidence=[EvidenceOut.model_validate(hint) for hint in answer.evidence],
-            heat_map=None if answer.heat_map is None else HeatMapOut.model_validate(answer.heat_map),
-            crs=CrsOut.of(localizer.frame),
-            provenance=Provenance.of(localizer),
-            timings_ms={**answer.timings_ms, **timings_ms},
-            warnings=list(answer.warnings),
-        )
-
-
-class CellInstanceOut(_Out):
-    """One instance of a cell; metres, map frame."""
-
-    label: str
-    name: str | None
-    source_id: str | None
-    colour: str | None
-    points: int
-    center: tuple[float, float, float]
-    size: tuple[float, float, float]
-    closest: tuple[float, float, float] = Field(description="its point nearest to the cell's centre")
+        found = {f.name: getattr(answer, f.name) for f in fields(answer) if f.name != "model"}
+        found["timings_ms"] = {**answer.timings_ms, **timings_ms}
+        crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer, answer.model)
+        return cls(request_id=request_id, crs=crs, provenance=provenance, **found)
 
 
 class CellResponse(_Out):
@@ -237,23 +175,15 @@ class CellResponse(_Out):
     center: tuple[float, float, float]
     bbox: tuple[float, float, float, float] = Field(description="west, south, east, north")
     wgs84: LatLon | None
-    instances: list[CellInstanceOut]
+    instances: tuple[CellInstance, ...]
     crs: CrsOut
     provenance: Provenance
 
     @classmethod
     def of(cls, cell: CellDetail, localizer: LocalizerLike) -> "CellResponse":
         """Of a localizer's cell."""
-        return cls(
-            cell_id=cell.cell_id,
-            scene=cell.scene,
-            center=cell.center,
-            bbox=cell.bbox,
-            wgs84=None if cell.wgs84 is None else LatLon.model_validate(cell.wgs84),
-            instances=[CellInstanceOut.model_validate(instance) for instance in cell.instances],
-            crs=CrsOut.of(localizer.frame),
-            provenance=Provenance.of(localizer),
-        )
+        shown = {f.name: getattr(cell, f.name) for f in fields(cell)}
+        return cls(crs=CrsOut.of(localizer.frame), provenance=Provenance.of(localizer), **shown)
 
 
 class Health(_Out):
@@ -291,11 +221,12 @@ class IndexInfo(_Out):
     @classmethod
     def of(cls, localizer: LocalizerLike) -> "IndexInfo":
         """Of what a localizer answers from."""
+        facts = localizer.facts
         return cls(
-            num_cells=localizer.num_cells,
-            num_instances=localizer.num_instances,
-            dim=localizer.dim,
-            created=localizer.created,
+            num_cells=facts.num_cells,
+            num_instances=facts.num_instances,
+            dim=facts.dim,
+            created=facts.created,
             crs=CrsOut.of(localizer.frame),
             provenance=Provenance.of(localizer),
         )

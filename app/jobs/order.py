@@ -1,9 +1,9 @@
 """An evaluation as it is asked for, in a request or in a file, and the work itself; HTTP and command line share it."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
@@ -12,15 +12,18 @@ from app.http.errors import Problem, field_name
 from app.http.middleware import check_json
 from app.http.requests import EvaluateQuery, EvaluateRequest, evaluate_model
 from app.settings import Settings
-from index.answers import Refine
+from index.answers import DEFAULT_REFINE, Refine
 from index.artifact import open_version
 from models.city.frame import Frame
+from models.city.queries import Queries
+from models.city.source import Source, open_source
+from models.city.types import Progress
 from models.errors import DataError
-from models.language.hints_text import split_hints
+
+if TYPE_CHECKING:
+    from index.finding import CellLocalizer
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
-Progress = Callable[[str, int, int], None]
-
 WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # of Settings and of Evaluation
 
 
@@ -32,22 +35,22 @@ class Evaluation(BaseModel):
         grow_m: radii of a growing gallery.
         refine: what finds positions inside the retrieved cells.
         fine_weights_dir, posterior_weights_dir: its model, as weights_dir.
-        data, split: as `index.map_data.load_queries`; None for queries of one's own.
+        data, split: as `models.city.source.open_sources`; None for queries of one's own.
         index_dir: an index directory or a version of it, which queries of one's own are asked of.
-        sentences, positions_m: each query's hint sentences, and where they were said, map frame.
+        descriptions, positions_m: what was said, and where, map frame.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     weights_dir: Path | None
     grow_m: list[float] = []
-    refine: Refine = "none"
+    refine: Refine = DEFAULT_REFINE
     fine_weights_dir: Path | None = None
     posterior_weights_dir: Path | None = None
     data: Path | None = None
     split: str | None = None
     index_dir: Path | None = None
-    sentences: list[tuple[str, ...]] = []
+    descriptions: list[str] = []
     positions_m: list[tuple[float, float]] = []
 
     def run(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
@@ -60,35 +63,48 @@ class Evaluation(BaseModel):
         Raises:
             HereaboutsError: the data, the index or the model cannot be used.
         """
-        import torch  # noqa: PLC0415  # takes seconds
-
-        from index.evaluation.evaluation import evaluate  # noqa: PLC0415
+        from index.evaluation.evaluation import evaluate  # noqa: PLC0415  # brings torch, which takes seconds
         from index.localizer import Localizer  # noqa: PLC0415
-        from index.map_data import ask, load_queries  # noqa: PLC0415
-        from index.map_posterior import MapPosterior  # noqa: PLC0415
-        from index.ranking import Ranker  # noqa: PLC0415
-        from models.localization.checkpoint import load_fine  # noqa: PLC0415
-        from models.posterior.model import load_posterior  # noqa: PLC0415
-        from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
-        torch.set_num_threads(1)  # a model's last bits differ with their number; sentences are too short to need more
-        refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
         if self.data is not None:
-            data, queries = load_queries(self.data, self.split, progress)
-            if self.refine == "posterior":
-                model = load_posterior(self.posterior_weights_dir)
-                answerer = MapPosterior(model, data.gallery, data.palette, data.around(progress))
-                return evaluate(data, queries, answerer, report_dir, self.grow_m, progress)
-            progress("encode cells", 0, 0)
-            ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
-            return evaluate(data, queries, ranker, report_dir, self.grow_m, progress, refiner)
+            source, queries = self._open(progress)
+            return evaluate(source.data, queries, self._localizer(source, progress), report_dir, self.grow_m, progress)
         assert self.index_dir is not None
         progress("open index", 0, 0)
-        localizer = Localizer.open(self.index_dir, self.weights_dir, posterior_weights_dir=self.posterior_weights_dir)
+        dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
+        localizer = Localizer.open(self.index_dir, *dirs)
         data = localizer.map_data()
-        queries = ask(data.cells, self.sentences, np.array(self.positions_m))
-        answering = localizer.map_posterior if self.refine == "posterior" else localizer.ranker
-        return evaluate(data, queries, answering, report_dir, self.grow_m, progress, refiner)
+        sentences = [(description,) for description in self.descriptions]
+        queries = Queries.of_text(sentences, np.array(self.positions_m), data.cells)
+        answering = localizer.posterior if self.refine == "posterior" else localizer.by_vectors(self.refine).raw()
+        return evaluate(data, queries, answering, report_dir, self.grow_m, progress)
+
+    def _open(self, progress: Progress) -> tuple[Source, Queries]:
+        assert self.data is not None
+        source = open_source(self.data, self.split, progress)
+        progress("describe positions", 0, 0)
+        return source, source.queries()
+
+    def _localizer(self, source: Source, progress: Progress) -> "CellLocalizer":
+        """What is evaluated, made for a data set; retrievers are given raw text and all their levels."""
+        from index.posterior_localizer import PosteriorLocalizer  # noqa: PLC0415
+        from index.ranking import Ranker  # noqa: PLC0415
+        from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
+        from models.localization.checkpoint import load_fine  # noqa: PLC0415
+        from models.posterior.model import load_posterior  # noqa: PLC0415
+        from models.posterior.surroundings import Surroundings  # noqa: PLC0415
+        from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
+
+        progress("encode cells", 0, 0)
+        data, is_posterior = source.data, self.refine == "posterior"
+        retriever = load_retriever(self.weights_dir)
+        ranker = Ranker.of(retriever, data.cells, data.gallery.labels, with_levels=not is_posterior)
+        if is_posterior:
+            model = load_posterior(self.posterior_weights_dir)
+            surroundings = Surroundings.of(source.bodies(), data.cells, progress)
+            return PosteriorLocalizer.of_map(model, data, ranker, surroundings)
+        refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
+        return VectorLocalizer.of_map(data, ranker, refiner)
 
     def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
         """Retriever and posterior side by side under every trial of `robustness`, and where candidates come from.
@@ -100,42 +116,29 @@ class Evaluation(BaseModel):
         Raises:
             HereaboutsError: as `run`; or there is text alone, whose hints nobody knows.
         """
-        import torch  # noqa: PLC0415  # takes seconds
-
-        from index.evaluation.candidates import candidate_recall, candidate_table  # noqa: PLC0415
-        from index.evaluation.report import as_markdown  # noqa: PLC0415
-        from index.evaluation.robustness import robustness, robustness_table, some_of  # noqa: PLC0415
-        from index.map_data import load_queries  # noqa: PLC0415
-        from index.map_posterior import MapPosterior  # noqa: PLC0415
-        from index.ranking import Ranker  # noqa: PLC0415
-        from models.posterior.model import load_posterior  # noqa: PLC0415
-        from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
+        from index.evaluation.report import as_markdown  # noqa: PLC0415  # brings torch, which takes seconds
+        from index.evaluation.robustness import robustness, robustness_tables, some_of  # noqa: PLC0415
 
         if self.data is None:
             raise DataError(
                 "--robustness needs a data set or a map: nobody knows what the hints of one's own text mean"
             )
-        torch.set_num_threads(1)
-        data, queries = load_queries(self.data, self.split, progress)
-        ranker = Ranker.of(load_retriever(self.weights_dir), data.cells, data.gallery.labels)
-        model = load_posterior(self.posterior_weights_dir)
-        posterior = MapPosterior(model, data.gallery, data.palette, data.around(progress))
-        trials = robustness(data, queries, ranker, posterior, progress)
-        some = some_of(queries)
-        candidates = candidate_recall(some, ranker, posterior)
+        source, queries = self._open(progress)
+        vectors, posterior = (
+            self.model_copy(update={"refine": how})._localizer(source, progress) for how in ("none", "posterior")
+        )
         found: dict[str, Any] = {
-            "data": data.name,
-            "split": data.split,
-            "queries": len(some),
-            "cells": len(data.cells),
-            "trials": trials,
-            "candidates": candidates,
+            "data": source.data.name,
+            "split": source.data.split,
+            "queries": len(some_of(queries)),
+            "cells": len(source.data.cells),
+            **robustness(source.data, queries, vectors, posterior, progress),
         }
         if report_dir:
             report_dir.mkdir(parents=True, exist_ok=True)
             (report_dir / "robustness.json").write_text(json.dumps(found, indent=1) + "\n")
-            tables = robustness_table(trials), candidate_table(candidates)
-            (report_dir / "robustness.md").write_text("\n\n".join(as_markdown(table) for table in tables) + "\n")
+            tables = "\n\n".join(as_markdown(table) for table in robustness_tables(found))
+            (report_dir / "robustness.md").write_text(tables + "\n")
         return found
 
     def public(self, message: str) -> str:
@@ -167,7 +170,7 @@ def to_evaluation(asked: EvaluateRequest, settings: Settings, index_dir: Path, f
     return Evaluation(
         **common,
         index_dir=index_dir.absolute(),
-        sentences=[_sentences(query, n, settings.max_hints) for n, query in enumerate(queries)],
+        descriptions=[query.text() for query in queries],
         positions_m=_positions_m(queries, frame) if asked.crs == "wgs84" else [query.position for query in queries],
     )
 
@@ -225,16 +228,6 @@ def find_data(data_dir: Path | None, name: str) -> Path:
         if known in offered:
             return offered[known]
     raise Problem.of_field("data", "is no data set of this service; /info lists those there are")
-
-
-def _sentences(query: EvaluateQuery, number: int, max_hints: int) -> tuple[str, ...]:
-    if query.description is None:
-        return tuple(hint.strip() for hint in query.hints or ())
-    hints = split_hints(query.description)
-    if len(hints) > max_hints:
-        field = f"queries[{number}].description"
-        raise Problem.of_field(field, f"has {len(hints)} sentences, at most {max_hints} are taken; shorten it")
-    return hints
 
 
 def _positions_m(queries: Sequence[EvaluateQuery], frame: Frame) -> list[tuple[float, float]]:

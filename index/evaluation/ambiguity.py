@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_array
 
-from index.map_data import MapData, Queries
+from models.city.gallery import MapData
 from models.city.hints import hint_table
+from models.city.queries import Queries
 from models.city.types import DIRECTIONS, Hint
 from models.training.metrics import RETRIEVAL_KS
 

@@ -1,55 +1,48 @@
-"""Which cells the hint posterior should look at: vector search, the inverted list over statements, or both."""
+"""Which cells the hint posterior looks at: those of the vector index, of the inverted list over statements, of both."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from index.evaluation.report import Table
-from index.map_data import Queries
-from index.map_posterior import MapPosterior
-from index.ranking import Ranker
+from index.posterior_localizer import PosteriorLocalizer
+from index.vector_localizer import raw_sentences
+from models.city.queries import Queries
 
 SIZES = (10, 20, 50, 100, 200, 500)  # of the candidate set
-SOURCES = ("vector search", "inverted list", "both, in turns")
-Order = npt.NDArray[np.integer[Any]]
+SOURCES = ("vector index, raw text", "vector index, read and rendered", "inverted list", "both, so many of each")
 
 
-def candidate_recall(queries: Queries, ranker: Ranker, posterior: MapPosterior) -> list[dict[str, Any]]:
+def candidate_recall(queries: Queries, posterior: PosteriorLocalizer) -> list[dict[str, Any]]:
     """Share of the queries whose best cell is among the first N of each source.
 
     Args:
         queries: with known cells.
-        ranker: vector search, and the levels on the best of it.
         posterior: of the same gallery.
 
     Returns:
         For each of SOURCES "source" and "recall" {N: share}.
     """
     deepest = min(SIZES[-1], len(posterior.gallery.cells))
-    place = np.zeros((len(SOURCES), len(queries)), dtype=np.int64)
-    posterior.read_ahead(queries.sentences)
-    for q, sentences in enumerate(queries.sentences):
-        by_vectors = ranker.rank([ranker.retriever.encode_description(sentences)], deepest)[1][0]
-        scores = posterior.posterior.cell_scores(posterior.reading(posterior.notice(sentences)))
-        by_list = np.argsort(-scores, kind="stable")[:deepest]
-        for n, order in enumerate((by_vectors, by_list, in_turns(by_vectors, by_list))):
+    place = np.full((len(SOURCES), len(queries)), SIZES[-1])
+    retriever = posterior.ranker.retriever
+    descriptions = ["\n".join(said) for said in queries.sentences]
+    rendered = posterior.sentences(descriptions)
+    for q, (raw, said) in enumerate(zip(raw_sentences(descriptions), rendered, strict=True)):
+        texts = retriever.encode_texts([raw, said or raw])
+        hints = posterior.parse(descriptions[q : q + 1])[0]
+        by_list = posterior.posterior.cell_scores(posterior.reading(hints)) if hints else np.zeros(deepest)
+        orders = [*posterior.ranker.search(texts, deepest)[1], np.argsort(-by_list, kind="stable")[:deepest]]
+        for n, order in enumerate(orders):
             found = np.flatnonzero(order == queries.truth[q])
             place[n, q] = found[0] if len(found) else SIZES[-1]
+        place[-1, q] = place[1:-1, q].min()
     shares = [{str(size): float((row < size).mean()) for size in SIZES} for row in place]
     return [{"source": name, "recall": share} for name, share in zip(SOURCES, shares, strict=True)]
 
 
-def in_turns(one: Order, other: Order) -> Order:
-    """Cells of two orders, taken in turns, each once."""
-    mixed = np.stack([one, other], axis=1).ravel()
-    first = np.unique(mixed, return_index=True)[1]
-    found: Order = mixed[np.sort(first)]
-    return found
-
-
-def candidate_table(rows: Sequence[dict[str, Any]]) -> Table:
-    """Recall of the candidate set by its size."""
-    head = ("best cell among the first", *(f"{size}" for size in SIZES))
+def candidate_table(rows: Sequence[dict[str, Any]], text: str) -> Table:
+    """Recall of the candidate set by its size, for one kind of text."""
+    head = (f"{text}: best cell among the first", *(f"{size}" for size in SIZES))
     return head, [(row["source"], *(f"{row['recall'][str(size)]:.3f}" for size in SIZES)) for row in rows]

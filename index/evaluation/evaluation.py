@@ -9,56 +9,52 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
-from scipy.special import logsumexp
 
+from index.answers import Query
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
-from index.map_data import MapData, Progress, Queries
-from index.map_posterior import MapPosterior
-from index.ranking import Ranker
-from index.refinement import Refinement, Refiner
-from models.city.types import Floats
+from index.finding import CellLocalizer
+from models.city.gallery import MapData
+from models.city.queries import Queries
+from models.city.types import Floats, Progress
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 
 LISTED = 25  # cells kept of each ranking; recall curves end here
 PREDICTED = max(*RETRIEVAL_KS, *LOCALIZATION_KS)
-CHUNK = 64  # queries ranked at once
+CHUNK = 64  # queries asked at once
 
 
 def evaluate(
     data: MapData,
     queries: Queries,
-    ranker: Ranker | MapPosterior,
+    localizer: CellLocalizer,
     report_dir: Path | None = None,
     grow_m: Sequence[float] = (),
     progress: Progress | None = None,
-    refiner: Refiner | None = None,
 ) -> dict[str, Any]:
-    """Ask a model, save what it says, score it.
+    """Ask a localizer, save what it says, score it.
 
     Args:
         data: the gallery.
         queries: what is asked.
-        ranker: the model, with its vectors of the gallery (`Ranker.of`, or an index's); or the hint posterior of it.
+        localizer: of the gallery.
         report_dir: where predictions.npz, report.json, report.md and the plots go; None to write nothing.
         grow_m: radii of a growing gallery (`grow`); predictions for each are saved beside the others.
         progress: called as the work goes on.
-        refiner: gives the positions inside the retrieved cells; None for the cells' centres, or the posterior's own.
 
     Returns:
         The report (`index.evaluation.scoring.score`).
     """
     report = progress or (lambda stage, done, total: None)
-    predictions = predict(data, queries, ranker, report, refiner)
+    predictions = predict(data, queries, localizer, report)
     if queries.hints is not None:
         report("match hints", 0, 0)
         predictions.facts["ambiguity"] = ambiguity(data, queries, queries.hints)
     grown = [
-        (radius, predict(*part, ranker.take(rows), report, refiner))
-        for radius, part, rows in grow(data, queries, grow_m)
+        (radius, predict(*part, localizer.take(rows), report)) for radius, part, rows in grow(data, queries, grow_m)
     ]
     if report_dir:
         save_run(report_dir, predictions, grown)
@@ -66,90 +62,41 @@ def evaluate(
     return _report(predictions, grown)
 
 
-def predict(
-    data: MapData,
-    queries: Queries,
-    ranker: Ranker | MapPosterior,
-    progress: Progress,
-    refiner: Refiner | None = None,
-) -> Predictions:
-    """Rank the gallery for each query.
+def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress: Progress) -> Predictions:
+    """Localize each query.
 
     Args:
         data: the gallery.
         queries: what is asked.
-        ranker: the model, with its vectors of the gallery in the same rows.
+        localizer: of the gallery.
         progress: called as the work goes on.
-        refiner: as `evaluate`.
     """
-    if isinstance(ranker, MapPosterior):
-        return _predict_by_posterior(data, queries, ranker, progress)
-    retriever = ranker.retriever
-    total, cells = len(queries), len(data.cells)
-    listed = min(LISTED, cells)
-    ranked, scores = np.empty((total, listed), np.int32), np.empty((total, listed), np.float32)
-    probability = np.empty(total)
+    total, listed = len(queries), min(LISTED, len(data.cells))
+    ranked, scores = np.full((total, listed), -1, np.int32), np.full((total, listed), -np.inf, np.float32)
+    positions = np.zeros((total, min(PREDICTED, listed), 2))
+    probability, radius_m = np.zeros(total), np.full((total, 2), data.cells.extent_m)
     for start in range(0, total, CHUNK):
         progress("ask", start, total)
-        rows = slice(start, start + CHUNK)
-        said = queries.sentences[rows]
-        similarity, order = ranker.rank(retriever.encode_texts(said), cells)
-        ranked[rows], scores[rows] = order[:, :listed], similarity[:, :listed]
-        probability[rows] = _first_probability(similarity, np.array([retriever.temperature(len(s)) for s in said]))
+        asked = [Query("\n".join(said), top_k=PREDICTED) for said in queries.sentences[start : start + CHUNK]]
+        for q, finding in enumerate(localizer.find(asked), start):
+            if (located := finding.located) is None:
+                continue
+            count = min(listed, len(located.rows))
+            ranked[q, :count], scores[q, :count] = located.rows[:count], located.score[:count]
+            near = located.positions[: positions.shape[1]]
+            positions[q, : len(near)] = near
+            probability[q], radius_m[q] = located.probability[0], located.radii_m(0.5, 0.9)
     progress("ask", total, total)
-    centers = data.cells.center_m[:, :2].astype(np.float64)
-    predicted: Floats = centers[ranked[:, :PREDICTED]]
-    if refiner:
-        progress("refine positions", 0, 0)
-        predicted = Refinement(refiner, data.gallery).positions_m(queries.sentences, ranked[:, :PREDICTED])
+    model = localizer.model
     return Predictions(
         facts={
             "data": data.name,
             "split": data.split,
             "attribution": data.attribution,
-            "model": retriever.name,
-            "model_fingerprint": retriever.fingerprint,
-            "method": refiner.method if refiner else "cell_center",
-        }
-        | ({"refiner_fingerprint": refiner.fingerprint} if refiner else {}),
-        cell_ids=np.array(data.cells.ids),
-        cell_scenes=np.array(data.cells.scenes),
-        cell_centers_m=centers,
-        queried_cells=queries.truth,
-        positions_m=queries.positions_m,
-        scenes=np.array(queries.scenes),
-        strategies=np.array(queries.strategies),
-        ranked=ranked,
-        scores=scores,
-        predicted_m=predicted,
-        probability=probability,
-        radius_m=np.full((total, 2), np.nan),
-    )
-
-
-def _predict_by_posterior(data: MapData, queries: Queries, posterior: MapPosterior, progress: Progress) -> Predictions:
-    total, listed = len(queries), min(LISTED, len(data.cells))
-    ranked, scores = np.full((total, listed), -1, np.int32), np.full((total, listed), -np.inf, np.float32)
-    positions, radius_m = np.zeros((total, min(PREDICTED, listed), 2)), np.full((total, 2), posterior.extent_m)
-    probability = np.zeros(total)
-    for q, sentences in enumerate(queries.sentences):
-        if q % CHUNK == 0:
-            progress("ask", q, total)
-            posterior.read_ahead(queries.sentences[q : q + CHUNK])
-        located = posterior.locate(posterior.reading(posterior.notice(sentences)))
-        if located is None:
-            continue
-        count = min(listed, len(located.rows))
-        ranked[q, :count], scores[q, :count] = located.rows[:count], located.log_mass[:count]
-        near = located.positions[: positions.shape[1]]
-        positions[q, : len(near)] = near
-        probability[q], radius_m[q] = located.probability[0], posterior.radii_m(located)
-    progress("ask", total, total)
-    model = {"model": posterior.model.method, "model_fingerprint": posterior.model.fingerprint}
-    return Predictions(
-        facts={"data": data.name, "split": data.split, "attribution": data.attribution}
-        | model
-        | {"method": posterior.model.method},
+            "model": model.name,
+            "model_fingerprint": model.sha256,
+            "method": localizer.method,
+        },
         cell_ids=np.array(data.cells.ids),
         cell_scenes=np.array(data.cells.scenes),
         cell_centers_m=data.cells.center_m[:, :2].astype(np.float64),
@@ -251,10 +198,3 @@ def _report(predictions: Predictions, grown: Sequence[tuple[float, Predictions]]
         report["growth"] = [{"radius_m": radius} | {name: part[name] for name in names} for radius, part in parts]
     # As it will be read: a report that was written and one that was returned are the same.
     return dict(json.loads(json.dumps(report)))
-
-
-def _first_probability(similarity: Floats, temperature: Floats) -> Floats:
-    """[Q] probability of the first cell: softmax of similarities [Q, N], best first, over temperatures [Q]."""
-    logits = similarity.astype(np.float64) / temperature[:, None]
-    probability: Floats = np.exp(logits[:, 0] - logsumexp(logits, axis=1))
-    return probability

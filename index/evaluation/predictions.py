@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from models.city.types import Floats
 from models.errors import DataError
+from models.files import replacing
 
 FILE = "predictions.npz"
 FACTS = "facts"
@@ -53,10 +54,8 @@ class Predictions:
     def save(self, path: Path) -> None:
         """Write one .npz file, whole or not at all."""
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != FACTS}
-        temporary = path.with_name(f".{path.name}")
-        with temporary.open("wb") as file:
+        with replacing(path) as file:
             np.savez_compressed(file, facts=np.array(json.dumps(self.facts)), **arrays)
-        temporary.replace(path)
 
     @classmethod
     def load(cls, path: Path) -> "Predictions":

@@ -14,19 +14,26 @@ from typing import Any
 import numpy as np
 import torch
 
+from index.artifact import fingerprint
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate
-from index.map_data import MapData, Progress, Queries, fingerprint, load_queries
 from index.ranking import RERANKED, Ranker
+from index.vector_localizer import VectorLocalizer
+from models.city.gallery import MapData
+from models.city.queries import Queries
+from models.city.source import open_source
+from models.city.types import Progress
+from models.files import replace_file
 from models.localization.checkpoint import FINE_METHODS, load_fine
+from models.localization.fine_model import FineModel
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.retriever import Retriever
-from models.training.engine.run_dir import METRICS_FILE, replace_file
+from models.training.engine.run_dir import METRICS_FILE
 from models.training.experiments import FINE, GROWTH, MNCL, Run, Scale, runs_of
 from models.training.fit_fine import train_fine
 from models.training.fit_retriever import train_retriever
 from models.training.settings import load_settings
-from models.training.sources import load_source
+from models.training.training_data import load_training
 
 RESULT_FILE, LOCALIZATION_FILE, WEIGHTS_DIR, RUN_DIR = "result.json", "localization.json", "weights", "run"
 RANKINGS = {"global level alone": 0, f"global, then all levels on {RERANKED}": RERANKED, "all levels on all cells": -1}
@@ -133,7 +140,7 @@ def _do(job: Job) -> None:
     given: Any = model, config, job.directory / RUN_DIR, True
 
     def load(encoder: Any, rng: np.random.Generator) -> list[Any]:
-        return [load_source(job.data, encoder, config, rng, ("train", CHOSEN_BY))]
+        return [load_training(job.data, ("train", CHOSEN_BY), encoder, config, rng)]
 
     is_fine = job.run.method in FINE_METHODS
     if is_fine:
@@ -171,13 +178,13 @@ def _of_retriever(job: Job, weights: Path) -> dict[str, Any]:
     """Retrieval on the test scenes; of MNCL each ranking on the validation scenes; growth where the paper has it."""
     retriever = load_retriever(weights)
     data, queries = _queries(job.data, TEST)
-    ranker = Ranker.of(retriever, data.cells, data.gallery.labels)
+    localizer = _localizer(data, retriever)
     grown = any(job.run == run for run, _ in GROWTH.values())
-    report = evaluate(data, queries, ranker, grow_m=job.scale.growth_radii_m if grown else ())
+    report = evaluate(data, queries, localizer, grow_m=job.scale.growth_radii_m if grown else ())
     found = {
         "retrieval": report["retrieval"],
         "calibration_error": report["calibration"]["expected_calibration_error"],
-        "bytes_a_cell": 4 * retriever.config.width + ranker.table.bytes_a_cell,
+        "bytes_a_cell": 4 * retriever.config.width + localizer.ranker.table.bytes_a_cell,
         "parameters": sum(p.numel() for p in retriever.parameters()),
     }
     if grown:
@@ -201,8 +208,7 @@ def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
     recalls: dict[str, dict[str, float]] = {}
     for name, depth in RANKINGS.items():
         depth_here = len(asked.cells) if depth < 0 else depth
-        ranker = Ranker.of(retriever, asked.cells, asked.gallery.labels, depth_here)
-        recalls[name] = evaluate(asked, queries, ranker)["retrieval"]
+        recalls[name] = evaluate(asked, queries, _localizer(asked, retriever, depth_here))["retrieval"]
     return recalls
 
 
@@ -212,11 +218,18 @@ def _localize(job: Job, fine_job: Job) -> None:
         return
     torch.set_num_threads(1)
     data, queries = _queries(job.data, TEST)
-    ranker = Ranker.of(load_retriever(job.directory / WEIGHTS_DIR), data.cells, data.gallery.labels)
     refiner = load_fine(fine_job.directory / WEIGHTS_DIR)
-    localization: dict[str, Any] = evaluate(data, queries, ranker, refiner=refiner)["localization"]
+    localizer = _localizer(data, load_retriever(job.directory / WEIGHTS_DIR), refiner=refiner)
+    localization: dict[str, Any] = evaluate(data, queries, localizer)["localization"]
     record = {"key": job.key + fine_job.key, "localization": localization}
     replace_file(job.directory / LOCALIZATION_FILE, json.dumps(record).encode())
+
+
+def _localizer(
+    data: MapData, retriever: Retriever, depth: int = RERANKED, refiner: FineModel | None = None
+) -> VectorLocalizer:
+    ranker = Ranker.of(retriever, data.cells, data.gallery.labels, depth)
+    return VectorLocalizer.of_map(data, ranker, refiner)
 
 
 def _localized(job: Job, fine_job: Job) -> dict[str, Any] | None:
@@ -228,13 +241,14 @@ def _localized(job: Job, fine_job: Job) -> dict[str, Any] | None:
 
 def _queries(data: Path, split: str) -> tuple[MapData, Queries]:
     """A split without the hints behind its sentences: exact matching is measured once, in `_facts`."""
-    found, queries = load_queries(data, split)
-    return found, replace(queries, hints=None)
+    source = open_source(data, split)
+    return source.data, replace(source.queries(), hints=None)
 
 
 def _facts(data: Path) -> dict[str, Any]:
     """What the test scenes are, and what can be had there at all."""
-    found, queries = load_queries(data, TEST)
+    source = open_source(data, TEST)
+    queries = source.queries()
     assert queries.hints is not None
-    exact = ambiguity(found, queries, queries.hints)
-    return {"cells": len(found.cells), "queries": len(queries), "exact_matching": exact["exact_matching"]}
+    exact = ambiguity(source.data, queries, queries.hints)
+    return {"cells": len(source.data.cells), "queries": len(queries), "exact_matching": exact["exact_matching"]}

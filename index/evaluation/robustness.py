@@ -7,25 +7,29 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from index.evaluation.candidates import candidate_recall, candidate_table
 from index.evaluation.evaluation import predict
 from index.evaluation.report import Table
 from index.evaluation.scoring import score
-from index.gallery import Gallery
-from index.map_data import MapData, Progress, Queries
-from index.map_posterior import MapPosterior
+from index.finding import CellLocalizer
+from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
+from index.vector_localizer import VectorLocalizer
 from models.city.cells import CellTable, Parts
+from models.city.gallery import Gallery, MapData
 from models.city.hints import direction_index
 from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
-from models.city.types import DIRECTIONS, Direction, Floats, Hint
+from models.city.queries import Queries
+from models.city.templates import TEMPLATES, render_hint
+from models.city.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
 from models.language.grammar.labelled_text import Fact, LabelledText
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
-from models.language.hints_text import TEMPLATES, render_hint
 from models.posterior.surroundings import STEP_M, Surroundings
 
+TEMPLATE, FREE = CANDIDATES_OF = ("template text", "free wording, unseen grammar")
 MOST_QUERIES = 300
 SEED = 0
 INVERSE = TEMPLATES.index("There is {a} {o} of me.")
@@ -51,19 +55,20 @@ class Trial:
 
 
 def robustness(
-    data: MapData, queries: Queries, ranker: Ranker, posterior: MapPosterior, progress: Progress
-) -> list[dict[str, Any]]:
-    """Recall of retriever and posterior under every trial, the same queries in all.
+    data: MapData, queries: Queries, vectors: VectorLocalizer, posterior: PosteriorLocalizer, progress: Progress
+) -> dict[str, Any]:
+    """Recall of retriever and posterior under every trial, the same queries in all, and where candidates come from.
 
     Args:
         data: the gallery.
         queries: with their hints; of many, some are taken.
-        ranker: the retriever alone.
+        vectors: the retriever alone.
         posterior: of the same gallery.
         progress: called as the work goes on.
 
     Returns:
-        For each trial "name" and, for "retriever" and "posterior", "retrieval" {k: recall} and "localization".
+        "trials": of each "name" and, for "retriever" and "posterior", "retrieval" {k: recall} and "localization";
+        "candidates" {text: `candidate_recall`} for some of them.
 
     Raises:
         DataError: the queries are text alone.
@@ -71,7 +76,7 @@ def robustness(
     if queries.hints is None:
         raise DataError("robustness needs to know what the hints mean; give a data set or a map with --data")
     some = some_of(queries)
-    rows = []
+    rows, candidates = [], {}
     trials = all_trials(data)
     for n, trial in enumerate(trials):
         progress("trials", n, len(trials))
@@ -83,22 +88,29 @@ def robustness(
         )
         assert facts is not None
         said = replace(some, sentences=[trial.say(hints, rng) for hints in facts], hints=None)
+        if trial.name in CANDIDATES_OF:
+            candidates[trial.name] = candidate_recall(said, posterior)
         damage = _damage(data, trial, np.random.default_rng(SEED))
-        both = _answerers(damage, ranker, posterior) if damage else (ranker, posterior)
+        both = _localizers(damage, vectors, posterior) if damage else (vectors, posterior)
         here = damage.data if damage else data
         rows.append(
             {"name": trial.name, "retriever": _ask(here, said, both[0]), "posterior": _ask(here, said, both[1])}
         )
     progress("trials", len(trials), len(trials))
-    return rows
+    return {"trials": rows, "candidates": candidates}
 
 
-def _ask(data: MapData, queries: Queries, answerer: Ranker | MapPosterior) -> dict[str, Any]:
-    report = score(predict(data, queries, answerer, lambda *_: None))
+def _ask(data: MapData, queries: Queries, localizer: CellLocalizer) -> dict[str, Any]:
+    report = score(predict(data, queries, localizer, lambda *_: None))
     return {key: report[key] for key in ("retrieval", "localization")}
 
 
-def robustness_table(rows: Sequence[dict[str, Any]]) -> Table:
+def robustness_tables(found: dict[str, Any]) -> list[Table]:
+    """The trials, and the candidates of each kind of text, as `robustness` gives them."""
+    return [_trials(found["trials"]), *(candidate_table(rows, text) for text, rows in found["candidates"].items())]
+
+
+def _trials(rows: Sequence[dict[str, Any]]) -> Table:
     """Recall@1, and recall within 5 m at k = 1, of both."""
     head = ("", "retriever R@1", "posterior R@1", "retriever k=1: 5/10/15 m", "posterior k=1: 5/10/15 m")
     found = []
@@ -115,7 +127,7 @@ def all_trials(data: MapData) -> list[Trial]:
     """Every trial."""
     words = sorted(set(data.palette.words))
     free = Wording("test")
-    trials = [Trial("template text", _template)]
+    trials = [Trial(TEMPLATE, _template)]
     trials += [Trial(f"{n} hints", _first(n)) for n in range(1, 6)]
     trials += [
         Trial("12 hints", _template, hints=12),
@@ -123,7 +135,7 @@ def all_trials(data: MapData) -> list[Trial]:
         Trial("two colours of six wrong", _wrong_colours(words, 2)),
         Trial("hints in another order", _shuffled),
         Trial("inverse phrasing", lambda hints, _rng: tuple(render_hint(hint, INVERSE) for hint in hints)),
-        Trial("free wording, unseen grammar", lambda hints, rng: _pieces(_write(free, hints, rng))),
+        Trial(FREE, lambda hints, rng: _pieces(_write(free, hints, rng))),
         Trial("free wording, three typos", lambda hints, rng: _pieces(typos(_write(free, hints, rng), 3, rng))),
     ]
     trials += [Trial(f"{share:.0%} of the instances gone", _template, dropped=share) for share in (0.1, 0.2)]
@@ -272,9 +284,12 @@ def _scene_of(gallery: Gallery) -> list[str]:
     return found
 
 
-def _answerers(damage: Damage, ranker: Ranker, posterior: MapPosterior) -> tuple[Ranker, MapPosterior]:
+def _localizers(
+    damage: Damage, vectors: VectorLocalizer, posterior: PosteriorLocalizer
+) -> tuple[VectorLocalizer, PosteriorLocalizer]:
     """Retriever and posterior of a map that differs from theirs."""
-    data = damage.data
+    data, ranker = damage.data, vectors.ranker
     surroundings = posterior.surroundings.take(np.arange(len(data.cells)), damage.part_of)
-    again = MapPosterior(posterior.model, data.gallery, data.palette, surroundings)
-    return Ranker.of(ranker.retriever, data.cells, data.gallery.labels, ranker.depth), again
+    encoded = Ranker.of(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
+    again = PosteriorLocalizer.of_map(posterior.weights, data, encoded, surroundings)
+    return VectorLocalizer.of_map(data, encoded), again

@@ -1,4 +1,4 @@
-"""From saved predictions to the report: recall by the protocol of kitti360pose.md, with intervals and breakdowns."""
+"""From saved predictions to the report: recall by the protocol of docs/formats.md, with intervals and breakdowns."""
 
 from typing import Any
 

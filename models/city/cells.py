@@ -1,7 +1,7 @@
 """Cutting a map into cells: the instances, whole or clipped, inside cubes around given centres.
 
 One function cuts both the cells of the grid and the cell around a pose from which its hints are made
-(kitti360pose.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
+(docs/formats.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
 """
 
 from collections.abc import Callable
@@ -86,6 +86,11 @@ class CellTable:
     def __len__(self) -> int:
         return len(self.ids)
 
+    @property
+    def extent_m(self) -> float:
+        """Radius of a circle round any position of the map that holds all of it."""
+        return float(np.linalg.norm(np.ptp(self.center_m[:, :2], axis=0)) + self.size_m)
+
     def take(self, rows: Ints) -> "CellTable":
         """Some cells, in the given order."""
         sample = self.sample
@@ -102,7 +107,7 @@ class CellTable:
 def cut_cells(
     city_map: CityMap, points: PointTable | None = None, progress: Callable[[int, int], None] | None = None
 ) -> CellTable:
-    """Cut a map into overlapping cells on a grid over its locations (kitti360pose.md, rule 4).
+    """Cut a map into overlapping cells on a grid over its locations (docs/formats.md, rule 4).
 
     Args:
         city_map: the map.

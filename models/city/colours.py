@@ -36,7 +36,7 @@ class Palette:
         return None if index < 0 else self.words[index]
 
 
-# kitti360pose.md, rule 7. "gray" names two centres.
+# docs/formats.md, rule 7. "gray" names two centres.
 KITTI360_PALETTE = Palette(
     "kitti360",
     ("dark-green", "gray", "gray-green", "bright-gray", "gray", "black", "green", "beige"),

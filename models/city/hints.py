@@ -1,4 +1,4 @@
-"""Describing a position in hints (kitti360pose.md, rules 3, 5 and 6), and choosing positions to describe."""
+"""Describing a position in hints (docs/formats.md, rules 3, 5 and 6), and choosing positions to describe."""
 
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -21,7 +21,7 @@ ON_TOP_M = 1.5  # 0.05 of a 30 m cell
 
 
 def direction_index(offset_m: Floats, on_top_m: float = ON_TOP_M) -> npt.NDArray[np.intp]:
-    """Where a position lies, seen from an instance (kitti360pose.md, rule 6).
+    """Where a position lies, seen from an instance (docs/formats.md, rule 6).
 
     Args:
         offset_m: [..., 2 or 3] position minus the instance's closest point, metres.
@@ -122,7 +122,7 @@ def sample_positions(locations_m: Floats, spacing_m: float, rng: np.random.Gener
 def describe_poses(
     city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
 ) -> list[Pose]:
-    """Poses with descriptions at some positions, by each strategy (kitti360pose.md, rule 5).
+    """Poses with descriptions at some positions, by each strategy (docs/formats.md, rule 5).
 
     Args:
         city_map: the map.

@@ -4,6 +4,7 @@ Coordinates are metres in the map's frame (east, north, up) unless a name says `
 position inside a cell in 0..1.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -14,6 +15,7 @@ from models.city.colours import KITTI360_PALETTE, Palette
 from models.city.frame import Frame
 
 Floats = npt.NDArray[np.floating[Any]]
+Progress = Callable[[str, int, int], None]  # stage, done, to do (0 if that is not known)
 Direction = Literal["north", "south", "east", "west", "on-top"]
 DIRECTIONS: tuple[Direction, ...] = ("north", "south", "east", "west", "on-top")
 
@@ -41,7 +43,7 @@ class Instance:
 
 @dataclass(frozen=True, slots=True)
 class CutRules:
-    """How a map is cut into cells (kitti360pose.md, rule 4); the defaults are the released set's.
+    """How a map is cut into cells (docs/formats.md, rule 4); the defaults are the released set's.
 
     Attributes:
         cell_size_m: edge of a cell's cube.

@@ -11,7 +11,7 @@ from torch import Tensor, nn
 
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.spelling import Spelling
-from models.language.text_encoder import TextEncoder
+from models.language.text_encoder import OnTextEncoder, TextEncoder
 
 MOST_KEPT = 20_000  # phrases; 30 MB
 READ_AT_ONCE = 64  # names, of like length, so that little is padding
@@ -34,16 +34,18 @@ class BoundLabels:
     count: int
 
 
-class LabelMatcher(nn.Module):
+class LabelMatcher(OnTextEncoder):
     """Similarity of a noun with every name of every label, in the frozen text encoder's space.
 
     A label's score is the soft maximum over its names; names of things that the map has not compete, so that a bench is
     no building where there are no benches.
     """
 
+    names: Tensor
+    names_of: Tensor
+
     def __init__(self, text_encoder: TextEncoder) -> None:
-        super().__init__()
-        self._text = (text_encoder,)
+        super().__init__(text_encoder)
         self.scale = nn.Parameter(torch.tensor(20.0).log())
         self.unknown = nn.Parameter(torch.tensor(0.4))  # similarity that a noun must exceed to mean anything
         self.lexicon = load_lexicon()
@@ -51,11 +53,11 @@ class LabelMatcher(nn.Module):
         self._spelling = Spelling(names, text_encoder.pieces, lambda part: len(text_encoder.pieces(part)) == 1)
         self._names = sorted({self._plain(name) for name in names}, key=lambda name: (len(name), name))
         # [N, W] vectors of these, stored with the weights; empty until they are loaded or a map asks for them.
-        self.names = nn.Buffer(torch.empty(0, text_encoder.width))
+        self.register_buffer("names", torch.empty(0, text_encoder.width))
         digest = hashlib.sha256("\n".join(self._names).encode()).digest()
-        self.names_of = nn.Buffer(torch.tensor(list(digest), dtype=torch.uint8))  # tells whether stored ones fit
+        self.register_buffer("names_of", torch.tensor(list(digest), dtype=torch.uint8))  # tells whether stored ones fit
         self._known: dict[str, Tensor] = {}
-        self.register_load_state_dict_pre_hook(LabelMatcher._take_names)
+        nn.Module.register_load_state_dict_pre_hook(self, LabelMatcher._take_names)
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
         """[S, W] unit vectors of the frozen text encoder, misspelt words mended; those seen before are kept."""
@@ -63,7 +65,7 @@ class LabelMatcher(nn.Module):
         if not self._known or len(self._known) > MOST_KEPT:
             self._known = dict(zip(self._names, self.names, strict=False))
         if missing := [phrase for phrase in dict.fromkeys(plain) if phrase not in self._known]:
-            self._known.update(zip(missing, self._text[0].embed(missing), strict=True))
+            self._known.update(zip(missing, self.text_encoder.embed(missing), strict=True))
         return torch.stack([self._known[phrase] for phrase in plain])
 
     def bind(self, map_labels: Sequence[str]) -> BoundLabels:
@@ -74,7 +76,7 @@ class LabelMatcher(nn.Module):
         """
         if not len(self.names):
             starts = range(0, len(self._names), READ_AT_ONCE)
-            self.names = torch.cat([self._text[0].embed(self._names[n : n + READ_AT_ONCE]) for n in starts])
+            self.names = torch.cat([self.text_encoder.embed(self._names[n : n + READ_AT_ONCE]) for n in starts])
             self._known.clear()
         phrases, label = self.lexicon.names_in(tuple(map_labels))
         return BoundLabels(self.embed(phrases), torch.tensor(label), len(map_labels))

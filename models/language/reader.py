@@ -12,7 +12,7 @@ from torch import Tensor, nn
 
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.parsed_hint import RELATIONS, SENTENCE_END, ParsedHint, resolve
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, run_layers
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures, run_layers
 
 # Of tokens: outside, further token of what is named; first token of a noun, of a plural, of what stands for a thing.
 TAGS: Final = ("outside", "further", "noun", "plural", "stand-in")
@@ -57,7 +57,7 @@ class ReaderConfig(BaseModel):
     dropout: float = 0.1
 
 
-class Reader(nn.Module):
+class Reader(OnTextEncoder):
     """Tags the nouns of a text, and says of each its direction, its colour and whether there is none of it.
 
     The lower layers of the text encoder are frozen, some after them are trained on, over the whole description, so that
@@ -66,9 +66,8 @@ class Reader(nn.Module):
     """
 
     def __init__(self, text_encoder: TextEncoder, config: ReaderConfig) -> None:
-        super().__init__()
+        super().__init__(text_encoder)
         self.config = config
-        self._text = (text_encoder,)  # a tuple hides it from state_dict
         width, frozen = config.width, config.frozen_layers
         self.tuned = copy.deepcopy(text_encoder.layers(frozen, frozen + config.tuned_layers)).requires_grad_(True)
         self.project = nn.Linear(text_encoder.width, width)
@@ -77,11 +76,6 @@ class Reader(nn.Module):
         self.relation = _head(width, len(RELATIONS))
         self.colour = _head(width, len(COLOURS) + 1)
         self.absent = _head(width, 1)
-
-    @property
-    def text_encoder(self) -> TextEncoder:
-        """The language model as it was."""
-        return self._text[0]
 
     def forward(self, tokens: TokenFeatures) -> Tensor:
         """[B, T, D] features of tokens in their text, from what the frozen layers make of them."""

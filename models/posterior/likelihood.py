@@ -1,4 +1,4 @@
-"""How likely a description is at a position (method.md, the hint posterior)."""
+"""How likely a description is at a position (docs/method.md, the hint posterior)."""
 
 from dataclasses import dataclass, field
 from typing import Final
@@ -118,7 +118,7 @@ class Likelihood(nn.Module):
         radius = torch.hypot(east, north)
         on_top = torch.sigmoid((self.on_top_m[0].exp() - radius) / self.on_top_m[1].exp())
         half = 2**-0.5
-        # North, say, is where north exceeds east and west; northeast the same, half a quarter rank on.
+        # North, say, is where north exceeds east and west; northeast the same, half a quarter turn on.
         axes = torch.stack([north, (north + east) * half, east, (east - north) * half])
         axes = torch.cat([axes, -axes])
         winds = torch.sigmoid((axes - axes.roll(2, 0).abs()) / self.border_m.exp()) * (1 - on_top)

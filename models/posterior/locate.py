@@ -1,7 +1,5 @@
 """From a posterior over nodes to an answer: cells in order, positions, how far the truth may be, evidence."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import numpy.typing as npt
 import torch
@@ -10,8 +8,10 @@ from torch import Tensor
 from models.city.cells import CellTable
 from models.city.points import Ints
 from models.city.types import Floats
+from models.localization.located import Located
 from models.posterior.likelihood import Reading
 from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
+from models.posterior.surroundings import SPACING_M
 
 HIT_M = 6.5  # positions are chosen to have most of the mass this near, softly
 BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
@@ -21,59 +21,13 @@ _TAIL = 30  # candidates at the end, from which the mass of the cells behind the
 Mask = npt.NDArray[np.bool_]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Located:
-    """What is known of where a description was said.
-
-    Attributes:
-        rows: [K] cells, likeliest first.
-        log_mass: [K] log of p(T | x) summed over each cell's nodes, not normalised.
-        probability: [K] that the speaker is in the part of the map that each cell owns.
-        other: probability of all other cells.
-        positions: [K, 2] the best position in each, metres, map frame.
-        nodes: [M] rows of the surroundings' nodes.
-        nodes_m, weight: [M, 2] and [M] the distribution over them; the weights add up to 1 - other.
-    """
-
-    rows: Ints
-    log_mass: Floats
-    probability: Floats
-    other: float
-    positions: Floats
-    nodes: Ints
-    nodes_m: Floats
-    weight: Floats
-
-    def radii_m(self, shares: tuple[float, ...], extent_m: float, spacing_m: float) -> list[float]:
-        """Circles around the first position that hold some shares of the distribution.
-
-        Args:
-            shares: such as (.5, .9).
-            extent_m: radius that holds the whole map.
-            spacing_m: of the nodes.
-        """
-        corner = np.array([[i, j] for i in (-1, 1) for j in (-1, 1)]) * spacing_m / 4
-        counts = self.weight > 1e-9  # the rest together are nothing
-        offset = self.nodes_m[counts] - self.positions[0]
-        distance = np.linalg.norm(offset[:, None] + corner, axis=2).ravel()
-        order = np.argsort(distance)
-        mass = np.cumsum(np.repeat(self.weight[counts] / 4, 4)[order])
-        found: list[float] = np.append(distance[order], extent_m)[np.searchsorted(mass, shares)].tolist()
-        return found
-
-    def covariance(self, extent_m: float, spacing_m: float) -> Floats:
-        """[2, 2] square metres, of the truth around the first position; arguments as `radii_m`."""
-        offset = self.nodes_m - self.positions[0]
-        covariance: Floats = (offset * self.weight[:, None]).T @ offset
-        return covariance + np.eye(2) * (spacing_m**2 + self.other * extent_m**2) / 12
-
-
 def locate(
     posterior: HintPosterior,
     reading: Reading,
     log_prior: LogPrior | None = None,
     inside: Mask | None = None,
     candidates: int = CANDIDATES,
+    also: Ints | None = None,
 ) -> Located | None:
     """Find where a description was said.
 
@@ -82,7 +36,8 @@ def locate(
         reading: what was said, at least one hint.
         log_prior: log-density of positions [M, 2], any constant.
         inside: [nodes] bool, False where it cannot be.
-        candidates: cells to look at.
+        candidates: cells to look at, the best by the inverted list.
+        also: [A] rows of further cells to look at, found in another way.
 
     Returns:
         None if nothing is inside.
@@ -91,14 +46,17 @@ def locate(
     possible = scores > -np.inf
     if not possible.any():
         return None
-    chosen = _best(scores, min(candidates, int(possible.sum())))
-    possible[chosen] = False
+    listed = _best(scores, min(candidates, int(possible.sum())))
+    possible[listed] = False
+    more = np.unique(also[possible[also]]) if also is not None else listed[:0]
+    possible[more] = False
+    chosen = np.concatenate([listed, more])
     left_out = np.flatnonzero(possible)
     field = _field(posterior, reading, chosen, log_prior, inside)
     mass = _mass(field)
     rest = -np.inf
     if len(left_out):
-        tail = slice(max(0, len(chosen) - _TAIL), None)
+        tail = slice(max(0, len(listed) - _TAIL), len(listed))
         gap = np.median(mass[tail] - scores[chosen][tail])
         highest = scores[left_out].max()
         rest = float(gap + highest + np.log(np.exp(scores[left_out] - highest).sum()))
@@ -108,13 +66,15 @@ def locate(
     nodes_m = posterior.nodes_m[field.nodes]
     return Located(
         rows=chosen[order],
-        log_mass=mass[order],
+        score=mass[order],
         probability=np.exp(mass[order] - total),
         other=float(np.exp(rest - total)),
         positions=_positions(field, nodes_m, weight, order, posterior.cells),
-        nodes=field.nodes,
-        nodes_m=nodes_m,
+        points_m=nodes_m,
+        points=field.nodes,
         weight=weight,
+        spacing_m=SPACING_M,
+        extent_m=posterior.cells.extent_m,
     )
 
 

@@ -3,12 +3,10 @@
 import hashlib
 from typing import ClassVar
 
-from torch import nn
-
 from models.checkpoint import SHIPPED, Checkpoints
 from models.language.labels import LabelMatcher
 from models.language.reader import Reader, ReaderConfig
-from models.language.text_encoder import TextEncoder, fingerprint_of
+from models.language.text_encoder import OnTextEncoder, TextEncoder, fingerprint_of
 from models.posterior.likelihood import Likelihood
 
 
@@ -24,14 +22,14 @@ class PosteriorConfig(ReaderConfig):
     grammar_sha256: str = ""
 
 
-class PosteriorModel(nn.Module):
+class PosteriorModel(OnTextEncoder):
     """The parts of the hint posterior that do not depend on a map."""
 
     method: ClassVar[str] = "posterior"
     config_type: ClassVar[type[PosteriorConfig]] = PosteriorConfig
 
     def __init__(self, text_encoder: TextEncoder, config: PosteriorConfig) -> None:
-        super().__init__()
+        super().__init__(text_encoder)
         self.config = config
         self.reader = Reader(text_encoder, config)
         self.matcher = LabelMatcher(text_encoder)
@@ -40,7 +38,7 @@ class PosteriorModel(nn.Module):
     @property
     def fingerprint(self) -> str:
         """sha256 of all weights, the frozen ones included, and of the lexicon, from which the names' vectors follow."""
-        parts = fingerprint_of(dict(self.named_parameters())), self.reader.text_encoder.fingerprint
+        parts = fingerprint_of(dict(self.named_parameters())), self.text_encoder.fingerprint
         return hashlib.sha256("".join([*parts, self.matcher.lexicon.sha256]).encode()).hexdigest()
 
 

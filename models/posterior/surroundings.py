@@ -5,7 +5,6 @@ within 15 m, the way from the instance's closest point, whether or not the insta
 of things that a cell has cut off.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import partial
 from pathlib import Path
@@ -17,65 +16,18 @@ from safetensors.numpy import save_file
 from scipy.spatial import cKDTree
 
 from models.city.cells import CellTable
+from models.city.gallery import Bodies
 from models.city.hints import BEST_CELL_REACH_M, HINT_REACH_M
-from models.city.kitti360.rules import CLASSES
-from models.city.points import Ints, PointTable, ranges
+from models.city.points import Ints, ranges
 from models.city.processes import map_forked
-from models.city.store.pose_store import PoseStore
-from models.city.types import CityMap, Floats
+from models.city.types import Floats, Progress
 from models.errors import IndexBroken
 
 SPACING_M = 1.5
 STEP_M = HINT_REACH_M / 127  # of the stored ways
 FILE = "surroundings.safetensors"
 CHUNK = 64  # instances a task
-VOXEL_M = 0.2
-STUFF = [rule.label for rule in CLASSES if rule.is_stuff]
 LARGE_M = 8.0  # things no larger than this are counted as whole wherever they are near
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Bodies:
-    """The instances of a map (or of several scenes) with all their points.
-
-    Attributes:
-        xyz: [P, 3] float32 metres, ordered by instance.
-        starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
-        is_thing: [I] bool, True for what is mentioned only where a share of it is near (CutRules.thing_share).
-        scene: [I] number of the scene of each.
-        part_instance: [R] instance of each row of the cells' parts.
-    """
-
-    xyz: Floats
-    starts: Ints
-    is_thing: npt.NDArray[np.bool_]
-    scene: Ints
-    part_instance: Ints
-
-    @classmethod
-    def of_map(cls, city_map: CityMap, points: PointTable, cells: CellTable) -> "Bodies":
-        """Those of a map, every point."""
-        scene = np.zeros(len(city_map.instances), dtype=np.int64)
-        return cls(points.xyz, points.starts, ~points.is_stuff, scene, cells.parts.instance)
-
-    @classmethod
-    def of_store(cls, store: PoseStore, cells: CellTable) -> "Bodies":
-        """Those of a data set: of each instance the points that its cells show, one a cube of VOXEL_M."""
-        scene = np.unique(cells.scenes, return_inverse=True)[1][cells.parts.cube]
-        pairs = np.column_stack([scene, store.instance_ids])
-        known, part_instance = np.unique(pairs, axis=0, return_inverse=True)
-        order = np.argsort(part_instance, kind="stable")
-        corner = cells.center_m[cells.parts.cube] - cells.size_m / 2
-        groups = np.split(order, np.flatnonzero(np.diff(part_instance[order])) + 1)
-        xyz = []
-        for rows in groups:
-            seen = np.concatenate([store.instance_points(int(r))[0] * cells.size_m + corner[r] for r in rows])
-            voxel = np.floor(seen / VOXEL_M).astype(np.int64) & 0x1FFFFF
-            key = (voxel[:, 0] << 42) | (voxel[:, 1] << 21) | voxel[:, 2]
-            xyz.append(seen[np.unique(key, return_index=True)[1]].astype(np.float32))
-        labels = np.array(store.labels)[[rows[0] for rows in groups]]
-        starts = np.concatenate([[0], np.cumsum([len(points) for points in xyz])])
-        return cls(np.concatenate(xyz), starts, ~np.isin(labels, STUFF), known[:, 0], part_instance)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,7 +40,7 @@ class Surroundings:
         starts: [M + 1] int64, node m has the rows starts[m] to starts[m + 1]: whole ones first, nearest first.
         part: [R] int32, row of the cells' parts; that of the owner's cell if it has one of the instance.
         way: [R, 2] int8, node minus the instance's closest point (east, north), in steps of STEP_M.
-        whole: [R] bool, False for a thing of which less than CutRules.thing_share is in the cube around the node.
+        whole: [R] bool, False for a thing of which less than Bodies.thing_share is in the cube around the node.
     """
 
     cell_starts: Ints
@@ -103,29 +55,27 @@ class Surroundings:
         cls,
         bodies: Bodies,
         cells: CellTable,
-        thing_share: float,
-        progress: Callable[[int, int], None] | None = None,
+        progress: Progress | None = None,
     ) -> "Surroundings":
         """Measure a gallery's surroundings; in several processes when there is much to do.
 
         Args:
             bodies: what stands in the map.
             cells: the gallery.
-            thing_share: see `CutRules`.
-            progress: called with (instances done, instances to do).
+            progress: called with instances done and to do.
         """
         scene = np.unique(cells.scenes, return_inverse=True)[1]
         nodes, owner = _grid(cells, scene)
         trees = {int(s): (rows, cKDTree(nodes[rows])) for s in np.unique(scene) if len(rows := _of(scene[owner], s))}
         height = cells.center_m[owner, 2]
         chunks = [np.arange(i, min(i + CHUNK, len(bodies.scene))) for i in range(0, len(bodies.scene), CHUNK)]
-        work = partial(_measure, bodies, nodes, height, trees, cells.size_m / 2, thing_share)
+        work = partial(_measure, bodies, nodes, height, trees, cells.size_m / 2)
         found, done = [], 0
         for measured in map_forked(work, chunks):
             found.append(measured)
             done += CHUNK
             if progress:
-                progress(min(done, len(bodies.scene)), len(bodies.scene))
+                progress("measure surroundings", min(done, len(bodies.scene)), len(bodies.scene))
         node, instance, way, whole = (np.concatenate(column) for column in zip(*found, strict=True))
         part = _parts_of(cells, bodies.part_instance, owner[node], instance)
         known = part >= 0
@@ -218,7 +168,6 @@ def _measure(
     height: Floats,
     trees: dict[int, tuple[Ints, cKDTree]],
     half_m: float,
-    thing_share: float,
     instances: Ints,
 ) -> tuple[Ints, Ints, npt.NDArray[np.int8], npt.NDArray[np.bool_]]:
     """(node, instance, way, whole) of the nodes around some instances."""
@@ -244,7 +193,7 @@ def _measure(
         if bodies.is_thing[i] and (high - low).max() > LARGE_M and len(near):
             plane = cKDTree(xyz[:, :2], balanced_tree=False)
             inside = plane.query_ball_point(nodes[near], half_m, p=np.inf, return_length=True)
-            whole = inside >= thing_share * len(xyz)
+            whole = inside >= bodies.thing_share * len(xyz)
         found.append((near, np.full(len(near), i), np.round(way / STEP_M).astype(np.int8), whole))
     node, instance, ways, wholes = (np.concatenate(column) for column in zip(*found, strict=True))
     return node, instance, ways, wholes

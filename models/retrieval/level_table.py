@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import torch
 
 from models.city.points import Ints, ranges
 from models.errors import IndexBroken
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.levels import Level, Levels
-from models.retrieval.retriever import ENCODE_BATCH, Retriever
+from models.retrieval.retriever import Retriever, Vectors
 
 STARTS_FILE = "levels.starts.npy"
 TEXTS_AT_ONCE = 64
@@ -32,22 +31,10 @@ class LevelTable:
     starts: Ints
     vectors: dict[Level, npt.NDArray[np.floating[Any]]]
 
-    @classmethod
-    @torch.inference_mode()
-    def of(cls, retriever: Retriever, cells: CellFeatures) -> "LevelTable":
-        """The levels of a gallery; empty if the retriever has the global one alone."""
-        names: list[Level] = [level for level in retriever.levels if level != "global"]
-        shape = len(cells.label), retriever.config.width
-        vectors: dict[Level, npt.NDArray[np.floating[Any]]] = {n: np.empty(shape, np.float32) for n in names}
-        labels = retriever.text_encoder.embed(cells.labels)
-        order = np.argsort(np.diff(cells.starts), kind="stable")
-        for start in range(0, len(order), ENCODE_BATCH) if names else ():
-            chosen = order[start : start + ENCODE_BATCH]
-            levels = retriever.look(cells.batch(chosen).to(labels.device), labels)
-            rows = ranges(cells.starts[chosen], cells.starts[chosen + 1])
-            for level in names:
-                vectors[level][rows] = levels.of(level)[levels.mask].cpu().numpy()
-        return cls(np.asarray(cells.starts), vectors)
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is the global level alone."""
+        return not self.vectors
 
     def take(self, cells: Ints) -> "LevelTable":
         """The rows of some cells, in the given order."""
@@ -111,3 +98,31 @@ class LevelTable:
         if any(len(table) != starts[-1] for table in vectors.values()):
             raise IndexBroken(f"the levels in {directory} are of different sizes; {advice}")
         return cls(starts, dict(vectors))
+
+
+NO_LEVELS = LevelTable(np.zeros(1, np.int64), {})
+
+
+def encode_gallery(retriever: Retriever, cells: CellFeatures, with_levels: bool = True) -> tuple[Vectors, LevelTable]:
+    """A gallery as a retriever sees it, in one pass.
+
+    Args:
+        retriever: the model.
+        cells: of `Retriever.seen`.
+        with_levels: whether to keep the levels beside the global one, if the retriever has any.
+
+    Returns:
+        [N, D] float32 unit vectors of the global level, and the table of the others.
+    """
+    width = retriever.config.width
+    names: list[Level] = [level for level in retriever.levels if level != "global"] if with_levels else []
+    whole = np.empty((len(cells), width), np.float32)
+    others: dict[Level, npt.NDArray[np.floating[Any]]] = {
+        n: np.empty((len(cells.label), width), np.float32) for n in names
+    }
+    for chosen, levels in retriever.encode_cells(cells):
+        whole[chosen] = levels.whole.cpu().numpy()
+        rows = ranges(cells.starts[chosen], cells.starts[chosen + 1])
+        for level in names:
+            others[level][rows] = levels.of(level)[levels.mask].cpu().numpy()
+    return whole, LevelTable(np.asarray(cells.starts), others) if names else NO_LEVELS

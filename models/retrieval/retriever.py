@@ -1,16 +1,16 @@
 """What every retriever is: hint sentences and cells into vectors, near each other where they belong together."""
 
-import hashlib
-from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar, Literal
 
 import numpy as np
+import numpy.typing as npt
 import torch
 from pydantic import BaseModel, ConfigDict
-from torch import Tensor, nn
+from torch import Tensor
 
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures, fingerprint_of
+from models.language.recent_features import RecentFeatures
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
 from models.retrieval.levels import Level, Levels, sum_of_z_scores
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
@@ -32,6 +32,8 @@ class RetrieverConfig(BaseModel):
             until then: the levels' z-scores over the gallery are added.
         temperature: of a description of one hint, see `Retriever.temperature`; fitted on validation data.
         temperature_decay: how fast it falls with more hints; fitted on validation data.
+        global_temperature, global_temperature_decay: the same where cells are ranked by the global level alone; None
+            where that is the only one.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -42,6 +44,8 @@ class RetrieverConfig(BaseModel):
     level_weights: tuple[float, ...] = ()
     temperature: float = 0.2
     temperature_decay: float = 1.0
+    global_temperature: float | None = None
+    global_temperature_decay: float | None = None
 
     @property
     def shape_width(self) -> int:
@@ -49,21 +53,17 @@ class RetrieverConfig(BaseModel):
         return POINT_WIDTH if self.point_encoder == "pointnet" else 0
 
 
-class Retriever(nn.Module):
-    """A retriever; subclasses say how hints are read, described and compared with cells.
-
-    The frozen text encoder is used, not owned: its weights are neither trained nor saved here.
-    """
+class Retriever(OnTextEncoder):
+    """A retriever; subclasses say how hints are read, described and compared with cells."""
 
     method: ClassVar[str]
     config_type: ClassVar[type[RetrieverConfig]]
 
     def __init__(self, text_encoder: TextEncoder, config: RetrieverConfig) -> None:
-        super().__init__()
+        super().__init__(text_encoder)
         self.config = config
-        self._text = (text_encoder,)  # a tuple hides it from state_dict
         self.points = PointEncoder().requires_grad_(False) if config.shape_width else None
-        self._hint_cache: OrderedDict[str, Tensor] = OrderedDict()
+        self._hint_cache = RecentFeatures(self._read_sentences, HINT_CACHE_SIZE)
 
     @property
     def levels(self) -> tuple[Level, ...]:
@@ -120,29 +120,21 @@ class Retriever(nn.Module):
         combined: Vectors = np.sum(weighted, axis=0, dtype=np.float32)
         return combined
 
-    @property
-    def name(self) -> str:
-        """What kind of model this is, for people."""
-        return f"{self.method}/{self.text_encoder.source}/{self.config.width}"
-
-    @property
-    def fingerprint(self) -> str:
-        """sha256 of all weights, the frozen ones included: what makes two models give the same vectors."""
-        return hashlib.sha256((fingerprint_of(self.state_dict()) + self.text_encoder.fingerprint).encode()).hexdigest()
-
-    @property
-    def text_encoder(self) -> TextEncoder:
-        """The frozen language model."""
-        return self._text[0]
-
-    def temperature(self, num_hints: int) -> float:
-        """T for which softmax(similarity / T) over a gallery is the probability of each cell.
+    def temperature(self, num_hints: int, global_alone: bool = False) -> float:
+        """T for which softmax(score / T) over a gallery is the probability of each cell.
 
         A similarity is a cosine however much was said, so more hints make the same difference mean more:
         T = temperature * num_hints ** -temperature_decay.
+
+        Args:
+            num_hints: of the description.
+            global_alone: whether cells are ranked by the global level, though the retriever has others.
         """
-        decay: float = num_hints**-self.config.temperature_decay
-        return self.config.temperature * decay
+        config = self.config
+        of_one, decay = config.temperature, config.temperature_decay
+        if global_alone and config.global_temperature is not None and config.global_temperature_decay is not None:
+            of_one, decay = config.global_temperature, config.global_temperature_decay
+        return float(of_one * num_hints**-decay)
 
     def train(self, mode: bool = True) -> "Retriever":
         """Switch between training and evaluation; features cached under other weights are forgotten."""
@@ -160,7 +152,7 @@ class Retriever(nn.Module):
     @torch.inference_mode()
     def encode_description(self, hints: Sequence[str]) -> Levels:
         """One description, any number of hint sentences in any order, at all levels; B = 1."""
-        features = self._hint_features(dict.fromkeys(hints))
+        features = self._hint_cache(hints)
         # In one order: a description's bits depend on nothing but its hints.
         stacked = torch.stack([features[hint] for hint in sorted(hints)])[None]
         return self.describe(stacked, torch.ones(1, len(hints), dtype=torch.bool, device=stacked.device))
@@ -168,7 +160,7 @@ class Retriever(nn.Module):
     @torch.inference_mode()
     def encode_texts(self, descriptions: Sequence[Sequence[str]]) -> list[Levels]:
         """Descriptions at all levels, each with B = 1; the text encoder runs once for all that is new to it."""
-        self._hint_features(dict.fromkeys(hint for hints in descriptions for hint in hints))
+        self._hint_cache(hint for hints in descriptions for hint in hints)
         return [self.encode_description(hints) for hints in descriptions]
 
     def encode_descriptions(self, descriptions: Sequence[Sequence[str]]) -> Vectors:
@@ -177,28 +169,24 @@ class Retriever(nn.Module):
         return vectors
 
     @torch.inference_mode()
-    def encode_cells(self, cells: CellFeatures) -> Vectors:
-        """[N, D] float32 unit vectors of a gallery (`seen`), global level, in batches of cells of about equal size."""
+    def encode_cells(self, cells: CellFeatures) -> Iterator[tuple[npt.NDArray[np.intp], Levels]]:
+        """The cells of a gallery (`seen`) at all levels, in batches of about equal size: the rows of each, and it."""
         label_embeddings = self.text_encoder.embed(cells.labels)
         order = np.argsort(np.diff(cells.starts), kind="stable")
-        vectors = np.empty((len(cells), self.config.width), dtype=np.float32)
         for start in range(0, len(order), ENCODE_BATCH):
             rows = order[start : start + ENCODE_BATCH]
-            batch = cells.batch(rows).to(label_embeddings.device)
-            vectors[rows] = self.look(batch, label_embeddings).whole.cpu().numpy()
+            yield rows, self.look(cells.batch(rows).to(label_embeddings.device), label_embeddings)
+
+    def remember(self, sentences: Sequence[str], features: Vectors) -> None:
+        """Take up features [S, D] of sentences that were read before, so that they are not read again."""
+        self._hint_cache.remember(sentences, torch.from_numpy(features))
+
+    @torch.inference_mode()
+    def encode_sentences(self, sentences: Sequence[str]) -> Vectors:
+        """[S, D] float32 features of hint sentences, each for itself."""
+        features = self._hint_cache(sentences)
+        vectors: Vectors = torch.stack([features[sentence] for sentence in sentences]).cpu().numpy()
         return vectors
 
-    def _hint_features(self, sentences: dict[str, None]) -> dict[str, Tensor]:
-        """Features [D] of sentences; the frozen text encoder runs only for those not seen lately."""
-        cache = self._hint_cache
-        missing = [sentence for sentence in sentences if sentence not in cache]
-        for start in range(0, len(missing), ENCODE_BATCH):
-            batch = missing[start : start + ENCODE_BATCH]
-            cache.update(zip(batch, self.read(self.text_encoder(batch)), strict=True))
-        features = {}
-        for sentence in sentences:
-            cache.move_to_end(sentence)
-            features[sentence] = cache[sentence]
-        while len(cache) > HINT_CACHE_SIZE:
-            cache.popitem(last=False)
-        return features
+    def _read_sentences(self, sentences: Sequence[str]) -> Tensor:
+        return self.read(self.text_encoder(sentences))

@@ -24,12 +24,16 @@ def calibrate(retriever: Retriever, validations: Sequence[Validation], rng: np.r
         rng: draws them.
 
     Returns:
-        "temperature", "temperature_decay", and "level_weights" if there is more than one level.
+        "temperature", "temperature_decay", and, if there is more than one level, "level_weights" and
+        "global_temperature", "global_temperature_decay".
     """
     asked = [part for validation in validations for part in _ask(retriever, validation, rng)]
     weights, temperature, decay = most_likely(asked)
     found: dict[str, Any] = {"temperature": temperature, "temperature_decay": decay}
-    return found | ({"level_weights": weights} if len(weights) > 1 else {})
+    if len(weights) == 1:
+        return found
+    _, temperature, decay = most_likely([(count, scores[:1], truth) for count, scores, truth in asked])
+    return found | {"level_weights": weights, "global_temperature": temperature, "global_temperature_decay": decay}
 
 
 def most_likely(asked: Sequence[ScoredQueries]) -> tuple[tuple[float, ...], float, float]:

@@ -1,7 +1,7 @@
 """The tables and figures of MNCL (AAAI 2025) as runs to make: what is trained, and what the paper says of it.
 
-Published figures are of KITTI360Pose's test split (kitti360pose.md); on other data they are for comparison of order,
-not of height.
+Published figures are of KITTI360Pose's test split, by the same protocol (docs/formats.md, protocol); on other data they
+are for comparison of order, not of height.
 """
 
 from dataclasses import dataclass, field

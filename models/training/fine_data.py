@@ -11,12 +11,14 @@ from scipy.spatial import cKDTree
 from torch import Tensor
 
 from models.city.cells import CellTable
+from models.city.gallery import Gallery
 from models.city.points import Ints
+from models.city.queries import Queries
+from models.city.source import APART_M
 from models.city.types import Floats
 from models.localization.fine_model import FineModel, Truth
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
-from models.training.retrieval_data import APART_M, SYMMETRIES, TrainingSet, reflect
-from models.training.sources import ValidationQueries
+from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect
 
 CLONED = 0.5  # share of the examples whose cell is a neighbour
 
@@ -48,8 +50,9 @@ class FineSet:
     """
 
     def __init__(self, training: TrainingSet, pmc: bool = True) -> None:
-        self.training, self.place, self.pmc = training, training.place, pmc
-        starts, rows = containing_cells(self.place.cells, self.place.positions_m[:, :2], training.best)
+        self.training, self.statements, self.pmc = training, training.statements, pmc
+        self.cells, self.positions_m = self.statements.gallery.cells, self.statements.positions_m[:, :2]
+        starts, rows = containing_cells(self.cells, self.positions_m, training.best)
         self.neighbour_starts, self.neighbours = starts, rows
 
     def __len__(self) -> int:
@@ -79,9 +82,9 @@ class FineSet:
         match = np.full(said.mask.shape, -1, dtype=np.int64)
         for row in range(size) if with_matches else ():
             hints = said.hints[row, said.mask[row]]
-            match[row, : len(hints)] = self._match(hints, int(cells[row]), self.place.positions_m[positions[row], :2])
+            match[row, : len(hints)] = self._match(hints, int(cells[row]), self.positions_m[positions[row]])
         matrix = torch.from_numpy(SYMMETRIES[symmetry])
-        offset = offsets_in(self.place.cells, cells, self.place.positions_m[positions, :2]).astype(np.float32)
+        offset = offsets_in(self.cells, cells, self.positions_m[positions]).astype(np.float32)
         return FineBatch(
             cells=reflect(self.training.features.batch(cells), matrix),
             sentences=torch.from_numpy(said.sentences),
@@ -91,12 +94,12 @@ class FineSet:
 
     def _match(self, hints: Ints, cell: int, position_m: Floats) -> Ints:
         """[H] which instance of a cell each hint means; of several parts of one, that nearest to the position."""
-        parts = self.place.cells.parts
+        parts = self.cells.parts
         rows = slice(parts.starts[cell], parts.starts[cell + 1])
         low, high = parts.low_m[rows, :2], parts.high_m[rows, :2]
         distance = np.linalg.norm(np.maximum(0, np.maximum(low - position_m, position_m - high)), axis=1)
-        said = self.place.said_number[hints]
-        is_meant = (self.place.part_number[rows] == said[:, None]) & (said >= 0)[:, None]
+        said = self.statements.said_number[hints]
+        is_meant = (self.statements.part_number[rows] == said[:, None]) & (said >= 0)[:, None]
         nearest: Ints = np.where(is_meant, distance, np.inf).argmin(axis=1)
         return np.where(is_meant.any(axis=1), nearest, -1)
 
@@ -120,18 +123,18 @@ class FineValidation:
     offset: Floats
 
     @classmethod
-    def of(cls, asked: ValidationQueries) -> "FineValidation":
+    def of(cls, gallery: Gallery, asked: Queries) -> "FineValidation":
         """Of queries, each in its best cell and in another that contains its position."""
-        positions = asked.positions_m[:, :2]
-        starts, neighbours = containing_cells(asked.cells, positions, asked.truth)
+        cells = gallery.cells
+        starts, neighbours = containing_cells(cells, asked.positions_m, asked.truth)
         count = np.diff(starts)
         # The same at every run, and another from query to query.
         pick = starts[:-1] + np.random.default_rng(0).integers(np.maximum(count, 1))
         other = np.where(count > 0, np.append(neighbours, -1)[np.minimum(pick, len(neighbours))], -1)
         rows = np.column_stack([asked.truth, other])
-        offset = offsets_in(asked.cells, rows, positions[:, None])
-        features = CellFeatures.of(asked.cells, asked.labels)
-        return cls(features, asked.cells.size_m, asked.descriptions, rows, offset)
+        offset = offsets_in(cells, rows, asked.positions_m[:, None])
+        features = CellFeatures.of(cells, np.array(gallery.labels))
+        return cls(features, cells.size_m, asked.sentences, rows, offset)
 
     def residuals_m(self, model: FineModel) -> Floats:
         """[Q, 2, 2] metres from the truth to what a model predicts, (east, north), in each of the two cells."""

@@ -1,6 +1,5 @@
 """Training a model of the fine stage on parts of maps and data sets, chosen on others."""
 
-import json
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -17,8 +16,8 @@ from models.training.engine import distributed
 from models.training.engine.loop import History, Progress, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
 from models.training.retrieval_data import HintVocabulary
-from models.training.settings import TrainingConfig
-from models.training.sources import Source
+from models.training.settings import TrainingConfig, settings_record
+from models.training.training_data import TrainingData
 
 
 class FineTask:
@@ -36,7 +35,7 @@ class FineTask:
 
     criterion = "within_5m"
 
-    def __init__(self, model: FineModel, sources: Sequence[Source], batch_size: int, pmc: bool = True) -> None:
+    def __init__(self, model: FineModel, sources: Sequence[TrainingData], batch_size: int, pmc: bool = True) -> None:
         self.model, self.sources, self.share = model, sources, distributed.share_of(batch_size)
         self.sets = [FineSet(source.training, pmc) for source in sources]
         sizes = np.array([len(source.training) for source in sources])
@@ -45,7 +44,7 @@ class FineTask:
     @cached_property
     def validations(self) -> list[FineValidation]:
         """Of each source; the first process alone asks for them."""
-        return [FineValidation.of(source.queries) for source in self.sources]
+        return [FineValidation.of(source.gallery, source.queries) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
         """Which source, and examples of it."""
@@ -79,7 +78,7 @@ def hint_features(model: FineModel, vocabulary: HintVocabulary, batch: FineBatch
 
 
 def train_fine(
-    load: Callable[[TextEncoder, np.random.Generator], Sequence[Source]],
+    load: Callable[[TextEncoder, np.random.Generator], Sequence[TrainingData]],
     out: Path,
     method: str,
     model: FineConfig,
@@ -114,13 +113,7 @@ def train_fine(
     sources = load(encoder, rng)
     fine = FINE_METHODS[method](encoder, model)
     task = FineTask(fine, sources, config.batch_size, config.pmc)
-    record = {
-        "method": method,
-        "model": model.model_dump(mode="json"),
-        "training": config.model_dump(mode="json"),
-        "sources": [source.facts for source in sources],
-    }
-    record = json.loads(json.dumps(record))
+    record = settings_record(method, model, config) | {"sources": [source.facts for source in sources]}
     try:
         history = run_training(task, config, run_dir, resume, progress, rng, record)
         return distributed.from_first(lambda: _finish(task, out, config, history))
@@ -137,14 +130,13 @@ def _finish(task: FineTask, out: Path, config: TrainingConfig, history: History)
     training = {
         "config": config.model_dump(mode="json"),
         "sources": [_facts(*part) for part in zip(task.sources, validations, figures, strict=True)],
-        "history": [{"step": row.step, "loss": row.loss} | row.figures for row in history.rows],
-        "best_step": history.best_step,
+        **history.facts,
     }
-    save_fine(fine.cpu(), out, json.loads(json.dumps(training)))
+    save_fine(fine.cpu(), out, training)
     return _mean(figures)
 
 
-def _facts(source: Source, validation: FineValidation, figures: dict[str, float]) -> dict[str, Any]:
+def _facts(source: TrainingData, validation: FineValidation, figures: dict[str, float]) -> dict[str, Any]:
     measured = {"queries": len(validation.rows), "cell_center": validation.center_figures()} | figures
     return source.facts | {"positions": len(source.training), "validation": measured}
 

@@ -1,4 +1,4 @@
-"""Fitting the hint posterior's few weights by maximum likelihood on training towns (method.md, the hint posterior)."""
+"""Fitting the hint posterior's weights by maximum likelihood (docs/method.md, how the likelihood was fitted)."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -49,7 +49,7 @@ def fit_likelihood(
 
     Args:
         likelihood: from where to start.
-        texts: what to fit to, drawn from in rank by their numbers.
+        texts: what to fit to, drawn from in turn, by their numbers.
         steps: of Adam, `BATCH` texts each.
         rng: draws texts and cells.
         progress: called with (steps done, steps, mean loss of the last ones).

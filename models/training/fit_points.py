@@ -14,7 +14,7 @@ from models.retrieval.instance_encoder import GEOMETRY, CellFeatures
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
 from models.training.engine import distributed
 from models.training.engine.loop import LoopConfig, Progress, run_training
-from models.training.sources import Source
+from models.training.training_data import TrainingData
 
 CELLS_A_SOURCE, CHOSEN_BY_CELLS = 800, 100  # whose instances it is trained on, and chosen by
 STEPS, VALIDATE_EVERY, BATCH, LEARNING_RATE = 600, 100, 64, 2e-3
@@ -108,7 +108,7 @@ def _cross_entropy(logits: Tensor, wanted: Tensor) -> Tensor:
 
 def train_points(
     encoder: PointEncoder,
-    sources: Sequence[Source],
+    sources: Sequence[TrainingData],
     config: LoopConfig,
     run_dir: Path | None = None,
     resume: bool = False,
@@ -134,7 +134,7 @@ def train_points(
     galleries = [source.training.features for source in sources]
     labels = sorted({label for gallery in galleries for label in gallery.labels})
     training = PointExamples.of(galleries, labels, CELLS_A_SOURCE, config.seed)
-    asked = [CellFeatures.of(source.queries.cells, source.queries.labels) for source in sources]
+    asked = [CellFeatures.of(source.gallery.cells, np.array(source.gallery.labels)) for source in sources]
     validation = PointExamples.of(asked, labels, CHOSEN_BY_CELLS, config.seed)
     model = _Classifier(encoder.requires_grad_(True), len(labels))
     loop = LoopConfig(

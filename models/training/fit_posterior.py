@@ -1,6 +1,5 @@
 """Training the hint posterior: the reader on the paraphrase grammar, then the likelihood on training towns."""
 
-import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -8,17 +7,17 @@ from typing import Any
 import numpy as np
 import torch
 
+from models.city.source import CHOSEN_BY, open_sources
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, save_posterior
-from models.posterior.surroundings import SPACING_M
 from models.training.engine.loop import Progress, run_training
 from models.training.fit_likelihood import Texts, fit_likelihood
 from models.training.fit_reader import ReadingSet, ReadingTask, reading_figures
-from models.training.places import Place, load_place
-from models.training.settings import TrainingConfig
+from models.training.places import Place
+from models.training.settings import TrainingConfig, settings_record
 
 TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chosen by
 FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
@@ -47,7 +46,7 @@ def train_posterior(
     """Train, calibrate on validation places, save.
 
     Args:
-        data: maps and data sets, see `load_place`; nothing of them is needed to train the reader.
+        data: maps and data sets, see `open_sources`; nothing of them is needed to train the reader.
         splits: what the likelihood is fitted to, and what it is calibrated on.
         out: directory for model.safetensors and config.json.
         model: shape of the reader.
@@ -61,7 +60,7 @@ def train_posterior(
 
     Raises:
         TrainingError: see `run_training`.
-        MapError, DataError: see `load_place`.
+        MapError, DataError: see `open_sources`.
     """
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
@@ -71,8 +70,8 @@ def train_posterior(
     training = ReadingSet(encoder, depth, "train", TEXTS, config.seed)
     validation = ReadingSet(encoder, depth, "val", VALIDATION_TEXTS, config.seed + 1)
     task = ReadingTask(trained.reader, training, validation, config.batch_size)
-    record = {"method": "posterior", "model": model.model_dump(), "training": config.model_dump(mode="json")}
-    history = run_training(task, config, run_dir, resume, progress, record=json.loads(json.dumps(record)))
+    record = settings_record(trained.method, model, config)
+    history = run_training(task, config, run_dir, resume, progress, record=record)
     return fit_and_save(trained, validation, data, splits, out, config, history.best_step)
 
 
@@ -88,8 +87,9 @@ def fit_and_save(
     """What is left to do when the reader is trained; arguments and return as `train_posterior`."""
     trained.eval()
     rng = np.random.default_rng(config.seed)
-    fitted = fit_places(trained, [load_place(path, splits[0]) for path in data], rng)
-    measured = calibrate_places(trained, [load_place(path, splits[1]) for path in data], rng)
+    places = [[Place.of(source, source.queries(CHOSEN_BY)) for source in open_sources(path, splits)] for path in data]
+    fitted = fit_places(trained, [of_fit for of_fit, _ in places], rng)
+    measured = calibrate_places(trained, [of_check for _, of_check in places], rng)
     figures = reading_figures(trained.reader, validation) | measured
     facts: dict[str, Any] = {
         "config": config.model_dump(mode="json"),
@@ -99,7 +99,7 @@ def fit_and_save(
         "surprise": fitted,
         "validation": figures,
     }
-    save_posterior(trained, out, json.loads(json.dumps(facts)))
+    save_posterior(trained, out, facts)
     return figures
 
 
@@ -151,7 +151,6 @@ def _all_answers(likelihood: Likelihood, texts: Sequence[Texts]) -> Columns:
 def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
     """[Q, 4] error in metres, unscaled radius p90, whether the best cell is the first, and the first's probability."""
     place, posterior = texts.place, texts.place.posterior(likelihood)
-    extent_m = float(np.linalg.norm(np.ptp(place.cells.center_m[:, :2], axis=0)) + place.cells.size_m)
     scenes = np.array(place.cells.scenes)
     found = []
     for row, reading in zip(texts.rows, texts.readings, strict=True):
@@ -159,6 +158,6 @@ def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
         assert located is not None
         same = scenes[located.rows[0]] == scenes[place.truth[row]]
         error = float(np.linalg.norm(located.positions[0] - place.positions_m[row])) if same else np.inf
-        [p90] = located.radii_m((0.9,), extent_m, SPACING_M)
+        [p90] = located.radii_m(0.9)
         found.append((error, p90, float(located.rows[0] == place.truth[row]), located.probability[0]))
     return np.array(found)

@@ -1,6 +1,5 @@
 """Training a retriever on parts of maps and data sets, chosen on others."""
 
-import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,13 +15,13 @@ from models.training.engine import distributed
 from models.training.engine.loop import History, Progress, run_training
 from models.training.fit_points import train_points
 from models.training.retrieval_task import RetrievalTask
-from models.training.settings import TrainingConfig
-from models.training.sources import Source
+from models.training.settings import TrainingConfig, settings_record
+from models.training.training_data import TrainingData
 from models.training.validation import Validation, mean_recall
 
 
 def train_retriever(
-    load: Callable[[TextEncoder, np.random.Generator], Sequence[Source]],
+    load: Callable[[TextEncoder, np.random.Generator], Sequence[TrainingData]],
     out: Path,
     method: type[Retriever],
     model: RetrieverConfig,
@@ -58,14 +57,9 @@ def train_retriever(
     retriever = method(encoder, model)
     task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)
     points = _look_at_points(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
-    record = {
-        "method": method.method,
-        "model": model.model_dump(mode="json"),
-        "training": config.model_dump(mode="json"),
-        "sources": [source.facts for source in sources],
-    }
-    history = run_training(task, config, run_dir, resume, progress, rng, json.loads(json.dumps(record)))
+    record = settings_record(method.method, model, config) | {"sources": [source.facts for source in sources]}
     try:
+        history = run_training(task, config, run_dir, resume, progress, rng, record)
         return distributed.from_first(lambda: _finish(task, out, config, history, rng, points))
     finally:
         encoder.to("cpu")  # it is shared with whatever this process does next
@@ -73,7 +67,7 @@ def train_retriever(
 
 def _look_at_points(
     retriever: Retriever,
-    sources: Sequence[Source],
+    sources: Sequence[TrainingData],
     config: TrainingConfig,
     run_dir: Path | None,
     resume: bool,
@@ -104,15 +98,14 @@ def _finish(
     training = {
         "config": config.model_dump(mode="json"),
         "sources": facts,
-        "history": [{"step": row.step, "loss": row.loss} | row.figures for row in history.rows],
-        "best_step": history.best_step,
+        **history.facts,
         "point_encoder": points,
     }
     retriever.cpu().text_encoder.cpu()
-    save_retriever(retriever, out, json.loads(json.dumps(training)))
+    save_retriever(retriever, out, training)
     return mean_recall(recalls)
 
 
-def _facts(source: Source, validation: Validation, recall: dict[int, float]) -> dict[str, Any]:
+def _facts(source: TrainingData, validation: Validation, recall: dict[int, float]) -> dict[str, Any]:
     size = {"cells": len(validation.features), "queries": len(validation.truth)}
     return source.facts | {"positions": len(source.training), "validation": size | {"retrieval": recall}}

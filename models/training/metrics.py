@@ -1,4 +1,4 @@
-"""Recall by the protocol of kitti360pose.md. NumPy only."""
+"""Recall by the protocol of docs/formats.md. NumPy only."""
 
 from typing import Any
 

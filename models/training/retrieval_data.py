@@ -9,13 +9,11 @@ import torch
 from scipy.spatial import cKDTree
 from torch import Tensor
 
-from models.city.cells import CellTable, cut_cubes
-from models.city.hints import BEST_CELL_REACH_M, NUM_HINTS, STRATEGIES, HintTable, choose_hints, hint_table
-from models.city.points import PointTable
-from models.city.store.pose_store import PoseStore
-from models.city.types import DIRECTIONS, CityMap, Floats, Hint
+from models.city.hints import NUM_HINTS, STRATEGIES, choose_hints
+from models.city.queries import Statements
+from models.city.templates import TEMPLATES, render_hint
+from models.city.types import DIRECTIONS, Hint
 from models.errors import DataError
-from models.language.hints_text import TEMPLATES, render_hint
 from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
 from models.training.engine.feature_cache import frozen_features
@@ -24,7 +22,6 @@ MIN_HINTS, MAX_HINTS = 2, 8
 KNOWS_COLOUR, CANONICAL = 0.8, 0.5  # shares of the hints of varied wording: people leave colours out
 Wording = Literal["varied", "published"]
 NEIGHBOUR_M = 40.0  # hard negatives are drawn this near
-APART_M = 1e6  # between scenes, on an axis of their own
 # The 8 symmetries of the compass: each [2, 2] matrix moves (east, north); directions move along.
 SYMMETRIES = np.array(
     [[[fx, 0], [0, fy]] for fx in (1, -1) for fy in (1, -1)] + [[[0, fx], [fy, 0]] for fx in (1, -1) for fy in (1, -1)],
@@ -113,69 +110,11 @@ class HintVocabulary:
         return index
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TrainingPlace:
-    """What a part of a map or a data set teaches.
-
-    Attributes:
-        cells: its cells.
-        cell_labels: [I] label of each instance that the cells' parts name.
-        positions_m: [N, 2 or more] positions; those of different scenes are far from each other.
-        best: [N] best cell of each position.
-        table: what can be said there.
-        labels: label of each instance that the table names.
-        words: colour words that the table numbers.
-        part_number: [R] number of each instance, in rows of the cells' parts; parts of one instance share it.
-        said_number: [H] number of the instance that each row of the table means, -1 if unknown.
-    """
-
-    cells: CellTable
-    cell_labels: npt.NDArray[np.str_]
-    positions_m: Floats
-    best: npt.NDArray[np.intp]
-    table: HintTable
-    labels: npt.NDArray[np.str_]
-    words: tuple[str, ...]
-    part_number: npt.NDArray[Any]
-    said_number: npt.NDArray[Any]
-
-    @classmethod
-    def of_map(cls, city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats) -> "TrainingPlace":
-        """Positions of a map, [N, 3] metres; those further than 15 m from every centre are left out."""
-        distance, best = cKDTree(cells.center_m).query(positions_m)
-        near = distance <= BEST_CELL_REACH_M
-        positions = positions_m[near]
-        table = hint_table(city_map.palette, cut_cubes(points, positions, city_map.rules), positions)
-        labels = np.array([i.label for i in city_map.instances])
-        words = city_map.palette.words
-        part_number = cells.parts.instance
-        return cls(cells, labels, positions[:, :2], best[near], table, labels, words, part_number, table.instance)
-
-    @classmethod
-    def of_store(cls, store: PoseStore) -> "TrainingPlace":
-        """The poses of a data set; what is said there is what their descriptions say."""
-        cells, poses = store.cell_table(), store.poses
-        scene = np.unique(cells.scenes, return_inverse=True)[1][poses.cell]
-        said = poses.instance
-        return cls(
-            cells=cells,
-            cell_labels=np.array(store.labels),
-            positions_m=np.column_stack([poses.positions_m[:, :2], scene * APART_M]),
-            best=poses.cell.astype(np.intp),
-            # in the order in which they were said
-            table=HintTable(poses.starts, poses.label, poses.direction, poses.colour, np.arange(float(len(said)))),
-            labels=np.array(poses.words),
-            words=poses.words,
-            part_number=store.instance_ids,
-            said_number=np.where(said >= 0, store.instance_ids[said], -1),
-        )
-
-
 class TrainingSet:
     """Positions to train on, with everything that can be said at each of them.
 
     Args:
-        place: the positions.
+        statements: the positions.
         encoder: the frozen text encoder.
         wording: "varied" draws which hints are said, how many, in which words, and leaves colours out now and then;
             "published" says what the data set says (of a map: the nearest six), in the benchmark's words.
@@ -184,17 +123,17 @@ class TrainingSet:
         DataError: no position has hints enough.
     """
 
-    def __init__(self, place: TrainingPlace, encoder: TextEncoder, wording: Wording = "varied") -> None:
-        self.place, self.table, self.best, self.wording = place, place.table, place.best, wording
-        self.features = CellFeatures.of(place.cells, place.cell_labels)
+    def __init__(self, statements: Statements, encoder: TextEncoder, wording: Wording = "varied") -> None:
+        self.statements, self.table, self.best, self.wording = statements, statements.table, statements.best, wording
+        self.features = CellFeatures.of(statements.gallery.cells, np.array(statements.gallery.labels))
         self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)
         if not len(self.usable):
             raise DataError(f"none of {len(self.best)} positions has {MIN_HINTS} things around it; take a larger map")
-        self._tree = cKDTree(place.positions_m[self.usable])
-        names, self.label_of = np.unique(place.labels, return_inverse=True)
+        self._tree = cKDTree(statements.positions_m[self.usable])
+        names, self.label_of = np.unique(statements.labels, return_inverse=True)
         said = np.column_stack([self.label_of[self.table.instance], self.table.colour])
         pairs = np.unique(np.concatenate([said, np.column_stack([said[:, 0], np.full(len(said), -1)])]), axis=0)
-        self.vocabulary = HintVocabulary(encoder, tuple(names.tolist()), place.words, pairs)
+        self.vocabulary = HintVocabulary(encoder, tuple(names.tolist()), statements.words, pairs)
         self.label_embeddings = encoder.embed(self.features.labels)
 
     def __len__(self) -> int:
@@ -210,7 +149,7 @@ class TrainingSet:
         """Positions for a batch: groups of `cluster` near each other, whose cells are hard to tell apart."""
         groups = max(1, size // cluster)
         seeds = rng.choice(self.usable, groups, replace=len(self.usable) < groups)
-        near = self._tree.query_ball_point(self.place.positions_m[seeds], NEIGHBOUR_M)
+        near = self._tree.query_ball_point(self.statements.positions_m[seeds], NEIGHBOUR_M)
         drawn: npt.NDArray[np.intp] = self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
         return drawn
 

@@ -12,7 +12,7 @@ from models.retrieval.levels import Levels
 from models.retrieval.retriever import Retriever
 from models.training.engine import distributed
 from models.training.retrieval_data import Batch, HintVocabulary
-from models.training.sources import Source
+from models.training.training_data import TrainingData
 from models.training.validation import Validation, mean_recall
 
 
@@ -44,7 +44,7 @@ class RetrievalTask:
 
     criterion = "recall@5"
 
-    def __init__(self, model: Retriever, sources: Sequence[Source], batch_size: int, cluster: int) -> None:
+    def __init__(self, model: Retriever, sources: Sequence[TrainingData], batch_size: int, cluster: int) -> None:
         self.model: Retriever = model
         self.sources, self.cluster, self.share = sources, cluster, distributed.share_of(batch_size)
         sizes = np.array([len(source.training) for source in sources])
@@ -53,7 +53,7 @@ class RetrievalTask:
     @cached_property
     def validations(self) -> list[Validation]:
         """Of each source; the first process alone asks for them."""
-        return [Validation(source.queries, self.model) for source in self.sources]
+        return [Validation(source.gallery, source.queries, self.model) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> SourceBatch:
         """See Task; all processes draw from the first one's choice of source."""

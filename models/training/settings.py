@@ -42,6 +42,11 @@ class TrainingConfig(LoopConfig):
     pmc: bool = True
 
 
+def settings_record(method: str, model: BaseModel, config: TrainingConfig) -> dict[str, Any]:
+    """Settings as a run's config.json says them."""
+    return {"method": method, "model": model.model_dump(mode="json"), "training": config.model_dump(mode="json")}
+
+
 def load_settings(method: str, changes: Sequence[str] = ()) -> tuple[BaseModel, TrainingConfig]:
     """Settings of a method: (of its `config_type`, how to train it).
 

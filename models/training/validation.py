@@ -5,25 +5,27 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from models.city.gallery import Gallery
+from models.city.queries import Queries
 from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.level_table import LevelTable
+from models.retrieval.level_table import encode_gallery
 from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
 from models.training.metrics import RETRIEVAL_KS, retrieval_recall
-from models.training.sources import ValidationQueries
 
 
 class Validation:
     """Queries with known answers against a gallery.
 
     Args:
+        gallery: the cells.
         asked: the queries.
         retriever: that will be asked, with a point encoder that does not change.
     """
 
-    def __init__(self, asked: ValidationQueries, retriever: Retriever) -> None:
-        self.features = retriever.seen(CellFeatures.of(asked.cells, asked.labels))
-        self.descriptions, self.truth = asked.descriptions, asked.truth
+    def __init__(self, gallery: Gallery, asked: Queries, retriever: Retriever) -> None:
+        self.features = retriever.seen(CellFeatures.of(gallery.cells, np.array(gallery.labels)))
+        self.descriptions, self.truth = asked.sentences, asked.truth
 
     def scores(self, retriever: Retriever) -> npt.NDArray[np.float32]:
         """[Q, N] scores by which cells are ranked."""
@@ -44,8 +46,8 @@ class Encoded:
     """
 
     def __init__(self, retriever: Retriever, features: CellFeatures) -> None:
-        self.retriever, self.vectors = retriever, retriever.encode_cells(features)
-        self.table = LevelTable.of(retriever, features)
+        self.retriever = retriever
+        self.vectors, self.table = encode_gallery(retriever, features)
 
     def level_scores(self, descriptions: Sequence[Sequence[str]]) -> dict[Level, npt.NDArray[np.float32]]:
         """[Q, N] similarities of descriptions with all cells, by level."""

@@ -2,24 +2,29 @@
 
 import threading
 
-from index.answers import Answer, Candidate, CellDetail, CellInstance, Estimate, Radius, Wgs84
+from index.answers import (
+    Answer,
+    Candidate,
+    CellDetail,
+    CellInstance,
+    Estimate,
+    IndexFacts,
+    LatLon,
+    ModelName,
+    Radius,
+)
 from models.city.frame import Frame
 
+MADE_IT, ANSWERED = ModelName("fake", "ab" * 32), ModelName("posterior/fake", "cd" * 32)
 TRUE_FRAME = Frame("map", 60.17, 24.94)
 
 
 class FakeLocalizer:
-    """Answers with two cells. Words in the first hint steer it: "bad", "nan" and "nowhere"."""
+    """Answers with two cells. Words in the description steer it: "bad", "nan" and "nowhere"."""
 
-    map_name = "fakeville"
-    attribution = "© nobody"
-    index_version = "v1"
-    model = "fake"
-    model_sha256 = "ab" * 32
-    num_cells = 2
-    num_instances = 3
-    dim = 8
-    created = "2026-01-01T00:00:00+00:00"
+    facts = IndexFacts(
+        "v1", "2026-01-01T00:00:00+00:00", "fakeville", "© nobody", ModelName("fake", "ab" * 32), 2, 3, 8
+    )
 
     def __init__(self, frame=TRUE_FRAME):
         self.frame = frame
@@ -35,8 +40,8 @@ class FakeLocalizer:
         self.entered.release()
         assert self.gate.wait(10), "a test left the gate closed"
         for query in queries:
-            if "bad" in query.hints[0]:
-                raise RuntimeError("secret: " + query.hints[0])
+            if "bad" in query.description:
+                raise RuntimeError("secret: " + query.description)
         return [self._answer(query) for query in queries]
 
     def cell(self, cell_id):
@@ -47,9 +52,9 @@ class FakeLocalizer:
 
     def _answer(self, query):
         timings = {"encode": 1.0, "search": 1.0, "estimate": 1.0}
-        if "nowhere" in query.hints[0]:
-            return Answer("no_match", None, (), 1.0, ("nothing there",), timings)
-        probability = float("nan") if "nan" in query.hints[0] else 0.6
+        if "nowhere" in query.description:
+            return Answer("no_match", ANSWERED, warnings=("nothing there",), timings_ms=timings)
+        probability = float("nan") if "nan" in query.description else 0.6
         box = (-15.0, -15.0, 15.0, 15.0)
         candidates = tuple(
             Candidate(rank, f"fakeville_0000{rank}", 0.9, p, (0.0, 0.0), box, (1.0, 2.0), self._wgs84())
@@ -57,7 +62,7 @@ class FakeLocalizer:
         )[: query.top_k]
         covariance = ((100.0, 0.0), (0.0, 100.0))
         estimate = Estimate((0.0, 0.0), "cell_center", covariance, Radius(12.0, 21.0), probability, self._wgs84())
-        return Answer("ok", estimate, candidates, 0.1, (), timings)
+        return Answer("ok", ANSWERED, estimate, candidates, 0.1, timings_ms=timings)
 
     def _wgs84(self):
-        return Wgs84(60.17, 24.94) if self.frame.is_georeferenced else None
+        return LatLon(60.17, 24.94) if self.frame.is_georeferenced else None

@@ -16,8 +16,8 @@ from app.settings import load_settings
 
 class TellingLocalizer(FakeLocalizer):
     def localize(self, queries):
-        print(*(query.hints[0] for query in queries), sep="\n", flush=True)
-        if "held" in queries[0].hints[0]:
+        print(*(query.description for query in queries), sep="\n", flush=True)
+        if "held" in queries[0].description:
             sys.stdin.readline()
         return super().localize(queries)
 

@@ -8,10 +8,10 @@ from index.artifact import (
     open_version,
     read_aliases,
     set_alias,
-    write_version,
 )
 from index.localizer import Localizer
 from models.errors import IndexBroken, IndexMismatch
+from models.files import new_directory
 from models.retrieval.checkpoint import save_retriever
 from models.retrieval.mncl import Mncl
 
@@ -29,7 +29,7 @@ def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
     assert manifest.instances == len(city.instances)
     assert manifest.model_fingerprint == model.fingerprint
     assert set(manifest.files) == {"vectors.faiss", "cells.safetensors", "cells.json", "surroundings.safetensors"}
-    assert not list(index_dir.glob(".building-*"))
+    assert not list(index_dir.glob(".*"))
 
 
 def test_a_version_opens_by_its_own_path(index_dir) -> None:
@@ -92,14 +92,14 @@ def test_a_manifest_cannot_name_files_elsewhere(copy) -> None:
 
 
 def test_a_failed_build_leaves_nothing(tmp_path) -> None:
-    with pytest.raises(IsADirectoryError), write_version(tmp_path, "v1") as directory:
+    with pytest.raises(IsADirectoryError), new_directory(tmp_path / "v1") as directory:
         directory.write_text("x")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_aliases_switch(tmp_path) -> None:
     for version in ("v1", "v2"):
-        with write_version(tmp_path, version) as directory:
+        with new_directory(tmp_path / version) as directory:
             (directory / "x").write_text(version)
         set_alias(tmp_path, "default", version)
     set_alias(tmp_path, "canary", "v1")

@@ -4,20 +4,21 @@ import numpy as np
 import pytest
 
 from index.answers import Box, Circle, Prior, Query
-from models.language.hints_text import split_hints
+from index.localizer import Localizer
 
-HINTS = ("I am north of a red building.", "A bench is to my west.", "I stand on the road.")
+TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 CORNER = Box(-154, -154, 4, 4)
 
 
 def ask(localizer, **changes):
-    return localizer.localize([dataclasses.replace(Query(HINTS), **changes)])[0]
+    return localizer.localize([dataclasses.replace(Query(TEXT, refine="none"), **changes)])[0]
 
 
 def naive_posterior(localizer, vector, rows, prior=None):
     """The definition, over every row."""
-    scores = localizer.store.score(vector, np.arange(len(localizer.store))).astype(float)
-    logits = scores / localizer.retriever.temperature(len(HINTS))
+    store = localizer.ranker.store
+    scores = store.score(vector, np.arange(len(store))).astype(float)
+    logits = scores / localizer.retriever.temperature(3)
     if prior:
         distance = np.linalg.norm(localizer.gallery.cells.center_m[:, :2] - np.array(prior.position), axis=1)
         logits -= distance**2 / (2 * prior.sigma_m**2)
@@ -38,7 +39,9 @@ def test_candidates_are_the_posteriors_best(localizer, within, prior) -> None:
         allowed = allowed[((centers >= -154) & (centers <= 4)).all(axis=1)]
     elif within:
         allowed = allowed[np.linalg.norm(centers - 10, axis=1) <= 60]
-    vector = localizer.retriever.encode_descriptions([HINTS])[0]
+    [sentences] = localizer.sentences([TEXT])
+    assert sentences[1] == "The pose is east of a bench."
+    vector = localizer.retriever.encode_descriptions([sentences])[0]
     posterior = naive_posterior(localizer, vector, allowed, prior)
     best = np.argsort(-posterior, kind="stable")[:7]
     assert [c.cell_id for c in answer.candidates] == [localizer.gallery.cells.ids[n] for n in best]
@@ -76,7 +79,7 @@ def test_uncertainty_is_wide_when_unsure_and_narrow_when_told(localizer) -> None
 
 def test_cells_beyond_the_search_depth_count_as_doubt(localizer, monkeypatch) -> None:
     whole = ask(localizer)
-    monkeypatch.setattr("index.vector_answers.DEPTH", 20)
+    monkeypatch.setattr(localizer.by_vectors("none"), "depth", 20)
     shallow = ask(localizer)
     assert [c.cell_id for c in shallow.candidates] == [c.cell_id for c in whole.candidates]
     assert shallow.estimate.probability <= whole.estimate.probability
@@ -100,10 +103,11 @@ def test_wgs84_means_the_same_place(localizer) -> None:
 
 
 def test_ten_times_the_same_answer(localizer) -> None:
-    texts = [Query((f"I am west of tree {i}.", *HINTS)) for i in range(5)]
+    texts = [Query(f"I am west of tree {i}. {TEXT}", refine="none") for i in range(5)]
+    backwards = "I stand on the road. A bench is to my west. I am north of a red building."
     first = ask(localizer)
     for _ in range(9):
-        again = localizer.localize([*texts, Query(HINTS[::-1]), *texts])[5]
+        again = localizer.localize([*texts, Query(backwards, refine="none"), *texts])[5]
         assert again.candidates == first.candidates
         assert again.estimate == first.estimate
 
@@ -121,10 +125,52 @@ def test_ten_times_the_same_answer(localizer) -> None:
     ],
 )
 def test_odd_texts_get_an_honest_answer(localizer, text) -> None:
-    (answer,) = localizer.localize([Query(split_hints(text))])
+    (answer,) = localizer.localize([Query(text, refine="none")])
     assert answer.status in ("ok", "ambiguous")
     assert 0 <= answer.estimate.probability <= 1
     assert np.isfinite(answer.estimate.covariance).all()
+
+
+def test_templates_and_what_cannot_be_read_are_encoded_as_they_are(localizer) -> None:
+    template = "The pose is on-top of a road. The pose is north of a tree."
+    unread = "Hm. The weather is fine."
+    found = localizer.sentences([template, unread, "a tree stands south of where I am"])
+    assert found[0] == ("The pose is on-top of a road.", "The pose is north of a tree.")
+    assert found[1] == ("Hm.", "The weather is fine.")
+    assert found[2] == ("The pose is north of a tree.",)
+
+
+def test_template_hints_are_never_read_again(localizer, index_dir, weights_dir, monkeypatch) -> None:
+    fresh = Localizer.open(index_dir, weights_dir)
+    monkeypatch.setattr(fresh.retriever, "read", None)  # what would run the text encoder
+    template = "The pose is on-top of a road. The pose is north of a tree."
+    (answer,) = fresh.localize([Query(template, refine="none")])
+    (expected,) = localizer.localize([Query(template, refine="none")])
+    assert [c.cell_id for c in answer.candidates] == [c.cell_id for c in expected.candidates]
+    assert answer.estimate.probability == pytest.approx(expected.estimate.probability, rel=1e-5)
+
+
+@pytest.mark.parametrize("refine", ["none", "posterior"])
+def test_several_texts_together_are_where_each_alone_is(localizer, refine) -> None:
+    texts = [
+        TEXT,
+        "a lamp south of me and a tree to the east, the street right here",
+        "There is a yellow post box north of me.",
+        "no bench anywhere. Brown house to the west, footpath below my feet and two lamps on the south side.",
+    ]
+    together = localizer.localize([Query(text, refine=refine) for text in texts])
+    for text, one in zip(texts, together, strict=True):
+        localizer.posterior._read_lately.clear()
+        (alone,) = localizer.localize([Query(text, refine=refine)])
+        assert alone.estimate.position == pytest.approx(one.estimate.position, abs=1e-3)
+        assert [c.cell_id for c in alone.candidates] == [c.cell_id for c in one.candidates]
+
+
+def test_an_answer_names_the_model_that_made_it(localizer) -> None:
+    by_vectors, by_posterior = localizer.localize([Query(TEXT, refine="none"), Query(TEXT)])
+    assert by_vectors.model == localizer.facts.model
+    assert by_posterior.model.name.startswith("posterior/")
+    assert by_posterior.model.sha256 == localizer.posterior.weights.fingerprint != by_vectors.model.sha256
 
 
 def test_a_cell_in_detail(localizer, cells, city) -> None:

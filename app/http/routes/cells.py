@@ -30,7 +30,7 @@ def cell(cell_id: str, request: Request, localizer: Localizer) -> Response:
     detail = localizer.cell(cell_id)
     if detail is None:
         raise Problem(Code.CELL_NOT_FOUND)
-    headers = {"ETag": _etag(localizer.index_version, cell_id, media_type), "Cache-Control": "no-cache"}
+    headers = {"ETag": _etag(localizer.facts.version, cell_id, media_type), "Cache-Control": "no-cache"}
     if _is_known(request.headers.get("if-none-match", ""), headers["ETag"]):
         return Response(status_code=304, headers={"Vary": "Accept", **headers})
     body = CellResponse.of(detail, localizer)

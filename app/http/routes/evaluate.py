@@ -68,7 +68,7 @@ def build_router(settings: Settings) -> APIRouter:
         """Start an evaluation: queries of one's own, or a data set of the service by its name."""
         queue.check_accepting()
         asked: EvaluateRequest = body
-        index_dir = version_dir(settings.index_dir, localizer.index_version)
+        index_dir = version_dir(settings.index_dir, localizer.facts.version)
         job = await jobs.submit(await asyncio.to_thread(to_evaluation, asked, settings, index_dir, localizer.frame))
         links = JobLinks(status=f"{PATH}/{job.id}", events=f"{PATH}/{job.id}/events")
         response.headers["Location"] = links.status

@@ -19,9 +19,7 @@ from app.http.queue import Served
 from app.http.requests import LocalizeRequest, request_model
 from app.http.responses import LocalizeResponse
 from app.settings import Settings
-from index.answers import Query
 from models.city.frame import Frame
-from models.language.hints_text import split_hints
 
 
 def build_router(settings: Settings) -> APIRouter:
@@ -43,8 +41,9 @@ def build_router(settings: Settings) -> APIRouter:
         started_s = time.monotonic()
         asked: LocalizeRequest = body
         media_type = negotiate(request, localizer.frame)
-        query = to_query(asked, settings.max_hints, localizer.frame)
-        served = await unless_client_leaves(request, queue.submit(query, started_s + asked.deadline_ms / 1000))
+        check_reach(asked, localizer.frame)
+        deadline_s = started_s + asked.deadline_ms / 1000
+        served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
         total_ms = (time.monotonic() - started_s) * 1000
         response = LocalizeResponse.of(
             served.answer, localizer, correlation_id.get() or "", {"queue": served.queue_ms, "total": total_ms}
@@ -55,38 +54,14 @@ def build_router(settings: Settings) -> APIRouter:
     return router
 
 
-def to_query(asked: LocalizeRequest, max_hints: int, frame: Frame) -> Query:
-    """A request as the localizer takes it.
-
-    Raises:
-        Problem: too many sentences, or wgs84 where the map cannot take it.
-        DescriptionError: no words in the description.
-    """
-    if asked.crs == "wgs84":
-        check_reach(asked, frame)
-    if asked.description is not None:
-        hints = split_hints(asked.description)
-    else:
-        hints = tuple(hint.strip() for hint in asked.hints or ())
-    if len(hints) > max_hints:
-        raise Problem.of_field("description", f"has {len(hints)} sentences, at most {max_hints} are taken; shorten it")
-    return Query(
-        hints=hints,
-        top_k=asked.top_k,
-        within=asked.within.filter() if asked.within else None,
-        prior=asked.prior.prior() if asked.prior else None,
-        crs=asked.crs,
-        refine=asked.refine,
-        heat_map=asked.heat_map,
-    )
-
-
 def check_reach(asked: LocalizeRequest, frame: Frame) -> None:
     """Refuse degrees that are no place in the map's frame.
 
     Raises:
         Problem: the map has no georeference, or a point is on another side of the Earth.
     """
+    if asked.crs == "map":
+        return
     if not frame.is_georeferenced:
         raise Problem.of_field("crs", "this map has no georeference; give within and prior in metres, with crs map")
     for field, (lon, lat) in asked.points():

@@ -9,7 +9,7 @@
 import fcntl
 import os
 import shutil
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -21,14 +21,14 @@ from models.city.kitti360.record import Recipe, Record, differences, read_record
 from models.city.kitti360.rules import PrepareConfig
 from models.city.kitti360pose.direction import find_neighbours, save_direction
 from models.city.kitti360pose.files import save_scene, select_scenes, short_name
-from models.city.kitti360pose.pickle_writer import replacing, sync
+from models.city.types import Progress
 from models.errors import DataError
+from models.files import replace_file, sync
 
 RELEASED = PrepareConfig()
 # In the order in which they are put in place: readers list scenes by their cells; the record says that all is there.
 PARTS = {"poses": ".pkl", "direction": ".json", "cells": ".pkl", "prepared": ".json"}
 READING, CUTTING = 0.1, 0.8  # shares of a scene's work; the rest is writing
-Progress = Callable[[str, int, int], None]
 
 
 def prepare_data(
@@ -198,8 +198,7 @@ def _make(raw: Path, folder: str, making: Path, recipe: Recipe, config: PrepareC
         path.relative_to(making).as_posix(): path.stat().st_size for part, path in places.items() if part != "prepared"
     }
     record = Record(**recipe.model_dump(), cells=len(cells), poses=len(poses), files=files)
-    with replacing(places["prepared"]) as file:
-        file.write(record.model_dump_json(indent=2).encode() + b"\n")
+    replace_file(places["prepared"], record.model_dump_json(indent=2).encode() + b"\n")
 
 
 def _place(placing: Path, out: Path, scene: str) -> None:

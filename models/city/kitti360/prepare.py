@@ -1,4 +1,4 @@
-"""From a raw KITTI-360 scene to KITTI360Pose's cells and poses (kitti360pose.md, preparation rules)."""
+"""From a raw KITTI-360 scene to KITTI360Pose's cells and poses (docs/formats.md, preparation rules)."""
 
 from collections.abc import Callable
 from functools import partial

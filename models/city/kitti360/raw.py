@@ -1,4 +1,4 @@
-"""Raw KITTI-360: the points of a scene from its PLY tiles, as instances, and its trajectory (kitti360pose.md).
+"""Raw KITTI-360 (docs/formats.md, raw): the points of a scene from its PLY tiles, as instances, and its trajectory.
 
 A scene is read tile by tile and thinned as it grows, so that memory holds one tile and what is kept.
 """

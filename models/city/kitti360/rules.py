@@ -1,4 +1,4 @@
-"""The rules by which KITTI360Pose is made from KITTI-360, in numbers (kitti360pose.md, preparation rules)."""
+"""The rules by which KITTI360Pose is made from KITTI-360, in numbers (docs/formats.md, preparation rules)."""
 
 from dataclasses import dataclass, field
 
@@ -8,7 +8,7 @@ from models.city.types import CutRules
 
 @dataclass(frozen=True, slots=True)
 class ClassRule:
-    """How points of one class become instances (kitti360pose.md, rules 1 and 2).
+    """How points of one class become instances (docs/formats.md, rules 1 and 2).
 
     Attributes:
         label: class in words.

@@ -1,4 +1,4 @@
-"""direction/<scene>.json: the neighbours of each cell, for prototype-based map cloning (method.md, fine stage).
+"""direction/<scene>.json: the neighbours of each cell, for prototype-based map cloning (docs/method.md, fine stage).
 
 One JSON object a scene: cell id -> {"east": cell id or null, ...} with the eight points of the compass. A neighbour's
 centre is one step of the grid away in x, in y or in both; heights do not count. Text2Loc's fine stage takes a pose's
@@ -14,9 +14,9 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 from scipy.spatial import cKDTree
 
-from models.city.kitti360pose.pickle_writer import replacing
 from models.city.kitti360pose.records import PublishedCell
 from models.errors import DataError
+from models.files import replace_file
 
 Compass = Literal["east", "west", "north", "south", "northeast", "northwest", "southeast", "southwest"]
 Neighbours = dict[str, dict[Compass, str]]
@@ -101,5 +101,4 @@ def save_direction(path: Path, neighbours: Neighbours) -> None:
     stored = {
         cell_id: {point: points.get(point) for point in get_args(Compass)} for cell_id, points in neighbours.items()
     }
-    with replacing(path) as file:
-        file.write(json.dumps(stored, indent=4).encode())
+    replace_file(path, json.dumps(stored, indent=4).encode())

@@ -1,4 +1,4 @@
-"""KITTI360Pose on disk, as it is published: scenes, cells and poses, read and written (kitti360pose.md)."""
+"""KITTI360Pose on disk, as it is published: scenes, cells and poses (docs/formats.md, published layout)."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -10,10 +10,11 @@ import numpy as np
 
 from models.city.kitti360pose.fields import Fields, Source, read_cell, read_pose
 from models.city.kitti360pose.pickle_reader import read_pickle
-from models.city.kitti360pose.pickle_writer import RecordPickler, cell_record, pose_record, replacing
+from models.city.kitti360pose.pickle_writer import cell_record, pose_record, write_records
 from models.city.kitti360pose.records import PublishedCell, PublishedPose
 from models.city.types import Floats
 from models.errors import DataError
+from models.files import replacing
 
 STANDARD_SPLITS = {
     "train": ("0000", "0002", "0004", "0006", "0007"),
@@ -232,11 +233,11 @@ def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Se
 
     # The inner file first: if the poses are refused, the cells are not put in place either.
     with replacing(cells_path) as cells_file:
-        RecordPickler(cells_file).dump(map(cell_record, written()))
+        write_records(cells_file, map(cell_record, written()))
         check_poses(poses_path, poses, keys)
         if poses:
             with replacing(poses_path) as poses_file:
-                RecordPickler(poses_file).dump(map(pose_record, poses))
+                write_records(poses_file, map(pose_record, poses))
         else:
             poses_path.unlink(missing_ok=True)
 

@@ -1,4 +1,4 @@
-"""KITTI360Pose as it is published: its records, name for name (kitti360pose.md, published layout).
+"""KITTI360Pose as it is published: its records, name for name (docs/formats.md, published layout).
 
 Readers give these, preparation makes these, writers take these. Our own types are made from them.
 """

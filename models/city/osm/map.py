@@ -1,7 +1,7 @@
 """Reader: OpenStreetMap (.osm.pbf, .osm) -> CityMap.
 
-A real map with extruded geometry, not LiDAR: footprints, lines and nodes are read as mapped, and
-points are put on them as `osm_classes.toml` says. Colours come from colour, material and surface tags.
+A real map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): footprints, lines and nodes are read as
+mapped, and points are put on them as `classes.toml` says. Colours come from colour, material and surface tags.
 """
 
 import tomllib
@@ -39,7 +39,7 @@ MATERIAL_KEYS = ("building:material", "material", "surface")
 
 @dataclass(frozen=True, slots=True)
 class OsmClass:
-    """A row of `osm_classes.toml`: which tags make an instance of which label, and its shape."""
+    """A row of `classes.toml`: which tags make an instance of which label, and its shape."""
 
     label: str
     shape: Shape

@@ -1,4 +1,4 @@
-"""Laying published cells and poses flat, one by one, to memory or to .npy files."""
+"""Laying flat what is kept of published cells and poses, one by one, to memory or to .npy files."""
 
 from contextlib import ExitStack
 from itertools import pairwise
@@ -7,14 +7,10 @@ from typing import Any, BinaryIO, Protocol
 
 import numpy as np
 
-from models.city.kitti360pose.records import PublishedCell, PublishedHint, PublishedPose
+from models.city.kitti360pose.records import PublishedCell, PublishedPose
 from models.city.points import Ints
 from models.city.store.layout import (
     COLUMNS,
-    HAS_ID,
-    HINT_VECTORS,
-    IS_MATCHED,
-    RGB_IS_FLOAT32,
     RGB_POOLS,
     XYZ_POOLS,
     Column,
@@ -108,7 +104,6 @@ class ColumnWriter:
         put("cell_size_m", [cell.cell_size])
         put("cell_bbox_m", [cell.bbox_w])
         put("cell_objects", [len(cell.objects)])
-        put("object_id", list(rows))
         put("object_instance", [item.instance_id for item in cell.objects])
         put("object_label", [self._word(item.label) for item in cell.objects])
         put("object_points", [len(item.xyz) for item in cell.objects])
@@ -154,7 +149,6 @@ class ColumnWriter:
             return
         put = self._put
         put("pose_cell", [self._cells[pose.cell_id][0] for pose in poses])
-        put("pose_offset", [pose.pose for pose in poses])
         put("pose_world_m", [pose.pose_w for pose in poses])
         put("pose_strategy", [self._word(pose.described_by) for pose in poses])
         put("pose_hints", [len(pose.descriptions) for pose in poses])
@@ -168,24 +162,10 @@ class ColumnWriter:
                 for hint in pose.descriptions
             ],
         )
-        self._add_hints([hint for pose in poses for hint in pose.descriptions])
-
-    def _add_hints(self, hints: list[PublishedHint]) -> None:
-        put = self._put
-        put("hint_object_id", [hint.object_id or 0 for hint in hints])
-        put("hint_instance", [hint.object_instance_id for hint in hints])
+        hints = [hint for pose in poses for hint in pose.descriptions]
         put("hint_label", [self._word(hint.object_label) for hint in hints])
         put("hint_colour", [self._word(hint.object_color_text) for hint in hints])
         put("hint_direction", [DIRECTIONS.index(hint.direction) for hint in hints])
-        put("hint_flags", [_flags(hint) for hint in hints])
-        put("hint_rgb", [hint.object_color_rgb for hint in hints])
-        for name, attribute in HINT_VECTORS.items():
-            rows = np.full((len(hints), 3), np.nan)
-            for row, hint in zip(rows, hints, strict=True):
-                vector = getattr(hint, attribute)
-                if vector is not None:
-                    row[: len(vector)] = vector
-            put(name, rows)
 
     def _put(self, name: str, rows: Any) -> None:
         _, dtype, shape = COLUMNS[name]
@@ -199,9 +179,3 @@ def _joined(arrays: list[Floats]) -> tuple[Floats, Ints]:
     """All points as one float64 array, and where each part begins."""
     joined = np.concatenate(arrays).astype(np.float64, copy=False)
     return joined, starts_of(np.array([len(array) for array in arrays]))
-
-
-def _flags(hint: PublishedHint) -> int:
-    has_id = HAS_ID if hint.object_id is not None else 0
-    is_float32 = RGB_IS_FLOAT32 if hint.object_color_rgb.dtype == np.float32 else 0
-    return (IS_MATCHED if hint.is_matched else 0) | has_id | is_float32

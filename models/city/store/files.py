@@ -5,12 +5,8 @@
 <store>/manifest.json   written last: scenes, format, and size and sha256 of every other file
 """
 
-import hashlib
 import json
-import shutil
-import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
@@ -26,25 +22,17 @@ from models.city.kitti360pose.files import (
     load_poses,
     select_scenes,
 )
-from models.city.kitti360pose.pickle_writer import sync
 from models.city.store.columns import ColumnWriter, DiskSink, MemorySink
 from models.city.store.layout import COLUMNS, Column, find_problem
 from models.city.store.pose_store import PoseStore, StoredScene
 from models.errors import DataError
+from models.files import FileRecord, file_records, new_directory, sha256
 
+FORMAT = 2
 MANIFEST, STRINGS = "manifest.json", "strings.json"
 ADVICE = "convert the published files again with 'hereabouts convert --data DIR --out DIR'"
 Progress = Callable[[int, int], None]
 Step = Callable[[int], None]
-
-
-class FileRecord(BaseModel):
-    """A file of a store."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    sha256: str
-    bytes: int
 
 
 class SceneRecord(BaseModel):
@@ -64,7 +52,7 @@ class Manifest(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     kind: Literal["hereabouts pose store"] = "hereabouts pose store"
-    format: Literal[1] = 1
+    format: int = FORMAT
     scenes: tuple[SceneRecord, ...]
     files: dict[str, FileRecord]
 
@@ -115,7 +103,7 @@ def convert(data: Path, out: Path, split: str | None = None, progress: Progress 
         raise DataError(f"{out}: is there already and not empty; name a new directory")
     names = select_scenes(list_scenes(data), split, data / "cells")
     step = _bytes_done(data, names, progress) if progress else None
-    with _new_directory(out) as directory:
+    with new_directory(out) as directory:
         with DiskSink(directory) as sink:
             writer = ColumnWriter(sink)
             scenes = tuple(_add_scene(writer, data, name, n, step) for n, name in enumerate(names))
@@ -161,7 +149,7 @@ def verify_store(path: Path) -> None:
     """
     open_store(path)
     for name, record in _read_manifest(path).files.items():
-        if _sha256(path / name) != record.sha256:
+        if sha256(path / name) != record.sha256:
             raise DataError(f"{path / name}: changed after it was written; {ADVICE}")
 
 
@@ -201,30 +189,11 @@ def _bytes_done(data: Path, names: tuple[str, ...], progress: Progress) -> Step:
     return step
 
 
-@contextmanager
-def _new_directory(out: Path) -> Iterator[Path]:
-    """A directory that appears under its name when the block is done; if that fails, nothing is left."""
-    out.parent.mkdir(parents=True, exist_ok=True)
-    directory = Path(tempfile.mkdtemp(prefix=f".{out.name}-", dir=out.parent))
-    try:
-        yield directory
-        directory.chmod(0o755)
-        directory.rename(out)
-        sync(out.parent)
-    finally:
-        shutil.rmtree(directory, ignore_errors=True)
-
-
 def _write_manifest(directory: Path, scenes: tuple[StoredScene, ...]) -> None:
-    """Flush all files to disk, then write what they are."""
-    files = {}
-    for file in sorted(directory.iterdir()):
-        sync(file)
-        files[file.name] = FileRecord(sha256=_sha256(file), bytes=file.stat().st_size)
+    """Write what the files of a directory are."""
     records = tuple(SceneRecord(name=s.name, scene_name=s.scene_name, cells=s.cells, poses=s.poses) for s in scenes)
-    (directory / MANIFEST).write_text(Manifest(scenes=records, files=files).model_dump_json(indent=2) + "\n")
-    sync(directory / MANIFEST)
-    sync(directory)
+    manifest = Manifest(scenes=records, files=file_records(directory))
+    (directory / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
 
 
 def _read_manifest(path: Path) -> Manifest:
@@ -236,6 +205,8 @@ def _read_manifest(path: Path) -> Manifest:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"])
         raise DataError(f"{path / MANIFEST}: {field}: {first['msg']}; {ADVICE}") from error
+    if manifest.format != FORMAT:
+        raise DataError(f"{path}: has format {manifest.format}, this hereabouts reads {FORMAT}; {ADVICE}")
     expected = {STRINGS, *(f"{name}.npy" for name in COLUMNS)}
     if set(manifest.files) != expected:
         odd = sorted(expected ^ set(manifest.files))
@@ -249,8 +220,3 @@ def _map_column(file: Path) -> Column:
     except (ValueError, OSError, EOFError) as error:
         raise DataError(f"{file}: no column of numbers; {ADVICE}") from error
     return column
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -21,7 +21,6 @@ COLUMNS: dict[str, tuple[str, str, tuple[int, ...]]] = {
     "cell_size_m": ("cells", "<f8", ()),
     "cell_bbox_m": ("cells", "<f8", (6,)),
     "cell_objects": ("cells", "<i4", ()),
-    "object_id": ("objects", "<i8", ()),
     "object_instance": ("objects", "<i8", ()),
     "object_label": ("objects", "<i4", ()),
     "object_points": ("objects", "<i4", ()),
@@ -38,35 +37,16 @@ COLUMNS: dict[str, tuple[str, str, tuple[int, ...]]] = {
     "rgb_f4": ("rgb_f4", "<f4", (3,)),
     "rgb_f8": ("rgb_f8", "<f8", (3,)),
     "pose_cell": ("poses", "<i4", ()),
-    "pose_offset": ("poses", "<f8", (3,)),
     "pose_world_m": ("poses", "<f8", (3,)),
     "pose_strategy": ("poses", "<i4", ()),
     "pose_hints": ("poses", "<i4", ()),
     "hint_object": ("hints", "<i4", ()),
-    "hint_object_id": ("hints", "<i8", ()),
-    "hint_instance": ("hints", "<i8", ()),
     "hint_label": ("hints", "<i4", ()),
     "hint_colour": ("hints", "<i4", ()),
     "hint_direction": ("hints", "|u1", ()),
-    "hint_flags": ("hints", "|u1", ()),
-    "hint_rgb": ("hints", "<f8", (3,)),
-    "hint_offset_center": ("hints", "<f8", (3,)),
-    "hint_offset_closest": ("hints", "<f8", (3,)),
-    "hint_closest_point": ("hints", "<f8", (3,)),
-    "hint_best_center": ("hints", "<f8", (3,)),
-    "hint_best_closest": ("hints", "<f8", (3,)),
 }
 XYZ_POOLS = ("xyz_world", "xyz_f4", "xyz_f8")  # by kind
 RGB_POOLS = ("rgb_u1", "rgb_f4", "rgb_f8")
-IS_MATCHED, HAS_ID, RGB_IS_FLOAT32 = 1, 2, 4  # bits of hint_flags
-# Vectors of a hint; NaN where a vector, or its third number, is not stored (stored numbers are finite).
-HINT_VECTORS = {
-    "hint_offset_center": "offset_center",
-    "hint_offset_closest": "offset_closest",
-    "hint_closest_point": "closest_point",
-    "hint_best_center": "best_offset_center",
-    "hint_best_closest": "best_offset_closest",
-}
 
 
 def empty(name: str) -> Column:
@@ -76,7 +56,7 @@ def empty(name: str) -> Column:
 
 
 def in_cell_units(world: Floats, low: Floats, size: float) -> Floats:
-    """[P, 3] float64 as preparation computes it (kitti360pose.md, rule 4) from [P, 3] float32 world metres."""
+    """[P, 3] float64 as preparation computes it (docs/formats.md, rule 4) from [P, 3] float32 world metres."""
     units: Floats = (world - low) / size
     return units
 
@@ -110,7 +90,7 @@ def find_problem(columns: Mapping[str, Column], num_words: int, num_scenes: int)
         if found.dtype != np.dtype(dtype) or found.shape != (len(columns[first]), *shape):
             return f"{name} has dtype {found.dtype} and shape {list(found.shape)}"
     points = columns["object_points"].astype(np.int64)
-    sizes = {"cell_objects": "object_id", "pose_hints": "hint_object"}
+    sizes = {"cell_objects": "object_label", "pose_hints": "hint_object"}
     for name, rows in sizes.items():
         if (columns[name] < 0).any() or columns[name].sum(dtype=np.int64) != len(columns[rows]):
             return f"{name} does not add up to {len(columns[rows])}"

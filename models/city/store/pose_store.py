@@ -10,14 +10,9 @@ import numpy.typing as npt
 
 from models.city.cells import CellTable, Parts
 from models.city.kitti360pose.files import select_scenes
-from models.city.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 from models.city.point_sample import sample_points, samples
 from models.city.points import Ints, ranges
 from models.city.store.layout import (
-    HAS_ID,
-    HINT_VECTORS,
-    IS_MATCHED,
-    RGB_IS_FLOAT32,
     RGB_POOLS,
     XYZ_POOLS,
     Column,
@@ -27,7 +22,7 @@ from models.city.store.layout import (
     starts_of,
 )
 from models.city.store.pose_table import PoseTable
-from models.city.types import DIRECTIONS, Description, Floats, Pose
+from models.city.types import Floats
 from models.errors import DataError
 
 
@@ -176,15 +171,9 @@ class PoseStore:
             label=c["hint_label"][hints],
             colour=c["hint_colour"][hints],
             # One more, so that -1, no instance, stays -1.
-            instance=np.append(_positions(self._object_rows, len(c["object_id"])), -1)[c["hint_object"][hints]],
+            instance=np.append(_positions(self._object_rows, len(c["object_label"])), -1)[c["hint_object"][hints]],
             words=self.words,
         )
-
-    def pose(self, q: int) -> Pose:
-        """Pose q as ground truth; its hints name instances by row."""
-        table = self.poses
-        cell_id = self.cell_ids[table.cell[q]]
-        return Pose(table.positions_m[q], cell_id, Description(table.hints(q)), table.strategies[q])
 
     def instance_points(self, row: int) -> tuple[Floats, Floats]:
         """The points of one instance, as stored.
@@ -200,52 +189,6 @@ class PoseStore:
         rows = self.cell_rows[cells]
         objects = ranges(self._cell_starts[rows], self._cell_starts[rows + 1])
         return samples([sample_points(*self._points(row)) for row in objects.tolist()])
-
-    def published_cell(self, n: int) -> PublishedCell:
-        """Cell n, every value as published."""
-        c, row = self.columns, self.cell_rows[n]
-        return PublishedCell(
-            id=self.all_cell_ids[row],
-            scene_name=self.all_scenes[c["cell_scene"][row]].scene_name,
-            objects=tuple(self._published_object(r) for r in range(self._cell_starts[row], self._cell_starts[row + 1])),
-            cell_size=float(c["cell_size_m"][row]),
-            bbox_w=np.array(c["cell_bbox_m"][row]),
-        )
-
-    def published_pose(self, q: int) -> PublishedPose:
-        """Pose q, every value as published."""
-        c, row = self.columns, self.pose_rows[q]
-        cell = c["pose_cell"][row]
-        return PublishedPose(
-            pose=np.array(c["pose_offset"][row]),
-            pose_w=np.array(c["pose_world_m"][row]),
-            cell_id=self.all_cell_ids[cell],
-            scene_name=self.all_scenes[c["cell_scene"][cell]].scene_name,
-            described_by=self.words[c["pose_strategy"][row]],
-            descriptions=tuple(
-                self._published_hint(h) for h in range(self._hint_starts[row], self._hint_starts[row + 1])
-            ),
-        )
-
-    def _published_object(self, row: int) -> PublishedObject:
-        c = self.columns
-        numbers = int(c["object_id"][row]), int(c["object_instance"][row])
-        return PublishedObject(*numbers, *self._points(row), self.words[c["object_label"][row]])
-
-    def _published_hint(self, row: int) -> PublishedHint:
-        c = self.columns
-        flags = c["hint_flags"][row]
-        rgb = c["hint_rgb"][row].astype(np.float32 if flags & RGB_IS_FLOAT32 else np.float64)
-        return PublishedHint(
-            object_id=int(c["hint_object_id"][row]) if flags & HAS_ID else None,
-            object_instance_id=int(c["hint_instance"][row]),
-            object_label=self.words[c["hint_label"][row]],
-            object_color_rgb=rgb,
-            object_color_text=self.words[c["hint_colour"][row]],
-            direction=DIRECTIONS[c["hint_direction"][row]],
-            is_matched=bool(flags & IS_MATCHED),
-            **{attribute: _stored(c[name][row]) for name, attribute in HINT_VECTORS.items()},  # type: ignore[arg-type]
-        )
 
     def _points(self, row: int) -> tuple[Floats, Floats]:
         c = self.columns
@@ -284,10 +227,3 @@ def _positions(rows: Ints, size: int) -> Ints:
     positions: npt.NDArray[np.int64] = np.full(size, -1, dtype=np.int64)
     positions[rows] = np.arange(len(rows))
     return positions
-
-
-def _stored(row: Floats) -> Floats | None:
-    """A vector of a hint as it was stored; see HINT_VECTORS."""
-    if np.isnan(row[0]):
-        return None
-    return np.array(row[:2] if np.isnan(row[2]) else row)

@@ -45,7 +45,3 @@ class PoseTable:
             )
             for h in range(self.starts[q], self.starts[q + 1])
         )
-
-    def text(self, q: int) -> str:
-        """The description of pose q in the published words (kitti360pose.md, rule 8)."""
-        return " ".join(f"The pose is {h.direction} of a {h.colour} {h.label}." for h in self.hints(q))

@@ -51,7 +51,7 @@ def _end(world_m: Floats, cells: float) -> int | None:
 
 
 def spaced(world_m: Floats, spacing_m: float) -> Ints:
-    """[L] rows of the poses that are locations: far enough from all before (kitti360pose.md, rule 3)."""
+    """[L] rows of the poses that are locations: far enough from all before (docs/formats.md, rule 3)."""
     kept = np.full_like(world_m, np.inf)
     rows: list[int] = []
     for row, position in enumerate(world_m):

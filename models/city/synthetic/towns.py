@@ -1,12 +1,11 @@
 """Made-up towns in KITTI-360's raw format: nothing in them was ever scanned.
 
 They stand in for KITTI-360, which cannot be redistributed: streets, blocks and furniture with its classes, near-grey
-colours and point densities, so that they pass through the same preparation (kitti360pose.md) and give cells like its
+colours and point densities, so that they pass through the same preparation (docs/formats.md) and give cells like its
 own. The scenes take the names of KITTI-360's drives, so that the standard split works on what is prepared from them.
 Every number drawn comes from the seed: one seed, one set of files.
 """
 
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -26,6 +25,7 @@ from models.city.synthetic.streets import build_streets
 from models.city.synthetic.styles import STYLES, Style, draw_habits
 from models.city.types import Floats
 from models.errors import DataError
+from models.files import new_directory
 
 # Cells a town, in order of STANDARD_SPLITS; "full" is KITTI360Pose's size: 11,259 / 1,434 / 4,308.
 SIZES: dict[str, dict[str, tuple[int, ...]]] = {
@@ -97,18 +97,14 @@ def write_towns(
 
 @contextmanager
 def _whole_or_not(out: Path) -> Iterator[Path]:
-    """A folder to write into, beside `out`, which takes its place if nothing is raised.
+    """`new_directory`.
 
     Raises:
         DataError: it cannot be written.
     """
     try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{out.name}.", dir=out.parent) as beside:
-            root = Path(beside) / out.name  # unlike `beside`, open to those whom the user lets read new folders
-            root.mkdir()
+        with new_directory(out) as root:
             yield root
-            root.replace(out)
     except OSError as error:
         raise DataError(f"{out}: cannot be written: {error.strerror or error}") from error
 

@@ -70,7 +70,7 @@ class Wording:
         return suited, spoil(said, rng)
 
     def published(self, facts: Sequence[Fact]) -> LabelledText:
-        """The benchmark's sentences, one a fact (kitti360pose.md, rule 8), in the order of the facts."""
+        """The benchmark's sentences, one a fact (docs/formats.md, rule 8), in the order of the facts."""
         said = LabelledText("", ())
         for n, fact in enumerate(facts):
             before = f"The pose is {fact.relation} of a {fact.colour + ' ' if fact.colour else ''}"

@@ -13,8 +13,8 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file, save
 from torch import Tensor
 
+from models.files import replace_file
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.training.engine.run_dir import replace_file
 
 ENCODE_BATCH = 256  # sentences
 _FORMAT = 1  # of the files; counted up when what is in them changes

@@ -116,6 +116,12 @@ class History:
     best: float = -math.inf
     stopped_early: bool = False
 
+    @property
+    def facts(self) -> dict[str, Any]:
+        """What the weights' record keeps of it."""
+        rows = [{"step": row.step, "loss": row.loss} | row.figures for row in self.rows]
+        return {"history": rows, "best_step": self.best_step}
+
 
 def run_training(
     task: Task,

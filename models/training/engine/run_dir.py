@@ -12,7 +12,6 @@ Tensors are safetensors and all else is JSON: reading them runs nothing. Each fi
 import csv
 import io
 import json
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -26,6 +25,7 @@ from safetensors.torch import save
 from torch import Tensor, nn
 
 from models.errors import TrainingError
+from models.files import replace_file
 
 CONFIG_FILE, METRICS_FILE, CURVES_FILE = "config.json", "metrics.csv", "curves.png"
 BEST_FILE, STATE_FILE = "best.safetensors", "state.safetensors"
@@ -168,13 +168,14 @@ class RunDir:
         Args:
             path: made if it is missing.
             resume: whether a run that stands there goes on; otherwise there must be none.
-            record: the settings, JSON; a run goes on with the same.
+            record: the settings, what JSON can hold; a run goes on with the same.
 
         Raises:
             TrainingError: a run stands there and is not to be resumed, or was made with other settings.
         """
         path.mkdir(parents=True, exist_ok=True)
         run_dir = cls(path)
+        record = json.loads(json.dumps(record))  # as it will be read
         if (path / STATE_FILE).is_file():
             if not resume:
                 raise TrainingError(f"{path} holds a run; go on with --resume, or take another directory")
@@ -217,19 +218,6 @@ class RunDir:
         replace_file(self.path / BEST_FILE, save(_plain(best_weights)))
         metadata = {"facts": json.dumps(state.facts)}
         replace_file(self.path / STATE_FILE, save(_plain(state.tensors), metadata))
-
-
-def replace_file(path: Path, content: bytes) -> None:
-    """Write a file so that a reader, or a restart after a crash, finds the old one or the new one, never a part."""
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        with beside.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        beside.replace(path)
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def _facts(metadata: dict[str, str]) -> dict[str, Any]:

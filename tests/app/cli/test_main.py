@@ -54,7 +54,7 @@ def test_table_has_the_candidates_and_the_radius(opened):
     assert "fakeville_00002" not in result.stdout
     assert "60.170000, 24.940000" in result.stdout
     assert "12 m (p50)" in result.stdout
-    assert fake.batches[0][0].hints == ("I am north of a gray building.", "A black pole is to my west.")
+    assert fake.batches[0][0].description == TEXT
     assert calls == [(Path("data/index"), None)]
 
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 from fake_localizer import FakeLocalizer
 
@@ -60,7 +62,7 @@ def test_etag_is_of_the_index_the_cell_and_the_format(api, fake):
     etag = api.get(PATH).headers["etag"]
     assert api.get(PATH).headers["etag"] == etag
     assert api.get(PATH, headers=GEO).headers["etag"] != etag
-    fake.index_version = "v2"
+    fake.facts = replace(fake.facts, version="v2")
     response = api.get(PATH, headers={"If-None-Match": etag})
     assert response.status_code == 200
     assert response.headers["etag"] != etag

@@ -40,7 +40,7 @@ def data_dir(tmp_path):
     return tmp_path / "data"
 
 
-def test_queries_become_sentences_and_metres(api, submitted):
+def test_queries_become_texts_and_metres(api, submitted):
     body = {"queries": [ASKED, {"hints": [" a tree "], "position": [3, 4]}], "grow": [200, 300.5]}
     response = api.post("/evaluate", json=body)
     assert response.status_code == 202
@@ -49,7 +49,7 @@ def test_queries_become_sentences_and_metres(api, submitted):
     assert accepted["links"]["events"] == f"/evaluate/{accepted['job']}/events"
     assert accepted["status"] == "queued"
     [evaluation] = submitted
-    assert evaluation.sentences == [("I am north of a gray building.", "A pole is to my west."), ("a tree",)]
+    assert evaluation.descriptions == ["I am north of a gray building. A pole is to my west.", " a tree "]
     assert evaluation.positions_m == [(1, 2), (3, 4)]
     assert evaluation.grow_m == [200, 300.5]
     assert evaluation.index_dir.is_absolute()

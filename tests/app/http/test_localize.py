@@ -7,7 +7,7 @@ import pytest
 from fake_localizer import TRUE_FRAME, FakeLocalizer
 
 from app.http.requests import request_model
-from app.http.routes.localize import to_query
+from app.http.routes.localize import check_reach
 from app.settings import Settings
 from index.answers import Box, Circle, Prior, Query
 from models.city.frame import Frame
@@ -43,19 +43,17 @@ def test_answer_has_exactly_the_names_of_the_api(api, text):
     assert body["provenance"] == {
         "index": "default",
         "index_version": "v1",
-        "model": "fake",
-        "model_sha256": "ab" * 32,
+        "model": "posterior/fake",
+        "model_sha256": "cd" * 32,
         "map": "fakeville",
         "attribution": "© nobody",
     }
     assert set(body["timings_ms"]) == {"encode", "search", "estimate", "queue", "total"}
 
 
-def test_description_is_split_into_hints_and_defaults_are_the_apis(api, fake, text):
+def test_description_goes_on_as_it_is_and_defaults_are_the_apis(api, fake, text):
     api.post("/localize", json={"description": text})
-    assert fake.batches == [
-        [Query(("I am north of a gray building.", "A black pole is to my west."), top_k=5, refine="posterior")]
-    ]
+    assert fake.batches == [[Query(text, top_k=5, refine="posterior")]]
 
 
 def test_hints_filter_and_prior_reach_the_localizer(api, fake):
@@ -63,8 +61,8 @@ def test_hints_filter_and_prior_reach_the_localizer(api, fake):
     api.post("/localize", json={"hints": [" one tree ", "two trees"], "top_k": 1, **where})
     api.post("/localize", json={"hints": ["a tree"], "within": {"bbox": [24.9, 60.1, 25, 60.2]}, "crs": "wgs84"})
     assert fake.batches == [
-        [Query(("one tree", "two trees"), 1, Circle((1, 2.5), 30), Prior((3, 4), 50), refine="posterior")],
-        [Query(("a tree",), 5, Box(24.9, 60.1, 25, 60.2), crs="wgs84", refine="posterior")],
+        [Query(" one tree \ntwo trees", 1, Circle((1, 2.5), 30), Prior((3, 4), 50), refine="posterior")],
+        [Query("a tree", 5, Box(24.9, 60.1, 25, 60.2), crs="wgs84", refine="posterior")],
     ]
 
 
@@ -139,7 +137,7 @@ def test_wrong_field_is_named(refused, body, field):
         body = {"description": "a tree", **body}
     settings = Settings()
     model = request_model(settings)
-    fields, _ = refused(lambda body: to_query(model.model_validate(body), settings.max_hints, TRUE_FRAME), body)
+    fields, _ = refused(lambda body: check_reach(model.model_validate(body), TRUE_FRAME), body)
     assert field in fields
 
 
@@ -182,7 +180,7 @@ def test_box_may_reach_where_the_projection_does_not(api):
 def test_text_in_any_script_passes(api, fake):
     body = {"description": "我在一栋灰色建筑的北边。\n나무 옆에 있어요 🌳"}
     assert api.post("/localize", json=body).status_code == 200
-    assert fake.batches[0][0].hints == ("我在一栋灰色建筑的北边。", "나무 옆에 있어요 🌳")
+    assert fake.batches[0][0].description == body["description"]
 
 
 def test_limits_come_from_the_settings(settings, fake, start, problem):

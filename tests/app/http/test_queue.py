@@ -10,11 +10,11 @@ from index.answers import Query
 
 
 def ask(name):
-    return Query((name,))
+    return Query(name)
 
 
 def names(batch):
-    return [query.hints[0] for query in batch]
+    return [query.description for query in batch]
 
 
 def soon(seconds=5.0):

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
+from models.posterior.model import load_posterior
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +29,11 @@ def test_description_gets_a_position_and_cells_that_exist(served, text):
     cell = served.get(f"/cells/{body['candidates'][0]['cell_id']}").json()
     assert cell["bbox"] == body["candidates"][0]["bbox"]
     assert cell["instances"]
-    assert body["provenance"] == served.get("/info").json()["index"]["provenance"]
+    indexed = served.get("/info").json()["index"]["provenance"]
+    shipped = load_posterior()
+    assert body["provenance"] == indexed | {"model": shipped.name, "model_sha256": shipped.fingerprint}
+    vectors = served.post("/localize", json={"description": text, "refine": "none"}).json()
+    assert vectors["provenance"] == indexed
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,9 @@ from typer.testing import CliRunner
 from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
-from index.map_data import load_queries
 from index.ranking import Ranker
+from models.city.queries import Queries
+from models.city.source import open_source
 
 TIMEOUT_S = 120
 
@@ -50,7 +51,7 @@ def evaluate(served, body):
 
 @pytest.fixture(scope="module")
 def queries(osm_file):
-    _, asked = load_queries(osm_file, "test")
+    asked = open_source(osm_file, "test").queries()
     told = [
         {"description": " ".join(asked.sentences[q]), "position": asked.positions_m[q].tolist()}
         for q in range(0, len(asked), 8)
@@ -79,11 +80,10 @@ def test_data_set_by_name_gets_the_report_of_the_command_line(served, command_li
 def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, localizer):
     """The index's own vectors against vectors made anew."""
     from index.evaluation.evaluation import evaluate as run
-    from index.map_data import ask
 
     data = localizer.map_data()
-    _, asked = load_queries(osm_file)
-    mine = ask(data.cells, asked.sentences[::40], asked.positions_m[::40])
+    asked = open_source(osm_file).queries()
+    mine = Queries.of_text(asked.sentences[::40], asked.positions_m[::40], data.cells)
     made = Ranker.of(localizer.retriever, data.cells, data.gallery.labels)
     stored, anew = (run(data, mine, ranker) for ranker in (localizer.ranker, made))
     assert stored == anew

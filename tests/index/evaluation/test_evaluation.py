@@ -7,27 +7,25 @@ import pytest
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate, grow, rescore
 from index.evaluation.predictions import FILE, Predictions
-from index.map_data import ask, load_map, load_queries
 from index.ranking import Ranker
+from index.vector_localizer import VectorLocalizer
 from models.city.hints import hint_table
+from models.city.queries import Queries
+from models.city.source import open_source
 from models.city.types import DIRECTIONS
-from models.errors import DataError, MapError
+from models.errors import DataError
 
 
 @pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file)
+def vectors(asked, model):
+    data = asked[0]
+    return VectorLocalizer.of_map(data, Ranker.of(model, data.cells, data.gallery.labels))
 
 
 @pytest.fixture(scope="module")
-def ranker(asked, model):
-    return Ranker.of(model, asked[0].cells, asked[0].gallery.labels)
-
-
-@pytest.fixture(scope="module")
-def run_dir(asked, ranker, tmp_path_factory):
+def run_dir(asked, vectors, tmp_path_factory):
     directory = tmp_path_factory.mktemp("report")
-    evaluate(*asked, ranker, directory, [60, 120])
+    evaluate(*asked, vectors, directory, [60, 120])
     return directory
 
 
@@ -71,8 +69,8 @@ def test_chance_is_what_random_candidates_reach(report, asked) -> None:
     assert report["chance"]["localization"]["5"]["15"] == pytest.approx(np.mean(errors <= 15), abs=0.01)
 
 
-def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, ranker) -> None:
-    assert evaluate(*asked, ranker, None, [120, 60]) == report
+def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, vectors) -> None:
+    assert evaluate(*asked, vectors, None, [120, 60]) == report
     written = (run_dir / "report.json").read_bytes()
     assert rescore(run_dir) == report
     assert (run_dir / "report.json").read_bytes() == written
@@ -115,12 +113,12 @@ def test_another_scene_is_never_a_hit(run_dir) -> None:
     assert np.isinf(elsewhere.errors_m()).all()
 
 
-def test_a_query_far_from_every_cell_is_asked_and_missed(asked, ranker) -> None:
+def test_a_query_far_from_every_cell_is_asked_and_missed(asked, vectors) -> None:
     data, queries = asked
     positions = queries.positions_m[:2] + np.array([[0, 0], [1e4, 0]])
-    own = ask(data.cells, queries.sentences[:2], positions)
+    own = Queries.of_text(queries.sentences[:2], positions, data.cells)
     assert own.truth.tolist() == [queries.truth[0], -1]
-    found = evaluate(data, own, ranker)
+    found = evaluate(data, own, vectors)
     assert found["queries_without_cell"] == 1
     assert max(found["retrieval"]["5"], found["localization"]["10"]["15"]) <= 0.5
 
@@ -140,17 +138,9 @@ def test_broken_predictions_are_refused(run_dir, tmp_path) -> None:
         rescore(tmp_path)
 
 
-def test_regions_ask_only_about_themselves(osm_file, asked) -> None:
-    data, queries = load_queries(osm_file, "test")
-    assert 0 < len(queries) < len(asked[1])
-    assert queries.positions_m[:, 0].min() > data.cells.center_m[:, 0].min() - 15
-    assert load_map(osm_file, "test").cells.ids == data.cells.ids
-    with pytest.raises(MapError, match="no split"):
-        load_map(osm_file, "east")
-
-
 def test_exact_matching_against_a_naive_count(osm_file) -> None:
-    data, queries = load_queries(osm_file, "val")
+    val = open_source(osm_file, "val")
+    data, queries = val.data, val.queries()
     assert queries.hints
     hints, truths = queries.hints[::9], queries.truth[::9]
     table = hint_table(data.palette, data.cells.parts, data.cells.center_m)

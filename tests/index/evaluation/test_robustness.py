@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 import torch
 
-from index.evaluation.candidates import SIZES, SOURCES, candidate_recall, candidate_table, in_turns
-from index.evaluation.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_table
-from index.map_data import load_queries
-from index.map_posterior import MapPosterior
+from index.evaluation.candidates import SIZES, SOURCES, candidate_recall
+from index.evaluation.robustness import Trial, _damage, all_trials, nearest_hints, robustness, robustness_tables
+from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
+from index.vector_localizer import VectorLocalizer
 from models.city.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
+from models.posterior.surroundings import Surroundings
 
 HINTS = tuple(
     Hint(direction, label, colour)
@@ -20,11 +21,6 @@ HINTS = tuple(
         ("west", "building", "red"), ("on-top", "footpath", "gray"), ("north", "bollard", None),
     )
 )  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file, None)
 
 
 def test_trials_say_what_their_name_says(asked):
@@ -41,10 +37,10 @@ def test_trials_say_what_their_name_says(asked):
     assert free not in (" ".join(plain), " ".join(said["free wording, three typos"]))
 
 
-def test_hints_about_the_nearest_things_are_true(asked):
+def test_hints_about_the_nearest_things_are_true(source, asked):
     data, queries = asked
     some = queries.take(np.arange(0, len(queries), 3))
-    around = data.around(lambda *_: None)
+    around = Surroundings.of(source.bodies(), data.cells)
     told = nearest_hints(data, some.positions_m, some.truth, around, 12)
     assert 6 < max(map(len, told)) <= 12
     shared = [
@@ -56,7 +52,7 @@ def test_hints_about_the_nearest_things_are_true(asked):
     assert np.mean(shared) > 0.8, "the six nearest things are among the eight nearest"
 
 
-def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
+def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_encoder):
     torch.manual_seed(0)
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 6))
@@ -64,25 +60,23 @@ def test_retriever_and_posterior_stand_side_by_side(asked, model, text_encoder):
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
     untrained.matcher = load_posterior().matcher  # knows the names already
-    posterior = MapPosterior(untrained, data.gallery, data.palette, data.around(lambda *_: None))
-    found = robustness(data, some, ranker, posterior, lambda *_: None)
-    head, table = robustness_table(found)
+    posterior = PosteriorLocalizer.of_map(untrained, data, ranker, Surroundings.of(source.bodies(), data.cells))
+    vectors = VectorLocalizer.of_map(data, ranker)
+    found = robustness(data, some, vectors, posterior, lambda *_: None)
+    (head, table), *of_candidates = robustness_tables(found)
     assert len(table) == len(all_trials(data))
     assert all(len(row) == len(head) for row in table)
-    for row in found:
+    for row in found["trials"]:
         assert 0 <= row["posterior"]["retrieval"]["1"] <= 1
-    rows_of_candidates = candidate_recall(some, ranker, posterior)
-    assert len(candidate_table(rows_of_candidates)[1]) == len(SOURCES)
-    vectors, by_list, both = ([row["recall"][str(size)] for size in SIZES] for row in rows_of_candidates)
-    assert both[1] >= max(vectors[0], by_list[0]), "twenty of both hold ten of each"
-    first = [ranker.rank([ranker.retriever.encode_description(s)], 10)[1][0] for s in some.sentences]
-    assert vectors[0] == pytest.approx(np.mean([t in r for t, r in zip(some.truth, first, strict=True)]))
+    names = [head[0].split(":")[0] for head, _ in of_candidates]
+    assert names == list(found["candidates"]) == ["template text", "free wording, unseen grammar"]
+    assert all(len(rows) == len(SOURCES) for _, rows in of_candidates)
+    raw, _, by_list, both = ([row["recall"][str(n)] for n in SIZES] for row in candidate_recall(some, posterior))
+    assert all(b >= o for b, o in zip(both, by_list, strict=True)), "both hold what one holds"
+    first = [ranker.search([ranker.retriever.encode_description(s)], 10)[1][0] for s in some.sentences]
+    assert raw[0] == pytest.approx(np.mean([t in r for t, r in zip(some.truth, first, strict=True)]))
     with pytest.raises(DataError, match="what the hints mean"):
-        robustness(data, replace(some, hints=None), ranker, posterior, lambda *_: None)
-
-
-def test_two_orders_in_turns() -> None:
-    assert in_turns(np.array([3, 1, 2]), np.array([1, 4, 3])).tolist() == [3, 1, 4, 2]
+        robustness(data, replace(some, hints=None), vectors, posterior, lambda *_: None)
 
 
 def test_points_of_a_damaged_map_are_those_of_the_parts_that_are_left(asked) -> None:

@@ -17,7 +17,7 @@ from models.city.kitti360.job import prepare_data
 from models.city.kitti360.rules import PrepareConfig
 from models.city.kitti360pose.files import Scene, save_scene
 from models.city.kitti360pose.pickle_values import RECORD_MODULE, RECORDS, Record
-from models.city.kitti360pose.pickle_writer import RecordPickler
+from models.city.kitti360pose.pickle_writer import write_records
 from models.city.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 from models.city.store.pose_store import PoseStore
 from models.city.types import DIRECTIONS
@@ -84,6 +84,29 @@ def assert_same(a: object, b: object) -> None:
         assert a == b
 
 
+def assert_kept(store: PoseStore, cells: list[PublishedCell], poses: list[PublishedPose]) -> None:
+    """A store shows published cells and poses, all of its points and numbers to the last bit."""
+    table, found = store.cell_table(), store.poses
+    assert [*zip(table.ids, table.scenes, strict=True)] == [(cell.id, cell.scene_name) for cell in cells]
+    assert np.array_equal(table.center_m, [(cell.bbox_w[:3] + cell.bbox_w[3:]) / 2 for cell in cells])
+    assert np.diff(table.parts.starts).tolist() == [len(cell.objects) for cell in cells]
+    items = [item for cell in cells for item in cell.objects]
+    assert table.parts.instance.tolist() == list(range(len(items)))
+    assert [*zip(store.instance_ids, store.labels, strict=True)] == [(item.instance_id, item.label) for item in items]
+    for row, item in enumerate(items):
+        assert_same(store.instance_points(row), (item.xyz, item.rgb))
+    assert np.array_equal(found.positions_m, [pose.pose_w for pose in poses])
+    assert found.strategies == tuple(pose.described_by for pose in poses)
+    for q, pose in enumerate(poses):
+        cell, start = cells[found.cell[q]], table.parts.starts[found.cell[q]]
+        assert cell.id == pose.cell_id
+        for hint, ours in zip(pose.descriptions, found.hints(q), strict=True):
+            said = hint.direction, hint.object_label, hint.object_color_text
+            assert (ours.direction, ours.label, ours.colour) == said
+            meant = None if ours.instance_id is None else cell.objects[ours.instance_id - start].id
+            assert meant == (hint.object_id if hint.is_matched else None)
+
+
 def make_cell(number: int = 0, num_objects: int = 3, num_points: int = 7) -> PublishedCell:
     rng = np.random.default_rng(number)
     objects = tuple(
@@ -125,7 +148,7 @@ def root(tmp_path: Path) -> Path:
 
 def dump(path: Path, records: list[Record]) -> Path:
     with path.open("wb") as file:
-        RecordPickler(file).dump(records)
+        write_records(file, records)
     return path
 
 
@@ -208,11 +231,6 @@ def data(scenes: list[Scene], tmp_path: Path) -> Path:
     for scene in scenes:
         save_scene(tmp_path / "data", scene.name, scene.cells, scene.poses)
     return tmp_path / "data"
-
-
-def published(store: PoseStore) -> tuple[list[PublishedCell], list[PublishedPose]]:
-    cells = [store.published_cell(n) for n in range(len(store.cell_ids))]
-    return cells, [store.published_pose(q) for q in range(len(store.poses))]
 
 
 @pytest.fixture(scope="session")

@@ -2,17 +2,15 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.hints import sample_positions
 from models.localization.checkpoint import FINE_METHODS
 from models.retrieval.instance_encoder import CellFeatures
 from models.training.fine_data import FineSet
-from models.training.retrieval_data import TrainingPlace, TrainingSet
+from models.training.retrieval_data import TrainingSet
 
 
 @pytest.fixture(scope="session")
-def fine_set(city, points, cells, text_encoder):
-    positions = sample_positions(city.locations_m, 30.0, np.random.default_rng(0))
-    return FineSet(TrainingSet(TrainingPlace.of_map(city, points, cells, positions), text_encoder))
+def fine_set(source, text_encoder):
+    return FineSet(TrainingSet(source.statements(30.0, np.random.default_rng(0)), text_encoder))
 
 
 @pytest.fixture(scope="session")

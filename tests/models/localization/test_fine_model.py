@@ -5,7 +5,6 @@ import torch
 from models.errors import WeightsError
 from models.localization.checkpoint import FINE_METHODS, load_fine, save_fine
 from models.localization.fine_model import CrossAttentionRound, Truth, nearest
-from models.localization.hint_cache import HintCache
 from models.localization.matching import MatchingConfig, sinkhorn
 from models.training.fine_data import FineBatch
 
@@ -159,21 +158,6 @@ def test_the_instances_meant_survive_the_choice_of_the_nearest(fine_model, fine_
         column = int(batch.truth.match[b, h])
         expected = batch.cells.geometry[b, column, :2] / 2 + 0.5
         assert torch.equal(seen.center[b, i], expected)
-
-
-def test_a_hint_is_read_once_while_it_is_remembered() -> None:
-    read = []
-
-    def lengths(sentences):
-        read.extend(sentences)
-        return torch.tensor([[float(len(s))] for s in sentences])
-
-    cache = HintCache(lengths, 2)
-    assert {k: v.item() for k, v in cache(["a", "bb", "a"]).items()} == {"a": 1, "bb": 2}
-    assert [v.item() for v in cache(["ccc", "a"]).values()] == [3, 1]
-    cache(["bb"])
-    assert read == ["a", "bb", "ccc", "bb"], "the oldest was forgotten"
-    assert len(cache) == 2
 
 
 def test_saved_and_loaded_is_the_same(fine_model, features, tmp_path) -> None:

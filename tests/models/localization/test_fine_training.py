@@ -4,20 +4,22 @@ import numpy as np
 import pytest
 import torch
 
+from models.city.queries import Queries
+from models.city.source import open_source
 from models.city.store.files import load_data
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineConfig, FineModel
 from models.localization.regressor import Regressor, RegressorConfig
 from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, reflect_offset
 from models.training.fit_fine import FineTask, train_fine
-from models.training.retrieval_data import SYMMETRIES, TrainingPlace, TrainingSet, reflect
+from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect
 from models.training.settings import TrainingConfig
-from models.training.sources import Source, ValidationQueries, load_source, source_of_map
+from models.training.training_data import TrainingData, load_training
 
 
 @pytest.fixture(scope="module")
 def store_set(streets, text_encoder):
-    return FineSet(TrainingSet(TrainingPlace.of_store(load_data(streets, "train")), text_encoder))
+    return FineSet(TrainingSet(open_source(streets, "train").statements(0.0, np.random.default_rng(0)), text_encoder))
 
 
 @pytest.fixture(scope="module", params=["map", "store"])
@@ -26,12 +28,12 @@ def either(request, fine_set, store_set):
 
 
 def test_cloned_cells_contain_the_position_and_are_of_its_scene(either) -> None:
-    cells, training = either.place.cells, either.training
+    cells, training = either.cells, either.training
     assert len(either.neighbours) > len(training)
     for n in range(0, len(training.best), 7):
         found = either.neighbours[either.neighbour_starts[n] : either.neighbour_starts[n + 1]]
         best = int(training.best[n])
-        away = np.abs(cells.center_m[:, :2] - training.place.positions_m[n, :2]).max(axis=1)
+        away = np.abs(cells.center_m[:, :2] - either.positions_m[n]).max(axis=1)
         naive = [c for c in range(len(cells)) if away[c] <= cells.size_m / 2 and cells.scenes[c] == cells.scenes[best]]
         assert sorted([best, *found.tolist()]) == naive
 
@@ -48,11 +50,9 @@ def test_half_of_the_cells_are_cloned_or_none(either) -> None:
 
 def test_targets_turn_with_the_cell(either) -> None:
     rows = np.arange(8)
-    positions = either.place.cells.center_m[rows, :2] + np.random.default_rng(0).uniform(-9, 9, (8, 2))
-    offset = torch.from_numpy(offsets_in(either.place.cells, rows, positions).astype(np.float32))
-    assert torch.allclose(
-        offset, (torch.from_numpy(positions - either.place.cells.center_m[rows, :2]) / 30 + 0.5).float()
-    )
+    positions = either.cells.center_m[rows, :2] + np.random.default_rng(0).uniform(-9, 9, (8, 2))
+    offset = torch.from_numpy(offsets_in(either.cells, rows, positions).astype(np.float32))
+    assert torch.allclose(offset, (torch.from_numpy(positions - either.cells.center_m[rows, :2]) / 30 + 0.5).float())
     matrix = torch.from_numpy(SYMMETRIES)
     before = either.training.features.batch(rows)
     after, moved = reflect(before, matrix), reflect_offset(offset, matrix)
@@ -99,14 +99,12 @@ def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(eith
 
 
 def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(either) -> None:
-    cells, training = either.place.cells, either.training
+    cells, training = either.cells, either.training
     queries = training.usable[:40]
     total = len(queries)
-    positions = training.place.positions_m[queries, :2]
-    labels = np.array(["thing"] * (int(cells.parts.instance.max()) + 1))
-    asked = FineValidation.of(
-        ValidationQueries(cells, labels, [["I am here."]] * total, positions, training.best[queries])
-    )
+    positions = either.positions_m[queries]
+    told = Queries([("I am here.",)] * total, positions, training.best[queries], [""] * total, [""] * total)
+    asked = FineValidation.of(training.statements.gallery, told)
     assert set(asked.figures(Told(asked.offset)).values()) == {1.0}
     away = np.linalg.norm(positions - cells.center_m[training.best[queries], :2], axis=1)
     figures = asked.center_figures()
@@ -138,16 +136,18 @@ def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> N
     assert right / known > 0.9, "parts of one instance may be told apart wrongly, others not"
 
 
-def test_both_methods_overfit_a_few_positions(city, points, cells, text_encoder) -> None:
+def test_both_methods_overfit_a_few_positions(city, source, text_encoder) -> None:
     positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 12, replace=False)]
-    training = TrainingSet(TrainingPlace.of_map(city, points, cells, positions), text_encoder)
+    training = TrainingSet(source.statements_at(positions), text_encoder)
     examples = FineSet(training, pmc=False).batch(12, np.random.default_rng(0))
     for method, config in (
         ("regressor", RegressorConfig(width=32, dropout=0.0)),
         ("matching", FINE_METHODS["matching"].config_type(width=32, dropout=0.0, refine=True, iterations=10)),
     ):
         torch.manual_seed(0)
-        task = FineTask(FINE_METHODS[method](text_encoder, config), [Source(training, None, {})], 12, pmc=False)
+        task = FineTask(
+            FINE_METHODS[method](text_encoder, config), [TrainingData(training, None, None, {})], 12, pmc=False
+        )
         optimizer = torch.optim.Adam(task.model.parameters(), 5e-3)
         losses = []
         for _ in range(40):
@@ -164,12 +164,12 @@ def test_both_methods_overfit_a_few_positions(city, points, cells, text_encoder)
             assert error_m < 3
 
 
-def test_training_is_seeded_saved_and_says_how_far_it_errs(city, tmp_path) -> None:
+def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=8, validate_every=2, spacing_m=20.0)
     seen = []
 
     def load(encoder, rng):
-        return [source_of_map(city, encoder, config, rng)]
+        return [TrainingData.of(*regions, encoder, config, rng)]
 
     figures = [
         train_fine(load, tmp_path / name, "regressor", RegressorConfig(width=32), config, progress=seen.append)
@@ -188,7 +188,7 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(city, tmp_path) -> No
 
 def test_a_data_set_trains_either_method(streets, tmp_path) -> None:
     def load(encoder, rng):
-        return [load_source(streets, encoder, TrainingConfig(), rng, ("train", "val"))] * 2
+        return [load_training(streets, ("train", "val"), encoder, TrainingConfig(), rng)] * 2
 
     for method, kind in FINE_METHODS.items():
         config = TrainingConfig(steps=2, batch_size=8, validate_every=2, pmc=False)

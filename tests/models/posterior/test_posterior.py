@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.hints import describe_poses, sample_positions
+from models.city.source import CHOSEN_BY
 from models.language.parsed_hint import RELATIONS
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
 from models.posterior.node_batch import colour_words
 from models.posterior.posterior import HintPosterior
-from models.posterior.surroundings import Bodies, Surroundings
 from models.training.fit_likelihood import Texts, around_cells, fit_likelihood, surprise
 from models.training.places import Place
 
@@ -39,18 +38,9 @@ def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> Reading:
 
 
 @pytest.fixture(scope="module")
-def town(city, points, cells) -> Town:
-    surroundings = Surroundings.of(Bodies.of_map(city, points, cells), cells, city.rules.thing_share)
-    names, number = np.unique([i.label for i in city.instances], return_inverse=True)
-    positions = sample_positions(city.locations_m, 25.0, np.random.default_rng(0))
-    poses = describe_poses(city, points, cells, positions)
-    row = {cell_id: n for n, cell_id in enumerate(cells.ids)}
-    place = Place(
-        surroundings, cells, number.astype(np.int64)[cells.parts.instance], tuple(names.tolist()), city.palette,
-        [pose.description.hints for pose in poses], np.array([pose.position_m[:2] for pose in poses]),
-        np.array([row[pose.cell_id] for pose in poses]),
-    )  # fmt: skip
-    words = colour_words(city.palette)
+def town(source) -> Town:
+    place = Place.of(source, source.queries(CHOSEN_BY, 25.0))
+    words = colour_words(place.palette)
     readings = [exact(hints, place.labels, words) for hints in place.hints]
     return Town(place, place.posterior(Likelihood()), readings)
 

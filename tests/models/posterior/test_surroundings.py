@@ -1,15 +1,15 @@
 import numpy as np
 import pytest
 
-from models.city.store.files import load_data
+from models.city.source import open_source
 from models.errors import IndexBroken
-from models.posterior.surroundings import SPACING_M, STEP_M, Bodies, Surroundings
+from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
 
 
 @pytest.fixture(scope="module")
-def around(city, points, cells):
-    bodies = Bodies.of_map(city, points, cells)
-    return bodies, Surroundings.of(bodies, cells, city.rules.thing_share)
+def around(source, cells):
+    bodies = source.bodies()
+    return bodies, Surroundings.of(bodies, cells)
 
 
 def test_every_node_belongs_to_its_nearest_cell(around, cells) -> None:
@@ -88,13 +88,12 @@ def test_saved_surroundings_come_back_and_broken_ones_are_named(around, tmp_path
 
 
 def test_a_data_set_has_the_points_that_its_cells_show(streets) -> None:
-    store = load_data(streets, "train")
-    cells = store.cell_table()
-    bodies = Bodies.of_store(store, cells)
+    source = open_source(streets, "train")
+    cells, bodies = source.data.cells, source.bodies()
     for part in range(0, len(cells.parts.instance), 17):
         i = bodies.part_instance[part]
         xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]]
         gap = np.linalg.norm(xyz - cells.parts.closest_m[part], axis=1).min()
         assert gap < 0.4, "one point a voxel of 0.2 m is kept"
-    s = Surroundings.of(bodies, cells, 1 / 3)
+    s = Surroundings.of(bodies, cells)
     assert len(s.starts) == len(s.nodes_m) + 1

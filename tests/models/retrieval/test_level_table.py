@@ -4,7 +4,7 @@ import torch
 
 from models.errors import IndexBroken
 from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.level_table import LevelTable
+from models.retrieval.level_table import LevelTable, encode_gallery
 from models.retrieval.levels import LEVELS, level_scores
 
 TEXTS = [
@@ -25,7 +25,7 @@ def features(city, cells):
 
 @pytest.fixture(scope="module")
 def table(model, features):
-    return LevelTable.of(model, features)
+    return encode_gallery(model, features)[1]
 
 
 @pytest.fixture(scope="module")

@@ -7,6 +7,7 @@ import torch
 from models.city.point_sample import NUM_POINTS, sample_points
 from models.errors import WeightsError
 from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.level_table import encode_gallery
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder, ball, farthest_points
 
@@ -90,8 +91,8 @@ def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
     model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), point_encoder="pointnet")).eval()
     seen = model.seen(features)
     assert seen.shape.shape == (len(features.label), POINT_WIDTH)
-    vectors = model.encode_cells(seen)
-    flat = model.encode_cells(replace(seen, shape=np.zeros_like(seen.shape)))
+    vectors = encode_gallery(model, seen)[0]
+    flat = encode_gallery(model, replace(seen, shape=np.zeros_like(seen.shape)))[0]
     assert np.abs(vectors - flat).max() > 1e-3
     first = seen.batch(np.arange(3))
     assert torch.equal(first.shape[first.mask], torch.from_numpy(seen.shape[: int(first.mask.sum())]))

@@ -6,6 +6,7 @@ from models.errors import WeightsError
 from models.retrieval.checkpoint import load_retriever, save_retriever
 from models.retrieval.instance_encoder import NUM_GEOMETRY, CellFeatures
 from models.retrieval.layers import masked_max
+from models.retrieval.level_table import encode_gallery
 from models.retrieval.levels import LEVELS
 from models.retrieval.mncl import Mncl, MnclConfig
 
@@ -60,7 +61,7 @@ def test_order_of_hints_does_not_matter(model) -> None:
 
 
 def test_a_cell_alone_and_in_a_batch(model, features) -> None:
-    every = model.encode_cells(features)
+    every = encode_gallery(model, features)[0]
     labels = model.text_encoder.embed(features.labels)
     for n in (0, 7, len(features) - 1):
         with torch.inference_mode():

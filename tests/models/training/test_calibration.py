@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 
-from models.city.hints import describe_poses, sample_positions
+from models.city.source import CHOSEN_BY
 from models.training.calibration import calibrate, most_likely
-from models.training.sources import ValidationQueries
 from models.training.validation import Validation
 
 
@@ -40,6 +39,5 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
 
 
 @pytest.fixture(scope="module")
-def region_queries(city, points, cells, model):
-    positions = sample_positions(city.locations_m, 40.0, np.random.default_rng(0))
-    return Validation(ValidationQueries.of_map(city, cells, describe_poses(city, points, cells, positions)), model)
+def region_queries(source, model):
+    return Validation(source.data.gallery, source.queries(CHOSEN_BY, 40.0), model)

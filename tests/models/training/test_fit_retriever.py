@@ -6,24 +6,23 @@ import pytest
 import torch
 
 from index.ranking import Ranker
-from models.city.hints import direction_index, sample_positions
+from models.city.hints import direction_index
 from models.city.types import DIRECTIONS
 from models.errors import DataError
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.training.fit_retriever import train_retriever
-from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingPlace, TrainingSet, reflect
+from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect
 from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
-from models.training.sources import load_source, source_of_map
+from models.training.training_data import TrainingData, load_training
 from tests.models.city.raw_scenes import TRAIN_STREETS, VAL_STREET
 
 
 @pytest.fixture(scope="module")
-def region(city, points, cells, text_encoder):
-    positions = sample_positions(city.locations_m, 30.0, np.random.default_rng(0))
-    return TrainingSet(TrainingPlace.of_map(city, points, cells, positions), text_encoder)
+def region(source, text_encoder):
+    return TrainingSet(source.statements(30.0, np.random.default_rng(0)), text_encoder)
 
 
 def test_directions_turn_with_the_map() -> None:
@@ -54,9 +53,8 @@ def test_batches_are_seeded_and_say_what_is_true(region, city) -> None:
     assert batch.same_cell.diagonal().all()
 
 
-def test_published_wording_says_what_is_there_in_the_benchmarks_words(city, points, cells, text_encoder) -> None:
-    positions = sample_positions(city.locations_m, 60.0, np.random.default_rng(0))
-    region = TrainingSet(TrainingPlace.of_map(city, points, cells, positions), text_encoder, "published")
+def test_published_wording_says_what_is_there_in_the_benchmarks_words(source, text_encoder) -> None:
+    region = TrainingSet(source.statements(60.0, np.random.default_rng(0)), text_encoder, "published")
     chosen = region.usable[:20]
     said = region.say(chosen, np.zeros(len(chosen), int), np.random.default_rng(0))
     vocabulary, table = region.vocabulary, region.table
@@ -78,12 +76,12 @@ def test_the_vocabulary_numbers_its_sentences(region) -> None:
     assert max(said) < len(vocabulary.mask)
 
 
-def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
+def test_training_learns_is_seeded_and_is_saved(regions, tmp_path) -> None:
     config = TrainingConfig(steps=12, batch_size=16, spacing_m=15.0, validate_every=6, learning_rate=3e-3)
     seen = []
 
     def load(encoder, rng):
-        return [source_of_map(city, encoder, config, rng)]
+        return [TrainingData.of(*regions, encoder, config, rng)]
 
     recalls = [
         train_retriever(load, tmp_path / name, Mncl, MnclConfig(width=32), config, progress=seen.append)
@@ -98,8 +96,8 @@ def test_training_learns_is_seeded_and_is_saved(city, tmp_path) -> None:
 
 
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
-def test_every_method_trains_in_half_precision(city, text_encoder, method) -> None:
-    source = source_of_map(city, text_encoder, TrainingConfig(spacing_m=30.0), np.random.default_rng(0))
+def test_every_method_trains_in_half_precision(regions, text_encoder, method) -> None:
+    source = TrainingData.of(*regions, text_encoder, TrainingConfig(spacing_m=30.0), np.random.default_rng(0))
     torch.manual_seed(0)
     task = RetrievalTask(method(text_encoder, method.config_type(width=32)), [source], batch_size=16, cluster=4)
     task.model.eval()  # no dropout
@@ -112,11 +110,11 @@ def test_every_method_trains_in_half_precision(city, text_encoder, method) -> No
     assert half.item() == pytest.approx(whole.item(), rel=0.05)
 
 
-def test_a_run_directory_goes_on(city, tmp_path) -> None:
+def test_a_run_directory_goes_on(regions, tmp_path) -> None:
     config = TrainingConfig(steps=6, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
-        return [source_of_map(city, encoder, config, rng) for _ in range(2)]
+        return [TrainingData.of(*regions, encoder, config, rng) for _ in range(2)]
 
     def kill(at):
         if at.step == 5:
@@ -132,14 +130,14 @@ def test_a_run_directory_goes_on(city, tmp_path) -> None:
     assert json.loads((tmp_path / "run" / "config.json").read_text())["model"]["levels"] == ["global", "instance"]
 
 
-def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, tmp_path, monkeypatch) -> None:
+def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("models.training.fit_points.STEPS", 40)
     monkeypatch.setattr("models.training.fit_points.VALIDATE_EVERY", 20)
     monkeypatch.setattr("models.training.fit_points.BATCH", 32)
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
-        return [source_of_map(city, encoder, config, rng)]
+        return [TrainingData.of(*regions, encoder, config, rng)]
 
     def kill(at):
         if (at.step, at.steps) == (3, 4):
@@ -166,9 +164,9 @@ def test_a_data_set_trains_as_a_map_does(streets, tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=16, validate_every=4)
 
     def load(encoder, rng):
-        source = load_source(streets, encoder, config, rng, ("train", "val"))
+        source = load_training(streets, ("train", "val"), encoder, config, rng)
         with pytest.raises(DataError, match="0042"):
-            load_source(streets, encoder, config, rng, ("0042", "val"))
+            load_training(streets, ("0042", "val"), encoder, config, rng)
         batch = source.training.batch(source.training.draw(16, 4, rng), rng)
         assert batch.hint_mask.sum(dim=1).min() >= 2
         assert (batch.sentences[batch.hint_mask] >= 0).all()

@@ -17,7 +17,7 @@ def stop(*args: object):
     raise KeyboardInterrupt
 
 
-@pytest.mark.parametrize("at", ["load_raw_scene", "prepare_scene", "save_scene", "save_direction", "replacing"])
+@pytest.mark.parametrize("at", ["load_raw_scene", "prepare_scene", "save_scene", "save_direction", "replace_file"])
 def test_an_interrupted_scene_leaves_nothing(at: str, raw_root: Path, tmp_path: Path, monkeypatch) -> None:
     with monkeypatch.context() as patch:
         patch.setattr(kitti360_job, at, stop)

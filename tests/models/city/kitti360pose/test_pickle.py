@@ -176,10 +176,10 @@ def test_what_a_pickle_claims_is_not_allocated(claim: str, tmp_path: Path) -> No
         tracemalloc.stop()
 
 
-def test_cells_are_read_one_at_a_time(tmp_path: Path) -> None:
-    path = dump(tmp_path / "cells.pkl", (cell_record(make_cell(n, 3, 20_000)) for n in range(20)))
+def test_cells_are_written_and_read_one_at_a_time(tmp_path: Path) -> None:
     tracemalloc.start()
     try:
+        path = dump(tmp_path / "cells.pkl", (cell_record(make_cell(n, 3, 20_000)) for n in range(20)))
         for _ in iter_cells(path):
             pass
         peak = tracemalloc.get_traced_memory()[1]

@@ -1,4 +1,4 @@
-"""The converted store: every value as published, opened without reading it, refused when it is not whole."""
+"""The converted store: what was published to the last bit, opened without reading it, refused when it is not whole."""
 
 from pathlib import Path
 
@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from models.city.kitti360pose.files import Scene, save_scene
-from models.city.kitti360pose.records import PublishedCell, PublishedObject, PublishedPose
+from models.city.kitti360pose.records import PublishedCell, PublishedObject
 from models.city.point_sample import sample_points
 from models.city.store.files import convert, load_data
 from models.city.store.pose_store import PoseStore
 from models.errors import DataError
-from tests.models.city.conftest import assert_same, published
+from tests.models.city.conftest import assert_kept, assert_same
 
 
 @pytest.fixture(params=["converted", "published"])
@@ -24,9 +24,9 @@ def store(request: pytest.FixtureRequest, data: Path, tmp_path: Path) -> PoseSto
 
 
 def test_every_value_is_as_published(store: PoseStore, scenes: list[Scene]) -> None:
-    cells, poses = published(store)
-    assert_same(cells, [cell for scene in scenes for cell in scene.cells])
-    assert_same(poses, [pose for scene in scenes for pose in scene.poses])
+    assert_kept(
+        store, [cell for scene in scenes for cell in scene.cells], [pose for scene in scenes for pose in scene.poses]
+    )
 
 
 def test_all_ways_to_keep_points_occur(store: PoseStore) -> None:
@@ -41,16 +41,9 @@ def test_a_split_is_a_view_with_rows_of_its_own(
 ) -> None:
     view = store.split(split)
     chosen = [scene for scene in scenes if scene.cells[0].scene_name in names]
-    cells, poses = published(view)
     assert [scene.scene_name for scene in view.scenes] == names
-    assert_same(cells, [cell for scene in chosen for cell in scene.cells])
-    assert_same(poses, [pose for scene in chosen for pose in scene.poses])
-    table = view.cell_table()
-    assert list(table.ids) == [cell.id for cell in cells]
-    assert table.parts.instance.tolist() == list(range(sum(len(cell.objects) for cell in cells)))
-    assert [view.cell_ids[row] for row in view.poses.cell] == [pose.cell_id for pose in poses]
-    assert_instances(view, poses)
-    assert_same(published(view.split(None))[0], cells)
+    for same in (view, view.split(None)):
+        assert_kept(same, [c for scene in chosen for c in scene.cells], [p for scene in chosen for p in scene.poses])
 
 
 def test_a_split_without_scenes_is_refused(store: PoseStore) -> None:
@@ -99,40 +92,6 @@ def test_the_cell_table_is_what_a_slow_reading_gives(store: PoseStore, scenes: l
     assert table.parts.starts[-1] == row == len(store.labels)
 
 
-def test_poses_have_hints_and_texts(store: PoseStore, scenes: list[Scene]) -> None:
-    table = store.poses
-    poses = [pose for scene in scenes for pose in scene.poses]
-    assert np.array_equal(table.positions_m, [pose.pose_w for pose in poses])
-    assert table.strategies == tuple(pose.described_by for pose in poses)
-    for q, pose in enumerate(poses):
-        stored = [(h.direction, h.object_label, h.object_color_text) for h in pose.descriptions]
-        assert [(h.direction, h.label, h.colour) for h in table.hints(q)] == stored
-        assert table.text(q) == " ".join(f"The pose is {d} of a {c} {label}." for d, label, c in stored)
-        assert store.pose(q).cell_id == pose.cell_id
-        assert store.pose(q).description.hints == table.hints(q)
-    assert_instances(store, poses)
-
-
-def assert_instances(store: PoseStore, poses: list[PublishedPose]) -> None:
-    """Matched hints name the row of the object meant, others none."""
-    table, starts = store.poses, store.cell_table().parts.starts
-    for q, pose in enumerate(poses):
-        cell = store.published_cell(int(table.cell[q]))
-        for hint, ours in zip(pose.descriptions, table.hints(q), strict=True):
-            if hint.is_matched:
-                assert cell.objects[ours.instance_id - starts[table.cell[q]]].id == hint.object_id
-            else:
-                assert ours.instance_id is None
-
-
-def test_points_of_an_instance(store: PoseStore, scenes: list[Scene]) -> None:
-    items = [item for scene in scenes for cell in scene.cells for item in cell.objects]
-    for row, item in enumerate(items):
-        xyz, rgb = store.instance_points(row)
-        assert np.array_equal(xyz, item.xyz)
-        assert np.array_equal(rgb, item.rgb)
-
-
 def test_the_released_form_takes_15_bytes_a_point(tmp_path: Path) -> None:
     """Points that were float32 metres and bytes are kept as such, and come back to the last bit."""
     rng = np.random.default_rng(0)
@@ -143,5 +102,5 @@ def test_the_released_form_takes_15_bytes_a_point(tmp_path: Path) -> None:
     cell = PublishedCell("0003_00000", "0003", (item,), 30.0, np.concatenate([low, low + 30]))
     save_scene(tmp_path / "data", "0003", [cell], [])
     store = convert(tmp_path / "data", tmp_path / "store")
-    assert_same(store.published_cell(0), cell)
+    assert_same(store.instance_points(0), (xyz, rgb))
     assert sum(path.stat().st_size for path in (tmp_path / "store").iterdir()) < 15 * 5000 + 20_000

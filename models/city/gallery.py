@@ -1,16 +1,20 @@
-"""What an index knows of its cells beside their vectors: where they are and what is in them."""
+"""What is known of cells beside their vectors: where they are, what is in them, and what map they are of."""
 
 import json
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import load_file, save_file
 
 from models.city.cells import CellTable, Parts
-from models.city.types import CityMap
+from models.city.colours import Palette
+from models.city.frame import Frame
+from models.city.points import Ints
+from models.city.types import CityMap, Floats
 from models.errors import IndexBroken
 
 CELLS_FILE = "cells.safetensors"
@@ -19,7 +23,7 @@ NAMES_FILE = "cells.json"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Gallery:
-    """The cells of an index, and labels, names and sources of the instances they hold.
+    """Cells, and labels, names and sources of the instances they hold.
 
     Attributes:
         cells: the cells; `parts.instance` points into the lists below.
@@ -72,3 +76,52 @@ class Gallery:
             return cls(cells, tuple(names["labels"]), tuple(names["names"]), tuple(names["sources"]))
         except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
             raise IndexBroken(f"the cells in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapData:
+    """A map, some of its scenes, or a region of it.
+
+    Attributes:
+        name: of the map.
+        split: what was taken of it; "all" for everything, "index" for what an index holds.
+        gallery: its cells and what is in them.
+        palette: its colour words.
+        frame: what its metres mean on Earth.
+        grid_m: distance between neighbouring cells.
+        attribution: what the data's licence asks to show.
+    """
+
+    name: str
+    split: str
+    gallery: Gallery
+    palette: Palette
+    frame: Frame = field(default_factory=Frame)
+    grid_m: float = 10.0
+    attribution: str = ""
+
+    @property
+    def cells(self) -> CellTable:
+        """The cells."""
+        return self.gallery.cells
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bodies:
+    """The instances of a map (or of several scenes) with all their points.
+
+    Attributes:
+        xyz: [P, 3] float32 metres, ordered by instance.
+        starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
+        is_thing: [I] bool, True for what is mentioned only where a share of it is near (`thing_share`).
+        scene: [I] number of the scene of each.
+        part_instance: [R] instance of each row of the cells' parts.
+        thing_share: see `CutRules`.
+    """
+
+    xyz: Floats
+    starts: Ints
+    is_thing: npt.NDArray[np.bool_]
+    scene: Ints
+    part_instance: Ints
+    thing_share: float

@@ -4,37 +4,32 @@ import numpy as np
 import pytest
 import torch
 
-from index.answers import Query
+from index.answers import Circle, Query
 from index.evaluation.evaluation import evaluate
 from index.evaluation.predictions import FILE, Predictions
 from index.localizer import Localizer
-from index.map_data import load_queries
 from index.ranking import Ranker
-from index.refinement import Refinement
+from index.vector_localizer import VectorLocalizer
 from models.errors import WeightsError
 from models.localization.regressor import Regressor, RegressorConfig
 
-HINTS = ("I am north of a red building.", "A bench is to my west.", "I stand on the road.")
+TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 
 
 class Told:
     """A refiner that knows where each description was said."""
 
-    method, fingerprint, error_m = "regressor", "told", 0.5
+    method, name, fingerprint, error_m = "regressor", "oracle", "told", 0.5
 
     def __init__(self, cells, positions_m):
-        self.cells, self.positions_m, self.asked = cells, positions_m, []
+        self.cells, self.positions_m, self.asked = cells, positions_m, 0
 
     def predict(self, descriptions, cells, rows):
         assert len(cells) == len(self.cells)
-        assert len(descriptions) == len(rows) == len(self.positions_m)
-        self.asked.append(rows)
-        return (self.positions_m[:, None] - self.cells.center_m[rows, :2]) / self.cells.size_m + 0.5
-
-
-@pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file)
+        assert len(descriptions) == len(rows)
+        positions = self.positions_m[self.asked : self.asked + len(rows)]  # they are asked in order, some at a time
+        self.asked += len(rows)
+        return (positions[:, None] - self.cells.center_m[rows, :2]) / self.cells.size_m + 0.5
 
 
 @pytest.fixture(scope="module")
@@ -50,11 +45,11 @@ def regressor(text_encoder):
 
 def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> None:
     data, queries = asked
-    report = evaluate(*asked, ranker, tmp_path, refiner=Told(data.cells, queries.positions_m))
-    plain = evaluate(*asked, ranker)
+    report = evaluate(*asked, VectorLocalizer.of_map(data, ranker, Told(data.cells, queries.positions_m)), tmp_path)
+    plain = evaluate(*asked, VectorLocalizer.of_map(data, ranker))
     assert {v for row in report["localization"].values() for v in row.values()} == {1.0}
     assert report["method"] == "regressor"
-    assert report["refiner_fingerprint"] == "told"
+    assert (report["model"], report["model_fingerprint"]) == ("oracle", "told")
     assert plain["method"] == "cell_center"
     for row in ("cell_center", "oracle", "chance", "retrieval"):
         assert report[row] == plain[row], "what does not depend on the position stays"
@@ -64,32 +59,25 @@ def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> N
 
 def test_refined_positions_are_saved_and_lie_in_their_cells(asked, ranker, regressor, tmp_path) -> None:
     data, queries = asked
-    part = dataclasses.replace(
-        queries,
-        sentences=queries.sentences[:9],
-        positions_m=queries.positions_m[:9],
-        truth=queries.truth[:9],
-        scenes=queries.scenes[:9],
-        strategies=queries.strategies[:9],
-        hints=None,
-    )
-    evaluate(data, part, ranker, tmp_path, refiner=regressor)
+    part = dataclasses.replace(queries.take(np.arange(9)), hints=None)
+    evaluate(data, part, VectorLocalizer.of_map(data, ranker, regressor), tmp_path)
     saved = Predictions.load(tmp_path / FILE)
     first = saved.ranked[:, : saved.predicted_m.shape[1]]
     away = np.abs(saved.predicted_m - saved.cell_centers_m[first])
     assert 0 < away.max() <= data.cells.size_m / 2 + 1e-6
-    again = Refinement(regressor, data.gallery).positions_m(part.sentences[4:5], first[4:5])
-    assert again[0] == pytest.approx(saved.predicted_m[4], abs=1e-3)
+    alone = VectorLocalizer.of_map(data, ranker, regressor).find([Query(" ".join(part.sentences[4]), top_k=10)])
+    assert alone[0].located.positions[:10] == pytest.approx(saved.predicted_m[4], abs=1e-3)
 
 
 def refining(localizer, load):
-    return Localizer(localizer.ranker, localizer.gallery, localizer.manifest, load)
+    return Localizer(localizer._directory, localizer.manifest, localizer.retriever, load)
 
 
 def test_a_query_may_ask_for_positions_inside_the_cells(localizer, regressor) -> None:
     fine = refining(localizer, lambda: regressor)
-    plain, refined = fine.localize([Query(HINTS, top_k=3), Query(HINTS, top_k=3, refine="regressor")])
-    assert plain == dataclasses.replace(localizer.localize([Query(HINTS, top_k=3)])[0], timings_ms=plain.timings_ms)
+    plain, refined = fine.localize([Query(TEXT, 3, refine="none"), Query(TEXT, 3, refine="regressor")])
+    [again] = localizer.localize([Query(TEXT, 3, refine="none")])
+    assert plain == dataclasses.replace(again, timings_ms=plain.timings_ms)
     assert [c.cell_id for c in plain.candidates] == [c.cell_id for c in refined.candidates]
     assert [c.probability for c in plain.candidates] == [c.probability for c in refined.candidates]
     assert (plain.estimate.method, refined.estimate.method) == ("cell_center", "regressor")
@@ -106,10 +94,9 @@ def test_a_query_may_ask_for_positions_inside_the_cells(localizer, regressor) ->
 def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
     center = localizer.gallery.cells.center_m[:, :2]
     told = Told(localizer.gallery.cells, center[:1] + 4)
-    sure = Query(HINTS, top_k=1, prior=None)
-    fine = refining(localizer, lambda: told)
-    fine.vector_answers._posterior = lambda query, rows, scores, unseen: np.eye(len(rows))[0]
-    plain, refined = fine.localize([sure, dataclasses.replace(sure, refine="regressor")])
+    # One cell alone is surely the right one.
+    sure = Query(TEXT, 1, within=Circle(tuple(center[0]), 1.0), refine="none")
+    plain, refined = refining(localizer, lambda: told).localize([sure, dataclasses.replace(sure, refine="regressor")])
     assert refined.estimate.position == pytest.approx(tuple(center[0] + 4))
     assert np.diag(refined.estimate.covariance) == pytest.approx(told.error_m**2)
     assert np.diag(plain.estimate.covariance) == pytest.approx(localizer.manifest.grid_m**2 / 12)
@@ -118,8 +105,8 @@ def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
 
 def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path) -> None:
     fine = Localizer.open(index_dir, weights_dir, tmp_path)
-    estimate = fine.localize([Query(HINTS)])[0].estimate
+    estimate = fine.localize([Query(TEXT, refine="none")])[0].estimate
     assert estimate is not None
     assert estimate.method == "cell_center"
     with pytest.raises(WeightsError, match=r"no weights in .*regressor"):
-        fine.localize([Query(HINTS, refine="regressor")])
+        fine.localize([Query(TEXT, refine="regressor")])

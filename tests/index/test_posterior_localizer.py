@@ -7,13 +7,14 @@ import torch
 
 from index.answers import Box, Circle, Prior, Query
 from index.evaluation.evaluation import evaluate
+from index.finding import to_answer
 from index.localizer import Localizer
-from index.map_data import load_queries
-from index.map_posterior import MapPosterior
-from index.posterior_answers import PosteriorAnswers
+from index.posterior_localizer import PosteriorLocalizer
+from index.ranking import Ranker
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
+from models.posterior.surroundings import Surroundings
 
 SENTENCE = re.compile(r"The pose is (\S+) of a ([^.]+)\.")
 
@@ -42,35 +43,35 @@ def posterior_model(text_encoder):
 
 
 @pytest.fixture(scope="module")
-def asked(osm_file):
-    return load_queries(osm_file, None)
+def posterior(posterior_model, model, source):
+    data = source.data
+    ranker = Ranker.of(model, data.cells, data.gallery.labels)
+    return PosteriorLocalizer.of_map(posterior_model, data, ranker, Surroundings.of(source.bodies(), data.cells))
 
 
 @pytest.fixture(scope="module")
-def posterior(posterior_model, asked):
-    data, _ = asked
-    return MapPosterior(posterior_model, data.gallery, data.palette, data.around(lambda *_: None))
+def answer(posterior):
+    def answer(query):
+        [finding] = posterior.find([query])
+        return to_answer(query, finding, posterior, posterior.gallery.cells, posterior.frame)
 
-
-@pytest.fixture(scope="module")
-def answers(posterior, city):
-    return PosteriorAnswers(posterior, city.frame, 30.0)
+    return answer
 
 
 @pytest.fixture(scope="module")
 def surest(posterior, asked):
     """Of some queries, that whose first candidate is the likeliest: the town repeats itself."""
-    found = [posterior.locate(posterior.reading(posterior.notice(s))) for s in asked[1].sentences[:30]]
-    return int(np.argmax([located.probability[0] for located in found]))
+    found = posterior.find([Query(" ".join(said)) for said in asked[1].sentences[:30]])
+    return int(np.argmax([finding.located.probability[0] for finding in found]))
 
 
 @pytest.fixture(scope="module")
 def query(asked, surest):
-    return Query(tuple(asked[1].sentences[surest]), refine="posterior")
+    return Query(" ".join(asked[1].sentences[surest]))
 
 
-def test_an_answer_is_whole_and_says_why(answers, query, asked, surest):
-    answer = answers.answer(replace(query, heat_map=True, top_k=3))
+def test_an_answer_is_whole_and_says_why(answer, query, asked, surest):
+    answer = answer(replace(query, heat_map=True, top_k=3))
     truth = asked[1].positions_m[surest]
     assert answer.status == "ok"
     assert answer.estimate.method == "posterior"
@@ -80,7 +81,7 @@ def test_an_answer_is_whole_and_says_why(answers, query, asked, surest):
     assert total == pytest.approx(1.0)
     assert answer.estimate.wgs84 is not None
     assert 0 < answer.estimate.radius_m.p50 <= answer.estimate.radius_m.p90
-    assert len(answer.evidence) == len(query.hints)
+    assert len(answer.evidence) == len(asked[1].sentences[surest])
     assert np.mean([hint.explained > 0.5 for hint in answer.evidence]) > 0.6
     shown = [hint for hint in answer.evidence if hint.instance]
     assert shown
@@ -90,49 +91,41 @@ def test_an_answer_is_whole_and_says_why(answers, query, asked, surest):
     assert points[:, 2].sum() <= 1.0 + 1e-9
 
 
-def test_a_filter_holds_for_every_position(answers, query, city):
-    whole = answers.answer(query)
+def test_a_filter_holds_for_every_position(answer, query, city):
+    whole = answer(query)
     x, y = whole.estimate.position
-    boxed = answers.answer(replace(query, within=Box(x - 60, y - 60, x - 20, y + 60)))
+    boxed = answer(replace(query, within=Box(x - 60, y - 60, x - 20, y + 60)))
     for candidate in boxed.candidates:
         assert x - 61 <= candidate.position[0] <= x - 19
     lat, lon = city.frame.to_wgs84(np.array([x, y]))
-    round_it = answers.answer(replace(query, within=Circle((float(lon), float(lat)), 40.0), crs="wgs84"))
+    round_it = answer(replace(query, within=Circle((float(lon), float(lat)), 40.0), crs="wgs84"))
     assert round_it.candidates[0].cell_id == whole.candidates[0].cell_id
-    off = answers.answer(replace(query, within=Box(1e6, 1e6, 2e6, 2e6)))
+    off = answer(replace(query, within=Box(1e6, 1e6, 2e6, 2e6)))
     assert (off.status, off.estimate, off.other_probability) == ("no_match", None, 1.0)
     assert "within" in off.warnings[0]
 
 
-def test_a_prior_pulls(answers, query):
-    x, y = answers.answer(query).estimate.position
-    pulled = answers.answer(replace(query, prior=Prior((x + 80, y), 8.0)))
+def test_a_prior_pulls(answer, query):
+    x, y = answer(query).estimate.position
+    pulled = answer(replace(query, prior=Prior((x + 80, y), 8.0)))
     assert abs(pulled.estimate.position[0] - x - 80) < 40
 
 
-def test_a_text_about_nothing_is_no_match(answers):
-    answer = answers.answer(Query(("It rains and I like it.",)))
-    assert (answer.status, answer.estimate) == ("no_match", None)
-    assert "north of a gray building" in answer.warnings[0]
+def test_a_text_about_nothing_is_no_match(answer):
+    found = answer(Query("It rains and I like it."))
+    assert (found.status, found.estimate) == ("no_match", None)
+    assert "north of a gray building" in found.warnings[0]
 
 
-def test_things_that_the_map_has_not_are_no_match(answers):
-    answer = answers.answer(Query(("The pose is north of a pink giraffe.", "The pose is east of a purple elephant.")))
-    assert answer.status == "no_match" or answer.estimate.probability < 0.1
+def test_things_that_the_map_has_not_are_no_match(answer):
+    found = answer(Query("The pose is north of a pink giraffe. The pose is east of a purple elephant."))
+    assert found.status == "no_match" or found.estimate.probability < 0.1
 
 
 def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_path):
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 40))
-    some = replace(
-        queries,
-        sentences=[queries.sentences[q] for q in rows],
-        positions_m=queries.positions_m[rows],
-        truth=queries.truth[rows],
-        scenes=[queries.scenes[q] for q in rows],
-        strategies=[queries.strategies[q] for q in rows],
-        hints=None,
-    )
+    some = replace(queries.take(rows), hints=None)
     report = evaluate(data, some, posterior, tmp_path, grow_m=[60, 120])
     assert report["retrieval"]["1"] > 0.4
     assert report["method"] == "posterior"
@@ -142,10 +135,9 @@ def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_
 
 
 def test_long_descriptions_are_read_in_pieces(posterior):
-    hints = [f"The pose is north of a gray bench number{n}." for n in range(60)]
-    noticed = posterior.notice(hints)
-    assert len(noticed) == 60
-    assert posterior.notice(["no full stop"]) == ()
+    [hints] = posterior.parse([" ".join(f"The pose is north of a gray bench number{n}." for n in range(60))])
+    assert len(hints) == 60
+    assert posterior.parse(["no full stop"]) == [()]
 
 
 def test_weights_are_saved_and_read_back(text_encoder, tmp_path):
@@ -163,7 +155,7 @@ def test_weights_are_saved_and_read_back(text_encoder, tmp_path):
 def test_a_localizer_answers_by_either_way(index_dir, weights_dir, posterior_model, tmp_path, query):
     save_posterior(posterior_model, tmp_path, {})
     localizer = Localizer.open(index_dir, weights_dir, posterior_weights_dir=tmp_path)
-    localizer.map_posterior.model.reader.read = read_exactly
+    localizer.posterior.weights.reader.read = read_exactly
     by_vectors, by_posterior = localizer.localize([replace(query, refine="none"), query])
     assert by_vectors.estimate.method == "cell_center"
     assert by_posterior.estimate.method == "posterior"

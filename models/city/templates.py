@@ -1,15 +1,9 @@
-"""From a description as people type it to hint sentences, and from hints to sentences."""
+"""The benchmark's sentences, and other ways to say the same (docs/formats.md, rule 8)."""
 
-import re
 from typing import Final
 
 from models.city.types import Direction, Hint
-from models.errors import DescriptionError
 
-# A sentence ends at . ! ? ; or a line break; a dot inside a number or an abbreviation's letter does not end one.
-_BREAK = re.compile(r"(?<=[.!?;。！？])(?<!\b\w\.)(?=\s|$)|[\r\n]+")  # noqa: RUF001  # Chinese and Japanese too
-_BULLET = re.compile(r"^[ \t]*(?:[-*•–—·]+|\(?\d{1,2}[.)])[ \t]+", re.M)  # noqa: RUF001  # a dash too
-_HAS_WORD = re.compile(r"\w")
 OPPOSITE: Final[dict[Direction, Direction]] = {
     "north": "south",
     "south": "north",
@@ -17,7 +11,7 @@ OPPOSITE: Final[dict[Direction, Direction]] = {
     "west": "east",
     "on-top": "on-top",
 }
-# The first is the benchmark's (kitti360pose.md, rule 8); the others are how people say the same. {d} is where
+# The first is the benchmark's (docs/formats.md, rule 8); the others are how people say the same. {d} is where
 # the speaker is seen from the instance, {o} the opposite: where the instance is seen from the speaker.
 TEMPLATES: Final[tuple[str, ...]] = (
     "The pose is {d} of {a}.",
@@ -39,24 +33,6 @@ ON_TOP_TEMPLATES: Final[tuple[str, ...]] = (
     "{The} is right here.",
     "I can touch {a}.",
 )
-
-
-def split_hints(description: str) -> tuple[str, ...]:
-    """The sentences of a description, or the lines of a list, one hint each.
-
-    Args:
-        description: any text; sentences end at . ! ? ; or a line break.
-
-    Raises:
-        DescriptionError: there is no letter or digit in it, but for the numbers of a list.
-    """
-    sentences = (part.strip(" \t;,") for part in _BREAK.split(_BULLET.sub("", description)))
-    hints = tuple(sentence for sentence in sentences if _HAS_WORD.search(sentence))
-    if not hints:
-        raise DescriptionError(
-            "the description has no words; say what is around you, for example 'I am north of a gray building.'"
-        )
-    return hints
 
 
 def render_hint(hint: Hint, template: int = 0) -> str:

@@ -1,4 +1,4 @@
-"""Features of hint sentences that were read lately, so that the frozen text encoder runs only for new ones."""
+"""Features of sentences or phrases that were read lately, so that the frozen text encoder runs only for new ones."""
 
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Sequence
@@ -8,12 +8,12 @@ from torch import Tensor
 READ_BATCH = 256  # sentences
 
 
-class HintCache:
-    """Features by sentence.
+class RecentFeatures:
+    """Features by sentence or phrase.
 
     Args:
         read: [S, D] features of S sentences.
-        size: sentences to keep.
+        size: sentences to keep, those asked for last.
     """
 
     def __init__(self, read: Callable[[Sequence[str]], Tensor], size: int) -> None:
@@ -37,6 +37,10 @@ class HintCache:
         while len(self._features) > self._size:
             self._features.popitem(last=False)
         return found
+
+    def remember(self, sentences: Iterable[str], features: Iterable[Tensor]) -> None:
+        """Take up features that were read before."""
+        self._features.update(zip(sentences, features, strict=True))
 
     def clear(self) -> None:
         """Forget all, because the weights change."""

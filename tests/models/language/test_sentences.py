@@ -1,8 +1,9 @@
 import pytest
 
+from models.city.templates import ON_TOP_TEMPLATES, TEMPLATES, render_hint
 from models.city.types import DIRECTIONS, Hint
 from models.errors import DescriptionError
-from models.language.hints_text import ON_TOP_TEMPLATES, TEMPLATES, render_hint, split_hints
+from models.language.sentences import split_hints
 
 
 @pytest.mark.parametrize(

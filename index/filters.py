@@ -1,0 +1,35 @@
+"""What a query says of the place besides its description: where it must be, and where it is likely."""
+
+import numpy as np
+import numpy.typing as npt
+
+from index.answers import Box, Circle, Query
+from models.city.frame import Frame
+from models.city.types import Floats
+
+
+def inside(query: Query, points_m: Floats, frame: Frame) -> npt.NDArray[np.bool_]:
+    """[M] True where points [M, 2] of the map are inside `within`; everywhere without one."""
+    within = query.within
+    if isinstance(within, Circle):
+        offset = points_m - _to_map(within.center, query, frame)
+        return np.asarray(np.hypot(offset[:, 0], offset[:, 1]) <= within.radius_m)
+    if isinstance(within, Box):
+        x, y = points_m.T
+        if query.crs == "wgs84":
+            y, x = frame.to_wgs84(points_m)
+        return np.asarray((x >= within.west) & (x <= within.east) & (y >= within.south) & (y <= within.north))
+    return np.ones(len(points_m), dtype=bool)
+
+
+def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:
+    """[M] logarithm of the prior's density at points [M, 2], up to a constant; 0 without one."""
+    if query.prior is None:
+        return np.zeros(len(points_m))
+    offset = points_m - _to_map(query.prior.position, query, frame)
+    density: Floats = -(offset**2).sum(axis=1) / (2 * query.prior.sigma_m**2)
+    return density
+
+
+def _to_map(position: tuple[float, float], query: Query, frame: Frame) -> Floats:
+    return np.asarray(position) if query.crs == "map" else frame.from_wgs84(position[1], position[0])

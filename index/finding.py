@@ -1,0 +1,133 @@
+"""What a localizer finds for a query, and the one function that makes an answer of it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from index.answers import (
+    Answer,
+    Candidate,
+    Estimate,
+    Evidence,
+    HeatMap,
+    LatLon,
+    Method,
+    ModelName,
+    Query,
+    Radius,
+)
+from models.city.cells import CellTable
+from models.city.frame import Frame
+from models.city.points import Ints
+from models.city.types import Floats
+from models.localization.located import Located
+
+HEAT_POINTS = 500
+NOWHERE = "no position of the map lies inside 'within'; move it onto the map or leave it out"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Finding:
+    """What was found for one query.
+
+    Attributes:
+        located: the distribution; None if there is nothing to tell it from, or nowhere to look.
+        refusal: why there is no match, and what to do; None if there is one.
+        evidence: one a hint, where the localizer knows.
+        timings_ms: "encode", "search", "estimate".
+    """
+
+    located: Located | None
+    refusal: str | None = None
+    evidence: tuple[Evidence, ...] = ()
+    timings_ms: dict[str, float] = field(default_factory=dict)
+
+
+class CellLocalizer(Protocol):
+    """One way to localize on one gallery."""
+
+    @property
+    def method(self) -> Method:
+        """How positions are found."""
+        ...
+
+    @property
+    def model(self) -> ModelName:
+        """The model that positions come from."""
+        ...
+
+    def find(self, queries: Sequence[Query]) -> list[Finding]:
+        """One finding a query, in order; several texts go through a model together."""
+        ...
+
+    def take(self, rows: Ints) -> "CellLocalizer":
+        """The same on some cells of the gallery."""
+        ...
+
+
+def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: CellTable, frame: Frame) -> Answer:
+    """The answer to a query.
+
+    Args:
+        query: what was asked.
+        finding: what was found.
+        localizer: what found it.
+        cells: the gallery.
+        frame: of the map.
+    """
+    located = finding.located
+    if located is None or finding.refusal is not None:
+        warnings = (finding.refusal or NOWHERE,)
+        return Answer(
+            "no_match", localizer.model, warnings=warnings, timings_ms=finding.timings_ms, evidence=finding.evidence
+        )
+    p50, p90 = located.radii_m(0.5, 0.9)
+    covariance = located.covariance_m2()
+    estimate = Estimate(
+        position=_pair(located.positions[0]),
+        method=localizer.method,
+        covariance=(_pair(covariance[0]), _pair(covariance[1])),
+        radius_m=Radius(p50, p90),
+        probability=float(located.probability[0]),
+        wgs84=LatLon.of(located.positions[0], frame),
+    )
+    listed = range(min(query.top_k, len(located.rows)))
+    candidates = tuple(_candidate(located, n, cells, frame) for n in listed)
+    return Answer(
+        status="ok" if p50 <= cells.size_m else "ambiguous",
+        model=localizer.model,
+        estimate=estimate,
+        candidates=candidates,
+        other_probability=max(0.0, 1.0 - sum(candidate.probability for candidate in candidates)),
+        timings_ms=finding.timings_ms,
+        evidence=finding.evidence,
+        heat_map=_heat_map(located) if query.heat_map else None,
+    )
+
+
+def _candidate(located: Located, n: int, cells: CellTable, frame: Frame) -> Candidate:
+    row = int(located.rows[n])
+    x, y = _pair(cells.center_m[row])
+    half = cells.size_m / 2
+    return Candidate(
+        rank=n + 1,
+        cell_id=cells.ids[row],
+        score=float(located.score[n]),
+        probability=float(located.probability[n]),
+        center=(x, y),
+        bbox=(x - half, y - half, x + half, y + half),
+        position=_pair(located.positions[n]),
+        wgs84=LatLon.of(located.positions[n], frame),
+    )
+
+
+def _heat_map(located: Located) -> HeatMap:
+    order = np.argsort(-located.weight, kind="stable")[:HEAT_POINTS]
+    rows = np.column_stack([located.points_m[order], located.weight[order]])
+    return HeatMap(located.spacing_m, tuple((round(x, 2), round(y, 2), p) for x, y, p in rows.tolist()))
+
+
+def _pair(values: Floats) -> tuple[float, float]:
+    return float(values[0]), float(values[1])

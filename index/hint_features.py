@@ -1,0 +1,54 @@
+"""What a retriever makes of every template hint about a map: a small closed set, encoded once, when it is indexed."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save_file
+
+from models.city.colours import Palette
+from models.city.gallery import Gallery
+from models.city.templates import render_hint
+from models.city.types import DIRECTIONS, Hint
+from models.errors import IndexBroken
+from models.retrieval.retriever import Retriever
+
+FILE = "hints.safetensors"
+
+
+def template_hints(gallery: Gallery, palette: Palette) -> tuple[str, ...]:
+    """Every hint about the classes of a gallery, in each colour that they have and in none, by the template."""
+    parts = gallery.cells.parts
+    labels, number = np.unique(np.array(gallery.labels)[parts.instance], return_inverse=True)
+    words = [*palette.words, None]
+    said = {
+        (str(labels[n]), words[c]) for n, c in np.unique(np.stack([number, palette.word_index(parts.rgb)]), axis=1).T
+    }
+    said |= {(str(label), None) for label in labels}
+    pairs = sorted(said, key=lambda pair: (pair[0], pair[1] or ""))
+    return tuple(render_hint(Hint(direction, *pair)) for pair in pairs for direction in DIRECTIONS)
+
+
+def save_hint_features(directory: Path, retriever: Retriever, sentences: tuple[str, ...]) -> None:
+    """Encode hints and write them into an index version."""
+    features = {"features": retriever.encode_sentences(sentences)}
+    save_file(features, directory / FILE, {"sentences": json.dumps(sentences)})
+
+
+def load_hint_features(directory: Path, retriever: Retriever) -> frozenset[str]:
+    """Let a retriever remember what `save_hint_features` wrote.
+
+    Returns:
+        The sentences.
+
+    Raises:
+        IndexBroken: the file is not one of these.
+    """
+    try:
+        with safe_open(directory / FILE, framework="numpy") as file:
+            sentences = json.loads(file.metadata()["sentences"])
+            retriever.remember(sentences, file.get_tensor("features"))
+    except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
+        raise IndexBroken(f"the hints in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
+    return frozenset(sentences)

@@ -1,0 +1,175 @@
+"""Vector search on one gallery, with or without a fine stage."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.special import logsumexp
+
+from index.answers import Method, ModelName, Query
+from index.filters import inside, log_prior
+from index.finding import NOWHERE, Finding
+from index.ranking import Ranker
+from models.city.frame import Frame
+from models.city.gallery import Gallery, MapData
+from models.city.points import Ints
+from models.city.types import Floats
+from models.language.sentences import split_hints
+from models.localization.fine_model import FineModel
+from models.localization.located import Located
+from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.levels import Levels
+
+DEPTH = 2000  # cells that a probability looks at; what is beyond is bounded, see `_probability`
+Sentences = Callable[[Sequence[str]], Sequence[tuple[str, ...]]]
+
+
+def raw_sentences(descriptions: Sequence[str]) -> list[tuple[str, ...]]:
+    """The sentences of each description, as they are: what the paper's retrievers encode."""
+    return [split_hints(description) for description in descriptions]
+
+
+class VectorLocalizer:
+    """Answers descriptions of one gallery by the cells' vectors.
+
+    Args:
+        ranker: the model, with its vectors of the gallery.
+        gallery: the cells.
+        frame: of the map.
+        grid_m: spacing of the cells.
+        refiner: finds positions in the cells that are listed; None leaves them at the centres.
+        sentences: from descriptions to what the models encode.
+        depth: cells that probabilities look at.
+    """
+
+    def __init__(
+        self,
+        ranker: Ranker,
+        gallery: Gallery,
+        frame: Frame,
+        grid_m: float,
+        refiner: FineModel | None = None,
+        sentences: Sentences = raw_sentences,
+        depth: int = DEPTH,
+    ) -> None:
+        self.ranker, self.gallery, self.frame, self.refiner = ranker, gallery, frame, refiner
+        self.grid_m, self.sentences, self.depth = grid_m, sentences, depth
+        self._centers = gallery.cells.center_m[:, :2].astype(np.float64)
+        self._features = CellFeatures.of(gallery.cells, np.array(gallery.labels)) if refiner else None
+
+    @classmethod
+    def of_map(cls, data: MapData, ranker: Ranker, refiner: FineModel | None = None) -> "VectorLocalizer":
+        """As it is measured on a map: raw text, and probabilities over every cell."""
+        return cls(ranker, data.gallery, data.frame, data.grid_m, refiner, depth=len(data.cells))
+
+    @property
+    def method(self) -> Method:
+        """See CellLocalizer."""
+        return self.refiner.method if self.refiner else "cell_center"
+
+    @property
+    def model(self) -> ModelName:
+        """See CellLocalizer."""
+        model = self.refiner or self.ranker.retriever
+        return ModelName(model.name, model.fingerprint)
+
+    def take(self, rows: Ints) -> "VectorLocalizer":
+        """See CellLocalizer."""
+        gallery = replace(self.gallery, cells=self.gallery.cells.take(rows))
+        given = self.frame, self.grid_m, self.refiner, self.sentences, self.depth
+        return VectorLocalizer(self.ranker.take(rows), gallery, *given)
+
+    def raw(self) -> "VectorLocalizer":
+        """The same, encoding descriptions as they are, as the paper measures its retrievers."""
+        return VectorLocalizer(self.ranker, self.gallery, self.frame, self.grid_m, self.refiner, depth=self.depth)
+
+    def find(self, queries: Sequence[Query]) -> list[Finding]:
+        """See CellLocalizer."""
+        start = time.perf_counter()
+        sentences = self.sentences([query.description for query in queries])
+        texts = self.ranker.retriever.encode_texts(sentences)
+        encode_ms = _since(start)
+        start = time.perf_counter()
+        ranked = self._rank(queries, texts)
+        search_ms = _since(start)
+        start = time.perf_counter()
+        ordered = [self._order(*each) for each in zip(queries, texts, ranked, strict=True)]
+        positions = self._positions(queries, sentences, [rows for rows, *_ in ordered])
+        found = [self._located(*each) for each in zip(ordered, positions, strict=True)]
+        timings = {"encode": encode_ms, "search": search_ms, "estimate": _since(start)}
+        return [Finding(located, None if located else NOWHERE, timings_ms=timings) for located in found]
+
+    def _rank(self, queries: Sequence[Query], texts: Sequence[Levels]) -> list[tuple[Ints, Floats]]:
+        """Rows of the cells to consider for each query, and their scores."""
+        plain = [n for n, query in enumerate(queries) if query.within is None and query.prior is None]
+        ranked = self.ranker.rank([texts[n] for n in plain], self.depth) if plain else ([], [])
+        found = {n: (rows, scores) for n, scores, rows in zip(plain, *ranked, strict=True)}
+        for n, (query, text) in enumerate(zip(queries, texts, strict=True)):
+            if n not in found:
+                # A filter or a prior: the vectors' order is not the answer's, so score all that may be in it.
+                rows = np.flatnonzero(inside(query, self._centers, self.frame))
+                found[n] = rows, self.ranker.score(text, rows)
+        return [found[n] for n in range(len(queries))]
+
+    def _order(self, query: Query, text: Levels, ranked: tuple[Ints, Floats]) -> tuple[Ints, Floats, Floats]:
+        """Rows, scores and probabilities of cells, likeliest first."""
+        rows, scores = ranked
+        probability = self._probability(query, int(text.mask.sum()), rows, scores)
+        order = np.lexsort((rows, -probability))
+        return rows[order], scores[order], probability[order]
+
+    def _probability(self, query: Query, hints: int, rows: Ints, scores: Floats) -> Floats:
+        """[len(rows)] probability that each cell is the right one.
+
+        softmax(score / T) over the gallery, with T fitted on validation queries (`Retriever.temperature`). Cells
+        that were left out count as if each scored like the last one seen, so doubt is never understated.
+        """
+        if not len(rows):
+            return np.zeros(0)
+        logits = scores.astype(np.float64) / self.ranker.temperature(hints)
+        logits = logits + log_prior(query, self._centers[rows], self.frame)
+        is_whole = query.within is not None or query.prior is not None
+        unseen = 0 if is_whole else len(self._centers) - len(rows)
+        rest = np.log(unseen) + logits.min() if unseen else -np.inf
+        probability: Floats = np.exp(logits - np.logaddexp(logsumexp(logits), rest))
+        return probability
+
+    def _positions(
+        self, queries: Sequence[Query], sentences: Sequence[tuple[str, ...]], rows: Sequence[Ints]
+    ) -> list[Floats]:
+        """[C, 2] for each query the best position in each cell: what is listed may be refined, the rest are centres."""
+        positions = [self._centers[some] for some in rows]
+        if self.refiner is not None and self._features is not None:
+            listed = np.full((len(queries), max(query.top_k for query in queries)), -1)
+            for n, (query, some) in enumerate(zip(queries, rows, strict=True)):
+                listed[n, : len(some[: query.top_k])] = some[: query.top_k]
+            offset = self.refiner.predict(sentences, self._features, listed)
+            cells = self.gallery.cells
+            for n, some in enumerate(rows):
+                count = int((listed[n] >= 0).sum())
+                positions[n][:count] = cells.center_m[some[:count], :2] + (offset[n, :count] - 0.5) * cells.size_m
+        return positions
+
+    def _located(self, ordered: tuple[Ints, Floats, Floats], positions: Floats) -> Located | None:
+        rows, scores, probability = ordered
+        if not len(rows):
+            return None
+        # In its cell the position is in the square nearest to the centre, or in one as wide as the fine stage errs.
+        error_m = self.refiner.error_m if self.refiner else None
+        return Located(
+            rows=rows,
+            score=scores,
+            probability=probability,
+            other=max(0.0, 1.0 - float(probability.sum())),
+            positions=positions,
+            points_m=positions,
+            points=rows,
+            weight=probability,
+            spacing_m=self.grid_m if error_m is None else error_m * 12**0.5,
+            extent_m=self.gallery.cells.extent_m,
+        )
+
+
+def _since(start: float) -> float:
+    return (time.perf_counter() - start) * 1000

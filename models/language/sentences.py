@@ -1,0 +1,50 @@
+"""Descriptions as people type them: their sentences, and as texts that the reader takes."""
+
+import re
+
+from models.errors import DescriptionError
+
+# A sentence ends at . ! ? ; or a line break; a dot inside a number or an abbreviation's letter does not end one.
+_BREAK = re.compile(r"(?<=[.!?;。！？])(?<!\b\w\.)(?=\s|$)|[\r\n]+")  # noqa: RUF001  # Chinese and Japanese too
+_BULLET = re.compile(r"^[ \t]*(?:[-*•–—·]+|\(?\d{1,2}[.)])[ \t]+", re.M)  # noqa: RUF001  # a dash too
+_HAS_WORD = re.compile(r"\w")
+_SEMICOLON = re.compile(r";(?=\s|$)")
+_SENTENCE_ENDS = (".", "!", "?", ";", ":")
+
+
+def split_hints(description: str) -> tuple[str, ...]:
+    """The sentences of a description, or the lines of a list, one hint each.
+
+    Args:
+        description: any text; sentences end at . ! ? ; or a line break.
+
+    Raises:
+        DescriptionError: there is no letter or digit in it, but for the numbers of a list.
+    """
+    sentences = (part.strip(" \t;,") for part in _BREAK.split(_BULLET.sub("", description)))
+    hints = tuple(sentence for sentence in sentences if _HAS_WORD.search(sentence))
+    if not hints:
+        raise DescriptionError(
+            "the description has no words; say what is around you, for example 'I am north of a gray building.'"
+        )
+    return hints
+
+
+def reader_texts(description: str, longest: int) -> list[str]:
+    """A description as the reader takes it: lines become sentences; what is long is cut between sentences.
+
+    Args:
+        description: any text.
+        longest: characters of a text; a longer sentence is left whole.
+    """
+    lines = (line.strip(" \t;,") for line in _BULLET.sub("", description).splitlines())
+    ended = (line if line.endswith(_SENTENCE_ENDS) else line + "." for line in lines if _HAS_WORD.search(line))
+    whole = _SEMICOLON.sub(".", " ".join(ended))
+    if len(whole) <= longest:
+        return [whole] if whole else []
+    texts = [""]
+    for sentence in filter(None, map(str.strip, _BREAK.split(whole))):
+        if texts[-1] and len(texts[-1]) + len(sentence) > longest:
+            texts.append("")
+        texts[-1] = f"{texts[-1]} {sentence}".strip()
+    return texts

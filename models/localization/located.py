@@ -1,0 +1,59 @@
+"""What every localizer finds: cells in order, a position in each, and a distribution over the map."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from models.city.points import Ints
+from models.city.types import Floats
+
+SUBSQUARE_M, MOST_SUBSQUARES = 0.75, 5  # a point stands for a square; radii see it as up to 5 x 5 points this far apart
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Located:
+    """What is known of where a description was said.
+
+    Attributes:
+        rows: [K] cells, likeliest first.
+        score: [K] what they are ranked by, before it is made a probability.
+        probability: [K] that the speaker is in the part of the map that each cell owns.
+        other: probability of all other cells.
+        positions: [K, 2] the best position in each, metres, map frame.
+        points_m, weight: [M, 2] and [M] the distribution; the weights add up to 1 - other.
+        points: [M] row of each point: of the surroundings' nodes, or of the cells where their positions are the points.
+        spacing_m: edge of the square that each point stands for.
+        extent_m: radius that holds the whole map.
+        radius_scale: what radii are multiplied with, from validation data.
+    """
+
+    rows: Ints
+    score: Floats
+    probability: Floats
+    other: float
+    positions: Floats
+    points_m: Floats
+    points: Ints
+    weight: Floats
+    spacing_m: float
+    extent_m: float
+    radius_scale: float = 1.0
+
+    def radii_m(self, *shares: float) -> tuple[float, ...]:
+        """Radii round the first position of circles that hold some shares of the distribution, such as .5 and .9."""
+        side = min(MOST_SUBSQUARES, max(1, round(self.spacing_m / SUBSQUARE_M)))
+        steps = ((np.arange(side) + 0.5) / side - 0.5) * self.spacing_m
+        square = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+        counts = self.weight > 1e-9  # the rest together are nothing
+        offset = self.points_m[counts] - self.positions[0]
+        distance = np.linalg.norm(offset[:, None] + square, axis=2).ravel()
+        order = np.argsort(distance)
+        mass = np.cumsum(np.repeat(self.weight[counts] / len(square), len(square))[order])
+        found = np.append(distance[order], self.extent_m)[np.searchsorted(mass, shares)]  # the whole map if need be
+        return tuple(np.minimum(found * self.radius_scale, self.extent_m).tolist())
+
+    def covariance_m2(self) -> Floats:
+        """[2, 2] square metres, of the truth around the first position."""
+        offset = self.points_m - self.positions[0]
+        covariance: Floats = (offset * self.weight[:, None]).T @ offset
+        return covariance + np.eye(2) * (self.spacing_m**2 + self.other * self.extent_m**2) / 12

@@ -1,0 +1,68 @@
+import hashlib
+
+import pytest
+
+from models.files import file_records, new_directory, replace_file, replacing
+
+
+def mode(path):
+    return path.stat().st_mode & 0o777
+
+
+def test_a_file_is_replaced_only_when_all_is_written(tmp_path) -> None:
+    path = tmp_path / "deep" / "a"
+    replace_file(path, b"old")
+    with replacing(path) as file:
+        file.write(b"new")
+        file.flush()
+        assert path.read_bytes() == b"old"
+    assert path.read_bytes() == b"new"
+    (tmp_path / "plain").write_text("")
+    assert mode(path) == mode(tmp_path / "plain"), "as the user lets others read new files"
+
+
+def test_a_failure_leaves_the_old_file_and_no_scrap(tmp_path) -> None:
+    replace_file(tmp_path / "a", b"old")
+    for name in ("a", "b"):
+        with pytest.raises(ZeroDivisionError), replacing(tmp_path / name) as file:
+            file.write(b"half" * (file.write(b"half") // 0))
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+    assert (tmp_path / "a").read_bytes() == b"old"
+
+
+def test_a_file_that_cannot_be_flushed_is_not_put_in_place(tmp_path, monkeypatch) -> None:
+    def full_disk(*_):
+        raise OSError("no space left")
+
+    monkeypatch.setattr("os.fsync", full_disk)
+    with pytest.raises(OSError, match="no space"):
+        replace_file(tmp_path / "a", b"new")
+    with pytest.raises(OSError, match="no space"), new_directory(tmp_path / "d") as directory:
+        (directory / "a").write_text("new")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_directory_appears_whole_and_readable(tmp_path) -> None:
+    out = tmp_path / "deep" / "out"
+    with new_directory(out) as directory:
+        (directory / "inner").mkdir(mode=0o700)
+        (directory / "inner" / "a").write_bytes(b"a")
+        (directory / "inner" / "a").chmod(0o600)
+        assert not out.exists()
+    assert (out / "inner" / "a").read_bytes() == b"a"
+    assert [mode(path) for path in (out, out / "inner", out / "inner" / "a")] == [0o755, 0o755, 0o644]
+    assert [path.name for path in out.parent.iterdir()] == ["out"]
+
+
+def test_a_failure_leaves_no_directory(tmp_path) -> None:
+    with pytest.raises(IsADirectoryError), new_directory(tmp_path / "out") as directory:
+        directory.write_text("half")
+    assert not list(tmp_path.iterdir())
+
+
+def test_records_are_sizes_and_sums(tmp_path) -> None:
+    (tmp_path / "b").write_bytes(b"bytes")
+    (tmp_path / "a").write_bytes(b"")
+    records = file_records(tmp_path)
+    assert list(records) == ["a", "b"]
+    assert (records["b"].bytes, records["b"].sha256) == (5, hashlib.sha256(b"bytes").hexdigest())
