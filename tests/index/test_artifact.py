@@ -28,7 +28,9 @@ def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
     assert manifest.cells == len(cells)
     assert manifest.instances == len(city.instances)
     assert manifest.model_fingerprint == model.fingerprint
-    assert set(manifest.files) == {"vectors.faiss", "cells.safetensors", "cells.json", "surroundings.safetensors"}
+    assert set(manifest.files) == {
+        *("vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "surroundings.safetensors")
+    }
     assert not list(index_dir.glob(".*"))
 
 
@@ -46,7 +48,7 @@ def version_file(root, name):
     return root / read_aliases(root)["default"] / name
 
 
-@pytest.mark.parametrize("name", ["vectors.faiss", "cells.safetensors", "cells.json"])
+@pytest.mark.parametrize("name", ["vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json"])
 def test_cut_changed_and_missing_files_are_noticed(copy, name) -> None:
     path = version_file(copy, name)
     whole = path.read_bytes()

@@ -36,7 +36,7 @@ async def info(queue: Queue, settings: SettingsNow) -> InfoResponse:
     return InfoResponse(
         service="hereabouts",
         version=version("hereabouts"),
-        limits=Limits.model_validate(settings),
+        limits=Limits.model_validate(settings, from_attributes=True),
         index=index,
         data_sets=[path.name for path in data_sets(settings.data_dir)],
     )

@@ -1,5 +1,5 @@
-"""Started by test_evaluate_jobs.py in place of app.jobs.worker: the same process, with work that a word of
-the first hint chooses."""
+"""Started by test_jobs.py in place of app.jobs.worker: the same process, with work that a word of
+the first description chooses."""
 
 import json
 import os
@@ -13,7 +13,7 @@ from models.errors import DataError
 
 
 def run(self, report_dir, progress):
-    hint = self.sentences[0][0]
+    hint = self.descriptions[0]
     print("libraries may print what they like")
     progress("ask", 0, 2)
     if "held" in hint:
@@ -31,7 +31,7 @@ def run(self, report_dir, progress):
         time.sleep(0.4)
     progress("ask", 2, 2)
     report_dir.mkdir()
-    (report_dir / "report.json").write_text(json.dumps({"queries": len(self.sentences), "grow": self.grow_m}))
+    (report_dir / "report.json").write_text(json.dumps({"queries": len(self.descriptions), "grow": self.grow_m}))
 
 
 Evaluation.run = run
