@@ -85,6 +85,7 @@ def test_nouns_are_whole_and_end_where_they_end(reader, text, tags, nouns):
     assert [text[hint.start : hint.end] for hint in reader.read([text])[0]] == nouns
 
 
+@pytest.mark.slow
 def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder):
     torch.manual_seed(0)
     texts = ReadingSet(text_encoder, 5, "train", 96, 0)

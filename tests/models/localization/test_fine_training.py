@@ -136,6 +136,7 @@ def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> N
     assert right / known > 0.9, "parts of one instance may be told apart wrongly, others not"
 
 
+@pytest.mark.slow
 def test_both_methods_overfit_a_few_positions(city, source, text_encoder) -> None:
     positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 12, replace=False)]
     training = TrainingSet(source.statements_at(positions), text_encoder)
@@ -164,6 +165,7 @@ def test_both_methods_overfit_a_few_positions(city, source, text_encoder) -> Non
             assert error_m < 3
 
 
+@pytest.mark.slow
 def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=8, validate_every=2, spacing_m=20.0)
     seen = []
@@ -186,6 +188,7 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) ->
     assert source["validation"]["cell_center"]["within_5m"] > 0
 
 
+@pytest.mark.slow
 def test_a_data_set_trains_either_method(streets, tmp_path) -> None:
     def load(encoder, rng):
         return [load_training(streets, ("train", "val"), encoder, TrainingConfig(), rng)] * 2

@@ -24,7 +24,7 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
     center = [nodes_m[owner == c].mean(axis=0) if (owner == c).any() else (0, 0) for c in range(len(starts) - 1)]
     return SimpleNamespace(
         likelihood=SimpleNamespace(temper=torch.zeros(())), field=field, nodes_m=nodes_m,
-        cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0),
+        cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0, extent_m=1e4),
         surroundings=SimpleNamespace(cell_starts=np.array(starts)), coarse=is_coarse, between=~is_coarse,
         # As they stand, so that cells are looked at in this order.
         cell_scores=lambda _reading: -np.arange(len(starts) - 1.0),
@@ -50,7 +50,7 @@ def test_a_cell_that_a_prior_rules_out_has_no_mass_and_spoils_no_other() -> None
     posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -1.0]), [0, 2, 4, 4, 5])
     found = locate(posterior, NOTHING, lambda at: np.where(np.isin(at[:, 0], (30, 31)), -np.inf, 0.0))
     assert found is not None
-    mass = dict(zip(found.rows.tolist(), found.log_mass.tolist(), strict=True))
+    mass = dict(zip(found.rows.tolist(), found.score.tolist(), strict=True))
     assert mass == pytest.approx({0: np.log(2), 1: -np.inf, 3: -1.0})
 
 
@@ -58,6 +58,6 @@ def test_a_cell_without_a_coarse_node_is_looked_at_closely() -> None:
     nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
     found = locate(posterior_of(nodes_m, np.zeros(5), [0, 2, 4, 5], coarse=[0, 4]), NOTHING)
     assert found is not None
-    assert dict(zip(found.rows.tolist(), found.log_mass.tolist(), strict=True)) == pytest.approx(
+    assert dict(zip(found.rows.tolist(), found.score.tolist(), strict=True)) == pytest.approx(
         {0: np.log(2), 1: np.log(2), 2: 0.0}
     )
