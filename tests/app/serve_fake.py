@@ -4,12 +4,13 @@ and, for a hint with the word "held", waits for a line on stdin."""
 import sys
 from functools import partial
 from pathlib import Path
+from unittest.mock import patch
 
 from fake_localizer import FakeLocalizer
 
-from app import main
 from app.jobs.runner import EvaluationJobs
 from app.logs import configure_logging
+from app.main import create_app
 from app.server import serve
 from app.settings import load_settings
 
@@ -24,7 +25,8 @@ class TellingLocalizer(FakeLocalizer):
 
 settings = load_settings(port=int(sys.argv[1]))
 configure_logging("info")
-main.EvaluationJobs = partial(EvaluationJobs, command=(sys.executable, Path(__file__).parent / "jobs/fake_worker.py"))
-app = main.create_app(settings, TellingLocalizer)
+WORKER = (sys.executable, Path(__file__).parent / "jobs/fake_worker.py")
+with patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=WORKER)):
+    app = create_app(settings, TellingLocalizer)
 app.add_api_route("/waiting", lambda: len(app.state.queue._jobs))
 serve(app, settings)

@@ -13,6 +13,8 @@ import pytest
 
 SCRIPT = Path(__file__).parent / "serve_fake.py"
 
+pytestmark = pytest.mark.slow  # processes of their own
+
 
 class Served:
     """A service in its own process."""

@@ -11,6 +11,8 @@ import pytest
 ROOT = Path(__file__).parent.parent.parent
 TEXT = "I am north of a street lamp. There is a brown building to my east."
 
+pytestmark = pytest.mark.slow  # traces the whole program
+
 
 def trace(weights_dir, *arguments):
     """What the tracer prints: its lines, and the rows of its table as (file, entered first, functions, lines)."""

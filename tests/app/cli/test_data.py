@@ -33,6 +33,7 @@ def test_prepare_makes_one_scene_alone(run, raw_root, prepared, tmp_path) -> Non
     assert (tmp_path / name).read_bytes() == (prepared / name).read_bytes()
 
 
+@pytest.mark.slow
 def test_what_prepare_made_is_converted_indexed_and_asked(run, prepared, tmp_path) -> None:
     store, index = tmp_path / "store", tmp_path / "index"
     assert run("convert", "--data", prepared, "--out", store).exit_code == 0
@@ -70,6 +71,7 @@ def test_mistakes_get_one_line_that_helps(run, prepared, tmp_path, args, message
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_an_index_that_fits_is_kept(run, prepared, tmp_path) -> None:
     versions = []
     for split in ("0003", "0003", "0010"):

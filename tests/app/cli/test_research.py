@@ -17,6 +17,7 @@ def run(monkeypatch, weights_dir):
     return lambda *args: CliRunner().invoke(app, [str(arg) for arg in args])
 
 
+@pytest.mark.slow
 def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("models.training.calibration.QUERIES", 20)
     result = run("train", "--data", osm_file, "--out", tmp_path / "w", "--steps", "1")
@@ -27,6 +28,7 @@ def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_pa
     assert record["training"]["sources"][0]["validation"]["queries"] > 0
 
 
+@pytest.mark.slow
 def test_a_fine_stage_is_trained_and_refines_what_is_evaluated(run, osm_file, tmp_path, monkeypatch) -> None:
     small = ("--set", "model.width=16", "--set", "training.batch_size=8", "--set", "training.validate_every=1")
     result = run("train", "--method", "regressor", "--data", osm_file, "--out", tmp_path / "w", "--steps", "2", *small)
@@ -40,6 +42,7 @@ def test_a_fine_stage_is_trained_and_refines_what_is_evaluated(run, osm_file, tm
     assert report["localization"] != report["cell_center"]
 
 
+@pytest.mark.slow
 def test_evaluate_prints_what_it_writes(run, osm_file, tmp_path) -> None:
     results = [run("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r") for _ in range(2)]
     assert results[0].exit_code == 0, results[0].output
@@ -61,6 +64,7 @@ def test_localize_draws_a_picture(run, index_dir, tmp_path) -> None:
     assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"
 
 
+@pytest.mark.slow
 def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypatch) -> None:
     monkeypatch.setattr(benchmark, "REQUESTS", 3)
     result = run("benchmark", "--map", osm_file, "--index", index_dir)
@@ -74,6 +78,7 @@ def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypa
     assert parts["surroundings_bytes_a_cell"] > 100
 
 
+@pytest.mark.slow
 def test_benchmark_says_when_the_service_does_not_start(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(benchmark, "START_S", 3)
     with (

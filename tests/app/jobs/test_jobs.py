@@ -99,6 +99,7 @@ def test_events_of_a_cancelled_job_end(api):
     api.delete(f"/evaluate/{running}")
 
 
+@pytest.mark.slow
 def test_silent_stream_has_signs_of_life(api, monkeypatch):
     monkeypatch.setattr(evaluate, "PING_S", 0.1)
     job = begin(api, "slow")
@@ -136,6 +137,7 @@ def test_input_that_is_wrong_is_said_without_directories(api):
     assert found["report"] is None
 
 
+@pytest.mark.slow
 def test_crash_is_told_in_the_log_alone(api):
     with structlog.testing.capture_logs() as logged:
         found = wait_for(api, begin(api, "crash"), "failed")
@@ -150,6 +152,7 @@ def test_worker_that_does_not_start_is_a_failure(api):
     assert wait_for(api, begin(api), "failed")["error"]["code"] == "internal_error"
 
 
+@pytest.mark.slow
 def test_crash_leaves_no_process_behind(api, until):
     job = begin(api, "orphan")
     wait_for(api, job, "failed")
@@ -157,6 +160,7 @@ def test_crash_leaves_no_process_behind(api, until):
     until(lambda: not is_alive(child))
 
 
+@pytest.mark.slow
 def test_cancel_stops_the_work(api, problem):
     job = begin(api, "held")
     wait_for(api, job, "running")
@@ -177,6 +181,7 @@ def test_cancel_stops_the_work(api, problem):
     problem(api.get(f"/evaluate/{job}/events"), 404, "job_not_found")
 
 
+@pytest.mark.slow
 def test_one_runs_some_wait_and_one_more_is_refused(api, problem):
     running = begin(api, "held")
     wait_for(api, running, "running")

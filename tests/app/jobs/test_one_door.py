@@ -1,6 +1,7 @@
 """Index, evaluation and training look at the same cells and positions."""
 
 import numpy as np
+import pytest
 
 from app.jobs.order import Evaluation
 from index.build import build_index
@@ -11,6 +12,7 @@ from models.training.settings import TrainingConfig
 from models.training.training_data import load_training
 
 
+@pytest.mark.slow
 def test_all_three_come_through_one_door(osm_file, weights_dir, text_encoder, tmp_path) -> None:
     source = open_source(osm_file, "val")
     cells = source.data.cells

@@ -60,6 +60,7 @@ def queries(osm_file):
     return [*told, {"hints": ["I am nowhere near."], "position": [5000.0, 5000.0]}]
 
 
+@pytest.mark.slow
 def test_inline_queries_get_the_report_of_the_command_line(served, command_line, queries, tmp_path):
     body = {"queries": queries, "grow": [60, 120]}
     (tmp_path / "queries.json").write_text(json.dumps(body))
@@ -72,6 +73,7 @@ def test_inline_queries_get_the_report_of_the_command_line(served, command_line,
     assert [step["radius_m"] for step in report["growth"]] == [60, 120]
 
 
+@pytest.mark.slow
 def test_data_set_by_name_gets_the_report_of_the_command_line(served, command_line, osm_file):
     found = evaluate(served, {"data": "tinytown", "split": "val"})
     assert found["status"] == "done", found
@@ -90,6 +92,7 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
     assert stored == anew
 
 
+@pytest.mark.slow
 def test_what_is_wrong_with_the_data_is_the_jobs_error(served, osm_file):
     found = evaluate(served, {"data": "tinytown", "split": "north"})
     assert found["status"] == "failed"

@@ -34,6 +34,7 @@ def stamps(out: Path) -> dict[str, int]:
     return {str(path): path.stat().st_mtime_ns for path in out.glob("runs/*/*/result.json")}
 
 
+@pytest.mark.slow
 def test_what_is_done_is_kept_and_what_differs_is_made_again(small, osm_file, tmp_path) -> None:
     found = module.reproduce(osm_file, tmp_path, SCALE, [0, 1], 1, lambda *_: None)
     assert {name: len(results) for name, results in found["runs"].items()} == {"text2loc": 2, "regressor": 1}

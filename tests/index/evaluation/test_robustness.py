@@ -52,6 +52,7 @@ def test_hints_about_the_nearest_things_are_true(source, asked):
     assert np.mean(shared) > 0.8, "the six nearest things are among the eight nearest"
 
 
+@pytest.mark.slow
 def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_encoder):
     torch.manual_seed(0)
     data, queries = asked

@@ -1,8 +1,9 @@
 import pytest
 import torch
+from torch import nn
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
-from models.language.grammar.labelled_text import Fact, Mention
+from models.language.grammar.labelled_text import Fact
 from models.language.grammar.wording import Wording
 from models.language.landmarks import Landmarks
 from models.language.parsed_hint import RELATIONS, ParsedHint
@@ -11,15 +12,13 @@ from models.language.reader import (
     TAGS,
     Reader,
     ReaderConfig,
-    _place,
-    _spans,
     said_distances,
 )
 from models.posterior.binding import Binding, colour_table
 from models.posterior.model import load_posterior
 from models.posterior.node_batch import colour_words
 from models.training.engine.loop import LoopConfig, run_training
-from models.training.fit_reader import ReadingSet, ReadingTask, _wanted, draw_facts, example_targets, reading_figures
+from models.training.fit_reader import ReadingSet, ReadingTask, draw_facts, example_targets, reading_figures
 
 KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "vegetation")
 
@@ -38,6 +37,18 @@ def trained():
 @pytest.fixture(scope="module")
 def matcher(trained):
     return trained.matcher
+
+
+class Tagging(nn.Module):
+    """Tags the tokens of a text as it was told."""
+
+    def __init__(self, tags):
+        super().__init__()
+        self.logits = nn.functional.one_hot(torch.tensor([tags]), len(TAGS)).float()
+
+    def forward(self, features):
+        assert features.shape[:2] == self.logits.shape[:2]
+        return self.logits
 
 
 def test_padding_and_company_change_nothing(reader):
@@ -69,13 +80,12 @@ def test_targets_mark_the_tokens_of_the_noun(text_encoder):
         ("one lamp , another", [0, 0, 2, 0, 4, 0], ["lamp", "another"]),
     ],
 )
-def test_nouns_are_whole_and_end_where_they_end(text_encoder, text, tags, nouns):
-    tokens, characters = text_encoder.read([text], 1)
-    spans = _spans(torch.tensor(tags), characters[0], tokens.mask[0], text)
-    places = [_place(text, int(characters[0, a, 0]), int(characters[0, b - 1, 1])) for a, b, _ in spans]
-    assert [text[a:b] for a, b in places] == nouns
+def test_nouns_are_whole_and_end_where_they_end(reader, text, tags, nouns):
+    reader.tag = Tagging(tags)
+    assert [text[hint.start : hint.end] for hint in reader.read([text])[0]] == nouns
 
 
+@pytest.mark.slow
 def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder):
     torch.manual_seed(0)
     texts = ReadingSet(text_encoder, 5, "train", 96, 0)
@@ -88,11 +98,18 @@ def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder):
     assert after["relation"] > before["relation"] + 0.1
 
 
-def test_a_colour_is_wanted_only_where_it_is_said():
-    fact = Fact("lamp", "north", "black")
-    unsaid, said = (Mention((0,), 0, 4, "lamp", coloured=coloured) for coloured in (False, True))
-    assert _wanted(fact, unsaid)[1] == len(COLOURS)
-    assert _wanted(fact, said)[1] == COLOURS.index("black")
+def test_a_colour_is_wanted_only_where_it_is_said(text_encoder):
+    texts = ReadingSet(text_encoder, 1, "train", 40, 0)
+    wanted = iter(texts.batch(range(len(texts))).colour.tolist())
+    unsaid = 0
+    for facts, said in zip(texts.facts, texts.said, strict=True):
+        for mention in said.mentions:
+            if mention.facts:
+                colour = facts[mention.facts[0]].colour
+                assert next(wanted) == (COLOURS.index(colour) if mention.coloured else len(COLOURS))
+                unsaid += colour is not None and not mention.coloured
+    assert unsaid, "colours that are there and are not said occur"
+    assert list(wanted) == []
 
 
 def test_facts_are_varied():

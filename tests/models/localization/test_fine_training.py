@@ -79,7 +79,7 @@ def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(eith
     assert (batch.sentences[batch.hint_mask] >= 0).all()
     vocabulary = either.training.vocabulary
     sentence = vocabulary.sentence
-    labels, colours = np.unique(either.training.label_of), np.unique(either.training.table.colour)
+    labels, colours = np.unique(either.training.label_of), np.unique([-1, *either.training.table.colour])
     direction_of = {}
     for d in range(5):
         for t in range(8):
@@ -117,20 +117,26 @@ def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(eit
 
 
 def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> None:
-    store = load_data(streets, "train")
+    store, told = load_data(streets, "train"), FineSet(store_set.training, pmc=False)
     poses, parts = store.poses, store.cell_table().parts
+    match = told.batch(80, np.random.default_rng(0)).truth.match.numpy()
+    rng = np.random.default_rng(0)  # what the batch drew
+    positions = rng.choice(told.training.usable, 80)
+    cells, symmetry = told.draw_cells(positions, rng), rng.integers(len(SYMMETRIES), size=80)
+    said = told.training.say(positions, symmetry, rng)
+    assert (cells == poses.cell[positions]).all()
     right = known = 0
-    for n in store_set.training.usable[::5]:
-        hints = np.arange(poses.starts[n], poses.starts[n + 1])
-        match = store_set._match(hints, int(poses.cell[n]), poses.positions_m[n, :2])
-        row = poses.instance[hints]
-        assert ((match >= 0) == (row >= 0)).all()
+    for n in range(80):
+        row = poses.instance[said.hints[n, said.mask[n]]]
+        found = match[n, : len(row)]
+        assert ((found >= 0) == (row >= 0)).all()
         known += int((row >= 0).sum())
-        right += int((match[row >= 0] + parts.starts[poses.cell[n]] == row[row >= 0]).sum())
+        right += int((found[row >= 0] + parts.starts[cells[n]] == row[row >= 0]).sum())
     assert known > 20
     assert right / known > 0.9, "parts of one instance may be told apart wrongly, others not"
 
 
+@pytest.mark.slow
 def test_both_methods_overfit_a_few_positions(city, source, text_encoder) -> None:
     positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 12, replace=False)]
     training = TrainingSet(source.statements_at(positions), text_encoder)
@@ -159,6 +165,7 @@ def test_both_methods_overfit_a_few_positions(city, source, text_encoder) -> Non
             assert error_m < 3
 
 
+@pytest.mark.slow
 def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=8, validate_every=2, spacing_m=20.0)
     seen = []
@@ -181,6 +188,7 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) ->
     assert source["validation"]["cell_center"]["within_5m"] > 0
 
 
+@pytest.mark.slow
 def test_a_data_set_trains_either_method(streets, tmp_path) -> None:
     def load(encoder, rng):
         return [load_training(streets, ("train", "val"), encoder, TrainingConfig(), rng)] * 2

@@ -1,20 +1,63 @@
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
+import torch
 
-from models.posterior.locate import _mass, _squares
+from models.posterior.locate import locate
 from models.posterior.posterior import Field
+
+NOTHING: Any = None
+
+
+def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coarse: list[int] | None = None) -> Any:
+    """A posterior that is given: [M] log p at nodes [M, 2], of which cell n owns starts[n] to starts[n + 1]."""
+    owner = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    is_coarse = np.isin(np.arange(len(log_p)), np.arange(len(log_p)) if coarse is None else coarse)
+
+    def field(_reading, cells, log_prior=None, inside=None):
+        nodes = np.concatenate([np.flatnonzero((owner == c) & (inside is None or inside)) for c in cells])
+        prior = 0.0 if log_prior is None else log_prior(nodes_m[nodes])
+        return Field(cells, nodes, np.searchsorted(cells, owner[nodes], sorter=np.argsort(cells)), log_p[nodes] + prior)
+
+    center = [nodes_m[owner == c].mean(axis=0) if (owner == c).any() else (0, 0) for c in range(len(starts) - 1)]
+    return SimpleNamespace(
+        likelihood=SimpleNamespace(temper=torch.zeros(())), field=field, nodes_m=nodes_m,
+        cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0, extent_m=1e4),
+        surroundings=SimpleNamespace(cell_starts=np.array(starts)), coarse=is_coarse, between=~is_coarse,
+        # As they stand, so that cells are looked at in this order.
+        cell_scores=lambda _reading: -np.arange(len(starts) - 1.0),
+    )  # fmt: skip
 
 
 def test_near_distances_are_right_on_a_map_of_many_kilometres() -> None:
     rng = np.random.default_rng(0)
-    far = np.array([9000.0, 7000.0])
-    around = np.concatenate([rng.uniform(0, 20, (40, 2)), far + rng.uniform(0, 20, (40, 2))])
-    exact = ((around[:, None] - around) ** 2).sum(axis=2)
-    near = exact < 100
-    assert _squares(around).numpy()[near] == pytest.approx(exact[near], abs=0.05)
+    near, far = rng.uniform(0, 8, (40, 2)), np.array([9000.0, 7000.0])
+    log_p = rng.normal(size=40)
+    alone = locate(posterior_of(near, log_p, [0, 20, 40]), NOTHING)
+    twice = posterior_of(np.concatenate([near, far + near]), np.concatenate([log_p, log_p - 1e-3]), [0, 20, 40, 60, 80])
+    found = locate(twice, NOTHING)
+    assert alone is not None
+    assert found is not None
+    assert found.rows.tolist() == [n for row in alone.rows for n in (row, row + 2)]
+    assert found.positions[0] == pytest.approx(alone.positions[0], abs=0.002)
+    assert found.positions[3] - far == pytest.approx(alone.positions[1], abs=0.002)
 
 
 def test_a_cell_that_a_prior_rules_out_has_no_mass_and_spoils_no_other() -> None:
-    log_p = np.array([0.0, 0.0, -np.inf, -np.inf, -1.0])
-    mass = _mass(Field(np.arange(4), np.arange(5), np.array([0, 0, 1, 1, 3]), log_p))
-    assert mass.tolist() == pytest.approx([np.log(2), -np.inf, -np.inf, -1.0])
+    nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
+    posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -1.0]), [0, 2, 4, 4, 5])
+    found = locate(posterior, NOTHING, lambda at: np.where(np.isin(at[:, 0], (30, 31)), -np.inf, 0.0))
+    assert found is not None
+    mass = dict(zip(found.rows.tolist(), found.score.tolist(), strict=True))
+    assert mass == pytest.approx({0: np.log(2), 1: -np.inf, 3: -1.0})
+
+
+def test_a_cell_without_a_coarse_node_is_looked_at_closely() -> None:
+    nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
+    found = locate(posterior_of(nodes_m, np.zeros(5), [0, 2, 4, 5], coarse=[0, 4]), NOTHING)
+    assert found is not None
+    assert dict(zip(found.rows.tolist(), found.score.tolist(), strict=True)) == pytest.approx(
+        {0: np.log(2), 1: np.log(2), 2: 0.0}
+    )

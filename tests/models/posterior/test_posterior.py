@@ -87,7 +87,7 @@ def test_probabilities_add_up_and_radii_are_in_order(town):
         assert found.weight.sum() + found.other == pytest.approx(1.0)
         assert (np.diff(found.score) <= 1e-12).all()
         p50, p90 = found.radii_m(0.5, 0.9)
-        assert 0 < p50 <= p90 <= 500.0
+        assert 0 < p50 <= p90 <= found.extent_m
         eigenvalues = np.linalg.eigvalsh(found.covariance_m2())
         assert (eigenvalues > 0).all()
 
@@ -195,6 +195,7 @@ def test_a_named_landmark_binds_the_hint(town, cells):
     assert np.linalg.norm(sees - found.positions[0], axis=1).min() < 3.0, "a name outweighs two hints"
 
 
+@pytest.mark.slow
 def test_fitting_makes_the_truth_likelier(town):
     texts, cells = town.texts(), np.arange(0, len(town.place.cells), 3)
 

@@ -86,6 +86,7 @@ def test_samples_belong_to_their_parts(city, cells) -> None:
     assert np.allclose(extent[whole], size[whole] * ratio[:, None], atol=1e-3)
 
 
+@pytest.mark.slow
 def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
     torch.manual_seed(0)
     model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), point_encoder="pointnet")).eval()

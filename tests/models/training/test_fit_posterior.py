@@ -18,6 +18,7 @@ from models.training.places import Place
 from models.training.settings import TrainingConfig
 
 
+@pytest.mark.slow
 def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monkeypatch):
     small = {"TEXTS": 48, "VALIDATION_TEXTS": 16, "FITTED_TEXTS": 8, "CALIBRATED_TEXTS": 8}
     for name, value in (small | {"FIT_STEPS": 1, "CALIBRATION_STEPS": 1}).items():

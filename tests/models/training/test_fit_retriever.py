@@ -76,6 +76,7 @@ def test_the_vocabulary_numbers_its_sentences(region) -> None:
     assert max(said) < len(vocabulary.mask)
 
 
+@pytest.mark.slow
 def test_training_learns_is_seeded_and_is_saved(regions, tmp_path) -> None:
     config = TrainingConfig(steps=12, batch_size=16, spacing_m=15.0, validate_every=6, learning_rate=3e-3)
     seen = []
@@ -95,6 +96,7 @@ def test_training_learns_is_seeded_and_is_saved(regions, tmp_path) -> None:
     assert load_retriever(tmp_path / "a").temperature(6) > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_every_method_trains_in_half_precision(regions, text_encoder, method) -> None:
     source = TrainingData.of(*regions, text_encoder, TrainingConfig(spacing_m=30.0), np.random.default_rng(0))
@@ -110,6 +112,7 @@ def test_every_method_trains_in_half_precision(regions, text_encoder, method) ->
     assert half.item() == pytest.approx(whole.item(), rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_run_directory_goes_on(regions, tmp_path) -> None:
     config = TrainingConfig(steps=6, batch_size=16, spacing_m=30.0, validate_every=2)
 
@@ -130,6 +133,7 @@ def test_a_run_directory_goes_on(regions, tmp_path) -> None:
     assert json.loads((tmp_path / "run" / "config.json").read_text())["model"]["levels"] == ["global", "instance"]
 
 
+@pytest.mark.slow
 def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("models.training.fit_points.STEPS", 40)
     monkeypatch.setattr("models.training.fit_points.VALIDATE_EVERY", 20)
@@ -160,6 +164,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, 
     assert store.vectors(np.arange(len(cells))).shape == (len(cells), 32)
 
 
+@pytest.mark.slow
 def test_a_data_set_trains_as_a_map_does(streets, tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=16, validate_every=4)
 

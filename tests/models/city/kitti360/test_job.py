@@ -209,6 +209,7 @@ def test_a_folder_of_digits_only(tmp_path: Path) -> None:
     assert load_cells(tmp_path / "cells/2013_05_28_drive_0042_sync.pkl")[0].scene_name == "0042"
 
 
+@pytest.mark.slow
 @needs_mini
 def test_the_sample_is_prepared(tmp_path: Path) -> None:
     prepare_data(MINI / "raw", tmp_path, "0003")

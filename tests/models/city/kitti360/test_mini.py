@@ -40,6 +40,7 @@ def mini(request) -> tuple[str, RawScene]:
     return request.param, load_raw_scene(MINI / "raw", request.param)
 
 
+@pytest.mark.slow
 def test_the_reference_cells_and_descriptions_come_out(mini) -> None:
     scene, raw = mini
     config = PrepareConfig(copies=2)

@@ -200,6 +200,7 @@ def replace_trajectory(raw: RawScene, trajectory_m: np.ndarray) -> RawScene:
     return RawScene(raw.name, raw.instances, raw.stuff, trajectory_m)
 
 
+@pytest.mark.slow
 def test_every_option_of_the_poses_counts(raw) -> None:
     def poses_of(**options) -> list:
         return prepare_scene(raw, replace(PrepareConfig(copies=1), **options), np.random.default_rng(1))[1]

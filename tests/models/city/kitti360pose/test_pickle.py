@@ -208,6 +208,7 @@ def mutate(data: bytes, other: bytes, rng: np.random.Generator) -> bytes:
     return bytes(changed)
 
 
+@pytest.mark.slow
 def test_ten_thousand_mutated_pickles(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each is refused with DataError or is valid data; nothing is executed."""
 

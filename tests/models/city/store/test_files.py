@@ -187,6 +187,7 @@ def test_verify_finds_a_changed_byte(data: Path, tmp_path: Path) -> None:
     verify_store(store)
 
 
+@pytest.mark.slow
 @needs_mini
 def test_the_sample_comes_back_to_the_last_bit(tmp_path: Path) -> None:
     for part in ("cells", "poses"):

@@ -131,6 +131,7 @@ def test_a_drive_bends_and_ends_when_it_has_passed_enough_cells(style):
     assert np.ptp(drive[:, 2]) > 0.5
 
 
+@pytest.mark.slow
 def test_one_seed_makes_one_set_of_files_and_another_seed_another(tmp_path, tiny_scale):
     seen = []
     names = write_towns(tmp_path / "a", "demo", 1, lambda done, total: seen.append((done, total)))

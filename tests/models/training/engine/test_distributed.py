@@ -7,6 +7,8 @@ from models.errors import TrainingError
 from models.training.engine import distributed
 from tests.models.training.engine import two_processes
 
+pytestmark = pytest.mark.slow  # processes of their own
+
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory):
