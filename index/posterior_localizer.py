@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import torch
 
 from index.answers import Evidence, Method, ModelName, Query
@@ -17,7 +16,7 @@ from index.ranking import Ranker
 from models.city.colours import Palette
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData
-from models.city.points import ranges
+from models.city.points import Ints, ranges
 from models.language.landmarks import Landmarks
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
@@ -85,7 +84,7 @@ class PosteriorLocalizer:
         """See CellLocalizer."""
         return ModelName(self.weights.name, self.weights.fingerprint)
 
-    def take(self, rows: npt.NDArray[np.intp]) -> "PosteriorLocalizer":
+    def take(self, rows: Ints) -> "PosteriorLocalizer":
         """See CellLocalizer."""
         parts = self.gallery.cells.parts
         kept = ranges(parts.starts[rows], parts.starts[rows + 1])
@@ -127,13 +126,14 @@ class PosteriorLocalizer:
         fits = any(hint.explained >= EXPLAINED for hint in evidence)
         return Finding(located, None if fits else NOTHING_FITS, evidence, timings)
 
-    def candidates(self, hints: Sequence[ParsedHint], reading: Reading) -> npt.NDArray[np.int64]:
+    def candidates(self, hints: Sequence[ParsedHint], reading: Reading) -> Ints:
         """[A] the cells that the vector index finds for hints, in the retriever's words."""
         sentences = self.binding.sentences(hints, reading)
         if not sentences:
             return np.empty(0, np.int64)
         text = self.ranker.retriever.encode_description(sentences)
-        return self.ranker.search([text], CANDIDATES)[1][0]
+        rows: Ints = self.ranker.search([text], CANDIDATES)[1][0]
+        return rows
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
         """Descriptions in the retriever's words, as far as they were read: template sentences of the map's classes."""

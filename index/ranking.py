@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from index.store import FaissStore, Floats, Rows, VectorStore
 from models.city.cells import CellTable
+from models.city.points import Ints
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Levels
@@ -75,7 +76,7 @@ class Ranker:
         table = LevelTable.load(directory, retriever.levels) if with_levels else NO_LEVELS
         return cls(retriever, FaissStore.load(directory / VECTORS_FILE), table)
 
-    def take(self, rows: npt.NDArray[np.intp]) -> "Ranker":
+    def take(self, rows: Ints) -> "Ranker":
         """The same of some cells of the gallery."""
         return Ranker(self.retriever, FaissStore.of(self.store.vectors(rows)), self.table.take(rows), self.depth)
 

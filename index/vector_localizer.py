@@ -103,13 +103,15 @@ class VectorLocalizer:
     def _rank(self, queries: Sequence[Query], texts: Sequence[Levels]) -> list[tuple[Ints, Floats]]:
         """Rows of the cells to consider for each query, and their scores."""
         plain = [n for n, query in enumerate(queries) if query.within is None and query.prior is None]
-        ranked = self.ranker.rank([texts[n] for n in plain], self.depth) if plain else ([], [])
-        found = {n: (rows, scores) for n, scores, rows in zip(plain, *ranked, strict=True)}
+        found: dict[int, tuple[Ints, Floats]] = {}
+        if plain:
+            scores, rows = self.ranker.rank([texts[n] for n in plain], self.depth)
+            found = {n: (rows[k], scores[k]) for k, n in enumerate(plain)}
         for n, (query, text) in enumerate(zip(queries, texts, strict=True)):
             if n not in found:
                 # A filter or a prior: the vectors' order is not the answer's, so score all that may be in it.
-                rows = np.flatnonzero(inside(query, self._centers, self.frame))
-                found[n] = rows, self.ranker.score(text, rows)
+                some = np.flatnonzero(inside(query, self._centers, self.frame))
+                found[n] = some, self.ranker.score(text, some)
         return [found[n] for n in range(len(queries))]
 
     def _order(self, query: Query, text: Levels, ranked: tuple[Ints, Floats]) -> tuple[Ints, Floats, Floats]:
@@ -139,7 +141,7 @@ class VectorLocalizer:
         self, queries: Sequence[Query], sentences: Sequence[tuple[str, ...]], rows: Sequence[Ints]
     ) -> list[Floats]:
         """[C, 2] for each query the best position in each cell: what is listed may be refined, the rest are centres."""
-        positions = [self._centers[some] for some in rows]
+        positions: list[Floats] = [self._centers[some] for some in rows]
         if self.refiner is not None and self._features is not None:
             listed = np.full((len(queries), max(query.top_k for query in queries)), -1)
             for n, (query, some) in enumerate(zip(queries, rows, strict=True)):

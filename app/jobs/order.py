@@ -20,8 +20,11 @@ from models.city.source import Source, open_source
 from models.city.types import Progress
 from models.errors import DataError
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # torch takes seconds
     from index.finding import CellLocalizer
+    from index.posterior_localizer import PosteriorLocalizer
+    from index.ranking import Ranker
+    from index.vector_localizer import VectorLocalizer
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
 WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # of Settings and of Evaluation
@@ -86,25 +89,33 @@ class Evaluation(BaseModel):
         return source, source.queries()
 
     def _localizer(self, source: Source, progress: Progress) -> "CellLocalizer":
-        """What is evaluated, made for a data set; retrievers are given raw text and all their levels."""
+        return self._posterior(source, progress) if self.refine == "posterior" else self._vectors(source, progress)
+
+    def _posterior(self, source: Source, progress: Progress) -> "PosteriorLocalizer":
+        """The hint posterior of a data set."""
         from index.posterior_localizer import PosteriorLocalizer  # noqa: PLC0415
-        from index.ranking import Ranker  # noqa: PLC0415
-        from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
-        from models.localization.checkpoint import load_fine  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.posterior.surroundings import Surroundings  # noqa: PLC0415
+
+        ranker = self._ranker(source, progress, with_levels=False)
+        surroundings = Surroundings.of(source.bodies(), source.data.cells, progress)
+        return PosteriorLocalizer.of_map(load_posterior(self.posterior_weights_dir), source.data, ranker, surroundings)
+
+    def _vectors(self, source: Source, progress: Progress) -> "VectorLocalizer":
+        """Vector search of a data set: raw text, all levels."""
+        from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
+        from models.localization.checkpoint import load_fine  # noqa: PLC0415
+
+        refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
+        return VectorLocalizer.of_map(source.data, self._ranker(source, progress, with_levels=True), refiner)
+
+    def _ranker(self, source: Source, progress: Progress, with_levels: bool) -> "Ranker":
+        from index.ranking import Ranker  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         progress("encode cells", 0, 0)
-        data, is_posterior = source.data, self.refine == "posterior"
-        retriever = load_retriever(self.weights_dir)
-        ranker = Ranker.of(retriever, data.cells, data.gallery.labels, with_levels=not is_posterior)
-        if is_posterior:
-            model = load_posterior(self.posterior_weights_dir)
-            surroundings = Surroundings.of(source.bodies(), data.cells, progress)
-            return PosteriorLocalizer.of_map(model, data, ranker, surroundings)
-        refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
-        return VectorLocalizer.of_map(data, ranker, refiner)
+        gallery = source.data.gallery
+        return Ranker.of(load_retriever(self.weights_dir), gallery.cells, gallery.labels, with_levels=with_levels)
 
     def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
         """Retriever and posterior side by side under every trial of `robustness`, and where candidates come from.
@@ -124,9 +135,8 @@ class Evaluation(BaseModel):
                 "--robustness needs a data set or a map: nobody knows what the hints of one's own text mean"
             )
         source, queries = self._open(progress)
-        vectors, posterior = (
-            self.model_copy(update={"refine": how})._localizer(source, progress) for how in ("none", "posterior")
-        )
+        vectors = self.model_copy(update={"refine": "none"})._vectors(source, progress)
+        posterior = self._posterior(source, progress)
         found: dict[str, Any] = {
             "data": source.data.name,
             "split": source.data.split,

@@ -97,6 +97,7 @@ class FineModel(OnTextEncoder):
 
     method: ClassVar[FineMethod]
     config_type: ClassVar[type[FineConfig]]
+    config: FineConfig
 
     def __init__(self, text_encoder: TextEncoder, config: FineConfig) -> None:
         super().__init__(text_encoder)

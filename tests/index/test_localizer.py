@@ -1,4 +1,5 @@
 import dataclasses
+import json
 
 import numpy as np
 import pytest
@@ -171,6 +172,18 @@ def test_an_answer_names_the_model_that_made_it(localizer) -> None:
     assert by_vectors.model == localizer.facts.model
     assert by_posterior.model.name.startswith("posterior/")
     assert by_posterior.model.sha256 == localizer.posterior.weights.fingerprint != by_vectors.model.sha256
+
+
+@pytest.mark.parametrize(
+    "number", ["99999999999999999999999999", "9" * 400, "1e309", "0", "0.0000000001", "٣", "1,000"]
+)
+@pytest.mark.parametrize("unit", ["meters", "km", "steps", "m"])
+def test_no_number_in_a_text_breaks_an_answer(localizer, number, unit) -> None:
+    (answer,) = localizer.localize(
+        [Query(f"A building is {number} {unit} north of me. There is a tree {number} m east.")]
+    )
+    json.dumps(dataclasses.asdict(answer), allow_nan=False)
+    assert answer.evidence
 
 
 def test_a_cell_in_detail(localizer, cells, city) -> None:
