@@ -24,16 +24,20 @@ class DrainingServer(uvicorn.Server):
         super().__init__(config)
         self._queue = queue
         self._jobs = jobs
+        self._is_ending = False
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Drain; a second signal does not wait for that."""
-        if self._queue.is_draining:
+        if self._is_ending:
             super().handle_exit(sig, frame)
+        self._is_ending = True
         self._queue.drain()
 
     async def on_tick(self, counter: int) -> bool:
         """Whether to leave, asked ten times a second."""
-        return await super().on_tick(counter) or (self._queue.is_draining and self._queue.is_idle)
+        if self._is_ending:
+            self._queue.drain()  # again: a signal may have come before the queue was started
+        return await super().on_tick(counter) or (self._is_ending and self._queue.is_idle)
 
     async def shutdown(self, sockets: list[socket] | None = None) -> None:
         """Leave."""

@@ -26,7 +26,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 TRACED = tuple(f"{ROOT / layer}{os.sep}" for layer in ("app", "index", "models"))
 ROUTES = "app/http/routes/"
-SMALL = 10
+SMALL = 20
 IMPORTING = "<frozen importlib._bootstrap>"
 READY_S = 300
 

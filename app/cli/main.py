@@ -103,17 +103,20 @@ def localize(
 ) -> None:
     """Say where the speaker of a description is."""
     from app.settings import load_settings
+    from app.startup import no_collection
     from index.answers import Query
-    from index.localizer import Localizer
     from models.language.sentences import split_hints
 
     split_hints(text)  # or DescriptionError, before anything is loaded
     query = Query(text, top_k=top_k, refine=refine)
     settings = load_settings(index_dir=index_dir)
-    localizer = Localizer.open(
-        settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
-    )
-    [answer] = localizer.localize([query])
+    with no_collection():
+        from index.localizer import Localizer
+
+        localizer = Localizer.open(
+            settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
+        )
+        [answer] = localizer.localize([query])
     if picture:
         from index.picture import draw_answer
 

@@ -12,6 +12,7 @@ import structlog
 
 from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
+from app.startup import no_collection
 from index.answers import Answer, Query
 from models.errors import HereaboutsError
 
@@ -154,7 +155,8 @@ class InferenceQueue:
 
     def _run(self) -> None:
         try:
-            self._localizer = localizer = self._open_localizer()
+            with no_collection():
+                self._localizer = localizer = self._open_localizer()
         except HereaboutsError as error:
             log.error("load failed", reason=str(error))
             self._failure = str(error)

@@ -1,3 +1,4 @@
+import asyncio
 import json
 import os
 import signal
@@ -10,6 +11,11 @@ from pathlib import Path
 
 import httpx
 import pytest
+import uvicorn
+
+from app.http.queue import InferenceQueue
+from app.jobs.runner import EvaluationJobs
+from app.server import DrainingServer
 
 SCRIPT = Path(__file__).parent / "serve_fake.py"
 
@@ -171,3 +177,18 @@ def is_running(pid):
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except FileNotFoundError:
         return False
+
+
+def test_a_signal_that_comes_before_the_queue_is_started_is_not_lost(fake):
+    queue, jobs = InferenceQueue(lambda: fake, 1, 1), EvaluationJobs(1)
+    server = DrainingServer(uvicorn.Config(None), queue, jobs)
+    server.handle_exit(signal.SIGTERM, None)
+
+    async def start_and_end():
+        queue.start()  # as the application does when it starts
+        while not await server.on_tick(1):
+            await asyncio.sleep(0.01)
+        await queue.close()
+
+    asyncio.run(asyncio.wait_for(start_and_end(), 20))
+    assert queue.is_draining
