@@ -13,8 +13,8 @@ from torch import Tensor, nn
 
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
-from models.retrieval.hint_encoder import HintEncoder
 from models.retrieval.instance_encoder import NUM_GEOMETRY, CellBatch, CellFeatures, InstanceEncoder
+from models.retrieval.layers import HintEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 10 MB at D = 128
 PAIRS = 1024  # of description and cell, located at once

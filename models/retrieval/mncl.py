@@ -6,9 +6,8 @@ import torch
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.retrieval.hint_encoder import HintEncoder
 from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
-from models.retrieval.layers import SetTransformer, groups_by_size, masked_max, mlp
+from models.retrieval.layers import HintEncoder, SetTransformer, groups_by_size, masked_max, mlp
 from models.retrieval.levels import Level, Levels, level_scores
 from models.retrieval.losses import contrastive_loss, negative_contrastive_loss
 from models.retrieval.retriever import Retriever, RetrieverConfig

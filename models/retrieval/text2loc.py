@@ -5,9 +5,8 @@ from typing import ClassVar
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.retrieval.hint_encoder import HintEncoder
 from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
-from models.retrieval.layers import SetTransformer, masked_max
+from models.retrieval.layers import HintEncoder, SetTransformer, masked_max
 from models.retrieval.levels import Levels
 from models.retrieval.losses import contrastive_loss
 from models.retrieval.retriever import Retriever, RetrieverConfig

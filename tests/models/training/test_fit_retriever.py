@@ -12,9 +12,8 @@ from models.errors import DataError
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
-from models.training.fit_retriever import train_retriever
+from models.training.fit_retriever import RetrievalTask, train_retriever
 from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect
-from models.training.retrieval_task import RetrievalTask
 from models.training.settings import TrainingConfig
 from models.training.training_data import TrainingData, load_training
 from tests.models.city.raw_scenes import TRAIN_STREETS, VAL_STREET

@@ -14,8 +14,8 @@ from models.retrieval.instance_encoder import NUM_GEOMETRY, CellBatch
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.training.engine import distributed
 from models.training.engine.loop import LoopConfig, run_training
+from models.training.fit_retriever import RetrievalTask, SourceBatch
 from models.training.retrieval_data import Batch
-from models.training.retrieval_task import RetrievalTask, SourceBatch
 
 WIDTH, SENTENCES, LABELS = 12, 9, 4
 CONFIG = MnclConfig(width=16, dropout=0.0, loss_temperature=0.5)

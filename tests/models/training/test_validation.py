@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 
 from models.city.source import CHOSEN_BY
-from models.training.calibration import calibrate, most_likely
-from models.training.validation import Validation
+from models.training.validation import Validation, calibrate, most_likely
 
 
 @pytest.fixture(scope="module")
