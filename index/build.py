@@ -61,7 +61,7 @@ def build_index(
     source = open_source(map_path, split, report)
     data = source.data
     report("encode cells", 0, 0)
-    ranker = Ranker.of(retriever, data.cells, data.gallery.labels, with_levels=levels)
+    ranker = Ranker.of(retriever if levels else retriever.global_alone(), data.cells, data.gallery.labels)
     surroundings = Surroundings.of(source.bodies(), data.cells, report)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)

@@ -50,7 +50,7 @@ class Localizer:
         self.manifest, self.retriever = manifest, retriever
         self._directory, self._load_refiner, self._load_model = directory, load_refiner, load_model
         self.gallery = Gallery.load(directory)
-        self.ranker = Ranker.load(retriever, directory)
+        self.ranker = Ranker.load(retriever.global_alone(), directory)
         self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
         self._known_hints = load_hint_features(directory, retriever)
         self._row = {cell_id: row for row, cell_id in enumerate(self.gallery.cells.ids)}
@@ -131,7 +131,7 @@ class Localizer:
     def _vectors(self) -> VectorLocalizer:
         """Vector search on this gallery, by all levels that the index has."""
         has_levels = STARTS_FILE in self.manifest.files
-        ranker = Ranker.load(self.retriever, self._directory, with_levels=True) if has_levels else self.ranker
+        ranker = Ranker.load(self.retriever, self._directory) if has_levels else self.ranker
         return VectorLocalizer(ranker, self.gallery, self.frame, self.manifest.grid_m, sentences=self.sentences)
 
     @cached_property

@@ -40,7 +40,6 @@ class Ranker:
         cells: CellTable,
         labels: Sequence[str],
         depth: int = RERANKED,
-        with_levels: bool = True,
     ) -> "Ranker":
         """Encode a gallery.
 
@@ -49,10 +48,9 @@ class Ranker:
             cells: the gallery.
             labels: of each instance that its parts name.
             depth: see Ranker.
-            with_levels: whether to keep more than the global level.
         """
         features = retriever.seen(CellFeatures.of(cells, np.array(labels)))
-        vectors, table = encode_gallery(retriever, features, with_levels)
+        vectors, table = encode_gallery(retriever, features)
         return cls(retriever, FaissStore.of(vectors), table, depth)
 
     def save(self, directory: Path) -> None:
@@ -62,18 +60,17 @@ class Ranker:
             self.table.save(directory)
 
     @classmethod
-    def load(cls, retriever: Retriever, directory: Path, with_levels: bool = False) -> "Ranker":
+    def load(cls, retriever: Retriever, directory: Path) -> "Ranker":
         """Read what `save` wrote.
 
         Args:
-            retriever: the model that made it.
+            retriever: the model that made it; its levels are read.
             directory: where it is.
-            with_levels: whether to read the levels beside the global one too.
 
         Raises:
             IndexBroken: it is not an index of this model.
         """
-        table = LevelTable.load(directory, retriever.levels) if with_levels else NO_LEVELS
+        table = NO_LEVELS if retriever.levels == ("global",) else LevelTable.load(directory, retriever.levels)
         return cls(retriever, FaissStore.load(directory / VECTORS_FILE), table)
 
     def take(self, rows: Ints) -> "Ranker":

@@ -135,7 +135,8 @@ class Told(_Body):
 REFINE: Any = Field(
     DEFAULT_REFINE,
     description="posterior: hints are matched with the map; regressor: vector search, then a regressor; "
-    "none: vector search alone, cells' centres",
+    "none: vector search alone, cells' centres; these two rank by all of the retriever's levels only on an index that "
+    "was built with --levels",
 )
 
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # torch takes seconds
     from index.posterior_localizer import PosteriorLocalizer
     from index.ranking import Ranker
     from index.vector_localizer import VectorLocalizer
+    from models.retrieval.retriever import Retriever
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
 WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # of Settings and of Evaluation
@@ -96,8 +97,9 @@ class Evaluation(BaseModel):
         from index.posterior_localizer import PosteriorLocalizer  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.posterior.surroundings import Surroundings  # noqa: PLC0415
+        from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
-        ranker = self._ranker(source, progress, with_levels=False)
+        ranker = self._ranker(source, load_retriever(self.weights_dir).global_alone(), progress)
         surroundings = Surroundings.of(source.bodies(), source.data.cells, progress)
         return PosteriorLocalizer.of_map(load_posterior(self.posterior_weights_dir), source.data, ranker, surroundings)
 
@@ -105,17 +107,18 @@ class Evaluation(BaseModel):
         """Vector search of a data set: raw text, all levels."""
         from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
         from models.localization.checkpoint import load_fine  # noqa: PLC0415
-
-        refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
-        return VectorLocalizer.of_map(source.data, self._ranker(source, progress, with_levels=True), refiner)
-
-    def _ranker(self, source: Source, progress: Progress, with_levels: bool) -> "Ranker":
-        from index.ranking import Ranker  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
+        refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
+        ranker = self._ranker(source, load_retriever(self.weights_dir), progress)
+        return VectorLocalizer.of_map(source.data, ranker, refiner)
+
+    @staticmethod
+    def _ranker(source: Source, retriever: "Retriever", progress: Progress) -> "Ranker":
+        from index.ranking import Ranker  # noqa: PLC0415
+
         progress("encode cells", 0, 0)
-        gallery = source.data.gallery
-        return Ranker.of(load_retriever(self.weights_dir), gallery.cells, gallery.labels, with_levels=with_levels)
+        return Ranker.of(retriever, source.data.cells, source.data.gallery.labels)
 
     def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
         """Retriever and posterior side by side under every trial of `robustness`, and where candidates come from.

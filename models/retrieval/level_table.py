@@ -103,19 +103,18 @@ class LevelTable:
 NO_LEVELS = LevelTable(np.zeros(1, np.int64), {})
 
 
-def encode_gallery(retriever: Retriever, cells: CellFeatures, with_levels: bool = True) -> tuple[Vectors, LevelTable]:
+def encode_gallery(retriever: Retriever, cells: CellFeatures) -> tuple[Vectors, LevelTable]:
     """A gallery as a retriever sees it, in one pass.
 
     Args:
         retriever: the model.
         cells: of `Retriever.seen`.
-        with_levels: whether to keep the levels beside the global one, if the retriever has any.
 
     Returns:
         [N, D] float32 unit vectors of the global level, and the table of the others.
     """
     width = retriever.config.width
-    names: list[Level] = [level for level in retriever.levels if level != "global"] if with_levels else []
+    names: list[Level] = [level for level in retriever.levels if level != "global"]
     whole = np.empty((len(cells), width), np.float32)
     others: dict[Level, npt.NDArray[np.floating[Any]]] = {
         n: np.empty((len(cells.label), width), np.float32) for n in names

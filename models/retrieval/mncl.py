@@ -1,5 +1,6 @@
 """MNCL (AAAI 2025): global, instance and relation levels, trained with a negative contrastive loss."""
 
+import copy
 from typing import ClassVar, Literal
 
 import torch
@@ -70,6 +71,12 @@ class Mncl(Retriever):
     def levels(self) -> tuple[Level, ...]:
         """See Retriever."""
         return self.config.levels
+
+    def global_alone(self) -> "Mncl":
+        """See Retriever."""
+        lean = copy.copy(self)
+        lean.config = self.config.model_copy(update={"levels": ("global",)})
+        return lean
 
     def read(self, tokens: TokenFeatures) -> Tensor:
         """See Retriever."""

@@ -70,6 +70,10 @@ class Retriever(OnTextEncoder):
         """The levels that `describe` and `look` give."""
         return ("global",)
 
+    def global_alone(self) -> "Retriever":
+        """The same model, weights and all, that makes the global level only, which is a part of the work."""
+        return self
+
     def read(self, tokens: TokenFeatures) -> Tensor:
         """[S, D] features of hint sentences, each for itself."""
         raise NotImplementedError
