@@ -65,6 +65,7 @@ class PosteriorLocalizer:
     ) -> None:
         self.weights, self.gallery, self.frame, self.ranker = model, gallery, frame, ranker
         self.surroundings, self._palette = surroundings, palette
+        self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
         self.labels, number = np.unique(np.array(gallery.labels), return_inverse=True)
         label = number.astype(np.int64)[gallery.cells.parts.instance]
         self.posterior = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette)
@@ -78,11 +79,6 @@ class PosteriorLocalizer:
     ) -> "PosteriorLocalizer":
         """On a map that is no index."""
         return cls(model, data.gallery, data.palette, data.frame, surroundings, ranker)
-
-    @property
-    def model(self) -> ModelName:
-        """See CellLocalizer."""
-        return ModelName(self.weights.name, self.weights.fingerprint)
 
     def take(self, rows: Ints) -> "PosteriorLocalizer":
         """See CellLocalizer."""

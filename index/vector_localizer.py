@@ -55,6 +55,8 @@ class VectorLocalizer:
     ) -> None:
         self.ranker, self.gallery, self.frame, self.refiner = ranker, gallery, frame, refiner
         self.grid_m, self.sentences, self.depth = grid_m, sentences, depth
+        model = refiner or ranker.retriever
+        self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
         self._centers = gallery.cells.center_m[:, :2].astype(np.float64)
         self._features = CellFeatures.of(gallery.cells, np.array(gallery.labels)) if refiner else None
 
@@ -67,12 +69,6 @@ class VectorLocalizer:
     def method(self) -> Method:
         """See CellLocalizer."""
         return self.refiner.method if self.refiner else "cell_center"
-
-    @property
-    def model(self) -> ModelName:
-        """See CellLocalizer."""
-        model = self.refiner or self.ranker.retriever
-        return ModelName(model.name, model.fingerprint)
 
     def take(self, rows: Ints) -> "VectorLocalizer":
         """See CellLocalizer."""
