@@ -13,6 +13,7 @@ import httpx
 import pytest
 import uvicorn
 
+from app.http.errors import Code, Problem
 from app.http.queue import InferenceQueue
 from app.jobs.runner import EvaluationJobs
 from app.server import DrainingServer
@@ -188,7 +189,9 @@ def test_a_signal_that_comes_before_the_queue_is_started_is_not_lost(fake):
         queue.start()  # as the application does when it starts
         while not await server.on_tick(1):
             await asyncio.sleep(0.01)
+        with pytest.raises(Problem) as refused:
+            queue.check_accepting()
         await queue.close()
+        return refused.value.code
 
-    asyncio.run(asyncio.wait_for(start_and_end(), 20))
-    assert queue.is_draining
+    assert asyncio.run(asyncio.wait_for(start_and_end(), 20)) is Code.DRAINING
