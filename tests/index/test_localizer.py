@@ -6,6 +6,7 @@ import pytest
 
 from index.answers import Box, Circle, Prior, Query
 from index.localizer import Localizer
+from models.retrieval.checkpoint import load_retriever
 
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 CORNER = Box(-154, -154, 4, 4)
@@ -141,14 +142,13 @@ def test_templates_and_what_cannot_be_read_are_encoded_as_they_are(localizer) ->
     assert found[2] == ("The pose is north of a tree.",)
 
 
-def test_template_hints_are_never_read_again(localizer, index_dir, weights_dir, monkeypatch) -> None:
+def test_template_hints_are_never_read_again(index_dir, weights_dir, monkeypatch) -> None:
+    hints = ("The pose is on-top of a road.", "The pose is north of a tree.")
+    expected = load_retriever(weights_dir).encode_descriptions([hints])  # that never saw the index
     fresh = Localizer.open(index_dir, weights_dir)
     monkeypatch.setattr(fresh.retriever, "read", None)  # what would run the text encoder
-    template = "The pose is on-top of a road. The pose is north of a tree."
-    (answer,) = fresh.localize([Query(template, refine="none")])
-    (expected,) = localizer.localize([Query(template, refine="none")])
-    assert [c.cell_id for c in answer.candidates] == [c.cell_id for c in expected.candidates]
-    assert answer.estimate.probability == pytest.approx(expected.estimate.probability, rel=1e-5)
+    assert fresh.retriever.encode_descriptions([hints]) == pytest.approx(expected, abs=1e-5)
+    assert fresh.localize([Query(" ".join(hints), refine="none")])[0].estimate
 
 
 @pytest.mark.parametrize("refine", ["none", "posterior"])

@@ -105,6 +105,12 @@ def test_a_filter_holds_for_every_position(answer, query, city):
     assert "within" in off.warnings[0]
 
 
+def test_radii_are_scaled_as_validation_said(answer, query, posterior, monkeypatch):
+    plain = answer(query).estimate.radius_m
+    monkeypatch.setattr(posterior.weights, "config", PosteriorConfig(width=32, radius_scale=1.5))
+    assert answer(query).estimate.radius_m.p90 == pytest.approx(1.5 * plain.p90)
+
+
 def test_a_prior_pulls(answer, query):
     x, y = answer(query).estimate.position
     pulled = answer(replace(query, prior=Prior((x + 80, y), 8.0)))
