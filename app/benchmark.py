@@ -110,7 +110,7 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
         [hints] = _timed(steps["read"], posterior.parse, [" ".join(text)])
         reading = posterior.reading(hints)
         also = _timed(steps["candidates"], posterior.candidates, hints, reading)
-        _timed(steps["posterior"], partial(locate, also=also), posterior.posterior, reading)
+        _timed(steps["posterior"], partial(locate, also=also), posterior.nodes, reading)
         encoded = _timed(steps["encode"], retriever.encode_texts, [text])
         _timed(steps["vector_search"], ranker.rank, encoded, DEPTH)
     surroundings, cells = posterior.surroundings, len(localizer.gallery.cells)

@@ -68,7 +68,7 @@ class PosteriorLocalizer:
         self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
         self.labels, number = np.unique(np.array(gallery.labels), return_inverse=True)
         label = number.astype(np.int64)[gallery.cells.parts.instance]
-        self.posterior = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette)
+        self.nodes = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette)
         self.binding = Binding(model.matcher, self.labels.tolist(), palette)
         self.landmarks = Landmarks(gallery.names)
         self._read_lately: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
@@ -104,9 +104,9 @@ class PosteriorLocalizer:
         reading = self.reading(hints)
         timings = {"encode": encode_ms + _since(start)}
         start = time.perf_counter()
-        nodes_m, frame = self.posterior.nodes_m, self.frame
+        nodes_m, frame = self.nodes.nodes_m, self.frame
         located = locate(
-            self.posterior,
+            self.nodes,
             reading,
             None if query.prior is None else lambda points_m: log_prior(query, points_m, frame),
             None if query.within is None else inside(query, nodes_m, frame),
@@ -166,7 +166,7 @@ class PosteriorLocalizer:
     def _evidence(self, hints: Sequence[ParsedHint], reading: Reading, located: Located) -> tuple[Evidence, ...]:
         """How each hint was understood, and what explains it at the best position."""
         node = int(located.points[((located.points_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
-        found = self.posterior.explain(reading, node)
+        found = self.nodes.explain(reading, node)
         return tuple(self._explained(*row, node) for row in zip(hints, reading.label, found, strict=True))
 
     def _explained(self, hint: ParsedHint, label: Any, found: tuple[int, float], node: int) -> Evidence:

@@ -10,6 +10,7 @@ import torch
 from torch import Tensor, nn
 
 from models.language.lexicon.lexicon import load_lexicon
+from models.language.recent_features import RecentFeatures
 from models.language.spelling import Spelling
 from models.language.text_encoder import OnTextEncoder, TextEncoder
 
@@ -56,17 +57,16 @@ class LabelMatcher(OnTextEncoder):
         self.register_buffer("names", torch.empty(0, text_encoder.width))
         digest = hashlib.sha256("\n".join(self._names).encode()).digest()
         self.register_buffer("names_of", torch.tensor(list(digest), dtype=torch.uint8))  # tells whether stored ones fit
-        self._known: dict[str, Tensor] = {}
+        self._known = RecentFeatures(text_encoder.embed, MOST_KEPT)
         nn.Module.register_load_state_dict_pre_hook(self, LabelMatcher._take_names)
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
         """[S, W] unit vectors of the frozen text encoder, misspelt words mended; those seen before are kept."""
         plain = [self._plain(phrase) for phrase in phrases]
-        if not self._known or len(self._known) > MOST_KEPT:
-            self._known = dict(zip(self._names, self.names, strict=False))
-        if missing := [phrase for phrase in dict.fromkeys(plain) if phrase not in self._known]:
-            self._known.update(zip(missing, self.text_encoder.embed(missing), strict=True))
-        return torch.stack([self._known[phrase] for phrase in plain])
+        if not len(self._known) and len(self.names):
+            self._known.remember(self._names, self.names)
+        known = self._known(plain)
+        return torch.stack([known[phrase] for phrase in plain])
 
     def bind(self, map_labels: Sequence[str]) -> BoundLabels:
         """Prepare for a map.
