@@ -61,7 +61,7 @@ def description(axes: Axes) -> Box:
     bound = box(axes, (x, 76, wide, TALL), "models", "In the map's own words", "models/posterior/binding.py",
                 "labels, colours and names, each a distribution")  # fmt: skip
     left, right, half = x - 15.5, x + 15.5, 27.0
-    render = box(axes, (left, 62.5, half, TALL), "models", "Template hints", "models/language/hints_text.py",
+    render = box(axes, (left, 62.5, half, TALL), "models", "Template hints", "models/city/templates.py",
                  "what was understood, rendered")  # fmt: skip
     encode = box(axes, (left, 51, half, TALL), "models", "Retriever encodes", "models/retrieval/",
                  "a unit vector a description")  # fmt: skip
@@ -71,7 +71,7 @@ def description(axes: Axes) -> Box:
                    "class, colour, sector: 100 cells")  # fmt: skip
     grid = box(axes, (x, 26.5, wide, TALL), "models", "Posterior over a grid of 1.5 m", "models/posterior/locate.py",
                "how likely the text is at each node, all hints at once")  # fmt: skip
-    answer = box(axes, (x, 14, wide, TALL), "index", "One function makes the Answer", "index/answers.py",
+    answer = box(axes, (x, 14, wide, TALL), "index", "One function makes the Answer", "index/finding.py",
                  "cells, position, radii, evidence, heat map; and which model it was")  # fmt: skip
     reply = box(axes, (x, 3.6, wide, 5.6), "app", "JSON or GeoJSON", "app/http/responses.py, app/http/geojson.py")
     frame = (x, (vector[1] + grid[1]) / 2, wide + 4, vector[1] - grid[1] + TALL + 1.6)

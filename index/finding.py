@@ -25,7 +25,6 @@ from models.city.types import Floats
 from models.localization.located import Located
 
 HEAT_POINTS = 500
-NOWHERE = "no position of the map lies inside 'within'; move it onto the map or leave it out"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,9 +78,12 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
     """
     located = finding.located
     if located is None or finding.refusal is not None:
-        warnings = (finding.refusal or NOWHERE,)
         return Answer(
-            "no_match", localizer.model, warnings=warnings, timings_ms=finding.timings_ms, evidence=finding.evidence
+            "no_match",
+            localizer.model,
+            warnings=(finding.refusal,) if finding.refusal else (),
+            timings_ms=finding.timings_ms,
+            evidence=finding.evidence,
         )
     p50, p90 = located.radii_m(0.5, 0.9)
     covariance = located.covariance_m2()

@@ -37,6 +37,7 @@ NOTHING_SAID = (
     "nothing in the description says what is around the speaker; name things and directions, for example "
     "'I am north of a gray building.'"
 )
+NOWHERE = "no position of the map lies inside 'within'; move it onto the map or leave it out"
 NOTHING_FITS = "nothing that is said was found on the map; is it the right map?"
 
 
@@ -114,7 +115,7 @@ class PosteriorLocalizer:
         )
         timings["search"] = _since(start)
         if located is None:
-            return Finding(None, timings_ms=timings)
+            return Finding(None, NOWHERE, timings_ms=timings)
         located = replace(located, radius_scale=self.weights.config.radius_scale)
         start = time.perf_counter()
         evidence = self._evidence(hints, reading, located)

@@ -9,7 +9,7 @@ from scipy.special import logsumexp
 
 from index.answers import Method, ModelName, Query
 from index.filters import inside, log_prior
-from index.finding import NOWHERE, Finding
+from index.finding import Finding
 from index.ranking import Ranker
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData
@@ -22,6 +22,7 @@ from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.levels import Levels
 
 DEPTH = 2000  # cells that a probability looks at; what is beyond is bounded, see `_probability`
+NO_CELL = "no cell's centre lies inside 'within'; widen it, move it onto the map or leave it out"
 Sentences = Callable[[Sequence[str]], Sequence[tuple[str, ...]]]
 
 
@@ -94,7 +95,7 @@ class VectorLocalizer:
         positions = self._positions(queries, sentences, [rows for rows, *_ in ordered])
         found = [self._located(*each) for each in zip(ordered, positions, strict=True)]
         timings = {"encode": encode_ms, "search": search_ms, "estimate": _since(start)}
-        return [Finding(located, None if located else NOWHERE, timings_ms=timings) for located in found]
+        return [Finding(located, None if located else NO_CELL, timings_ms=timings) for located in found]
 
     def _rank(self, queries: Sequence[Query], texts: Sequence[Levels]) -> list[tuple[Ints, Floats]]:
         """Rows of the cells to consider for each query, and their scores."""

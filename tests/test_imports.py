@@ -45,6 +45,11 @@ MAY_IMPORT = {
     "app.jobs": ("app", "app.http", *MEASURES),
     "app.cli": ("app", "app.http", "app.jobs", *MEASURES),
 }
+# Of a package that may be imported, the modules that may be; (importing, imported), sub-packages included.
+ONLY = {
+    ("models.city", "models"): {"models.errors", "models.files"},
+    ("models.posterior", "models.localization"): {"models.localization.located"},
+}
 EXCEPT = {
     "models/city/source.py": SOURCES,  # the one door to data; the rest of models/city knows no source
     "app/benchmark.py": ("index.evaluation",),
@@ -99,6 +104,9 @@ def test_imports_run_one_way(path: Path) -> None:
     ours = {package_of(module) for module in modules if module.partition(".")[0] in LAYERS}
     allowed = {home, *MAY_IMPORT[home], *EXCEPT.get(place.as_posix(), ())}
     assert ours <= allowed, f"{home} may not import {', '.join(sorted(ours - allowed))}"
+    for (importing, package), named in ONLY.items():
+        if f"{home}.".startswith(f"{importing}."):
+            assert {module for module in modules if package_of(module) == package} <= named
     libraries = {module.partition(".")[0] for module in modules}
     for library, layer in ONLY_IN.items():
         assert library not in libraries or place.parts[0] == layer, f"{library} belongs in {layer}/"
@@ -107,8 +115,9 @@ def test_imports_run_one_way(path: Path) -> None:
 
 
 def test_the_city_model_loads_without_torch() -> None:
-    code = """
-import sys, models.city.source, models.training.metrics, index.answers
+    city = [".".join(p.relative_to(ROOT).with_suffix("").parts) for p in FILES if ROOT / "models/city" in p.parents]
+    code = f"""
+import sys, {", ".join(city)}, models.training.metrics, index.answers
 sys.exit("torch" in sys.modules)
 """
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0

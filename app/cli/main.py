@@ -117,7 +117,7 @@ def localize(
             settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
         )
         [answer] = localizer.localize([query])
-    if picture:
+    if picture and answer.estimate:
         from index.picture import draw_answer
 
         draw_answer(localizer, text, answer, picture)

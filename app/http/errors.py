@@ -156,7 +156,7 @@ async def _on_validation_error(_request: Request, error: Exception) -> Response:
 
 
 async def _on_weights_error(_request: Request, _error: Exception) -> Response:
-    """The retriever is loaded before anything is asked, so it is the fine stage that is missing."""
+    """The retriever is loaded before anything is asked, so it is what `refine` asks for that is missing."""
     return Problem.of_field("refine", "this service has no usable model for it; leave it out").response()
 
 

@@ -1,6 +1,7 @@
 """What the service is asked. Numbers are strict and finite, unknown fields are refused."""
 
 import re
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
@@ -71,6 +72,11 @@ def check_bbox(bbox: tuple[float, float, float, float]) -> tuple[float, float, f
     return bbox
 
 
+def join_hints(hints: Sequence[str]) -> str:
+    """Hints as one description, a line each."""
+    return "\n".join(hints)
+
+
 class _Body(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
@@ -129,7 +135,7 @@ class Told(_Body):
 
     def text(self) -> str:
         """All that is said, hints a line each."""
-        return "\n".join(self.hints or ()) if self.description is None else self.description
+        return join_hints(self.hints or ()) if self.description is None else self.description
 
 
 REFINE: Any = Field(
@@ -150,7 +156,7 @@ class LocalizeRequest(Told):
     prior: PriorPosition | None = None
     crs: Crs = Field("map", description="what the coordinates of within and prior mean")
     refine: Refine = REFINE
-    heat_map: Annotated[bool, Strict()] = Field(False, description="the distribution behind the answer; with posterior")
+    heat_map: Annotated[bool, Strict()] = Field(False, description="the distribution behind the answer")
     deadline_ms: int
     index: Literal["default"] = "default"
 
@@ -226,21 +232,22 @@ def told_fields(settings: Settings) -> dict[str, Any]:
     """The fields of `Told` with a service's limits."""
     text = Annotated[str, Strict(), StringConstraints(max_length=settings.max_characters), AfterValidator(check_text)]
 
-    def check_sentences(description: str) -> str:
+    def check_sentences(said: str) -> str:
         try:
-            count = len(split_hints(description))
+            count = len(split_hints(said))
         except DescriptionError as error:
             raise _wrong(str(error)) from None
         if count > settings.max_hints:
             raise _wrong(f"has {count} sentences, at most {settings.max_hints} are taken; shorten it")
-        return description
+        return said
 
-    def check_total(hints: list[str]) -> list[str]:
+    def check_together(hints: list[str]) -> list[str]:
         if sum(map(len, hints)) > settings.max_characters:
             raise _wrong(f"have more than {settings.max_characters} characters together; send fewer or shorter ones")
+        check_sentences(join_hints(hints))
         return hints
 
-    hints = Annotated[list[text], Field(min_length=1, max_length=settings.max_hints), AfterValidator(check_total)]
+    hints = Annotated[list[text], Field(min_length=1, max_length=settings.max_hints), AfterValidator(check_together)]
     description = Annotated[text, AfterValidator(check_sentences)]
     return {
         "description": (description | None, Field(None, description="what is around the speaker, in plain words")),

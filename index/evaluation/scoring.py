@@ -49,7 +49,7 @@ def score(predictions: Predictions) -> dict[str, Any]:
         "error_m": _quantiles(errors[:, 0]),
         "by_scene": _by(p.scenes, p, errors),
         "by_strategy": _by(p.strategies, p, errors),
-        "calibration": calibration(p.probability, p.ranked[:, 0] == p.queried_cells),
+        "calibration": calibration(p.probability, retrieval_hits(p.ranked, p.queried_cells)[1]),
     }
     if not np.isnan(p.radius_m).any():
         report["coverage"] = _coverage(p.radius_m, errors[:, 0])

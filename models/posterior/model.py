@@ -46,6 +46,6 @@ POSTERIORS = Checkpoints(
     "posterior",
     {PosteriorModel.method: PosteriorModel},
     SHIPPED / "posterior",
-    "train some with 'hereabouts train --method posterior', or ask with refine none",
+    "train some with 'hereabouts train --method posterior', or leave the setting out for those that ship",
 )
 save_posterior, load_posterior = POSTERIORS.save, POSTERIORS.load

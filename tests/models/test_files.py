@@ -1,4 +1,5 @@
 import hashlib
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -19,6 +20,22 @@ def test_a_file_is_replaced_only_when_all_is_written(tmp_path) -> None:
     assert path.read_bytes() == b"new"
     (tmp_path / "plain").write_text("")
     assert mode(path) == mode(tmp_path / "plain"), "as the user lets others read new files"
+
+
+def test_a_link_leads_to_the_new_content_and_the_mode_stays(tmp_path) -> None:
+    (tmp_path / "real").write_bytes(b"old")
+    (tmp_path / "real").chmod(0o600)
+    (tmp_path / "link").symlink_to("real")
+    replace_file(tmp_path / "link", b"new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "real").read_bytes() == b"new"
+    assert mode(tmp_path / "real") == 0o600
+
+
+def test_threads_may_write_one_file_at_once(tmp_path) -> None:
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(lambda n: replace_file(tmp_path / "a", b"%d" % n), range(200)))
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
 
 
 def test_a_failure_leaves_the_old_file_and_no_scrap(tmp_path) -> None:

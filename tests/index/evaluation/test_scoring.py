@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -54,3 +56,13 @@ def test_calibration_of_honest_and_of_vain_probabilities() -> None:
     vain = calibration(np.minimum(1, honest + 0.4), hit)
     assert vain["expected_calibration_error"] > 0.2
     assert vain["mean_probability"] > found["mean_probability"]
+
+
+def test_no_answer_to_a_query_without_a_cell_is_no_hit() -> None:
+    predictions = made_up(50, 1.0, np.random.default_rng(0))
+    nowhere = np.full_like(predictions.ranked, -1)
+    unread = replace(
+        predictions, ranked=nowhere, queried_cells=np.full(50, -1), probability=np.zeros(50)
+    )  # nothing was read, off the map
+    assert score(unread)["calibration"]["expected_calibration_error"] == 0
+    assert score(unread)["retrieval"]["1"] == 0
