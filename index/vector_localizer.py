@@ -58,7 +58,7 @@ class VectorLocalizer:
         self.grid_m, self.sentences, self.depth = grid_m, sentences, depth
         model = refiner or ranker.retriever
         self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
-        self._centers = gallery.cells.center_m[:, :2].astype(np.float64)
+        self._centers, self._extent_m = gallery.cells.center_m[:, :2].astype(np.float64), gallery.cells.extent_m
         self._features = CellFeatures.of(gallery.cells, np.array(gallery.labels)) if refiner else None
 
     @classmethod
@@ -166,7 +166,7 @@ class VectorLocalizer:
             points=rows,
             weight=probability,
             spacing_m=self.grid_m if error_m is None else error_m * 12**0.5,
-            extent_m=self.gallery.cells.extent_m,
+            extent_m=self._extent_m,
         )
 
 

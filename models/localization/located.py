@@ -43,13 +43,13 @@ class Located:
         """Radii round the first position of circles that hold some shares of the distribution, such as .5 and .9."""
         side = min(MOST_SUBSQUARES, max(1, round(self.spacing_m / SUBSQUARE_M)))
         steps = ((np.arange(side) + 0.5) / side - 0.5) * self.spacing_m
-        square = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
         counts = self.weight > 1e-9  # the rest together are nothing
-        offset = self.points_m[counts] - self.positions[0]
-        distance = np.linalg.norm(offset[:, None] + square, axis=2).ravel()
-        order = np.argsort(distance)
-        mass = np.cumsum(np.repeat(self.weight[counts] / len(square), len(square))[order])
-        found = np.append(distance[order], self.extent_m)[np.searchsorted(mass, shares)]  # the whole map if need be
+        east, north = (self.points_m[counts] - self.positions[0]).T[..., None] + steps  # [2, C, side]
+        square = (east[:, :, None] ** 2 + north[:, None, :] ** 2).ravel()
+        order = np.argsort(square)
+        mass = np.cumsum(np.repeat(self.weight[counts] / side**2, side**2)[order])
+        # The whole map, if what is known holds less.
+        found = np.sqrt(np.append(square[order], self.extent_m**2)[np.searchsorted(mass, shares)])
         return tuple(np.minimum(found * self.radius_scale, self.extent_m).tolist())
 
     def covariance_m2(self) -> Floats:

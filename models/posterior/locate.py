@@ -74,7 +74,7 @@ def locate(
         points=field.nodes,
         weight=weight,
         spacing_m=SPACING_M,
-        extent_m=posterior.cells.extent_m,
+        extent_m=posterior.extent_m,
     )
 
 

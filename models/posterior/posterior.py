@@ -76,7 +76,7 @@ class HintPosterior:
         self._statements, said = self._tabulate()
         pair, self._sector_said = said // SECTORS, said % SECTORS
         self._label_said, self._word_said = pair // (self._words.shape[1] + 1), pair % (self._words.shape[1] + 1)
-        self.nodes_m = s.nodes_m.astype(np.float64)
+        self.nodes_m, self.extent_m = s.nodes_m.astype(np.float64), cells.extent_m
         self.coarse = (np.round(self.nodes_m / SPACING_M) % 2 == 0).all(axis=1)
         self.between = ~self.coarse
         self._scratch = np.zeros(len(label), np.int64)  # by part; what is in it is overwritten before it is read
