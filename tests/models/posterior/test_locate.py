@@ -24,7 +24,7 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
     center = [nodes_m[owner == c].mean(axis=0) if (owner == c).any() else (0, 0) for c in range(len(starts) - 1)]
     return SimpleNamespace(
         likelihood=SimpleNamespace(temper=torch.zeros(())), field=field, nodes_m=nodes_m,
-        cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0, extent_m=1e4),
+        cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0), extent_m=1e4,
         surroundings=SimpleNamespace(cell_starts=np.array(starts)), coarse=is_coarse, between=~is_coarse,
         # As they stand, so that cells are looked at in this order.
         cell_scores=lambda _reading: -np.arange(len(starts) - 1.0),
