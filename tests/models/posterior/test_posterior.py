@@ -92,6 +92,18 @@ def test_probabilities_add_up_and_radii_are_in_order(town):
         assert (eigenvalues > 0).all()
 
 
+def test_cells_found_in_another_way_count_once(town):
+    cells = np.arange(len(town.posterior.cells))
+    for reading in town.readings[:10]:
+        some, whole = (locate(town.posterior, reading, candidates=n) for n in (20, len(cells)))
+        joined = locate(town.posterior, reading, candidates=20, also=cells)
+        assert some.other > 0
+        assert joined.other == whole.other == 0
+        assert joined.rows.tolist() == whole.rows.tolist()
+        assert np.allclose(joined.probability, whole.probability)
+        assert len(np.unique(joined.points)) == len(joined.points)
+
+
 def test_each_candidate_has_a_position_of_its_own(town):
     surroundings = town.posterior.surroundings
     for reading in town.readings[:20]:

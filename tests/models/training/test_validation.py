@@ -37,6 +37,14 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
     assert weighted.shape == (len(region_queries.truth), len(region_queries.features))
 
 
+def test_the_global_level_has_a_temperature_of_its_own(model, region_queries) -> None:
+    """That which a model with no other level is given."""
+    found = calibrate(model, [region_queries], np.random.default_rng(0))
+    alone = calibrate(model.global_alone(), [region_queries], np.random.default_rng(0))
+    assert found["global_temperature"] == pytest.approx(alone["temperature"])
+    assert found["global_temperature_decay"] == pytest.approx(alone["temperature_decay"])
+
+
 @pytest.fixture(scope="module")
 def region_queries(source, model):
     return Validation(source.data.gallery, source.queries(CHOSEN_BY, 40.0), model)
