@@ -101,13 +101,13 @@ def city(axes: Axes) -> Box:
                 "cubes of 30 m each 10 m; things whole, stuff clipped")  # fmt: skip
     left, right, half = x - 13.5, x + 13.5, 25.0
     encode = box(axes, (left, 62.5, half, TALL), "models", "Retriever encodes", "models/retrieval/",
-                 "vectors of cells and instances")  # fmt: skip
+                 "vectors of cells, features of hints")  # fmt: skip
     around = box(axes, (right, 62.5, half, TALL), "models", "Surroundings", "models/posterior/surroundings.py",
                  "what is within 15 m of each node")  # fmt: skip
     write = box(axes, (x, 49.5, wide, TALL), "index", "Write a version, whole or not at all",
                 "index/build.py, index/artifact.py",
                 "fingerprints of map and model; the alias is moved last")  # fmt: skip
-    files = box(axes, (x, 31.5, wide, 16), "file", "The index directory", "vectors.faiss, levels.*.npy",
+    files = box(axes, (x, 31.5, wide, 16), "file", "The index directory", "vectors.faiss, hints.safetensors",
                 "cells.safetensors, cells.json", "surroundings.safetensors", "manifest.json: sizes and sums",
                 "aliases.json")  # fmt: skip
     down(axes, command, door, "path and split")
