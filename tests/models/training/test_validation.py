@@ -37,10 +37,10 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
     assert weighted.shape == (len(region_queries.truth), len(region_queries.features))
 
 
-def test_the_global_level_has_a_temperature_of_its_own(monkeypatch) -> None:
+def test_the_global_level_has_a_temperature_of_its_own(model, region_queries, monkeypatch) -> None:
     asked = [true_scores(np.random.default_rng(hints), hints, 3) for hints in (1, 2, 4)]
     monkeypatch.setattr("models.training.validation._ask", lambda *_: asked)
-    found = calibrate(None, [None], None)
+    found = calibrate(model, [region_queries], np.random.default_rng(0))
     _, *alone = most_likely([(hints, scores[:1], truth) for hints, scores, truth in asked])
     assert [found["global_temperature"], found["global_temperature_decay"]] == pytest.approx(alone)
     assert found["global_temperature"] > 2 * found["temperature"], "the least of three levels tells little"
