@@ -39,7 +39,8 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
         index_dir: index to serve.
 
     Returns:
-        Figures by stage: index building, then latencies of `POST /localize` with one client, warm, each
+        Figures by stage: index building, seconds from starting `hereabouts serve` until it is ready and of one whole
+        `hereabouts localize`, then latencies of `POST /localize` with one client, warm, each
         description of six hints: new text about places of the map, the same beside a process that keeps a CPU busy,
         new text that fits many places, text that was read before, and, as the baseline of the same run, an endpoint
         that computes nothing; then the parts of an answer, see `measure_parts`.
@@ -49,7 +50,11 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
     settings = load_settings(index_dir=index_dir)
     localizer = _open(index_dir, settings.weights_dir, settings.posterior_weights_dir)
     texts = descriptions(localizer, 2 * (WARM_UP + REQUESTS))
+    a_text = ["localize", "--index", str(index_dir), " ".join(texts[0])]
+    localize_s = _timed_run(a_text)
+    start = time.perf_counter()
     with serving(index_dir) as client:
+        ready_s = time.perf_counter() - start
         new, number = iter(texts), itertools.count()
         fresh = latencies(lambda: _localize(client, next(new)))
         with busy_process():
@@ -59,6 +64,7 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
         nothing = latencies(lambda: client.get("/healthz").raise_for_status())
     return {
         "index": index,
+        "start_seconds": {"serve_until_ready": round(ready_s, 1), "localize": round(localize_s, 1)},
         "localize_new_text_ms": fresh,
         "localize_new_text_beside_a_busy_process_ms": beside,
         "localize_new_vague_text_ms": vague,
@@ -133,6 +139,12 @@ def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:
     done = work(*given)
     seconds.append(time.perf_counter() - start)
     return done
+
+
+def _timed_run(arguments: Sequence[str]) -> float:
+    start = time.perf_counter()
+    subprocess.run([*_hereabouts(), *arguments], stdout=subprocess.DEVNULL, check=True)
+    return time.perf_counter() - start
 
 
 def measure_index(map_path: Path, out: Path) -> dict[str, float]:

@@ -72,6 +72,7 @@ def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypa
     figures = json.loads(result.output[result.output.index("{") :])
     assert figures["index"]["peak_memory_mib"] > 100
     assert figures["index"]["size_mib"] > 0
+    assert all(seconds > 0.5 for seconds in figures["start_seconds"].values())  # torch alone takes longer to import
     assert 0 < figures["localize_cached_hints_ms"]["p50"] <= figures["localize_cached_hints_ms"]["p99"]
     parts = figures["one_thread"]
     assert all(parts[f"{name}_ms"] > 0 for name in ("read", "posterior", "encode", "vector_search"))
