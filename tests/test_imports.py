@@ -24,6 +24,7 @@ MEASURES = (*TRAINED, "index", "index.evaluation")
 MAY_IMPORT = {
     "models": ("models.language",),
     "models.city": ("models",),
+    "models.city.kinds": ("models",),
     "models.city.osm": CITY,
     "models.city.kitti360pose": CITY,
     "models.city.kitti360": (*CITY, "models.city.kitti360pose"),

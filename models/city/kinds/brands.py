@@ -1,0 +1,44 @@
+"""Chains of shops, restaurants and the like, by any spelling of their names."""
+
+import unicodedata
+from collections.abc import Iterable, Mapping
+
+
+def plain(name: str) -> str:
+    """A name without case, accents, spaces and punctuation; "&" is "and"."""
+    letters = unicodedata.normalize("NFKD", name.casefold().replace("&", "and"))
+    return "".join(letter for letter in letters if letter.isalnum())
+
+
+class Brands:
+    """Brands by their spellings.
+
+    Args:
+        tags: sets of tags that brands have.
+        brands: of each brand the places of its tags in `tags`, and its spellings, the usual one first.
+    """
+
+    def __init__(self, tags: list[dict[str, str]], brands: Iterable[tuple[list[int], list[str]]]) -> None:
+        self._tags = tags
+        self._brands = list(brands)
+        self._by_spelling: dict[str, list[int]] = {}
+        for place, (_, spellings) in enumerate(self._brands):
+            for spelling in spellings:
+                self._by_spelling.setdefault(plain(spelling), []).append(place)
+
+    def tags(self, name: str) -> list[Mapping[str, str]]:
+        """The sets of tags that places of a brand have; none if it is unknown."""
+        found = [self._tags[number] for place in self._places(name) for number in self._brands[place][0]]
+        return [tags for number, tags in enumerate(found) if tags not in found[:number]]
+
+    def spellings(self, name: str) -> tuple[str, ...]:
+        """The other spellings of a brand; none if it is unknown."""
+        found = dict.fromkeys(spelling for place in self._places(name) for spelling in self._brands[place][1])
+        return tuple(spelling for spelling in found if plain(spelling) != plain(name))
+
+    def _places(self, name: str) -> list[int]:
+        """Where the brands of a name are; those whose usual spelling it is come first, others only without them."""
+        form = plain(name)
+        places = self._by_spelling.get(form, [])
+        usual = [place for place in places if plain(self._brands[place][1][0]) == form]
+        return usual or places

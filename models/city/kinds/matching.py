@@ -1,0 +1,85 @@
+"""Which kinds an object's tags make it."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+ANY = "*"
+NOT = ("", "no", "none")  # values that say that something is not there
+Tags = Mapping[str, str]
+Rest = tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of things in a city.
+
+    Attributes:
+        id: of the preset, "amenity/fast_food/pizza".
+        name: English, lower case: "pizza fast food".
+        tags: all must match ("*" is any value).
+    """
+
+    id: str
+    name: str
+    tags: Tags
+
+
+def specific(kind: Kind) -> tuple[bool, bool, int, str]:
+    """The order of kinds: what an object is before its building, special before general, kinds of any value last."""
+    exact = sum(value != ANY for value in kind.tags.values())
+    return (exact == 0, kind.id.startswith("building"), -exact, kind.id)
+
+
+class Matcher:
+    """Finds the kinds of objects by an index of one tag of each kind.
+
+    Args:
+        kinds: in the order in which they are to be found.
+    """
+
+    def __init__(self, kinds: Iterable[Kind]) -> None:
+        kinds = tuple(kinds)
+        self._ids = [kind.id for kind in kinds]
+        place = {key: number for number, key in enumerate(self._ids)}
+        self._above = [[place[parent] for parent in parents(key) if parent in place] for key in self._ids]
+        self._index: dict[str, tuple[dict[str, list[tuple[int, Rest]]], list[tuple[int, Rest]]]] = {}
+        for number, kind in enumerate(kinds):
+            pairs = sorted(kind.tags.items(), key=lambda pair: (pair[1] == ANY, pair[0] == "amenity", pair))
+            (key, value), *rest = pairs
+            exact, anything = self._index.setdefault(key, ({}, []))
+            rows = anything if value == ANY else exact.setdefault(value, [])
+            rows.append((number, tuple(rest)))
+
+    def kinds_of(self, tags: Tags) -> tuple[str, ...]:
+        """Ids of all kinds that an object is, with their parents, most specific first."""
+        found: set[int] = set()
+        for key, value in tags.items():
+            rows = self._index.get(key)
+            if rows is None or value in NOT:
+                continue
+            exact, anything = rows
+            candidates = exact.get(value, ())
+            if ";" in value:
+                candidates = [row for one in value.split(";") for row in exact.get(one.strip(), ())]
+            for number, rest in (*candidates, *anything):
+                if not rest or fits(rest, tags):
+                    found.add(number)
+                    found.update(self._above[number])
+        return tuple([self._ids[number] for number in sorted(found)])
+
+
+def fits(rest: Rest, tags: Tags) -> bool:
+    """Whether an object has tags; a list of values has each of them."""
+    for key, wanted in rest:
+        value = tags.get(key, "")
+        if value == wanted or (wanted == ANY and value not in NOT):
+            continue
+        if ";" not in value or wanted not in [one.strip() for one in value.split(";")]:
+            return False
+    return True
+
+
+def parents(key: str) -> list[str]:
+    """The ids above an id: "shop/beauty" and "shop" of "shop/beauty/nails"."""
+    parts = key.split("/")
+    return ["/".join(parts[:length]) for length in range(len(parts) - 1, 0, -1)]
