@@ -147,7 +147,7 @@ def spelled(item: Mapping[str, Any]) -> list[str]:
     tags = item["tags"]
     usual = tags.get("brand:en") or tags.get("brand") or tags.get("name") or tags.get("operator") or item["displayName"]
     more = [name for key in sorted(tags) if SPELLED.fullmatch(key) for name in tags[key].split(";")]
-    found = {}
+    found: dict[str, str] = {}
     for name in (usual, *more, *item.get("matchNames", [])):
         found.setdefault(plain(name), name.strip())
     return [name for form, name in found.items() if form]

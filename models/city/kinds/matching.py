@@ -35,9 +35,10 @@ class Matcher:
 
     Args:
         kinds: in the order in which they are to be found.
+        same: "key=value" that says the same as the tags of the kind of an id.
     """
 
-    def __init__(self, kinds: Iterable[Kind]) -> None:
+    def __init__(self, kinds: Iterable[Kind], same: Tags) -> None:
         kinds = tuple(kinds)
         self._ids = [kind.id for kind in kinds]
         place = {key: number for number, key in enumerate(self._ids)}
@@ -49,6 +50,10 @@ class Matcher:
             exact, anything = self._index.setdefault(key, ({}, []))
             rows = anything if value == ANY else exact.setdefault(value, [])
             rows.append((number, tuple(rest)))
+        for tag, one in same.items():
+            key, _, value = tag.partition("=")
+            if one in place:
+                self._index.setdefault(key, ({}, []))[0].setdefault(value, []).append((place[one], ()))
 
     def kinds_of(self, tags: Tags) -> tuple[str, ...]:
         """Ids of all kinds that an object is, with their parents, most specific first."""

@@ -11,7 +11,7 @@ from typing import Any
 
 from models.city.kinds.brands import Brands
 from models.city.kinds.matching import Kind, Matcher, specific
-from models.city.kinds.words import Nouns, english, foreign, own_kinds, sayings
+from models.city.kinds.words import Nouns, english, foreign, own_kinds
 from models.errors import DataError
 
 HERE = Path(__file__).parent
@@ -37,7 +37,7 @@ class Vocabulary:
         names: Mapping[str, str] = self._ours["names"]
         presets = [Kind(row["id"], names.get(row["id"], row["name"]), row["tags"]) for row in self._presets]
         self.kinds: tuple[Kind, ...] = tuple(sorted((*presets, *own_kinds(self._ours, presets)), key=specific))
-        self._matcher = Matcher(self.kinds)
+        self._matcher = Matcher(self.kinds, self._ours["same"])
         self.version: str = content["version"]
         self.languages: tuple[str, ...] = tuple(content["languages"])
         self._nouns: dict[str, Nouns] = {}
@@ -73,22 +73,23 @@ class Vocabulary:
 
     def _read_nouns(self, language: str) -> Nouns:
         if language == "en":
-            people = tomllib.loads((HERE / "people.toml").read_text(encoding="utf-8"))
-            known = {kind.id for kind in self.kinds}
-            unknown = {key for rows in sayings(people).values() for key in rows} - known
-            if unknown and self._folder == HERE:
-                raise DataError(f"people.toml: unknown kinds {', '.join(sorted(unknown))}")
-            named = {row["id"] for row in self._presets}
-            more = [
-                {"id": kind.id, "name": kind.name, "tags": kind.tags, "aliases": [], "terms": []}
-                for kind in self.kinds
-                if kind.id not in named
-            ]
-            names = [{**row, "name": self._ours["names"].get(row["id"], row["name"])} for row in self._presets]
-            nouns = english([*names, *more], self._ours, people)
-            return {phrase: kept for phrase, rows in nouns.items() if (kept := tuple(r for r in rows if r[0] in known))}
-        names = self._names.get(language)
-        return foreign((row["id"] for row in self._presets), names) if names else {}
+            return self._read_english()
+        rows = self._names.get(language)
+        return foreign((row["id"] for row in self._presets), rows) if rows else {}
+
+    def _read_english(self) -> Nouns:
+        """English nouns, with those written by hand; a folder of few kinds leaves out what is said of others."""
+        people = tomllib.loads((HERE / "people.toml").read_text(encoding="utf-8"))
+        said = {row["id"]: row for row in self._presets}
+        rows = [
+            {"aliases": [], "terms": [], **said.get(kind.id, {}), "id": kind.id, "name": kind.name, "tags": kind.tags}
+            for kind in self.kinds
+        ]
+        known = {kind.id for kind in self.kinds}
+        nouns = english(rows, self._ours, people)
+        return {
+            phrase: kept for phrase, rows in nouns.items() if (kept := tuple(row for row in rows if row[0] in known))
+        }
 
     @cached_property
     def _names(self) -> dict[str, list[str]]:

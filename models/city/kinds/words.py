@@ -54,7 +54,7 @@ def sayings(people: Mapping[str, Any]) -> Weights:
     """What people.toml says: "phrase, phrase" = "kind kind~ kind~0.6 @group"; ~ is loosely."""
     said: Weights = {}
     for phrases, kinds in people["words"].items():
-        rows = {}
+        rows: dict[str, float] = {}
         for one in kinds.split():
             key, loose, weight = one.partition("~")
             for member in people["groups"][key[1:]] if key.startswith("@") else [key]:

@@ -1,0 +1,246 @@
+"""The vendored vocabulary, and how it is made."""
+
+import json
+import time
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from models.city.kinds import make, vocabulary
+from models.city.kinds.brands import plain
+from models.city.kinds.vocabulary import HERE, Vocabulary, load_vocabulary
+from models.city.kinds.words import sayings
+from models.errors import DataError
+
+
+@pytest.fixture(scope="module")
+def kinds() -> Vocabulary:
+    return load_vocabulary()
+
+
+def meant(kinds: Vocabulary, phrase: str, tags: dict[str, str], language: str = "en") -> float:
+    """How well a phrase fits an object; 0 if not at all."""
+    weights = dict(kinds.nouns(language).get(phrase, ()))
+    return max((weights.get(kind, 0) for kind in kinds.kinds_of(tags)), default=0)
+
+
+def test_kinds_come_with_parents_special_before_general(kinds):
+    assert kinds.kinds_of({"amenity": "fast_food", "cuisine": "pizza", "building": "yes"}) == (
+        "amenity/fast_food/pizza",
+        "amenity/fast_food",
+        "cuisine/pizza",
+        "building",
+    )
+    assert kinds.kinds_of({"shop": "beauty", "beauty": "nails"}) == ("shop/beauty/nails", "shop/beauty", "shop")
+    church = {"amenity": "place_of_worship", "religion": "christian", "denomination": "lutheran", "building": "church"}
+    assert kinds.kinds_of(church) == (
+        "amenity/place_of_worship/christian/lutheran",
+        "amenity/place_of_worship/christian",
+        "amenity/place_of_worship",
+        "building/church",
+        "building",
+    )
+
+
+def test_an_object_can_be_several_things(kinds):
+    assert set(kinds.kinds_of({"shop": "bakery", "amenity": "cafe"})) == {"shop/bakery", "amenity/cafe", "shop"}
+    both = kinds.kinds_of({"amenity": "restaurant", "cuisine": "pizza; italian"})
+    assert {"amenity/restaurant/pizza", "amenity/restaurant/italian", "cuisine/pizza", "cuisine/italian"} <= set(both)
+    assert len(both) == len(set(both))
+
+
+@pytest.mark.parametrize(
+    "tags",
+    [
+        {},
+        {"name": "Harlem"},
+        {"type": "boundary", "boundary": "administrative", "name": "New York"},
+        {"type": "route", "route": "bus"},
+        {"railway": "subway", "tunnel": "yes"},
+        {"indoor": "room"},
+        {"building": "no"},
+        {"place": "suburb"},
+    ],
+)
+def test_what_nobody_sees_is_no_kind(kinds, tags):
+    assert kinds.kinds_of(tags) == ()
+
+
+@pytest.mark.parametrize(
+    ("phrase", "tags", "least"),
+    [
+        ("pizza place", {"amenity": "restaurant", "cuisine": "pizza"}, 1),
+        ("pizza place", {"amenity": "fast_food", "cuisine": "burger;pizza"}, 1),
+        ("thai place", {"amenity": "fast_food", "cuisine": "thai"}, 1),
+        ("thai place", {"amenity": "restaurant", "cuisine": "thai"}, 1),
+        ("peruvian restaurant", {"amenity": "restaurant", "cuisine": "peruvian"}, 1),
+        ("an italian", {"amenity": "restaurant", "cuisine": "italian"}, 0.8),
+        ("store", {"shop": "something_new"}, 0.6),
+        ("shop", {"shop": "beauty", "beauty": "nails"}, 0.6),
+        ("restaurant", {"amenity": "fast_food", "cuisine": "thai"}, 0.6),
+        ("cafe", {"shop": "coffee"}, 0.8),
+        ("bar", {"amenity": "pub"}, 0.8),
+        ("bodega", {"shop": "convenience"}, 1),
+        ("drugstore", {"amenity": "pharmacy"}, 1),
+        ("chemist", {"amenity": "pharmacy"}, 1),
+        ("barber", {"shop": "hairdresser"}, 0.9),
+        ("laundromat", {"shop": "laundry"}, 1),
+        ("citi bike dock", {"amenity": "bicycle_rental"}, 1),
+        ("trash can", {"amenity": "waste_basket"}, 1),
+        ("crosswalk", {"highway": "footway", "footway": "crossing"}, 1),
+        ("crosswalk", {"highway": "crossing", "crossing": "zebra"}, 1),
+        ("subway entrance", {"railway": "subway_entrance"}, 1),
+        ("metro", {"railway": "station", "station": "subway"}, 1),
+        ("church", {"building": "church"}, 1),
+        ("baptist church", {"amenity": "place_of_worship", "religion": "christian", "denomination": "baptist"}, 1),
+        ("parking garage", {"amenity": "parking", "parking": "multi-storey"}, 1),
+        ("nursery", {"amenity": "kindergarten"}, 0.9),
+        ("statue", {"historic": "memorial", "memorial": "statue"}, 1),
+        ("construction site", {"landuse": "construction"}, 1),
+        ("bridge", {"highway": "footway", "bridge": "yes"}, 1),
+        ("clothes shop", {"shop": "clothes"}, 1),
+        ("law office", {"office": "lawyer"}, 1),
+        ("tree", {"natural": "tree"}, 1),
+    ],
+)
+def test_everyday_words_reach_their_objects(kinds, phrase, tags, least):
+    assert meant(kinds, phrase, tags) >= least
+
+
+@pytest.mark.parametrize(
+    ("phrase", "tags"),
+    [
+        ("pizza place", {"amenity": "restaurant", "cuisine": "sushi"}),
+        ("store", {"amenity": "bank"}),
+        ("table", {"amenity": "restaurant"}),
+        ("bench", {"natural": "tree"}),
+    ],
+)
+def test_words_do_not_reach_others(kinds, phrase, tags):
+    assert meant(kinds, phrase, tags) == 0
+
+
+def test_foreign_nouns(kinds):
+    assert meant(kinds, "kahvila", {"amenity": "cafe"}, "fi") == 1
+    assert meant(kinds, "apotheke", {"amenity": "pharmacy"}, "de") == 1
+    assert kinds.nouns("de-AT") == kinds.nouns("de")
+    assert kinds.nouns("nb") == kinds.nouns("no")
+    assert not kinds.nouns("tlh")
+    assert {"en", "fi", "de", "fr", "es", "ja", "pt-BR"} <= set(kinds.languages)
+    ids = {kind.id for kind in kinds.kinds}
+    for language in kinds.languages:
+        nouns = kinds.nouns(language)
+        assert len(nouns) > 200
+        assert all(phrase == phrase.casefold() for phrase in nouns)
+        assert {kind for rows in nouns.values() for kind, _ in rows} <= ids
+
+
+def test_brands_by_any_spelling(kinds):
+    assert kinds.brand("mcdonalds")[:2] == ("amenity/fast_food/burger", "amenity/fast_food")
+    assert kinds.brand("McDonald\u2019s") == kinds.brand("mcdonalds")
+    assert "マクドナルド" in kinds.spellings("McDonald's")
+    assert "shop/convenience" in kinds.brand("7 eleven")
+    assert kinds.brand("H and M")[0] == kinds.brand("h&m")[0] == "shop/clothes"
+    assert "amenity/bicycle_rental" in kinds.brand("citi bike")
+    assert kinds.brand("Nobody's Own Little Place") == ()
+    assert kinds.spellings("Nobody's Own Little Place") == ()
+    assert plain("Café  du Nord!") == "cafedunord"
+
+
+def test_hand_written_words_name_kinds_that_are(kinds):
+    ids = {kind.id for kind in kinds.kinds}
+    said = sayings(tomllib.loads((HERE / "people.toml").read_text()))
+    assert {kind for rows in said.values() for kind in rows} <= ids
+    ours = tomllib.loads((HERE / "ours.toml").read_text())
+    assert {*ours["same"].values(), *ours["names"]} <= ids
+    assert len(ids) == len(kinds.kinds)
+    assert all(0 < weight <= 1 for rows in kinds.nouns().values() for _, weight in rows)
+
+
+def test_the_vendored_files_are_small_and_say_whence(kinds):
+    assert sum((HERE / file).stat().st_size for file in vocabulary.FILES) <= 1_000_000
+    assert kinds.version.startswith("id-tagging-schema ")
+    assert ", name-suggestion-index " in kinds.version
+    licences = (HERE / "LICENCES.md").read_text()
+    for one in kinds.version.split(", "):
+        assert one in licences
+    assert "ISC License" in licences
+    assert "Redistribution and use in source and binary forms" in licences
+
+
+def test_kinds_are_found_fast(kinds):
+    tags = {"amenity": "restaurant", "cuisine": "pizza;italian", "building": "yes", "name": "x", "phone": "1", "a": "b"}
+    start = time.perf_counter()
+    for _ in range(5_000):
+        kinds.kinds_of(tags)
+    assert (time.perf_counter() - start) / 5_000 < 100e-6  # 3 on an idle machine
+
+
+def written(package: Path, file: str, content: dict) -> None:
+    path = package / file
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(content, ensure_ascii=False))
+
+
+@pytest.fixture
+def packages(tmp_path):
+    schema, brands = tmp_path / "schema", tmp_path / "brands"
+    presets = {
+        "amenity/cafe": {"tags": {"amenity": "cafe"}},
+        "amenity/cafe-US": {"tags": {"amenity": "cafe"}, "name": "{amenity/cafe}"},
+        "shop": {"tags": {"shop": "*"}},
+        "shop/bag": {"tags": {"shop": "bag"}},
+        "amenity": {"tags": {"amenity": "*"}},
+        "type/route": {"tags": {"type": "route"}},
+    }
+    english = {
+        "amenity/cafe": {"name": "Cafe", "aliases": "Coffee House\nEspresso Bar", "terms": "latte,tea"},
+        "shop": {"name": "Shop"},
+        "shop/bag": {"name": "Bag/Luggage Store (Any)"},
+    }
+    written(schema, "package.json", {"name": "@x/schema", "version": "1.2", "license": "ISC", "more": 1})
+    written(schema, "dist/presets.min.json", presets)
+    written(schema, "dist/translations/en.min.json", {"en": {"presets": {"presets": english}}})
+    finnish = {"amenity/cafe": {"name": "Kahvila"}}
+    written(schema, "dist/translations/fi.min.json", {"fi": {"presets": {"presets": finnish}}})
+    (schema / "LICENSE.md").write_text("Use it.\n")
+    tags = {"amenity": "cafe", "brand": "Löfbergs", "brand:ja": "レフ", "brand:wikidata": "Q1", "name": "Löfbergs"}
+    item = {"displayName": "Löfbergs", "tags": tags, "matchNames": ["lofbergs lila"]}
+    sign = {"displayName": "Sign", "tags": {"advertising": "totem", "brand": "Sign"}}
+    index = {"brands/amenity/cafe": {"items": [item]}, "brands/advertising/totem": {"items": [sign]}}
+    written(brands, "package.json", {"name": "brand-index", "version": "8", "license": "BSD-3-Clause"})
+    written(brands, "dist/json/nsi.min.json", {"nsi": index})
+    (brands / "LICENSE.md").write_text("Use that.\n")
+    return schema, brands
+
+
+def test_making_is_deterministic_and_keeps_what_is_selected(packages, tmp_path):
+    first, second = tmp_path / "first", tmp_path / "second"
+    for out in (first, second):
+        make.make(*packages, out)
+    assert {path.name for path in first.iterdir()} == set(vocabulary.FILES)
+    for path in first.iterdir():
+        assert path.read_bytes() == (second / path.name).read_bytes()
+    made = Vocabulary(first)
+    assert made.version == "schema 1.2, brand-index 8"
+    assert made.languages == ("en", "fi")
+    assert made.kinds_of({"amenity": "cafe", "type": "route"}) == ("amenity/cafe",)
+    assert made.kinds_of({"shop": "bag"}) == ("shop/bag", "shop")
+    assert dict(made.nouns()["luggage shop"])["shop/bag"] == 1
+    assert dict(made.nouns()["latte"]) == {"amenity/cafe": 0.5}
+    assert dict(made.nouns()["coffee house"])["amenity/cafe"] == 1
+    assert made.nouns("fi") == {"kahvila": (("amenity/cafe", 1.0),)}
+    assert made.brand("Lofbergs LILA") == made.brand("レフ") == ("amenity/cafe",)
+    assert made.spellings("löfbergs") == ("レフ", "lofbergs lila")
+    assert made.brand("sign") == ()
+    assert "Use that." in (first / "LICENCES.md").read_text()
+
+
+def test_what_cannot_be_read_is_named(packages, tmp_path):
+    with pytest.raises(DataError, match=r"kinds\.json\.xz"):
+        Vocabulary(tmp_path)
+    schema, brands = packages
+    (schema / "dist" / "presets.min.json").write_text("[")
+    with pytest.raises(DataError, match=r"presets\.min\.json"):
+        make.make(schema, brands, tmp_path / "out")
