@@ -112,7 +112,7 @@ def of_preset(row: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
 
 
 def english(presets: Iterable[Mapping[str, Any]], ours: Mapping[str, Any], people: Mapping[str, Any]) -> Nouns:
-    """All English nouns. Of phrases that are said by hand, the search terms of the packages do not count."""
+    """All English nouns. The packages' search terms for what is said by hand do not count, nor a few names."""
     said = sayings(people)
     presets = list(presets)
     by_tags = {
@@ -124,9 +124,11 @@ def english(presets: Iterable[Mapping[str, Any]], ours: Mapping[str, Any], peopl
         for phrase, rows in more.items():
             put(said, phrase, rows)
     by_hand = frozenset(said) | frozenset(people["no_terms"])
+    never = frozenset(people["never"])
+    neither = never | by_hand
     for row in presets:
         for phrase, weight in of_preset(row):
-            if weight > TERM or phrase not in by_hand:
+            if phrase not in (never if weight > TERM else neither):
                 put(said, phrase.casefold(), {row["id"]: weight})
     return ordered(said)
 

@@ -115,6 +115,8 @@ def test_everyday_words_reach_their_objects(kinds, phrase, tags, least):
         ("store", {"amenity": "bank"}),
         ("table", {"amenity": "restaurant"}),
         ("bench", {"natural": "tree"}),
+        ("block", {"barrier": "block"}),
+        ("green", {"landuse": "grass"}),
     ],
 )
 def test_words_do_not_reach_others(kinds, phrase, tags):
