@@ -25,5 +25,5 @@ def test_every_file_that_is_read_is_taken_along() -> None:
         for pattern in patterns
         for path in (ROOT / package.replace(".", "/")).glob(pattern)
     }
-    read = {p for top in TOP for kind in ("toml", "safetensors", "pbf") for p in ROOT.glob(f"{top}/**/*.{kind}")}
+    read = {p for top in TOP for kind in ("toml", "xz", "safetensors", "pbf") for p in ROOT.glob(f"{top}/**/*.{kind}")}
     assert read - taken == set()
