@@ -38,6 +38,9 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     assert record["training"]["lexicon_sha256"] == load_lexicon().sha256
     assert model.config.grammar_sha256 == load_grammar("train").sha256
     assert len(model.matcher.names), "stored, so that a start embeds none"
+    again = fit_posterior.refit_posterior(tmp_path, [osm_file], ("train", "test"), tmp_path / "again", config)
+    assert again == figures
+    assert load_posterior(tmp_path / "again").fingerprint == model.fingerprint, "a refit is the end of the training"
 
 
 def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -> None:
