@@ -10,9 +10,11 @@ IMAGE ?= hereabouts
 PYTEST := $(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist worksteal
 # What pip is asked for first; set it to choose another build of torch, for example TORCH=./torch-2.13.0+cu130.whl.
 TORCH ?= $(shell grep '^torch==' constraints.txt)
-TRAINED_ON := --data data/towns-0 --data data/towns-1 --data models/maps/helsinki.osm.pbf
+HELSINKI := --data models/maps/helsinki.osm.pbf
+TRAINED_ON := --data data/towns-own-0 --data data/towns-own-1 $(HELSINKI)
+FITTED_TO := --data data/towns-0 --data data/towns-own-1 $(HELSINKI)
 
-.PHONY: help install run test test-fast check format train index serve evaluate benchmark web wheels image clean
+.PHONY: help install run test test-fast check format towns train refit index serve evaluate benchmark web wheels image clean
 
 help:  ## what can be made
 	@sed -n 's/^\([a-z-]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
@@ -49,15 +51,21 @@ format: install  ## let ruff format and fix
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-train: install  ## make the shipped weights again (west of Helsinki, made-up towns)
-	for seed in 0 1; do \
-		test -d data/towns-raw-$$seed || $(BIN)/hereabouts synth --seed $$seed --out data/towns-raw-$$seed && \
-		$(BIN)/hereabouts prepare --raw data/towns-raw-$$seed --out data/towns-$$seed || exit 1; \
+towns: install  ## the made-up towns that weights are trained on, with KITTI-360's numbers and with their own
+	for towns in 0 own-0 own-1; do \
+		test -d data/raw-$$towns || $(BIN)/hereabouts synth --seed $${towns#own-} --out data/raw-$$towns \
+			--pieces $$(case $$towns in own-*) echo own;; *) echo official;; esac) && \
+		$(BIN)/hereabouts prepare --raw data/raw-$$towns --out data/towns-$$towns || exit 1; \
 	done
+
+train: towns  ## make the shipped weights again (west of Helsinki, made-up towns)
 	$(BIN)/hereabouts train --method mncl $(TRAINED_ON) --out models/weights/retriever \
 		--set model.width=128 --set training.batch_size=64 --set training.steps=2200
 	$(BIN)/hereabouts train --method regressor $(TRAINED_ON) --out models/weights/regressor
-	$(BIN)/hereabouts train --method posterior $(TRAINED_ON) --out models/weights/posterior
+	$(BIN)/hereabouts train --method posterior $(FITTED_TO) --out models/weights/posterior
+
+refit: towns  ## fit the shipped posterior's likelihood again, with the reader that it has
+	$(BIN)/hereabouts train --method posterior $(FITTED_TO) --reader models/weights/posterior --out models/weights/posterior
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
 	for how in posterior regressor none; do \

@@ -168,17 +168,16 @@ class PosteriorLocalizer:
         """How each hint was understood, and what explains it at the best position."""
         node = int(located.points[((located.points_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
         found = self.nodes.explain(reading, node)
-        return tuple(self._explained(*row, node) for row in zip(hints, reading.label, found, strict=True))
+        return tuple(self._explained(*row) for row in zip(hints, reading.label, found, strict=True))
 
-    def _explained(self, hint: ParsedHint, label: Any, found: tuple[int, float], node: int) -> Evidence:
-        part, explained = found
+    def _explained(self, hint: ParsedHint, label: Any, found: tuple[int, float]) -> Evidence:
+        row, explained = found
         colour = int(hint.colour.argmax())
         shown: dict[str, Any] = {}
-        if part >= 0 and explained >= EXPLAINED and hint.absent < EXPLAINED:
+        if row >= 0 and explained >= EXPLAINED and hint.absent < EXPLAINED:
             gallery, s = self.gallery, self.surroundings
-            instance = int(gallery.cells.parts.instance[part])
-            rows = np.arange(s.starts[node], s.starts[node + 1])
-            way = s.way[rows[s.part[rows] == part][0]].astype(np.float64) * STEP_M
+            instance = int(gallery.cells.parts.instance[s.part[row]])
+            way = s.way[row].astype(np.float64) * STEP_M
             shown = {
                 "instance": gallery.labels[instance],
                 "name": gallery.names[instance],

@@ -69,11 +69,8 @@ class Checkpoints(Generic[M]):
             directory: made if it is missing.
             training: how it came about, for the record.
         """
-        state = model.state_dict()
-        kept = {name: tensor.half() if _is_large(tensor) else tensor for name, tensor in state.items()}
+        kept = round_large(model)
         replace_file(directory / WEIGHTS_FILE, save({name: tensor.contiguous() for name, tensor in kept.items()}))
-        model.load_state_dict({name: tensor.to(state[name].dtype) for name, tensor in kept.items()})
-        model.eval()  # forgets what it computed with the weights unrounded
         record = {
             "method": model.method,
             self.kind: model.config.model_dump(),
@@ -111,6 +108,15 @@ class Checkpoints(Generic[M]):
             raise WeightsError(f"the weights in {directory} {problem}; {self.advice}") from error
         model.eval()
         return model
+
+
+def round_large(model: Model) -> dict[str, Tensor]:
+    """Round large tensors to half precision in a model, so that it is as it will be read; what is stored of it."""
+    state = model.state_dict()
+    kept = {name: tensor.half() if _is_large(tensor) else tensor for name, tensor in state.items()}
+    model.load_state_dict({name: tensor.to(state[name].dtype) for name, tensor in kept.items()})
+    model.eval()  # forgets what it computed with the weights unrounded
+    return kept
 
 
 def _is_large(tensor: Tensor) -> bool:

@@ -42,11 +42,14 @@ def synth(
     out: Annotated[Path, typer.Option(help="a new directory, for raw KITTI-360 files")],
     scale: Annotated[str, typer.Option(help="demo (trains in minutes) or full (as large as KITTI360Pose)")] = "demo",
     seed: Seed = 0,
+    pieces: Annotated[
+        str, typer.Option(help="numbers of ground: official (all road of a town is one instance) or own (each piece)")
+    ] = "official",
 ) -> None:
     """Make up towns, as raw KITTI-360 files: nine scenes under KITTI-360's names, so that the standard splits work."""
     from app.cli.progress import stage_bars
     from models.city.synthetic.towns import write_towns
 
     with stage_bars() as show:
-        scenes = write_towns(out, scale, seed, lambda done, total: show("towns", done, total))
+        scenes = write_towns(out, scale, seed, lambda done, total: show("towns", done, total), pieces)
     typer.echo(f"{len(scenes)} towns are in {out}; next: hereabouts prepare --raw {out} --out DIR")

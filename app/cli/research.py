@@ -4,6 +4,7 @@
 import json
 import sys
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -43,6 +44,9 @@ def train(
         Path | None, typer.Option(help="directory for metrics, curves, best weights and what --resume goes on from")
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="go on with the run in --run-dir, if there is one")] = False,
+    reader: Annotated[
+        Path | None, typer.Option(help="weights whose reader is kept: of posterior, fit the likelihood alone")
+    ] = None,
 ) -> None:
     """Train a model: on the train scenes of a data set, or the west of an OpenStreetMap file.
 
@@ -55,14 +59,17 @@ def train(
 
     if resume and run_dir is None:
         raise TrainingError("--resume goes on with the run in --run-dir; name that directory")
+    if reader is not None and method != "posterior":
+        raise TrainingError("--reader is for --method posterior")
     options = {"training.seed": seed, "training.steps": steps, "model.text_encoder": text_encoder}
     named = [f"{name}={value}" for name, value in options.items() if value is not None]
     model, config = load_settings(method, [*(change or []), *named])
     given = data, (split, val_split), method, model, config, out, run_dir, resume
 
     with distributed.process_group(), _training_bar(distributed.is_first()) as show:
-        train_it = _train_posterior if method == "posterior" else None
-        train_it = train_it or (_train_fine if method in FINE_METHODS else _train_retriever)
+        train_it: Callable[..., str] = _train_fine if method in FINE_METHODS else _train_retriever
+        if method == "posterior":
+            train_it = partial(_train_posterior, reader)
         found = train_it(*given, show)
         if distributed.is_first():
             typer.echo(f"weights are in {out}; validation {found}")
@@ -98,13 +105,22 @@ def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: A
 
 
 def _train_posterior(
-    data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any
+    reader: Path | None,
+    data: list[Path],
+    splits: tuple[str, str],
+    method: str,
+    model: Any,
+    config: Any,
+    out: Path,
+    *rest: Any,
 ) -> str:
-    """Train the hint posterior; its figures in words."""
-    from models.training.fit_posterior import train_posterior
+    """Train the hint posterior, or fit its likelihood alone; its figures in words."""
+    from models.training.fit_posterior import refit_posterior, train_posterior
 
-    out, *rest = where
-    figures = train_posterior(data, splits, out, model, config, *rest)
+    if reader is None:
+        figures = train_posterior(data, splits, out, model, config, *rest)
+    else:
+        figures = refit_posterior(reader, data, splits, out, config)
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 

@@ -117,6 +117,7 @@ class Bodies:
         scene: [I] number of the scene of each.
         part_instance: [R] instance of each row of the cells' parts.
         thing_share: see `CutRules`.
+        min_part_points: see `CutRules`.
     """
 
     xyz: Floats
@@ -125,3 +126,4 @@ class Bodies:
     scene: Ints
     part_instance: Ints
     thing_share: float
+    min_part_points: int

@@ -141,8 +141,9 @@ class MapSource(Source):
     def bodies(self) -> Bodies:
         """See Source."""
         scene, points = np.zeros(len(self._map.instances), dtype=np.int64), self._points
-        parts, share = self.data.cells.parts, self._map.rules.thing_share
-        return Bodies(points.xyz, points.starts, ~points.is_stuff, scene, parts.instance, share)
+        part_instance, rules = self.data.cells.parts.instance, self._map.rules
+        is_thing, least = ~points.is_stuff, rules.min_part_points
+        return Bodies(points.xyz, points.starts, is_thing, scene, part_instance, rules.thing_share, least)
 
 
 class StoreSource(Source):
@@ -202,8 +203,10 @@ class StoreSource(Source):
             xyz.append(seen[np.unique(key, return_index=True)[1]].astype(np.float32))
         labels = np.array(store.labels)[[rows[0] for rows in groups]]
         starts = np.concatenate([[0], np.cumsum([len(points) for points in xyz])])
-        share = CutRules().thing_share
-        return Bodies(np.concatenate(xyz), starts, ~np.isin(labels, STUFF), known[:, 0], part_instance, share)
+        is_thing, rules = ~np.isin(labels, STUFF), CutRules()
+        return Bodies(
+            np.concatenate(xyz), starts, is_thing, known[:, 0], part_instance, rules.thing_share, rules.min_part_points
+        )
 
 
 def open_source(path: Path, split: str | None = None, progress: Progress | None = None) -> Source:

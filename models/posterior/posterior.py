@@ -158,7 +158,10 @@ class HintPosterior:
 
     @torch.inference_mode()
     def explain(self, reading: Reading, node: int) -> list[tuple[int, float]]:
-        """For each hint the part that explains it best at a node (-1 for none), and how likely it is that one does."""
+        """For each hint the row of the surroundings that explains it best at a node, and how likely one does.
+
+        The row is -1 where nothing is around.
+        """
         rows, _, fits, part = self._rows(reading, np.array([node]))
         share = self._share[rows].mean(dim=1, keepdim=True)
         terms = fits[part] * self.likelihood.places(reading, self._ways[self._way[rows].long()]) * share
@@ -173,7 +176,7 @@ class HintPosterior:
         for hint in reading.named:
             trust[hint] = 1.0
         explained = (total / (total + eps) * trust).tolist()
-        return list(zip(parts.tolist(), explained, strict=True))
+        return list(zip(rows[best].tolist(), explained, strict=True))
 
     def _rows(self, reading: Reading, nodes: Ints) -> tuple[Tensor, Tensor, Tensor, Tensor]:
         """Rows of some nodes, the node of each, p(class) p(colour) [P, H] of the parts seen, and each row's part."""

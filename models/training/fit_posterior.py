@@ -1,5 +1,6 @@
 """Training the hint posterior: the reader on the paraphrase grammar, then the likelihood on training towns."""
 
+import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -7,12 +8,13 @@ from typing import Any
 import numpy as np
 import torch
 
+from models.checkpoint import CONFIG_FILE, round_large
 from models.city.source import CHOSEN_BY, open_sources
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
-from models.posterior.model import PosteriorConfig, PosteriorModel, save_posterior
+from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 from models.training.engine.loop import Progress, run_training
 from models.training.fit_likelihood import Texts, fit_likelihood
 from models.training.fit_reader import ReadingSet, ReadingTask, reading_figures
@@ -72,7 +74,36 @@ def train_posterior(
     task = ReadingTask(trained.reader, training, validation, config.batch_size)
     record = settings_record(trained.method, model, config)
     history = run_training(task, config, run_dir, resume, progress, record=record)
+    round_large(trained)  # as `refit_posterior` reads it
     return fit_and_save(trained, validation, data, splits, out, config, history.best_step)
+
+
+def refit_posterior(
+    reader: Path, data: Sequence[Path], splits: tuple[str, str], out: Path, config: TrainingConfig
+) -> dict[str, float]:
+    """Fit and calibrate a new likelihood for a reader that is trained, save both; what `train_posterior` does after it.
+
+    Args:
+        reader: directory of weights with it.
+        data: as `train_posterior`.
+        splits: as there.
+        out: as there; may be the same directory.
+        config: its seed is all that counts.
+
+    Returns:
+        Figures on validation.
+
+    Raises:
+        WeightsError: the reader cannot be loaded.
+        MapError, DataError: see `open_sources`.
+    """
+    trained = load_posterior(reader)
+    trained.likelihood = Likelihood()
+    validation = ReadingSet(
+        trained.text_encoder, trained.config.frozen_layers, "val", VALIDATION_TEXTS, config.seed + 1
+    )
+    record = json.loads((reader / CONFIG_FILE).read_text())["training"]
+    return fit_and_save(trained, validation, data, splits, out, config, record["best_step"])
 
 
 def fit_and_save(

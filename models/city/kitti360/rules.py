@@ -49,6 +49,8 @@ CLASSES = (
     ClassRule("vegetation", 21, is_stuff=True, voxel_m=0.25, min_points=250),
     ClassRule("terrain", 22, is_stuff=True, voxel_m=0.25, min_points=250),
 )
+# Ground: KITTI-360 gives all of it in a scene number 0 of its class, so that it is one instance.
+GROUND = frozenset({"road", "sidewalk", "parking", "terrain"})
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from models.city.kitti360.rules import CLASSES
+from models.city.kitti360.rules import CLASSES, GROUND
 from models.city.points import Ints
 from models.city.synthetic.layout import Land
 from models.city.synthetic.shapes import Rng, Spot
@@ -103,10 +103,13 @@ class Site:
             if label in (None, key[0]) and self.rng.random() < share:
                 del self._chains[key]
 
-    def scan(self) -> Scan:
+    def scan(self, own_pieces: bool = False) -> Scan:
         """All points, by instance as far as those were put down at once, numbered and coloured.
 
         More than 999 instances of a class, which KITTI-360 cannot have, go on from (100 + semantic) * 1000.
+
+        Args:
+            own_pieces: give each piece of ground a number, in place of KITTI-360's one for all of a class.
         """
         classes = np.array(self._classes)
         shades = [draw_shade(self.rng, self.habits, row) for row in self._classes]
@@ -119,6 +122,9 @@ class Site:
             nth[of_class] = np.arange(len(of_class))
         thousands, rest = np.divmod(nth, NUMBERS - 1)
         number = (semantic + 100 * thousands) * NUMBERS + rest + 1
+        if not own_pieces:
+            is_ground = np.array([rule.label in GROUND for rule in CLASSES])[classes]
+            number[is_ground] = semantic[is_ground] * NUMBERS
         of = np.repeat(self._of, [len(cloud) for cloud in self._clouds])
         xyz = np.concatenate(self._clouds)
         self._clouds.clear()

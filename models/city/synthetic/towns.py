@@ -33,6 +33,7 @@ SIZES: dict[str, dict[str, tuple[int, ...]]] = {
     "full": {"train": (3050, 1750, 2650, 1450, 2359), "val": (1434,), "test": (1750, 1050, 1508)},
 }
 SCALES = tuple(SIZES)
+PIECES = ("official", "own")  # ground is one instance a class, as in KITTI-360; or each piece is one
 # The style of each town, in the same order; each town draws its own streets, habits and colours besides.
 TOWN_STYLES = {
     "train": ("suburb", "grid", "mixed", "village", "ring"),
@@ -59,7 +60,11 @@ class Town:
 
 
 def write_towns(
-    out: Path, scale: str, seed: int, progress: Callable[[int, int], None] | None = None
+    out: Path,
+    scale: str,
+    seed: int,
+    progress: Callable[[int, int], None] | None = None,
+    pieces: str = PIECES[0],
 ) -> tuple[str, ...]:
     """Make the towns of a scale and write them as KITTI-360's raw files.
 
@@ -68,15 +73,19 @@ def write_towns(
         scale: one of SCALES.
         seed: not negative; the same seed gives the same bytes.
         progress: called with (towns written, towns to write).
+        pieces: one of PIECES; the points are the same with both.
 
     Returns:
         The scenes' folders, in order of STANDARD_SPLITS.
 
     Raises:
-        DataError: unknown scale, negative seed, or a folder that is not empty or cannot be written; nothing is left.
+        DataError: unknown scale or pieces, negative seed, or a folder that is not empty or cannot be written;
+            nothing is left.
     """
     if scale not in SIZES:
         raise DataError(f"scale '{scale}' is unknown; choose from: {', '.join(SCALES)}")
+    if pieces not in PIECES:
+        raise DataError(f"pieces '{pieces}' are unknown; choose from: {', '.join(PIECES)}")
     if seed < 0:
         raise DataError(f"seed {seed} is negative; take 0 or more")
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
@@ -89,7 +98,7 @@ def write_towns(
     with _whole_or_not(out.absolute()) as root:
         seeds = np.random.SeedSequence(seed).spawn(len(towns))
         for n, ((scene, style, cells), of_town) in enumerate(zip(towns, seeds, strict=True), start=1):
-            write_town(root, scene, build_town(np.random.default_rng(of_town), style, cells))
+            write_town(root, scene, build_town(np.random.default_rng(of_town), style, cells, pieces == "own"))
             if progress:
                 progress(n, len(towns))
     return tuple(scene for scene, _, _ in towns)
@@ -109,20 +118,21 @@ def _whole_or_not(out: Path) -> Iterator[Path]:
         raise DataError(f"{out}: cannot be written: {error.strerror or error}") from error
 
 
-def build_town(rng: np.random.Generator, style: Style, cells: float) -> Town:
+def build_town(rng: np.random.Generator, style: Style, cells: float, own_pieces: bool = False) -> Town:
     """Make one town.
 
     Args:
         rng: draws everything.
         style: what kind of town (`STYLES`).
         cells: how many cells the preparation should find in it, about; the drive ends when they are reached.
+        own_pieces: see `Site.scan`.
     """
     plan, land, habits = draw_plan(rng, style, cells), draw_land(rng, style), draw_habits(rng, style)
     drive = land.to_world(draw_drive(rng, plan, land, cells / KEPT))
     site = Site(rng, habits, land, drive)
     build_streets(site, plan)
     build_blocks(site, plan)
-    return Town(site.scan(), drive)
+    return Town(site.scan(own_pieces), drive)
 
 
 def write_town(root: Path, scene: str, town: Town) -> None:

@@ -61,6 +61,7 @@ def test_what_prepare_made_is_converted_indexed_and_asked(run, prepared, tmp_pat
         (("prepare", "--raw", "DATA", "--out", "OUT"), "published layout"),
         (("convert", "--data", "DATA", "--out", "DATA"), "not empty"),
         (("synth", "--out", "OUT", "--scale", "huge"), "demo, full"),
+        (("synth", "--out", "OUT", "--pieces", "some"), "official, own"),
     ],
 )
 def test_mistakes_get_one_line_that_helps(run, prepared, tmp_path, args, message) -> None:
@@ -69,6 +70,22 @@ def test_mistakes_get_one_line_that_helps(run, prepared, tmp_path, args, message
     assert result.exit_code == 1
     assert message in result.output
     assert not (tmp_path / "out").exists()
+
+
+def test_a_reader_is_kept_by_the_posterior_alone(run, prepared, tmp_path) -> None:
+    args = ("train", "--data", prepared, "--out", tmp_path / "out", "--reader", tmp_path)
+    result = run(*args, "--method", "mncl")
+    assert result.exit_code == 1
+    assert "--reader is for --method posterior" in result.output
+    assert "no weights in" in run(*args, "--method", "posterior").output
+
+
+def test_synth_gives_ground_one_number_unless_told_otherwise(run, tmp_path, monkeypatch) -> None:
+    asked = []
+    monkeypatch.setattr("models.city.synthetic.towns.write_towns", lambda *args: asked.append(args) or ("one",))
+    assert run("synth", "--out", tmp_path / "out").exit_code == 0
+    assert run("synth", "--out", tmp_path / "out", "--pieces", "own").exit_code == 0
+    assert [args[-1] for args in asked] == ["official", "own"]
 
 
 @pytest.mark.slow

@@ -177,11 +177,12 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
     right = total = 0
     for q in range(0, 60, 3):
         node = int(np.linalg.norm(town.posterior.nodes_m - town.place.positions_m[q], axis=1).argmin())
-        for hint, (part, explained) in zip(
+        for hint, (row, explained) in zip(
             town.place.hints[q], town.posterior.explain(town.readings[q], node), strict=True
         ):
             total += 1
-            right += part >= 0 and explained > 0.5 and cells.parts.instance[part] == number[hint.instance_id]
+            part = town.place.surroundings.part[row]
+            right += row >= 0 and explained > 0.5 and cells.parts.instance[part] == number[hint.instance_id]
     assert right / total > 0.7, "things alike stand side by side in this town"
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import torch
 
 from models.city.colours import KITTI360_PALETTE
 from models.city.types import Hint
@@ -38,6 +39,11 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     assert record["training"]["lexicon_sha256"] == load_lexicon().sha256
     assert model.config.grammar_sha256 == load_grammar("train").sha256
     assert len(model.matcher.names), "stored, so that a start embeds none"
+    again = fit_posterior.refit_posterior(tmp_path, [osm_file], ("train", "test"), tmp_path / "again", config)
+    assert again == pytest.approx(figures, abs=1e-6), "a refit is the end of the training"
+    refitted = load_posterior(tmp_path / "again").state_dict()
+    for name, tensor in model.state_dict().items():
+        assert torch.allclose(tensor, refitted[name], atol=1e-6), name
 
 
 def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -> None:

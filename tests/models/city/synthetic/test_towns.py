@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from models.city.colours import KITTI360_PALETTE
 from models.city.kitti360.prepare import prepare_scene
 from models.city.kitti360.raw import list_raw_scenes, load_raw_scene
-from models.city.kitti360.rules import CLASSES, PrepareConfig
+from models.city.kitti360.rules import CLASSES, GROUND, PrepareConfig
 from models.city.kitti360pose.files import STANDARD_SPLITS, short_name
 from models.city.synthetic import towns as synthetic
 from models.city.synthetic.drive import count_cells, draw_drive, spaced
@@ -90,11 +90,28 @@ def test_paved_streets_have_no_holes_where_the_drive_goes(prepared):
 def test_numbers_say_class_and_instance_and_tiles_share_instances(prepared):
     tiles, town, _, _, _ = prepared
     assert (town.scan.instance // 1000 == town.scan.semantic).all()
-    assert (town.scan.instance % 1000 > 0).all()
+    of_ground = np.isin(town.scan.semantic, [rule.semantic for rule in CLASSES if rule.label in GROUND])
+    assert ((town.scan.instance % 1000 == 0) == of_ground).all(), "all road is one instance, as in KITTI-360"
     parts = [set(np.unique(synthetic.plyfile.PlyData.read(path)["vertex"]["instance"])) for path in tiles.iterdir()]
     assert len(parts) > 1
     assert set.union(*parts) == set(np.unique(town.scan.instance))
     assert sum(map(len, parts)) > len(set.union(*parts))
+
+
+def test_pieces_of_ground_have_numbers_of_their_own_where_that_is_asked():
+    official, own = (build_town(np.random.default_rng(5), STYLES["mixed"], 20, way).scan for way in (False, True))
+    assert (official.xyz == own.xyz).all()
+    assert (official.rgb == own.rgb).all()
+    assert (official.semantic == own.semantic).all()
+    assert (own.instance % 1000 > 0).all()
+    numbers = {rule.label: [np.unique(scan.instance[scan.semantic == rule.semantic]) for scan in (official, own)]
+               for rule in CLASSES}  # fmt: skip
+    for label, (merged, apart) in numbers.items():
+        if label in GROUND and len(apart):
+            assert len(merged) == 1
+        elif label not in GROUND:
+            assert (merged == apart).all()
+    assert len(numbers["sidewalk"][1]) > 1
 
 
 def test_tiles_have_the_properties_of_kitti360(prepared):
@@ -149,6 +166,8 @@ def test_one_seed_makes_one_set_of_files_and_another_seed_another(tmp_path, tiny
 def test_what_cannot_be_made_is_refused_and_leaves_nothing(tmp_path):
     with pytest.raises(DataError, match="'huge' is unknown; choose from: demo, full"):
         write_towns(tmp_path / "out", "huge", 0)
+    with pytest.raises(DataError, match="'some' are unknown; choose from: official, own"):
+        write_towns(tmp_path / "out", "demo", 0, pieces="some")
     with pytest.raises(DataError, match="negative"):
         write_towns(tmp_path / "out", "demo", -1)
     assert not list(tmp_path.iterdir())

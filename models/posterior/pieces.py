@@ -1,0 +1,163 @@
+"""Pieces of an instance: what of it hangs together around a position.
+
+Stuff goes on beyond what a person sees: all sidewalk of a town may be one instance, joined around the next block. Who
+stands between two sidewalks sees two. Nodes are taken a tile at a time; what of an instance is in the cube around a
+tile falls into pieces that do not touch there, much as DBSCAN has them when a cell is cut (docs/formats.md, rule 4).
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+from numpy.lib.stride_tricks import sliding_window_view
+from scipy import ndimage
+from scipy.spatial import cKDTree
+
+from models.city.cells import CellTable
+from models.city.points import Ints, ranges
+from models.city.types import Floats
+
+TILE_M = 5.0  # nodes that share a cube; a cube of each node's own costs ten times as much and finds the same
+PIXEL_M = 0.75  # points in pixels that touch hang together
+BLOCK_M = 120.0  # of an instance, as much is drawn as pixels at once
+TOUCHING = np.zeros((3, 3, 3), dtype=np.int64)  # in a window, not from one to the next
+TOUCHING[1] = 1
+Piece = tuple[Ints, Floats, Ints]  # node, way, part
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tiles:
+    """Nodes that are looked at together: those of a cell in a square of TILE_M.
+
+    Attributes:
+        of_node: [M] tile of each node.
+        cell: [T] owner of its nodes.
+        center_m: [T, 2] mean of its nodes.
+    """
+
+    of_node: Ints
+    cell: Ints
+    center_m: Floats
+
+    @classmethod
+    def of(cls, nodes_m: Floats, owner: Ints, cells: CellTable) -> "Tiles":
+        """Tiles of nodes [M, 2] that are owned by some cells [M]."""
+        square = np.floor((nodes_m - cells.center_m[owner, :2]) / TILE_M).astype(np.int64)
+        square -= square.min(axis=0)
+        span = square.max(axis=0) + 1
+        known, of_node = np.unique((owner * span[0] + square[:, 0]) * span[1] + square[:, 1], return_inverse=True)
+        count = np.bincount(of_node)[:, None]
+        center = np.column_stack([np.bincount(of_node, weights=axis) for axis in nodes_m.T]) / count
+        return cls(of_node, known // (span[0] * span[1]), center)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pieces:
+    """The pieces of an instance around some nodes, R rows.
+
+    Attributes:
+        node: [R] row of the nodes that were given.
+        way: [R, 2] node minus the piece's closest point, metres.
+        part: [R] row of the cells' parts that shows the piece.
+    """
+
+    node: Ints
+    way: Floats
+    part: Ints
+
+
+class PieceFinder:
+    """One instance, ready to be taken apart.
+
+    Args:
+        xyz: [P, 3] its points, metres.
+        parts: [S] rows of the cells' parts that show it, ascending, at least one.
+        cells: the gallery.
+        least: a piece of fewer points is none.
+    """
+
+    def __init__(self, xyz: Floats, parts: Ints, cells: CellTable, least: float) -> None:
+        self._least, self._parts, self._cells = least, parts, cells
+        self._width = int(np.ceil(cells.size_m / PIXEL_M))
+        self._low = xyz[:, :2].min(axis=0)
+        pixel = self._pixel(xyz[:, :2])
+        key = pixel[:, 0] << 32 | pixel[:, 1]
+        order = np.argsort(key, kind="stable")
+        self._xyz = xyz[order]
+        first = np.flatnonzero(np.diff(key[order], prepend=-1))
+        self._starts = np.append(first, len(xyz))
+        self._pixels = pixel[order[first]]
+
+    def _pixel(self, xy: Floats) -> npt.NDArray[np.int64]:
+        pixel: npt.NDArray[np.int64] = np.floor((xy - self._low) / PIXEL_M).astype(np.int64)
+        return pixel
+
+    @cached_property
+    def _nearest(self) -> cKDTree:
+        return cKDTree(self._cells.parts.closest_m[self._parts])
+
+    def around(self, at: Floats, tile: Ints, tiles: Tiles) -> Pieces:
+        """The pieces around nodes near which there are several; nodes near one alone have no row.
+
+        Args:
+            at: [M, 3] nodes.
+            tile: [M] of each.
+            tiles: all.
+        """
+        order = np.argsort(tile, kind="stable")
+        numbers, first = np.unique(tile[order], return_index=True)
+        nodes = np.split(order, first[1:])
+        corner = self._pixel(tiles.center_m[numbers] - self._cells.size_m / 2)
+        found: list[Piece] = [(np.zeros(0, np.int64), np.zeros((0, 2)), np.zeros(0, np.int64))]
+        blocks = np.unique(np.floor(tiles.center_m[numbers] / BLOCK_M), axis=0, return_inverse=True)[1]
+        for block in range(blocks.max(initial=-1) + 1):
+            of_block = np.flatnonzero(blocks == block)
+            for n, pixels, piece in self._windows(corner[of_block]):
+                rows, cell = nodes[of_block[n]], int(tiles.cell[numbers[of_block[n]]])
+                found += self._measured(at[rows], rows, pixels, piece, cell)
+        return Pieces(*(np.concatenate(column) for column in zip(*found, strict=True)))
+
+    def _windows(self, corner: Ints) -> Iterator[tuple[int, Ints, Ints]]:
+        """(number, [K] rows of pixels, [K] piece of each) of the windows at [N, 2] corners that hold several pieces."""
+        low, high = corner.min(axis=0), corner.max(axis=0) + self._width
+        rows = np.flatnonzero(((self._pixels >= low) & (self._pixels < high)).all(axis=1))
+        image = np.full(high - low, -1, dtype=np.int32)
+        image[tuple((self._pixels[rows] - low).T)] = rows
+        windows = sliding_window_view(image, (self._width, self._width))[tuple((corner - low).T)]
+        labelled, _ = ndimage.label(windows >= 0, TOUCHING)
+        # labels ascend from window to window
+        last = np.maximum.accumulate(labelled.reshape(len(corner), -1).max(axis=1))
+        for n in np.flatnonzero(np.diff(last, prepend=0) > 1):
+            inside = windows[n] >= 0
+            yield int(n), windows[n][inside], labelled[n][inside]
+
+    def _measured(self, at: Floats, rows: Ints, pixels: Ints, piece: Ints, cell: int) -> Iterator[Piece]:
+        """(node, way, part) of each piece of a window."""
+        order = np.argsort(piece, kind="stable")
+        pixels, piece = pixels[order], piece[order]
+        middle = at[0]
+        points = self._xyz[ranges(self._starts[pixels], self._starts[pixels + 1])] - middle
+        last = np.append(np.flatnonzero(np.diff(piece)), len(piece) - 1)
+        ends = np.cumsum(self._starts[pixels + 1] - self._starts[pixels])[last]
+        shown = self._shown(cell)
+        seen = np.concatenate([at, self._cells.parts.closest_m[shown]]) - middle
+        square = (points**2).sum(axis=1) - 2 * seen @ points.T  # less what is the same for all points
+        shows = dict(zip(np.searchsorted(ends, square[len(at) :].argmin(axis=1), side="right"), shown, strict=True))
+        for number, (begin, end) in enumerate(pairwise([0, *ends.tolist()])):
+            if end - begin < self._least:
+                continue
+            closest = points[begin + square[: len(at), begin:end].argmin(axis=1)] + middle
+            # another cell's, where this one has cut the piece off
+            part = shows[number] if number in shows else self._parts[self._nearest.query(closest[0])[1]]
+            yield rows, at[:, :2] - closest[:, :2], np.full(len(rows), part)
+
+    def _shown(self, cell: int) -> Ints:
+        """A cell's parts, the largest last."""
+        starts, count = self._cells.parts.starts, self._cells.parts.count
+        first, last = np.searchsorted(self._parts, [starts[cell], starts[cell + 1]])
+        rows = self._parts[first:last]
+        ordered: Ints = rows[np.argsort(count[rows], kind="stable")]
+        return ordered
