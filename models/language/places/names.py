@@ -1,0 +1,123 @@
+"""Names in one form: case, accents, apostrophes, articles, abbreviations, ordinals."""
+
+import re
+import unicodedata
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
+
+_WORD = re.compile(r"\d+(?:[-/]\d+)?\w*|[^\W\d_](?:['’`´]?[\w\u0300-\u036f])*|&|@|\+|/")  # noqa: RUF001  # a typeset apostrophe
+_APOSTROPHE = re.compile(r"['’`´]")  # noqa: RUF001
+_OWNED = re.compile(r"['’`´]s$", re.I)  # noqa: RUF001
+ARTICLES: Final = frozenset(("the", "a", "an"))
+WINDS: Final = {
+    "n": "north", "e": "east", "s": "south", "w": "west", "ne": "northeast", "nw": "northwest",
+    "se": "southeast", "sw": "southwest",
+}  # fmt: skip
+_ONES = (
+    "", "first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth", "eleventh",
+    "twelfth", "thirteenth", "fourteenth", "fifteenth", "sixteenth", "seventeenth", "eighteenth", "nineteenth",
+)  # fmt: skip
+_TENS = {"twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "sixty": 60, "seventy": 70, "eighty": 80, "ninety": 90}
+_ORDINALS: Final = {word: n for n, word in enumerate(_ONES) if word} | {
+    f"{word[:-1]}ieth": n for word, n in _TENS.items()
+}
+_CARDINALS: Final = {
+    word: n
+    for n, word in enumerate(
+        [
+            "zero",
+            "one",
+            "two",
+            "three",
+            "four",
+            "five",
+            "six",
+            "seven",
+            "eight",
+            "nine",
+            "ten",
+            "eleven",
+            "twelve",
+            "thirteen",
+            "fourteen",
+            "fifteen",
+            "sixteen",
+            "seventeen",
+            "eighteen",
+            "nineteen",
+        ]
+    )
+}
+NUMBERS: Final = _CARDINALS | _TENS | {"a": 1, "an": 1, "couple": 2, "few": 3, "half": 0.5}
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A word of a text.
+
+    Attributes:
+        plain: in lower case, without accents and apostrophes; ordinals as "42nd".
+        start, end: where it stands.
+        is_capital: whether it begins with a capital letter.
+        begins: whether it is an everyday word with a capital letter because a sentence begins there.
+        owner: without the "'s" of "the library's ahead"; empty if it has none.
+    """
+
+    plain: str
+    start: int
+    end: int
+    is_capital: bool
+    owner: str = ""
+    begins: bool = False
+
+
+def words_of(text: str) -> list[Word]:
+    """The words of a text; "forty second" and "forty-second" are one."""
+    found = [
+        Word(plain_word(m[0]), m.start(), m.end(), m[0][:1].isupper() or m[0][:1].isdigit(), _owner(m[0]))
+        for m in _WORD.finditer(text)
+        if plain_word(m[0])
+    ]
+    joined: list[Word] = []
+    for word in found:
+        last = joined[-1] if joined else None
+        ones = _ORDINALS.get(word.plain, 0) or _CARDINALS.get(word.plain, 0)
+        if last and last.plain in _TENS and 0 < ones < 10 and word.start - last.end == 1:
+            joined[-1] = Word(_ordinal(_TENS[last.plain] + ones), last.start, word.end, last.is_capital)
+        elif word.plain in _ORDINALS:
+            joined.append(Word(_ordinal(_ORDINALS[word.plain]), word.start, word.end, word.is_capital))
+        else:
+            joined.append(word)
+    return joined
+
+
+def _owner(word: str) -> str:
+    bare = _OWNED.sub("", word)
+    if bare == word or not bare:
+        return ""
+    plain = plain_word(bare)
+    return _ordinal(_ORDINALS[plain]) if plain in _ORDINALS else plain
+
+
+@lru_cache(maxsize=100_000)
+def plain_words(name: str) -> tuple[str, ...]:
+    """The words of a name, without a leading article."""
+    words = tuple(word.plain for word in words_of(name))
+    return words[1:] if len(words) > 1 and words[0] in ARTICLES else words
+
+
+@lru_cache(maxsize=100_000)
+def plain_word(word: str) -> str:
+    """A word in lower case, without accents and apostrophes."""
+    if word in ("&", "+"):
+        return "and"
+    folded = unicodedata.normalize("NFKD", _APOSTROPHE.sub("", word)).casefold()
+    letters = unicodedata.normalize("NFKD", folded)
+    return "".join(c for c in letters if not unicodedata.combining(c))
+
+
+def _ordinal(number: int) -> str:
+    if 10 < number % 100 < 14:
+        return f"{number}th"
+    return f"{number}{ {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th') }"

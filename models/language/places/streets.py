@@ -1,0 +1,82 @@
+"""The forms in which people say a street's name: "West 25th Street", "W 25th St", "25th Street", "25th"."""
+
+import re
+from collections.abc import Iterator
+from typing import Final
+
+from models.language.places.names import WINDS, plain_words
+
+# What a street's kind is written as; libpostal's English, German and Finnish short forms that people type.
+TYPES: Final = {
+    "st": "street", "str": "street", "strt": "street", "streets": "street", "ave": "avenue", "av": "avenue",
+    "aven": "avenue", "avenu": "avenue", "avenues": "avenue", "blvd": "boulevard", "rd": "road", "dr": "drive",
+    "ln": "lane", "pl": "place", "sq": "square", "ct": "court", "ter": "terrace", "pkwy": "parkway", "hwy": "highway",
+    "expy": "expressway", "plz": "plaza", "xing": "crossing",
+}  # fmt: skip
+KINDS: Final = frozenset(
+    (
+        *TYPES.values(),
+        "way",
+        "alley",
+        "row",
+        "walk",
+        "path",
+        "esplanade",
+        "circle",
+        "loop",
+        "bridge",
+        "strasse",
+        "allee",
+        "damm",
+    )
+)
+_WINDS: Final = frozenset(WINDS.values())
+_SHORT: Final = {"lexington": "lex", "madison": "mad", "broadway": "bway", "americas": "americas"}
+_COMPOUND: Final = re.compile(r"(strasse|str)$")
+ORDINAL: Final = re.compile(r"\d+(?:st|nd|rd|th)")
+
+
+def full_words(words: tuple[str, ...]) -> tuple[str, ...]:
+    """Words of a street with winds and kinds written out; a leading "st" is a saint."""
+    found = [
+        WINDS.get(word, word) if n in (0, len(words) - 1) and len(words) > 1 else word for n, word in enumerate(words)
+    ]
+    found = [TYPES.get(word, word) if n else ("saint" if word == "st" else word) for n, word in enumerate(found)]
+    return tuple(_COMPOUND.sub("strasse", word) if len(word) > 6 else word for word in found)
+
+
+def forms_of(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
+    """Every form of a street's name, with how surely it means this street."""
+    full = full_words(plain_words(name))
+    yield full, 1.0
+    if len(full) < 2:
+        if full and full[0] in _SHORT:
+            yield (_SHORT[full[0]],), 0.9
+        return
+    winded = full[0] in _WINDS and len(full) > 2
+    rest = full[1:] if winded else full
+    if winded:
+        yield rest, 0.95
+    kind = (
+        rest[-1]
+        if rest[-1] in KINDS
+        else rest[-2]
+        if len(rest) > 2 and rest[-1] in _WINDS and rest[-2] in KINDS
+        else None
+    )
+    if kind is None:
+        return
+    bare = tuple(word for word in rest if word != kind)
+    if bare and not set(bare) <= _WINDS and bare != ("the",):
+        yield bare, 0.9
+        if winded:
+            yield (full[0], *bare), 0.95
+        if len(bare) == 1 and bare[0] in _SHORT:
+            yield (_SHORT[bare[0]],), 0.9
+
+
+def ordinal(number: int) -> str:
+    """42 is "42nd"."""
+    if 10 < number % 100 < 14:
+        return f"{number}th"
+    return f"{number}" + {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")

@@ -1,0 +1,16 @@
+import pytest
+
+from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.kinds.vocabulary import load_vocabulary
+from models.language.places.lookup import Lookup
+from tests.models.city.gazetteer.made_town import is_common, made_gazetteer
+
+
+@pytest.fixture(scope="session")
+def town() -> Gazetteer:
+    return made_gazetteer()
+
+
+@pytest.fixture(scope="session")
+def lookup(town: Gazetteer) -> Lookup:
+    return Lookup(town, load_vocabulary(), is_common)

@@ -1,0 +1,174 @@
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, Words, build_gazetteer
+from models.city.kinds.vocabulary import load_vocabulary
+from models.language.places.lookup import Lookup
+from models.language.places.reader import MOST_OBJECTS, find_mentions, is_meeting, listener_wind, with_goal
+from tests.models.city.gazetteer.made_town import called, is_common, point
+
+LETTERS = st.text(st.sampled_from("25th 10ave on&W st.,/'!éßⅣ²፩ﾞ٣京\u0308\u200dI"), max_size=25)
+
+
+def test_a_whole_text(town, lookup) -> None:
+    text = "Hi, I'm on 25th between 9th and 10th. Bottino is across the street, Whole Foods is 50 m ahead on my left."
+    found = find_mentions(text, lookup)
+    assert [(m.form, m.cue.relation) for m in found[1:]] == [("span", "on"), ("thing", "across"), ("thing", "seen")]
+    assert called(town, found[3].objects) == {"Whole Foods Market"}
+    assert found[3].cue.distance_m == 50
+    assert found[3].cue.angle == pytest.approx(-45)
+    assert [text[m.start : m.end] for m in found] == [m.text for m in found]
+
+
+def test_dictation_without_punctuation(town, lookup) -> None:
+    text = "im on twenty fifth street cafe zoe is on my left and the bakery is behind me hurry please"
+    street, cafe, bakery = find_mentions(text, lookup)
+    assert called(town, street.objects) == {"West 25th Street"}
+    assert called(town, cafe.objects) == {"Café Zoë"}
+    assert cafe.cue.angle == pytest.approx(-90)
+    assert called(town, bakery.objects) == {"Rossi Bakery"}
+    assert bakery.cue.angle == pytest.approx(180)
+
+
+@pytest.mark.parametrize("text", ["Bottino is across 10th Avenue", "Elmo is on the other side of 25th Street"])
+def test_a_street_that_is_crossed_is_not_where_one_is(lookup, text) -> None:
+    found = find_mentions(text, lookup)
+    assert [m.form for m in found] == ["thing"]
+    assert found[0].cue.relation == "across"
+
+
+def test_names_that_the_map_lacks_are_unknown(lookup) -> None:
+    (mention,) = find_mentions("next to the Blarney Stone", lookup)
+    assert mention.form == "unknown"
+    assert not len(mention.objects)
+    assert not len(mention.lines_m)
+    assert mention.text == "Blarney Stone"
+
+
+def test_a_kind_that_the_map_lacks_is_unknown(lookup) -> None:
+    (mention,) = find_mentions("by the lighthouse", lookup)
+    assert mention.form == "unknown"
+    assert mention.kinds
+
+
+@pytest.mark.parametrize("text", ["", " ", "!!!1", "...", "😀", "1", "5", "on", "\n\n", "the the the", "@", "&"])
+def test_texts_that_say_nothing(lookup, text) -> None:
+    assert find_mentions(text, lookup) == []
+    assert listener_wind(text) is None
+    assert not is_meeting(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [("Рядом с Кафе Пушкин", "Кафе Пушкин"), ("北京饭店", "北京饭店"), ("I'm at 北京饭店", "北京饭店")],  # noqa: RUF001
+)
+def test_other_scripts(town, lookup, text, name) -> None:
+    (mention,) = find_mentions(text, lookup)
+    assert called(town, mention.objects) == {name}
+
+
+def test_a_long_text(lookup) -> None:
+    text = ("I'm on 25th between 9th and 10th, Bottino is on my left and the Blarney Stone behind me. " * 60)[:4000]
+    found = find_mentions(text, lookup)
+    assert sum(m.form == "span" for m in found) >= 1
+    assert all(a.start <= b.start for a, b in pairwise(found))
+    assert len(find_mentions("x" * 4000, lookup)) <= 1
+    assert find_mentions("a " * 2000, lookup) == []
+
+
+@pytest.mark.parametrize("text", ["፩ street", "on ፩ Ave", "ﾞ", "Bottino ﾞ"])
+def test_odd_letters_do_no_harm(lookup, text) -> None:
+    find_mentions(text, lookup)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.one_of(st.text(max_size=40), LETTERS))
+def test_any_text_can_be_read(lookup, text) -> None:
+    for mention in find_mentions(text, lookup):
+        assert 0 <= mention.start < mention.end <= len(text)
+        assert len(mention.weights) == len(mention.objects) + len(mention.lines_m)
+        assert np.isfinite(mention.weights).all()
+
+
+def test_a_map_without_names(lookup) -> None:
+    bare = Lookup(NOTHING_NAMED, load_vocabulary(), is_common)
+    found = find_mentions("I'm at 25th and 10th, Bottino on my left, a bench behind me, at 5 Main Street", bare)
+    assert all(not len(m.objects) and not len(m.lines_m) for m in found)
+    assert all(m.form == "unknown" for m in found)
+
+
+def test_what_so_many_things_may_be_is_left_out() -> None:
+    count = MOST_OBJECTS + 1
+    town = build_gazetteer([Words(("amenity/bench",))] * count, [point(0, 0)] * count, [False] * count)
+    assert find_mentions("a bench", Lookup(town, load_vocabulary(), is_common)) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Meet me at the cafe",
+        "Meet me by the cafe",
+        "let's meet in front of the cafe",
+        "Meet me, the cafe, near Bottino",
+    ],
+)
+def test_the_goal_of_a_meeting(town, lookup, text) -> None:
+    assert is_meeting(text)
+    first = with_goal(find_mentions(text, lookup))[0]
+    assert first.text == "cafe"
+    assert first.cue.relation == "at"
+    assert first.cue.angle is None
+
+
+def test_what_is_said_to_be_elsewhere_is_no_goal(lookup) -> None:
+    text = "Meet me across from the cafe, two blocks north of Bottino, by the bakery"
+    relations = [(m.text, m.cue.relation) for m in with_goal(find_mentions(text, lookup))]
+    assert relations == [("cafe", "across"), ("Bottino", "wind"), ("bakery", "at")]
+
+
+def test_a_goal_that_is_said_is_kept(lookup) -> None:
+    mentions = find_mentions("Near Bottino, meet me at the cafe", lookup)
+    assert [m.cue.relation for m in with_goal(mentions)] == [m.cue.relation for m in mentions] == ["near", "at"]
+    assert with_goal([]) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "degrees"),
+    [
+        ("I am north of you", 0),
+        ("The cafe is to the south-west of you", 225),
+        ("it's slightly northeast of where you are", 45),
+        ("a bit east of your location", 90),
+        ("Head southwest, then stop at the cafe", 225),
+        ("Go straight north for two blocks", 0),
+        ("please walk west", 270),
+        ("I'm to your south", 180),
+        ("north of Bottino", None),
+        ("the cafe is north of me", None),
+        ("Bottino heads south", None),
+    ],
+)
+def test_where_the_listener_is_to_look(text, degrees) -> None:
+    assert listener_wind(text) == degrees
+
+
+def test_the_wind_from_the_listener_is_not_one_from_the_speaker(lookup) -> None:
+    (mention,) = find_mentions("I'm at Bottino, north of you", lookup)
+    assert mention.cue.wind is None
+    assert mention.cue.relation == "at"
+
+
+@pytest.mark.parametrize("text", ["There is no bakery here.", "I can't see the bakery", "we are not at the bakery"])
+def test_what_is_not_there_is_no_mention(lookup, text) -> None:
+    assert find_mentions(text, lookup) == []
+
+
+def test_what_is_told_of_again_is_one_thing_with_all_that_is_said(lookup) -> None:
+    [mention] = find_mentions("I'm next to a bakery in the rain. The bakery's on my left.", lookup)
+    assert mention.text == "bakery"
+    assert mention.cue.angle == pytest.approx(-90)
+    assert mention.cue.relation == "beside"
