@@ -8,6 +8,7 @@ from models.language.labels import LabelMatcher
 from models.language.reader import Reader, ReaderConfig
 from models.language.text_encoder import OnTextEncoder, TextEncoder, fingerprint_of
 from models.posterior.likelihood import Likelihood
+from models.posterior.places.kernels import PlaceKernels
 
 
 class PosteriorConfig(ReaderConfig):
@@ -15,10 +16,14 @@ class PosteriorConfig(ReaderConfig):
 
     Attributes:
         radius_scale: what the radii are multiplied with; fitted on validation data.
+        place_scale: the same for texts that name places; fitted on people's own texts.
+        meeting_scale: the same for texts that tell somebody where to come.
         grammar_sha256: of the phrases that the reader was trained on.
     """
 
     radius_scale: float = 1.0
+    place_scale: float = 1.0
+    meeting_scale: float = 1.0
     grammar_sha256: str = ""
 
 
@@ -34,6 +39,7 @@ class PosteriorModel(OnTextEncoder):
         self.reader = Reader(text_encoder, config)
         self.matcher = LabelMatcher(text_encoder)
         self.likelihood = Likelihood()
+        self.places = PlaceKernels()
 
     @property
     def fingerprint(self) -> str:

@@ -1,0 +1,277 @@
+"""A text's mentions on a map: log p(T | x) at cells, roughly, and at nodes, with the speaker's heading summed out."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import log, pi, radians
+from typing import Final
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.gazetteer.raster import Raster
+from models.city.gazetteer.ways import Around, Ways, cut, ways_to
+from models.city.points import Ints
+from models.city.types import Floats
+from models.language.places.mentions import Mention
+from models.posterior.places.kernels import HEADINGS, SURE, TYPES, PlaceKernels
+
+FEW_REACH, MANY_REACH = 5.0, 2.5  # scales of a kernel, as far as which objects are looked at
+MANY: Final = 60  # objects
+SLACK_M: Final = 20.0
+MOST_REACH_M: Final = 250.0
+SAID_REACH, FARTHEST_M = 2.5, 600.0  # the same of distances that were said
+ROUGH_M: Final = 5.0  # what a distance on the grid may be too long by
+LEAST: Final = 1e-6  # of a kernel's mean
+FAINT: Final = 0.02  # what fits nowhere better than this is not near the map
+ASIDE: Final = 60.0  # degrees from ahead or behind, from which on something is at the side
+TIERS: Final = (1.0, 0.7, 0.4, 0.2)  # weights on the grid are rounded to these
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rough:
+    """How far some cells are from what a mention may mean, to the grid.
+
+    Attributes:
+        weights: of each tier of objects.
+        metres: [N] of each tier.
+    """
+
+    weights: tuple[float, ...]
+    metres: tuple[Tensor, ...]
+
+    def at(self, cells: Ints) -> "Rough":
+        """Of some of the cells."""
+        rows = torch.from_numpy(cells)
+        return Rough(self.weights, tuple(metres[rows] for metres in self.metres))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Places:
+    """A text's mentions, ready to be asked of positions.
+
+    Attributes:
+        mentions: those that the map knows.
+        common: [K] mean of each mention's kernel over the map: what is near everywhere tells nothing.
+        listener_m: [2] where the listener is, if winds are seen from there.
+        listener_wind: degrees from the listener to the speaker; None if not said.
+    """
+
+    mentions: tuple[Mention, ...]
+    common: Tensor
+    listener_m: Floats | None = None
+    listener_wind: float | None = None
+
+
+class Told:
+    """What a text says of places, for `locate`: at every cell, roughly, and at any position.
+
+    Attributes:
+        places: the text's mentions on the map.
+        cells: [N] about log p(T | cell).
+    """
+
+    def __init__(self, field: "PlaceField", places: Places, cells: Floats) -> None:
+        self._field, self.places, self.cells = field, places, cells
+
+    @torch.inference_mode()
+    def at(self, points_m: Floats, group: Ints) -> Floats:
+        """[M] log p(T | x) of positions [M, 2]; `group` as `PlaceField.log_p`."""
+        if not len(points_m):
+            return np.zeros(0)
+        log_p: Floats = self._field.log_p(self.places, points_m, group).double().numpy()
+        return log_p
+
+
+class PlaceField:
+    """The gazetteer of one gallery.
+
+    Args:
+        kernels: fitted.
+        gazetteer: of the map.
+        centers_m: [N, 2] of the cells.
+        spacing_m: of their grid.
+    """
+
+    def __init__(self, kernels: PlaceKernels, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
+        self.kernels, self.gazetteer, self._centers_m = kernels, gazetteer, centers_m
+        self.raster = Raster(gazetteer, centers_m, spacing_m)
+
+    @torch.inference_mode()
+    def told(
+        self, mentions: Sequence[Mention], listener_m: Floats | None = None, listener_wind: float | None = None
+    ) -> Told:
+        """A text on this map.
+
+        Args:
+            mentions: what it names.
+            listener_m: [2] where the listener is, if that is known.
+            listener_wind: degrees from the listener to the speaker, if that is said.
+        """
+        known = tuple(m for m in mentions if len(m.objects) or len(m.lines_m))
+        total, common, kept = torch.zeros(len(self._centers_m)), [], []
+        for mention in known:
+            fits = self.roughly(mention, self.rough(mention))
+            mean = fits.mean().clamp(min=LEAST)
+            if float(fits.max()) < FAINT:
+                continue  # none of it is near the map
+            kept.append(mention)
+            common.append(mean)
+            total += self.worth(mention, fits, mean)
+        places = Places(tuple(kept), torch.stack(common) if common else torch.zeros(0), listener_m, listener_wind)
+        total = self.kernels.temper.exp() * total + self.from_listener(places, self._centers_m)
+        return Told(self, places, total.double().numpy())
+
+    def log_p(self, places: Places, points_m: Floats, group: Ints) -> Tensor:
+        """[M] log p(T | x) of positions [M, 2], up to a constant; `group` ascending, of those that lie together."""
+        by_heading = self.by_heading(places, points_m, group)
+        total = by_heading.logsumexp(dim=1) - log(HEADINGS)
+        return self.kernels.temper.exp() * total + self.from_listener(places, points_m)
+
+    def by_heading(self, places: Places, points_m: Floats, group: Ints) -> Tensor:
+        """[M, HEADINGS] log p(T | x, heading)."""
+        total = torch.zeros(len(points_m), HEADINGS)
+        if places.mentions:
+            around = Around.of(points_m, group)
+            for mention, mean in zip(places.mentions, places.common, strict=True):
+                total = total + self.worth(
+                    mention, self.fits(mention, self.ways_from(mention, around), len(points_m)), mean
+                )
+        return total
+
+    def ways(self, mention: Mention, points_m: Floats, group: Ints) -> Ways:
+        """The ways to what a mention may mean; items beyond its objects are its lines."""
+        return self.ways_from(mention, Around.of(points_m, group))
+
+    @torch.inference_mode()
+    def explain(self, places: Places, row: int, point_m: Floats, heading_deg: float) -> tuple[float, int]:
+        """How likely a mention is explained at a position [1, 2], and by which of its `ways` (-1 for none)."""
+        mention = places.mentions[row]
+        ways = self.ways(mention, point_m, np.zeros(1, np.int64))
+        if not len(ways.item):
+            return 0.0, -1
+        fits = self._fits_of_ways(mention, ways)
+        fit = fits[:, round(heading_deg * HEADINGS / 360) % HEADINGS] if fits.shape[1] > 1 else fits[:, 0]
+        floor = self._floor(mention)
+        told = (1 - floor) * fit.max() / places.common[row]
+        return float(told / (told + floor)), int(fit.argmax())
+
+    def ways_from(self, mention: Mention, around: Around) -> Ways:
+        """As `ways`, of positions that are grouped already."""
+        segments, starts, is_area = cut(self.gazetteer, mention.objects)
+        lines = len(mention.lines_m)
+        if lines:
+            segments = np.concatenate([segments, mention.lines_m])
+            starts = np.concatenate([starts, starts[-1] + 1 + np.arange(lines)])
+            is_area = np.concatenate([is_area, np.zeros(lines, np.bool_)])
+        return ways_to(around, segments, starts, is_area, self._reach_m(mention))
+
+    def _reach_m(self, mention: Mention) -> float:
+        """How far away what may be meant is looked for; of much that may be meant the nearest will do."""
+        if mention.cue.distance_m is not None:
+            return min(SAID_REACH * mention.cue.distance_m + SLACK_M, FARTHEST_M)
+        scale = float(self.kernels.scale[kernel_of(mention)].detach().exp())
+        reach = MANY_REACH if len(mention.objects) > MANY else FEW_REACH
+        return min(reach * scale + SLACK_M, MOST_REACH_M)
+
+    def rough(self, mention: Mention) -> Rough:
+        """How far every cell is from what a mention may mean."""
+        weights, metres = [], []
+        if len(mention.lines_m):
+            weights.append(1.0)
+            metres.append(self._metres(self.raster.metres_to_lines(mention.lines_m)))
+        if len(mention.objects):
+            tier = np.searchsorted(-np.array(TIERS[1:]), -mention.weights[: len(mention.objects)], side="left")
+            for number in np.unique(tier):
+                weights.append(TIERS[number])
+                metres.append(self._metres(self.raster.metres_to(mention.objects[tier == number])))
+        return Rough(tuple(weights), tuple(metres))
+
+    def roughly(self, mention: Mention, rough: Rough) -> Tensor:
+        """[N] the kernel at cells, without directions."""
+        some = [w * self._kernel(mention, metres) for w, metres in zip(rough.weights, rough.metres, strict=True)]
+        return torch.stack(some).amax(dim=0)
+
+    def usual(self, mention: Mention, rough: Rough) -> Tensor:
+        """The mean of the kernel over cells: what is near everywhere tells nothing."""
+        return self.roughly(mention, rough).mean().clamp(min=LEAST)
+
+    def _metres(self, rough_m: Floats) -> Tensor:
+        return torch.from_numpy(np.minimum(np.maximum(rough_m - ROUGH_M, 0.0), 1e6)).float()
+
+    def fits(self, mention: Mention, ways: Ways, points: int) -> Tensor:
+        """[M, 1] or [M, HEADINGS] the kernel of the best thing that may be meant, at so many positions."""
+        fits = self._fits_of_ways(mention, ways)
+        index = torch.from_numpy(ways.point)[:, None].expand_as(fits)
+        return torch.zeros(points, fits.shape[1]).scatter_reduce(0, index, fits, "amax")
+
+    def _fits_of_ways(self, mention: Mention, ways: Ways) -> Tensor:
+        """[P, 1] or [P, HEADINGS] the kernel of each way."""
+        weight = torch.from_numpy(mention.weights[ways.item]).float()
+        metres = torch.from_numpy(ways.metres).float()
+        fits = (weight * self._kernel(mention, metres))[:, None]
+        bearing = torch.from_numpy(np.arctan2(ways.way_m[:, 0], ways.way_m[:, 1])).float()
+        kernels, cue = self.kernels, mention.cue
+        if cue.wind is not None:
+            fits = fits * kernels.toward(kernels.wind, bearing - radians(cue.wind), metres)[:, None]
+        elif cue.angle is not None:
+            heading = torch.arange(HEADINGS) * (2 * pi / HEADINGS)
+            away = bearing[:, None] - heading - radians(cue.angle)
+            fits = fits * kernels.toward(kernels.ego, away, metres[:, None])
+        if mention.side is not None:
+            # the street lies on the other side of who is on its north side
+            across = -metres * torch.cos(bearing - radians(mention.side))
+            fits = fits * kernels.on_side(across)[:, None]
+        return fits
+
+    def _kernel(self, mention: Mention, metres: Tensor) -> Tensor:
+        cue, kernels = mention.cue, self.kernels
+        if cue.distance_m is not None:
+            return kernels.said(metres, cue.distance_m, is_loose=cue.is_loose)
+        return kernels.near(kernel_of(mention), metres)
+
+    def worth(self, mention: Mention, fits: Tensor, mean: Tensor) -> Tensor:
+        """Log of how much likelier a mention is here than anywhere."""
+        floor = self._floor(mention)
+        return torch.log(floor + (1 - floor) * fits / mean)
+
+    def _floor(self, mention: Mention) -> Tensor:
+        """How likely a mention is no evidence at all."""
+        return 1 - (1 - self.kernels.floor[SURE.index(_sure(mention))].sigmoid()) * mention.trust
+
+    def from_listener(self, places: Places, points_m: Floats) -> Tensor:
+        """[M] what winds seen from the listener tell of positions [M, 2]."""
+        if places.listener_m is None or places.listener_wind is None:
+            return torch.zeros(len(points_m))
+        way = points_m - places.listener_m
+        metres = torch.from_numpy(np.hypot(*way.T)).float()
+        bearing = torch.from_numpy(np.arctan2(way[:, 0], way[:, 1])).float()
+        return self.kernels.toward(self.kernels.listener, bearing - radians(places.listener_wind), metres).log()
+
+
+def kernel_of(mention: Mention) -> int:
+    """Which of TYPES tells how far what is mentioned may be."""
+    relation = mention.cue.relation
+    loose = relation in ("near", "far", "past", "off", "across", "block", "wind")
+    if mention.form == "street":
+        loose = loose or mention.cue.angle is not None
+        return TYPES.index("street near" if loose else "street")
+    if mention.form == "corner":
+        return TYPES.index("corner near" if relation in ("near", "far", "past", "off", "block", "wind") else "corner")
+    if mention.form in ("span", "address"):
+        return TYPES.index(mention.form)
+    if relation == "seen" and mention.cue.angle is not None:
+        off = abs(mention.cue.angle)
+        return TYPES.index("ahead" if off < ASIDE else "behind" if off > 180.0 - ASIDE else "side")
+    return TYPES.index(relation)
+
+
+def _sure(mention: Mention) -> str:
+    if mention.form == "street":
+        return "street"
+    if mention.form in ("corner", "span", "address"):
+        return "corner"
+    if mention.kinds and not mention.is_exact and mention.trust == 1.0:
+        return "kind"
+    return "exact" if mention.is_exact else "part"

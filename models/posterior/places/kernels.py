@@ -1,0 +1,65 @@
+"""How likely something is said of a place that is so far away, in that direction (docs/method.md, places)."""
+
+from typing import Final
+
+import torch
+from torch import Tensor, nn
+
+# What a thing, street or corner may be to the speaker; the metres over which each falls, to start from.
+SCALES: Final = {
+    "at": 8.0, "outside": 10.0, "beside": 14.0, "near": 30.0, "across": 14.0, "inside": 10.0, "past": 40.0,
+    "off": 30.0, "on": 14.0, "far": 60.0, "block": 70.0, "wind": 60.0, "seen": 28.0, "side": 22.0, "ahead": 30.0,
+    "behind": 25.0, "street": 10.0, "street near": 35.0, "corner": 16.0, "corner near": 35.0, "span": 10.0,
+    "address": 14.0,
+}  # fmt: skip
+TYPES: Final = tuple(SCALES)
+# How far off what is said may be no evidence at all: what was misread, is wrong or is not on the map.
+FLOORS: Final = {"exact": 0.10, "part": 0.25, "kind": 0.20, "street": 0.06, "corner": 0.08}
+SURE: Final = tuple(FLOORS)
+HEADINGS: Final = 16
+ACROSS_M: Final = 24.0
+POWER: Final = 1.5
+
+
+class PlaceKernels(nn.Module):
+    """The weights: scales, tails, floors, how exact directions and distances are. About fifty numbers."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.scale = nn.Parameter(torch.tensor(list(SCALES.values())).log())
+        self.tail = nn.Parameter(torch.full((len(SCALES),), -1.4))  # logit of the share of the heavy tail
+        self.floor = nn.Parameter(torch.tensor(list(FLOORS.values())).logit())
+        self.across_m = nn.Parameter(torch.tensor(ACROSS_M).log())
+        self.ego = nn.Parameter(torch.tensor(2.0).log())  # log concentration of left, right, ahead, behind
+        self.wind = nn.Parameter(torch.tensor(2.0).log())
+        self.listener = nn.Parameter(torch.tensor(2.5).log())  # of winds seen from the listener
+        self.slip = nn.Parameter(torch.tensor(0.1).logit())  # of directions
+        self.measured = nn.Parameter(torch.tensor([0.4, 0.7]).log())  # log-normal width of exact and of loose distances
+        self.side_m = nn.Parameter(torch.tensor(4.0).log())  # how sharp the side of a street is
+        self.temper = nn.Parameter(torch.tensor(0.0))  # log power of the whole
+
+    def near(self, kind: int, metres: Tensor) -> Tensor:
+        """The kernel of a type of TYPES at distances, at most 1."""
+        scale, tail = self.scale[kind].exp(), self.tail[kind].sigmoid()
+        if TYPES[kind] == "across":
+            ring = torch.exp(-0.5 * ((metres - self.across_m.exp()) / scale) ** 2)
+        else:
+            ring = torch.exp(-((metres / scale).clamp(min=1e-4) ** POWER))
+        return (1 - tail) * ring + tail * torch.exp(-metres / (4 * scale))
+
+    def said(self, metres: Tensor, said_m: float, *, is_loose: bool) -> Tensor:
+        """The kernel of a distance that was said."""
+        width = self.measured[int(is_loose)].exp()
+        ratio = torch.log((metres + 4.0) / (said_m + 4.0))
+        return torch.exp(-0.5 * (ratio / width) ** 2)
+
+    def toward(self, concentration: Tensor, away: Tensor, metres: Tensor) -> Tensor:
+        """Density, one on average, of things in a direction, `away` radians off it; what is near may be in any."""
+        kappa = concentration.exp() * metres / (metres + 4.0)
+        slip = self.slip.sigmoid()
+        density: Tensor = (1 - slip) * torch.exp(kappa * (torch.cos(away) - 1)) / torch.special.i0e(kappa) + slip
+        return density
+
+    def on_side(self, metres: Tensor) -> Tensor:
+        """The kernel of being so far on the side of a street that is said, negative on the other."""
+        return 2 * torch.sigmoid(metres / self.side_m.exp()) * 0.95 + 0.05

@@ -1,0 +1,230 @@
+import numpy as np
+import pytest
+import torch
+
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
+from models.language.places.cues import Cue
+from models.language.places.mentions import Mention
+from models.posterior.places.field import PlaceField, Told, kernel_of
+from models.posterior.places.kernels import HEADINGS, TYPES, PlaceKernels
+from tests.models.city.gazetteer.made_town import BENCHES, line, made_gazetteer, numbered, point
+
+GRID_M = 10.0
+CENTERS = np.stack(np.meshgrid(np.arange(-45, 446, GRID_M), np.arange(-45, 206, GRID_M)), axis=-1).reshape(-1, 2)
+NODES = np.stack(np.meshgrid(np.arange(-48, 450, 6.0), np.arange(-48, 210, 6.0)), axis=-1).reshape(-1, 2)
+ANYWHERE = np.zeros(len(NODES), np.int64)
+TOWN = made_gazetteer()
+
+
+@pytest.fixture(scope="module")
+def field() -> PlaceField:
+    return PlaceField(PlaceKernels(), TOWN, CENTERS, GRID_M)
+
+
+def thing(*names: str, cue: Cue = Cue(), **more) -> Mention:  # noqa: B008  # frozen
+    objects = np.array([numbered(TOWN, name) for name in names])
+    more = {"is_exact": True, "weights": np.ones(len(objects))} | more
+    return Mention(names[0], 0, 1, "thing", objects, cue=cue, **more)
+
+
+def street(name: str, **more) -> Mention:
+    return Mention(name, 0, 1, "street", np.array([numbered(TOWN, name)]), np.ones(1), **more)
+
+
+def corner(x: float, y: float) -> Mention:
+    lines = np.array([[x, y, x, y]])
+    return Mention("corner", 0, 1, "corner", lines_m=lines, weights=np.ones(1), is_exact=True, cue=Cue("at"))
+
+
+def best(told: Told) -> np.ndarray:
+    return np.asarray(NODES[told.at(NODES, ANYWHERE).argmax()])
+
+
+def test_the_field_of_a_corner_peaks_at_the_corner(field) -> None:
+    told = field.told([corner(200, 80)])
+    assert np.hypot(*(best(told) - (200, 80))) < 6
+    assert np.hypot(*(CENTERS[told.cells.argmax()] - (200, 80))) <= 2 * GRID_M
+    log_p = told.at(np.array([(200.0, 80.0), (215.0, 80.0), (260.0, 80.0), (400.0, 80.0)]), np.zeros(4, np.int64))
+    assert (np.diff(log_p) < 0).all()
+    assert log_p[0] > 1
+    assert log_p[-1] < 0
+
+
+def test_between_a_thing_on_the_left_and_one_on_the_right(field) -> None:
+    """Elmo is at (120, 148), T-Optik at (120, 92)."""
+    told = field.told([thing("Elmo", cue=Cue(angle=-90.0)), thing("T-Optik", cue=Cue(angle=90.0))])
+    x, y = best(told)
+    assert abs(x - 120) <= 15
+    assert 92 < y < 148
+    with torch.inference_mode():
+        by_heading = field.by_heading(told.places, np.array([[120.0, 120.0]]), np.zeros(1, np.int64))[0]
+    assert by_heading.argmax() == HEADINGS // 4, "Elmo in the north is on the left of who looks east"
+    assert by_heading[HEADINGS // 4] - by_heading[3 * HEADINGS // 4] > 2
+
+
+@pytest.mark.parametrize(("angle", "heading"), [(0.0, 0), (90.0, 12), (180.0, 8), (-90.0, 4)])
+def test_headings_are_clockwise_from_north(field, angle, heading) -> None:
+    places = field.told([thing("Elmo", cue=Cue(angle=angle))]).places
+    with torch.inference_mode():
+        by_heading = field.by_heading(places, np.array([[120.0, 120.0]]), np.zeros(1, np.int64))[0]
+    assert by_heading.argmax() == heading
+
+
+def test_a_wind_tells_the_side(field) -> None:
+    told = field.told([thing("Elmo", cue=Cue("wind", wind=0.0))])  # it is in the north
+    south, north = told.at(np.array([(120.0, 120.0), (120.0, 176.0)]), np.zeros(2, np.int64))
+    assert south - north > 1
+
+
+def test_a_distance_is_a_ring(field) -> None:
+    told = field.told([thing("Elmo", cue=Cue(distance_m=50.0))])
+    at = np.array([(120.0, 143.0), (120.0, 98.0), (120.0, 18.0)])
+    near, there, far = told.at(at, np.zeros(3, np.int64))
+    assert there > near
+    assert there > far
+
+
+def test_rare_things_tell_more_than_common_ones(field) -> None:
+    benches = np.array([n for n, words in enumerate(TOWN.words) if words.kinds == ("amenity/bench",)])
+    assert len(benches) == len(BENCHES)
+    bench = Mention("bench", 0, 1, "thing", benches, np.ones(len(benches)), kinds=("amenity/bench",), cue=Cue("near"))
+    common, rare = (field.told([some]).at(NODES, ANYWHERE) for some in (bench, thing("Elmo", cue=Cue("near"))))
+    assert np.ptp(common) < np.ptp(rare) / 2
+    assert common.max() < rare.max() / 2
+
+
+def test_what_is_everywhere_tells_nothing() -> None:
+    grid = NODES[::5]
+    everywhere = build_gazetteer(
+        [Words(("natural/tree",))] * len(grid), [point(*at) for at in grid], [False] * len(grid)
+    )
+    field = PlaceField(PlaceKernels(), everywhere, CENTERS, GRID_M)
+    tree = Mention("tree", 0, 1, "thing", np.arange(len(grid)), np.ones(len(grid)), kinds=("natural/tree",))
+    told = field.told([tree])
+    assert np.abs(told.cells).max() < 0.1
+    assert np.abs(told.at(NODES[::9], ANYWHERE[::9])).max() < 0.3
+
+
+def test_the_north_side_of_a_street(field) -> None:
+    at = np.array([(100.0, 92.0), (100.0, 68.0)])
+    north, south = field.told([street("West 25th Street", side=0.0)]).at(at, np.zeros(2, np.int64))
+    assert north - south > 1
+    north, south = field.told([street("West 25th Street", side=180.0)]).at(at, np.zeros(2, np.int64))
+    assert south - north > 1
+    north, south = field.told([street("West 25th Street")]).at(at, np.zeros(2, np.int64))
+    assert north == pytest.approx(south, abs=1e-3)
+
+
+def test_the_wind_from_a_listener(field) -> None:
+    told = field.told([], np.array([200.0, 80.0]), 90.0)
+    east, west, north = told.at(np.array([(300.0, 80.0), (100.0, 80.0), (200.0, 180.0)]), np.zeros(3, np.int64))
+    assert east > north > west
+    assert east - west > 2
+    at = [np.hypot(*(CENTERS - place).T).argmin() for place in ((300, 80), (100, 80))]
+    assert told.cells[at[0]] - told.cells[at[1]] == pytest.approx(east - west, abs=0.2)
+    assert not field.told([], np.array([200.0, 80.0])).cells.any(), "no wind, no news"
+    assert not field.told([], None, 90.0).cells.any()
+
+
+def test_places_off_the_map_leave_everything_even(field) -> None:
+    told = field.told([corner(9000, 9000)])
+    assert told.places.mentions == ()
+    assert not told.cells.any()
+    assert not told.at(NODES, ANYWHERE).any()
+
+
+def test_no_mentions_and_unknown_ones_leave_everything_even(field) -> None:
+    for mentions in ([], [Mention("Blarney", 0, 7, "unknown")]):
+        told = field.told(mentions)
+        assert not told.cells.any()
+        assert not told.at(NODES, ANYWHERE).any()
+    assert field.told([]).at(NODES[:0], ANYWHERE[:0]).shape == (0,)
+
+
+def test_a_map_where_nothing_is_named() -> None:
+    field = PlaceField(PlaceKernels(), NOTHING_NAMED, CENTERS, GRID_M)
+    told = field.told([corner(200, 80)])
+    assert np.hypot(*(best(told) - (200, 80))) < 6
+
+
+def test_answers_do_not_depend_on_the_grouping(field) -> None:
+    told = field.told([
+        corner(200, 80), street("West 25th Street", side=0.0), thing("Bottino", "Elmo", cue=Cue(angle=-90.0)),
+        thing("Whole Foods", cue=Cue("wind", wind=90.0)), thing("Chelsea Park", cue=Cue("across")),
+    ])  # fmt: skip
+    one = told.at(NODES, ANYWHERE)
+    alone = told.at(NODES, np.arange(len(NODES)))
+    tiles = (NODES // 50) @ (100, 1)
+    order = np.argsort(tiles, kind="stable")
+    tiled = told.at(NODES[order], np.unique(tiles[order], return_inverse=True)[1])
+    assert np.allclose(one, alone, atol=1e-4)
+    assert np.allclose(one[order], tiled, atol=1e-4)
+
+
+def test_more_that_fits_makes_a_place_likelier(field) -> None:
+    at, group = np.array([[200.0, 80.0]]), np.zeros(1, np.int64)
+    one = field.told([corner(200, 80)]).at(at, group)
+    two = field.told([corner(200, 80), thing("Bottino", cue=Cue("near"))]).at(at, group)
+    wrong = field.told([corner(200, 80), thing("Duane Reade", cue=Cue("near"))]).at(at, group)
+    assert two > one > wrong
+    assert one - wrong < 3, "one thing that is wrong does not rule a place out"
+
+
+def test_what_is_trusted_less_tells_less(field) -> None:
+    sure, unsure, none = (field.told([thing("Elmo", trust=trust)]).at(NODES, ANYWHERE) for trust in (1.0, 0.3, 0.0))
+    assert np.ptp(sure) > np.ptp(unsure) > 0
+    assert np.abs(none).max() < 1e-5
+
+
+def test_the_weightier_of_two_is_likelier(field) -> None:
+    told = field.told([thing("Elmo", "Bottino", cue=Cue("beside"), weights=np.array([1.0, 0.3]))])
+    elmo, bottino = told.at(np.array([(120.0, 148.0), (215.0, 92.0)]), np.zeros(2, np.int64))
+    assert elmo > bottino > 0
+
+
+def test_a_mention_is_explained_by_what_is_near(field) -> None:
+    mention = thing("Elmo", "Bottino", cue=Cue("beside"))
+    places = field.told([mention]).places
+    at = np.array([[215.0, 95.0]])
+    explained, way = field.explain(places, 0, at, 0.0)
+    ways = field.ways(mention, at, np.zeros(1, np.int64))
+    assert explained > 0.8
+    assert ways.item[way] == 1, "Bottino"
+    assert field.explain(places, 0, np.array([[3000.0, 95.0]]), 0.0) == (0.0, -1)
+
+
+def test_inside_a_park_is_all_of_it(field) -> None:
+    told = field.told([thing("Chelsea Park", cue=Cue("inside"))])
+    inside = told.at(np.array([(245.0, 15.0), (285.0, 40.0)]), np.zeros(2, np.int64))
+    assert inside[0] == pytest.approx(inside[1])
+    assert told.at(np.array([[285.0, 100.0]]), np.zeros(1, np.int64)) < inside[0] - 1
+
+
+@pytest.mark.parametrize(
+    ("mention", "kind"),
+    [
+        (thing("Elmo"), "seen"),
+        (thing("Elmo", cue=Cue(angle=0.0)), "ahead"),
+        (thing("Elmo", cue=Cue(angle=-90.0)), "side"),
+        (thing("Elmo", cue=Cue(angle=-170.0)), "behind"),
+        (thing("Elmo", cue=Cue("across", 90.0)), "across"),
+        (street("West 25th Street"), "street"),
+        (street("West 25th Street", cue=Cue("near")), "street near"),
+        (street("West 25th Street", cue=Cue(angle=0.0)), "street near"),
+        (corner(0, 0), "corner"),
+        (Mention("s", 0, 1, "span", cue=Cue("on")), "span"),
+        (Mention("a", 0, 1, "address", cue=Cue("at")), "address"),
+    ],
+)
+def test_which_kernel(mention, kind) -> None:
+    assert TYPES[kernel_of(mention)] == kind
+
+
+def test_a_long_street_is_near_along_all_of_it() -> None:
+    town = build_gazetteer([Words((STREET,), ("Main Street",))], [line((-50, 80), (450, 80))], [False])
+    told = PlaceField(PlaceKernels(), town, CENTERS, GRID_M).told(
+        [Mention("m", 0, 1, "street", np.array([0]), np.ones(1))]
+    )
+    along = told.at(np.stack([np.arange(0, 400, 40.0), np.full(10, 80.0)], axis=1), np.zeros(10, np.int64))
+    assert np.ptp(along) < 1e-4
+    assert along[0] > told.at(np.array([[200.0, 160.0]]), np.zeros(1, np.int64)) + 1
