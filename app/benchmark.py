@@ -114,7 +114,7 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
     steps: dict[str, list[float]] = {"read": [], "posterior": [], "candidates": [], "encode": [], "vector_search": []}
     for text in texts:
         [hints] = _timed(steps["read"], posterior.parse, [" ".join(text)])
-        reading = posterior.reading(hints)
+        reading = posterior.binding.reading(hints)
         also = _timed(steps["candidates"], posterior.candidates, hints, reading)
         _timed(steps["posterior"], partial(locate, also=also), posterior.nodes, reading)
         encoded = _timed(steps["encode"], retriever.encode_texts, [text])

@@ -100,6 +100,14 @@ class Radius:
 
 
 @dataclass(frozen=True, slots=True)
+class Heading:
+    """Where the speaker looks, as the text tells it by left, right, ahead and behind."""
+
+    mean_deg: Annotated[float, Field(description="clockwise from north")]
+    spread_deg: Annotated[float, Field(description="circular standard deviation")]
+
+
+@dataclass(frozen=True, slots=True)
 class Estimate:
     """Where the speaker is, how sure that is, and what made it."""
 
@@ -118,6 +126,8 @@ class Estimate:
     radius_m: Radius
     probability: Annotated[float, Field(description="that the best candidate is the right cell")]
     wgs84: Annotated[LatLon | None, Field(description="null if the map has no georeference")]
+    place: Annotated[str | None, Field(description="the position in words; null on a map without names")] = None
+    heading: Annotated[Heading | None, Field(description="null where the text tells none")] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +162,11 @@ class Evidence:
     label: Annotated[str | None, Field(description="the map's class that fits them best")]
     colour: str | None
     relation: Annotated[
-        str, Field(description="where the speaker is, seen from the thing; near: no direction was said")
+        str,
+        Field(
+            description="where the speaker is, seen from the thing; near: no direction was said. Of places also "
+            "what was said: at, across, left, ahead right, corner ..."
+        ),
     ]
     distance_m: Annotated[float | None, Field(description="as it was said")]
     absent: Annotated[bool, Field(description="the text says that there is none")]
@@ -161,6 +175,12 @@ class Evidence:
     name: str | None = None
     source_id: str | None = None
     away_m: Annotated[float | None, Field(description="from its closest point to the estimate")] = None
+    bearing_deg: Annotated[
+        float | None, Field(description="of places: from the estimate to it, clockwise from north")
+    ] = None
+    exact: Annotated[
+        bool | None, Field(description="of places: whether the map has just this name; null for what is near")
+    ] = None
 
 
 @dataclass(frozen=True, slots=True)

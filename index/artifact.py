@@ -7,6 +7,7 @@
 <root>/<version>/levels.starts.npy, levels.<level>.npy   the retriever's other levels, if they were asked for
 <root>/<version>/cells.safetensors, cells.json where the cells are and what is in them
 <root>/<version>/surroundings.safetensors      what lies around every position
+<root>/<version>/gazetteer.safetensors, gazetteer.json   what a passer-by could name
 """
 
 import hashlib
@@ -24,7 +25,7 @@ from models.files import FileRecord, replace_file, sha256
 
 MANIFEST = "manifest.json"
 ALIASES = "aliases.json"
-FORMAT = 3
+FORMAT = 4
 ADVICE = "build it with 'hereabouts index --map MAP --out DIR'"
 
 

@@ -63,6 +63,8 @@ def build_index(
     report("encode cells", 0, 0)
     ranker = Ranker.of(retriever if levels else retriever.global_alone(), data.cells, data.gallery.labels)
     surroundings = Surroundings.of(source.bodies(), data.cells, report)
+    report("read names", 0, 0)
+    gazetteer = source.gazetteer()
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
     with new_directory(out_dir / origin["version"]) as directory:
@@ -70,6 +72,7 @@ def build_index(
         save_hint_features(directory, retriever, template_hints(data.gallery, data.palette))
         data.gallery.save(directory)
         surroundings.save(directory)
+        gazetteer.save(directory)
         manifest = Manifest(
             **origin, **_describe(data), model=retriever.name, dim=ranker.store.dim, files=file_records(directory)
         )

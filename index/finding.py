@@ -11,6 +11,7 @@ from index.answers import (
     Candidate,
     Estimate,
     Evidence,
+    Heading,
     HeatMap,
     LatLon,
     Method,
@@ -36,12 +37,18 @@ class Finding:
         refusal: why there is no match, and what to do; None if there is one.
         evidence: one a hint, where the localizer knows.
         timings_ms: "encode", "search", "estimate".
+        place: the position in words.
+        heading: where the speaker looks.
+        warnings: what the caller should know.
     """
 
     located: Located | None
     refusal: str | None = None
     evidence: tuple[Evidence, ...] = ()
     timings_ms: dict[str, float] = field(default_factory=dict)
+    place: str | None = None
+    heading: Heading | None = None
+    warnings: tuple[str, ...] = ()
 
 
 class CellLocalizer(Protocol):
@@ -81,7 +88,7 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
         return Answer(
             "no_match",
             localizer.model,
-            warnings=(finding.refusal,) if finding.refusal else (),
+            warnings=(*((finding.refusal,) if finding.refusal else ()), *finding.warnings),
             timings_ms=finding.timings_ms,
             evidence=finding.evidence,
         )
@@ -94,6 +101,8 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
         radius_m=Radius(p50, p90),
         probability=float(located.probability[0]),
         wgs84=LatLon.of(located.positions[0], frame),
+        place=finding.place,
+        heading=finding.heading,
     )
     listed = range(min(query.top_k, len(located.rows)))
     candidates = tuple(_candidate(located, n, cells, frame) for n in listed)
@@ -103,6 +112,7 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
         estimate=estimate,
         candidates=candidates,
         other_probability=max(0.0, 1.0 - sum(candidate.probability for candidate in candidates)),
+        warnings=finding.warnings,
         timings_ms=finding.timings_ms,
         evidence=finding.evidence,
         heat_map=_heat_map(located) if query.heat_map else None,

@@ -16,6 +16,7 @@ from index.vector_localizer import VectorLocalizer, raw_sentences
 from models.city.colours import PALETTES
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData
+from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.types import Floats
 from models.localization.checkpoint import load_fine
 from models.localization.fine_model import FineModel
@@ -125,7 +126,8 @@ class Localizer:
     def posterior(self) -> PosteriorLocalizer:
         """The hint posterior on this gallery."""
         surroundings = Surroundings.load(self._directory)
-        return PosteriorLocalizer(self._load_model(), self.gallery, self.palette, self.frame, surroundings, self.ranker)
+        given = self._load_model(), self.gallery, self.palette, self.frame, surroundings, self.ranker
+        return PosteriorLocalizer(*given, Gazetteer.load(self._directory), self.manifest.grid_m)
 
     @cached_property
     def _vectors(self) -> VectorLocalizer:

@@ -7,30 +7,36 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import torch
 
 from index.answers import Evidence, Method, ModelName, Query
-from index.filters import inside, log_prior
+from index.filters import inside, log_prior, position_m
 from index.finding import Finding
+from index.place_reader import PlaceReader, near_hints
+from index.place_text import place_text
 from index.ranking import Ranker
 from models.city.colours import Palette
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
 from models.city.points import Ints, ranges
-from models.language.landmarks import Landmarks
 from models.language.parsed_hint import RELATIONS, ParsedHint
+from models.language.places.languages import ENGLISH, NAMES, language_of
+from models.language.places.mentions import Mention
+from models.language.places.reader import is_meeting
 from models.language.reader import COLOURS
 from models.language.sentences import reader_texts
 from models.localization.located import Located
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading
 from models.posterior.locate import locate
-from models.posterior.model import PosteriorModel
+from models.posterior.model import PosteriorConfig, PosteriorModel
+from models.posterior.places.field import Told
 from models.posterior.posterior import CANDIDATES, HintPosterior
 from models.posterior.surroundings import STEP_M, Surroundings
 
 LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
 KEPT_TEXTS = 2000
+PLACE_CANDIDATES = 256  # cells whose nodes are looked at for texts that name places
 READ_AT_ONCE = 16
 EXPLAINED = 0.5  # a hint counts as explained from this probability on
 NOTHING_SAID = (
@@ -51,6 +57,8 @@ class PosteriorLocalizer:
         frame: of the map.
         surroundings: of the gallery.
         ranker: of the gallery: gives candidates beside the inverted list's.
+        gazetteer: of the map; empty where nothing has a name.
+        grid_m: spacing of the cells.
     """
 
     method: Method = "posterior"
@@ -63,6 +71,8 @@ class PosteriorLocalizer:
         frame: Frame,
         surroundings: Surroundings,
         ranker: Ranker,
+        gazetteer: Gazetteer = NOTHING_NAMED,
+        grid_m: float = 10.0,
     ) -> None:
         self.weights, self.gallery, self.frame, self.ranker = model, gallery, frame, ranker
         self.surroundings, self._palette = surroundings, palette
@@ -71,15 +81,25 @@ class PosteriorLocalizer:
         label = number.astype(np.int64)[gallery.cells.parts.instance]
         self.nodes = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette)
         self.binding = Binding(model.matcher, self.labels.tolist(), palette)
-        self.landmarks = Landmarks(gallery.names)
+        self._gazetteer, self._grid_m = gazetteer, grid_m
+        self.places: PlaceReader | None = None
+        if len(gazetteer):
+            centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
+            self.places = PlaceReader(model.places, gazetteer, model.text_encoder, centers_m, grid_m)
         self._read_lately: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
 
     @classmethod
     def of_map(
-        cls, model: PosteriorModel, data: MapData, ranker: Ranker, surroundings: Surroundings
+        cls,
+        model: PosteriorModel,
+        data: MapData,
+        ranker: Ranker,
+        surroundings: Surroundings,
+        gazetteer: Gazetteer = NOTHING_NAMED,
     ) -> "PosteriorLocalizer":
         """On a map that is no index."""
-        return cls(model, data.gallery, data.palette, data.frame, surroundings, ranker)
+        given = model, data.gallery, data.palette, data.frame, surroundings, ranker
+        return cls(*given, gazetteer, data.grid_m)
 
     def take(self, rows: Ints) -> "PosteriorLocalizer":
         """See CellLocalizer."""
@@ -89,7 +109,8 @@ class PosteriorLocalizer:
         part_of[kept] = np.arange(len(kept))
         gallery = replace(self.gallery, cells=self.gallery.cells.take(rows))
         surroundings, ranker = self.surroundings.take(rows, part_of), self.ranker.take(rows)
-        return PosteriorLocalizer(self.weights, gallery, self._palette, self.frame, surroundings, ranker)
+        given = self.weights, gallery, self._palette, self.frame, surroundings, ranker
+        return PosteriorLocalizer(*given, self._gazetteer, self._grid_m)
 
     def find(self, queries: Sequence[Query]) -> list[Finding]:
         """See CellLocalizer."""
@@ -99,29 +120,79 @@ class PosteriorLocalizer:
         return [self._find(*each, encode_ms) for each in zip(queries, parsed, strict=True)]
 
     def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> Finding:
-        if not hints:
-            return Finding(None, NOTHING_SAID, timings_ms={"encode": encode_ms})
         start = time.perf_counter()
-        reading = self.reading(hints)
+        language = language_of(query.description)
+        hints = hints if language == ENGLISH else []
+        warnings = _of_language(language)
+        reading = self.binding.reading(hints) if hints else None
+        near, mentions, told = self._places(query, language, hints, reading)
         timings = {"encode": encode_ms + _since(start)}
+        warnings += _not_found(mentions)
+        if not near and told is None:
+            said = NOTHING_FITS if mentions else NOTHING_SAID
+            return Finding(None, said, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
-        nodes_m, frame = self.nodes.nodes_m, self.frame
+        hints = [hints[n] for n in near]
+        reading = self.binding.reading(hints) if hints else None
+        located = self._located(query, hints, reading, told)
+        timings["search"] = _since(start)
+        if located is None:
+            return Finding(None, NOWHERE, timings_ms=timings, warnings=warnings)
+        start = time.perf_counter()
+        finding = self._told_of(located, hints, reading, mentions, told)
+        timings["estimate"] = _since(start)
+        fits = any(hint.explained >= EXPLAINED for hint in finding.evidence) or not finding.evidence
+        return replace(finding, refusal=None if fits else NOTHING_FITS, timings_ms=timings, warnings=warnings)
+
+    def _told_of(
+        self,
+        located: Located,
+        hints: Sequence[ParsedHint],
+        reading: Reading | None,
+        mentions: Sequence[Mention],
+        told: Told | None,
+    ) -> Finding:
+        """What was found, with what explains each hint and mention there, and the place in words."""
+        evidence = self._evidence(hints, reading, located) if reading is not None else ()
+        if self.places is None:
+            return Finding(located, evidence=evidence)
+        at = located.positions[0]
+        evidence += self.places.evidence(mentions, told, at)
+        place, heading = place_text(self._gazetteer, at), self.places.heading(told, located)
+        return Finding(located, evidence=evidence, place=place, heading=heading)
+
+    def _places(
+        self, query: Query, language: str, hints: Sequence[ParsedHint], reading: Reading | None
+    ) -> tuple[list[int], list[Mention], Told | None]:
+        """Which hints tell of what is near, what the text names besides, and what that tells."""
+        if self.places is None:
+            return list(range(len(hints))), [], None
+        listener_m = None if query.prior is None else position_m(query.prior.position, query, self.frame)
+        mentions = self.places.read(query.description, language, to_listener=listener_m is not None)
+        trust = [] if reading is None else reading.label.amax(dim=1).tolist()
+        near, mentions = near_hints(hints, trust, mentions)
+        return near, mentions, self.places.told(mentions, query.description, listener_m)
+
+    def _located(
+        self, query: Query, hints: Sequence[ParsedHint], reading: Reading | None, told: Told | None
+    ) -> Located | None:
         located = locate(
             self.nodes,
             reading,
-            None if query.prior is None else lambda points_m: log_prior(query, points_m, frame),
-            None if query.within is None else inside(query, nodes_m, frame),
-            also=self.candidates(hints, reading),
+            None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
+            None if query.within is None else inside(query, self.nodes.nodes_m, self.frame),
+            PLACE_CANDIDATES if told is not None else CANDIDATES,
+            also=None if reading is None else self.candidates(hints, reading),
+            told=told,
         )
-        timings["search"] = _since(start)
-        if located is None:
-            return Finding(None, NOWHERE, timings_ms=timings)
-        located = replace(located, radius_scale=self.weights.config.radius_scale)
-        start = time.perf_counter()
-        evidence = self._evidence(hints, reading, located)
-        timings["estimate"] = _since(start)
-        fits = any(hint.explained >= EXPLAINED for hint in evidence)
-        return Finding(located, None if fits else NOTHING_FITS, evidence, timings)
+        return located and replace(located, radius_scale=self._radius_scale(query, told))
+
+    def _radius_scale(self, query: Query, told: Told | None) -> float:
+        config: PosteriorConfig = self.weights.config
+        if told is None:
+            return config.radius_scale
+        is_told_to = query.prior is not None or is_meeting(query.description)
+        return config.meeting_scale if is_told_to else config.place_scale
 
     def candidates(self, hints: Sequence[ParsedHint], reading: Reading) -> Ints:
         """[A] the cells that the vector index finds for hints, in the retriever's words."""
@@ -135,7 +206,8 @@ class PosteriorLocalizer:
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
         """Descriptions in the retriever's words, as far as they were read: template sentences of the map's classes."""
         return [
-            self.binding.sentences(hints, self.reading(hints)) if hints else () for hints in self.parse(descriptions)
+            self.binding.sentences(hints, self.binding.reading(hints)) if hints else ()
+            for hints in self.parse(descriptions)
         ]
 
     def parse(self, descriptions: Sequence[str]) -> list[tuple[ParsedHint, ...]]:
@@ -153,16 +225,6 @@ class PosteriorLocalizer:
         while len(kept) > KEPT_TEXTS:
             kept.popitem(last=False)
         return parsed
-
-    def reading(self, hints: Sequence[ParsedHint]) -> Reading:
-        """Hints, at least one, in the map's own labels, colours and names."""
-        reading = self.binding.reading(hints)
-        for n, hint in enumerate(hints):
-            found = self.landmarks.meant_by(hint.noun)
-            if found:
-                bears = np.isin(self.gallery.cells.parts.instance, found)
-                reading.named[n] = torch.from_numpy(bears)
-        return reading
 
     def _evidence(self, hints: Sequence[ParsedHint], reading: Reading, located: Located) -> tuple[Evidence, ...]:
         """How each hint was understood, and what explains it at the best position."""
@@ -195,6 +257,17 @@ class PosteriorLocalizer:
             explained=explained,
             **shown,
         )
+
+
+def _of_language(language: str) -> tuple[str, ...]:
+    if language == ENGLISH:
+        return ()
+    name = NAMES.get(language, f"'{language}'")
+    return (f"the text seems to be in {name}: only names and nouns were understood; English is read whole",)
+
+
+def _not_found(mentions: Sequence[Mention]) -> tuple[str, ...]:
+    return tuple(f"'{mention.text}' was not found on the map" for mention in mentions if mention.form == "unknown")
 
 
 def _since(start: float) -> float:

@@ -18,6 +18,7 @@ from filelock import FileLock
 
 from index.build import build_index
 from index.localizer import Localizer
+from models.checkpoint import round_large
 from models.city.cells import CellTable, cut_cells
 from models.city.gallery import MapData
 from models.city.kitti360.job import prepare_data
@@ -153,7 +154,9 @@ def text_encoder() -> TextEncoder:
 def model(text_encoder: TextEncoder) -> Mncl:
     """Untrained: its answers mean nothing, its shapes and its determinism do."""
     torch.manual_seed(0)
-    return Mncl(text_encoder, MnclConfig(width=32, levels=("global",))).eval()
+    made = Mncl(text_encoder, MnclConfig(width=32, levels=("global",)))
+    round_large(made)  # as every process will read it
+    return made
 
 
 @pytest.fixture(scope="session")

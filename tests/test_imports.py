@@ -16,7 +16,9 @@ GRAMMAR = "models.language.grammar"  # trains and measures alone: what is served
 RETRIEVAL = (*LANGUAGE, "models.retrieval")
 # What is served; it knows of the data that come to it as files, too.
 SOURCES = ("models.city.osm", "models.city.kitti360", "models.city.kitti360pose", "models.city.store")
-SERVED = (*RETRIEVAL, *SOURCES, "models.localization", "models.posterior")
+NAMES = ("models.city.gazetteer", "models.city.kinds")
+PLACES = (*NAMES, "models.language.places", "models.posterior.places")
+SERVED = (*RETRIEVAL, *SOURCES, *PLACES, "models.localization", "models.posterior")
 TRAINED = (*SERVED, GRAMMAR, "models.city.synthetic", "models.training", "models.training.engine")
 ANSWERS = (*SERVED, "index")
 MEASURES = (*TRAINED, "index", "index.evaluation")
@@ -25,17 +27,20 @@ MAY_IMPORT = {
     "models": ("models.language",),
     "models.city": ("models",),
     "models.city.kinds": ("models",),
-    "models.city.osm": CITY,
+    "models.city.gazetteer": CITY,
+    "models.city.osm": (*CITY, *NAMES),
     "models.city.kitti360pose": CITY,
     "models.city.kitti360": (*CITY, "models.city.kitti360pose"),
     "models.city.store": (*CITY, "models.city.kitti360pose"),
     "models.city.synthetic": (*CITY, "models.city.kitti360", "models.city.kitti360pose"),
     "models.language": LANGUAGE,
     "models.language.lexicon": LANGUAGE,
+    "models.language.places": (*LANGUAGE, *NAMES),
     "models.language.grammar": LANGUAGE,
     "models.retrieval": LANGUAGE,
     "models.localization": RETRIEVAL,
-    "models.posterior": (*LANGUAGE, *SOURCES, "models.localization"),
+    "models.posterior": (*LANGUAGE, *SOURCES, "models.localization", "models.posterior.places"),
+    "models.posterior.places": (*LANGUAGE, "models.city.gazetteer", "models.language.places"),
     "models.training": TRAINED,
     "models.training.engine": RETRIEVAL,
     "index": SERVED,
@@ -52,7 +57,10 @@ ONLY = {
     ("models.posterior", "models.localization"): {"models.localization.located"},
 }
 EXCEPT = {
-    "models/city/source.py": SOURCES,  # the one door to data; the rest of models/city knows no source
+    "models/city/source.py": (
+        *SOURCES,
+        "models.city.gazetteer",
+    ),  # the one door to data; the rest of models/city knows no source
     "app/benchmark.py": ("index.evaluation",),
 }
 ONLY_IN = {

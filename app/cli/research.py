@@ -14,11 +14,13 @@ from rich.table import Table
 
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from index.answers import Refine
+from models.city.told_texts import SUFFIXES as TOLD_SUFFIXES
 from models.errors import DataError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from app.settings import Settings
     from models.training.engine.loop import Progress
 
 
@@ -28,7 +30,8 @@ def train(
     method: Annotated[
         str,
         typer.Option(
-            help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching) or posterior"
+            help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), posterior, "
+            "or places: the posterior's kernels for people's texts"
         ),
     ] = "mncl",
     change: Annotated[
@@ -45,7 +48,14 @@ def train(
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="go on with the run in --run-dir, if there is one")] = False,
     reader: Annotated[
-        Path | None, typer.Option(help="weights whose reader is kept: of posterior, fit the likelihood alone")
+        Path | None,
+        typer.Option(
+            help="weights whose reader is kept: of posterior, fit the likelihood alone; of places, the kernels"
+        ),
+    ] = None,
+    texts: Annotated[
+        list[str] | None,
+        typer.Option(help="of places: .jsonl files about each --data, joined by commas; as many as there are --data"),
     ] = None,
 ) -> None:
     """Train a model: on the train scenes of a data set, or the west of an OpenStreetMap file.
@@ -59,8 +69,11 @@ def train(
 
     if resume and run_dir is None:
         raise TrainingError("--resume goes on with the run in --run-dir; name that directory")
-    if reader is not None and method != "posterior":
-        raise TrainingError("--reader is for --method posterior")
+    if reader is not None and method not in ("posterior", "places"):
+        raise TrainingError("--reader is for --method posterior and places")
+    if method == "places" or texts:
+        _train_places(method, data, texts or [], reader, out, steps, seed)
+        return
     options = {"training.seed": seed, "training.steps": steps, "model.text_encoder": text_encoder}
     named = [f"{name}={value}" for name, value in options.items() if value is not None]
     model, config = load_settings(method, [*(change or []), *named])
@@ -73,6 +86,29 @@ def train(
         found = train_it(*given, show)
         if distributed.is_first():
             typer.echo(f"weights are in {out}; validation {found}")
+
+
+def _train_places(
+    method: str, data: list[Path], texts: list[str], reader: Path | None, out: Path, steps: int | None, seed: int | None
+) -> None:
+    """Fit the kernels of places."""
+    from app.cli.progress import stage_bars
+    from models.errors import TrainingError
+    from models.training.fit_places import STEPS, train_places
+
+    if method != "places" or len(texts) != len(data):
+        raise TrainingError("--texts is for --method places: name the texts of each --data, in the same order")
+    maps = [(path, [Path(name) for name in files.split(",")]) for path, files in zip(data, texts, strict=True)]
+    with stage_bars() as show:
+        found = train_places(
+            maps,
+            reader,
+            out,
+            steps or STEPS,
+            seed or 0,
+            lambda done, total, loss: show(f"fit, {loss:.2f}", done, total),
+        )
+    typer.echo(f"weights are in {out}; {', '.join(f'{name} {value:.3f}' for name, value in found.items())}")
 
 
 def _train_retriever(
@@ -151,7 +187,11 @@ def _training_bar(shown: bool) -> "Iterator[Callable[[Progress], None]]":
 def evaluate(
     data: Annotated[
         Path | None,
-        typer.Option(help=f"{DATA_HELP}; or a .json file with the queries of a POST /evaluate, asked of --index"),
+        typer.Option(
+            help=f"{DATA_HELP}; or, asked of --index, a .json file with the queries of a POST /evaluate, "
+            "or people's texts as .jsonl: "
+            "text, goal [lat, lon] and perhaps start [lat, lon]"
+        ),
     ] = None,
     split: Split = None,
     index_dir: IndexDir = INDEX_DIR,
@@ -178,6 +218,9 @@ def evaluate(
         return
     radii = _radii(grow)
     settings = load_settings(index_dir=index_dir)
+    if data.name.endswith(TOLD_SUFFIXES):
+        _evaluate_told(data, settings, report)
+        return
     if data.suffix == ".json":
         asked = read_evaluation(data, settings, split, radii)
     else:
@@ -191,6 +234,24 @@ def evaluate(
         _print_robustness(found)
     else:
         _print_report(found)
+
+
+def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> None:
+    """People's texts, asked of an index."""
+    from app.cli.progress import stage_bars
+    from index.evaluation.told import evaluate_told, told_tables
+    from index.localizer import Localizer
+    from models.city.told_texts import load_told_texts
+
+    texts = load_told_texts(data)
+    weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
+    with stage_bars() as show:
+        found = evaluate_told(Localizer.open(settings.index_dir, *weights), texts, report, show)
+    for head, rows in told_tables(found):
+        table = Table(*head)
+        for row in rows:
+            table.add_row(*row)
+        Console(width=150).print(table)
 
 
 def _print_robustness(found: dict[str, Any]) -> None:

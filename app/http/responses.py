@@ -30,6 +30,8 @@ EXAMPLE: JsonValue = {
         "radius_m": {"p50": 14.1, "p90": 25.8},
         "probability": 0.62,
         "wgs84": {"lat": 60.1699, "lon": 24.9384},
+        "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
+        "heading": {"mean_deg": 271.0, "spread_deg": 18.0},
     },
     "candidates": [
         {
@@ -57,7 +59,24 @@ EXAMPLE: JsonValue = {
             "name": "Stockmann",
             "source_id": "way/1234",
             "away_m": 6.2,
-        }
+            "bearing_deg": None,
+            "exact": None,
+        },
+        {
+            "text": "Ateneum",
+            "label": "tourism/museum",
+            "colour": None,
+            "relation": "right",
+            "distance_m": None,
+            "absent": False,
+            "explained": 0.98,
+            "instance": "tourism/museum",
+            "name": "Ateneum",
+            "source_id": "way/5678",
+            "away_m": 14.0,
+            "bearing_deg": 2.0,
+            "exact": True,
+        },
     ],
     "heat_map": {"spacing_m": 1.5, "points": [[105.0, -35.0, 0.08]]},
     "crs": {

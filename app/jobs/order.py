@@ -101,7 +101,8 @@ class Evaluation(BaseModel):
 
         ranker = self._ranker(source, load_retriever(self.weights_dir).global_alone(), progress)
         surroundings = Surroundings.of(source.bodies(), source.data.cells, progress)
-        return PosteriorLocalizer.of_map(load_posterior(self.posterior_weights_dir), source.data, ranker, surroundings)
+        model = load_posterior(self.posterior_weights_dir)
+        return PosteriorLocalizer.of_map(model, source.data, ranker, surroundings, source.gazetteer())
 
     def _vectors(self, source: Source, progress: Progress) -> "VectorLocalizer":
         """Vector search of a data set: raw text, all levels."""

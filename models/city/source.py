@@ -14,8 +14,10 @@ from scipy.spatial import cKDTree
 from models.city.cells import CellTable, cut_cells, cut_cubes
 from models.city.colours import KITTI360_PALETTE
 from models.city.gallery import Bodies, Gallery, MapData
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
 from models.city.hints import BEST_CELL_REACH_M, HintTable, describe_poses, hint_table, sample_positions
 from models.city.kitti360.rules import CLASSES
+from models.city.osm.gazetteer import load_gazetteer
 from models.city.osm.map import load_osm
 from models.city.points import Ints, PointTable
 from models.city.queries import Queries, Statements
@@ -67,6 +69,10 @@ class Source(ABC):
     @abstractmethod
     def bodies(self) -> Bodies:
         """What its surroundings are measured from: of a map every point, of a data set those its cells show."""
+
+    @abstractmethod
+    def gazetteer(self) -> Gazetteer:
+        """What a passer-by could name there; empty where nothing has a name."""
 
 
 class MapSource(Source):
@@ -145,6 +151,10 @@ class MapSource(Source):
         is_thing, least = ~points.is_stuff, rules.min_part_points
         return Bodies(points.xyz, points.starts, is_thing, scene, part_instance, rules.thing_share, least)
 
+    def gazetteer(self) -> Gazetteer:
+        """See Source; of the whole file, whatever the split."""
+        return load_gazetteer(self._path, self.data.frame)
+
 
 class StoreSource(Source):
     """Scenes of a data set.
@@ -207,6 +217,10 @@ class StoreSource(Source):
         return Bodies(
             np.concatenate(xyz), starts, is_thing, known[:, 0], part_instance, rules.thing_share, rules.min_part_points
         )
+
+    def gazetteer(self) -> Gazetteer:
+        """See Source; scans have no names."""
+        return NOTHING_NAMED
 
 
 def open_source(path: Path, split: str | None = None, progress: Progress | None = None) -> Source:

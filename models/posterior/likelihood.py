@@ -1,6 +1,6 @@
 """How likely a description is at a position (docs/method.md, the hint posterior)."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -25,7 +25,6 @@ class Reading:
         colour: [H, W + 1] probability of each of the palette's words; the last, that none was said.
         distance_m: [H] said distance, NaN if none was.
         absent: [H] probability that the hint says there is none of it.
-        named: for hints that name a landmark, by their number: [R] bool, the cells' parts that bear the name.
     """
 
     relation: Tensor
@@ -33,7 +32,6 @@ class Reading:
     colour: Tensor
     distance_m: Tensor
     absent: Tensor
-    named: dict[int, Tensor] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -154,11 +152,9 @@ class Likelihood(nn.Module):
         return Pairs(known.index_select(0, row), kept - row * parts.shape[1], fits.index_select(0, kept))
 
     def chance(self, reading: Reading, usual: Tensor) -> Tensor:
-        """[H] eps of each hint; `usual` as `usual_statements`. Few things bear a name: it is hardly said by chance."""
+        """[H] eps of each hint; `usual` as `usual_statements`."""
         share = ((reading.label[:, : len(usual)] @ usual) * reading.colour).sum(dim=1)
         eps = self.background.exp() + self.common.exp() * share
-        for hint, bears in reading.named.items():
-            eps[hint] = self.common.exp() * bears.float().mean()
         return eps
 
     def combine(self, reading: Reading, node: Tensor, nodes: int, pairs: Pairs, share: Tensor, eps: Tensor) -> Tensor:

@@ -10,6 +10,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.localization.located import Located
 from models.posterior.likelihood import Reading
+from models.posterior.places.field import Told
 from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
 from models.posterior.surroundings import SPACING_M
 
@@ -23,26 +24,30 @@ Mask = npt.NDArray[np.bool_]
 
 def locate(
     posterior: HintPosterior,
-    reading: Reading,
+    reading: Reading | None,
     log_prior: LogPrior | None = None,
     inside: Mask | None = None,
     candidates: int = CANDIDATES,
     also: Ints | None = None,
+    told: Told | None = None,
 ) -> Located | None:
     """Find where a description was said.
 
     Args:
         posterior: of the gallery.
-        reading: what was said, at least one hint.
+        reading: hints about what is near, at least one; None for none.
         log_prior: log-density of positions [M, 2], any constant.
         inside: [nodes] bool, False where it cannot be.
         candidates: cells to look at, the best by the inverted list.
         also: [A] rows of further cells to look at, found in another way.
+        told: the places that were named, if any.
 
     Returns:
         None if nothing is inside.
     """
     scores = _cell_scores(posterior, reading, log_prior, inside)
+    if told is not None:
+        scores = scores + told.cells
     possible = scores > -np.inf
     if not possible.any():
         return None
@@ -52,7 +57,7 @@ def locate(
     possible[more] = False
     chosen = np.concatenate([listed, more])
     left_out = np.flatnonzero(possible)
-    field = _field(posterior, reading, chosen, log_prior, inside)
+    field = _field(posterior, reading, chosen, log_prior, inside, told)
     mass = _mass(field)
     rest = -np.inf
     if len(left_out):
@@ -87,18 +92,24 @@ def _best(scores: Floats, count: int) -> Ints:
 
 
 def _field(
-    posterior: HintPosterior, reading: Reading, chosen: Ints, log_prior: LogPrior | None, inside: Mask | None
+    posterior: HintPosterior,
+    reading: Reading | None,
+    chosen: Ints,
+    log_prior: LogPrior | None,
+    inside: Mask | None,
+    told: Told | None,
 ) -> Field:
     """The posterior over the nodes of some cells; of those that are far behind on a coarser grid, that will do.
 
-    Where only some nodes are inside, or likelier than others beforehand, all of them are looked at.
+    Where only some nodes are inside all of them are looked at, and where some are likelier beforehand and no place is
+    named.
     """
-    if inside is not None or log_prior is not None:
-        return posterior.field(reading, chosen, log_prior, inside)
-    rough = posterior.field(reading, chosen, inside=posterior.coarse)
+    if inside is not None or (log_prior is not None and told is None):
+        return posterior.field(reading, chosen, log_prior, inside, told)
+    rough = posterior.field(reading, chosen, log_prior, posterior.coarse, told)
     mass = _mass(rough)
     near = np.flatnonzero((mass > mass.max() - BEHIND) | (mass == -np.inf))
-    fine = posterior.field(reading, chosen[near], inside=posterior.between)
+    fine = posterior.field(reading, chosen[near], log_prior, posterior.between, told)
     starts = posterior.surroundings.cell_starts
     stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
     stands_for[near] = 1.0
@@ -120,9 +131,13 @@ def _mass(field: Field) -> Floats:
     return mass
 
 
-def _cell_scores(posterior: HintPosterior, reading: Reading, log_prior: LogPrior | None, inside: Mask | None) -> Floats:
+def _cell_scores(
+    posterior: HintPosterior, reading: Reading | None, log_prior: LogPrior | None, inside: Mask | None
+) -> Floats:
     """[N] about the log mass of each cell, up to one constant; -inf where no node is, or none that is inside."""
-    scores = posterior.cell_scores(reading) * float(posterior.likelihood.temper.detach().exp())
+    scores: Floats = np.zeros(len(posterior.surroundings.cell_starts) - 1)
+    if reading is not None:
+        scores = posterior.cell_scores(reading) * float(posterior.likelihood.temper.detach().exp())
     if log_prior is not None:
         scores = scores + log_prior(posterior.cells.center_m[:, :2])
     starts = posterior.surroundings.cell_starts

@@ -17,13 +17,13 @@ from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, ranks_of, usual_statements, way_number
+from models.posterior.places.field import Told
 from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
 SECTORS = 9  # of a statement: the eight winds and "on-top"
 FLOOR = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
 FAINT_STATEMENT = 1e-4  # what no hint says
-NAMED = 0.05  # share of the nodes of a cell with a landmark where it is taken to be mentioned
 LogPrior = Callable[[Floats], Floats]
 
 
@@ -125,21 +125,26 @@ class HintPosterior:
         told = (weight.amax(dim=0) > FAINT_STATEMENT).nonzero().flatten()  # few
         columns = known.index_select(0, told).numpy()
         holds = self._statements[:, columns] @ weight.index_select(1, told).T.numpy()
-        for hint, bears in reading.named.items():
-            holds[:, hint] = 0.0
-            holds[self.cells.parts.cube[bears.numpy()], hint] = NAMED
         scores: Floats = np.log(holds + FLOOR) @ (1 - reading.absent.numpy())
         return scores
 
     @torch.inference_mode()
-    def field(self, reading: Reading, cells: Ints, log_prior: LogPrior | None = None, inside: Any = None) -> Field:
+    def field(
+        self,
+        reading: Reading | None,
+        cells: Ints,
+        log_prior: LogPrior | None = None,
+        inside: Any = None,
+        told: Told | None = None,
+    ) -> Field:
         """The posterior over the nodes of some cells.
 
         Args:
-            reading: what was said.
+            reading: hints about what is near; None for none.
             cells: [K] rows.
             log_prior: log-density of positions [M, 2]; None for none.
             inside: [M of all] bool, False where it cannot be; None for everywhere.
+            told: the places that were named, if any.
         """
         s = self.surroundings
         begin, end = s.cell_starts[cells], s.cell_starts[cells + 1]
@@ -147,14 +152,21 @@ class HintPosterior:
         if inside is not None:
             kept = inside[nodes]
             nodes, cell = nodes[kept], cell[kept]
+        log_p = np.zeros(len(nodes)) if reading is None else self._log_p(reading, nodes)
+        if told is not None:
+            log_p = log_p + told.at(self.nodes_m[nodes], cell)
+        if log_prior is not None:
+            log_p = log_p + log_prior(self.nodes_m[nodes])
+        return Field(cells, nodes, cell, log_p)
+
+    def _log_p(self, reading: Reading, nodes: Ints) -> Floats:
+        """[M] log p(hints | x) of some nodes."""
         rows, node, fits, part = self._rows(reading, nodes)
         model = self.likelihood
         pairs = model.pairs(reading, fits, part, self._ways, self._way.index_select(0, rows))
         share, eps = self._share.index_select(0, rows.index_select(0, pairs.row)), model.chance(reading, self.usual)
-        log_p = model.combine(reading, node, len(nodes), pairs, share, eps).double().numpy()
-        if log_prior is not None:
-            log_p = log_p + log_prior(self.nodes_m[nodes])
-        return Field(cells, nodes, cell, log_p)
+        log_p: Floats = model.combine(reading, node, len(nodes), pairs, share, eps).double().numpy()
+        return log_p
 
     @torch.inference_mode()
     def explain(self, reading: Reading, node: int) -> list[tuple[int, float]]:
@@ -173,8 +185,6 @@ class HintPosterior:
         # What fits only because a label may be wrong does not explain.
         label = reading.label[torch.arange(len(best)), self._label[torch.from_numpy(parts).long()]]
         trust = (2 * label).clamp(max=1.0)
-        for hint in reading.named:
-            trust[hint] = 1.0
         explained = (total / (total + eps) * trust).tolist()
         return list(zip(rows[best].tolist(), explained, strict=True))
 
@@ -191,8 +201,6 @@ class HintPosterior:
         chosen = torch.from_numpy(different.astype(np.int64))
         label, words = (table.index_select(0, chosen) for table in (self._label, self._words))
         fits = self.likelihood.parts(reading, label, words)
-        for hint, bears in reading.named.items():
-            fits[:, hint] = bears[chosen]
         return rows, node, fits, torch.from_numpy(number[part])
 
 

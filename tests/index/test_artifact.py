@@ -29,7 +29,8 @@ def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
     assert manifest.instances == len(city.instances)
     assert manifest.model_fingerprint == model.fingerprint
     assert set(manifest.files) == {
-        *("vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "surroundings.safetensors")
+        *("vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "surroundings.safetensors"),
+        *("gazetteer.safetensors", "gazetteer.json"),
     }
     assert not list(index_dir.glob(".*"))
 

@@ -87,3 +87,22 @@ def test_benchmark_says_when_the_service_does_not_start(tmp_path, monkeypatch) -
         benchmark.serving(tmp_path / "nothing") as client,
     ):
         client.get("/healthz")
+
+
+def test_people_s_texts_are_asked_of_an_index(run, index_dir, tmp_path) -> None:
+    file = tmp_path / "texts.jsonl"
+    file.write_text('{"text": "I am on East Street 2 at North Path 3", "goal": [60.001, 25.003]}\n')
+    result = run("evaluate", "--index", index_dir, "--data", file, "--report", tmp_path / "r")
+    assert result.exit_code == 0, result.output
+    assert "within 10/30/100/250 m" in result.output
+    assert (tmp_path / "r" / "told.json").is_file()
+    file.write_text('{"text": "no goal"}\n')
+    result = run("evaluate", "--index", index_dir, "--data", file)
+    assert result.exit_code == 1
+
+
+def test_texts_go_with_the_method_places_and_each_with_a_map(run, osm_file, tmp_path) -> None:
+    texts = tmp_path / "texts.jsonl"
+    for method, given in (("posterior", ("--texts", texts)), ("places", ())):
+        result = run("train", "--method", method, "--data", osm_file, *given, "--out", tmp_path / "w")
+        assert result.exit_code == 1

@@ -5,7 +5,6 @@ from torch import nn
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.grammar.labelled_text import Fact
 from models.language.grammar.wording import Wording
-from models.language.landmarks import Landmarks
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import (
     COLOURS,
@@ -200,31 +199,3 @@ def test_a_binding_reads_what_was_noticed(matcher):
     assert reading.distance_m[0] == 4.0
     assert reading.distance_m[1].isnan()
     assert binding.nothing().label.shape == (1, len(KITTI))
-
-
-def test_landmarks_are_found_whole_and_whatever_their_case():
-    landmarks = Landmarks(["Stockmann", None, "Stockmann Helsinki", "Bar", "Café Ekberg", "12345", "Stockmann"])
-    found = landmarks.find(
-        "I am next to stockmann helsinki, west of STOCKMANN and of café ekberg. Bar 12345 Stockmanns"
-    )
-    assert [instances for _, _, instances in found] == [[2], [0, 6], [4]]
-    assert Landmarks([None]).find("Stockmann") == []
-    assert Landmarks([None]).meant_by("Stockmann") == []
-
-
-@pytest.mark.parametrize(
-    ("noun", "instances"),
-    [
-        ("Stockmann", [0, 3]),
-        ("Stockman", [0, 3]),
-        ("the Stokcmann", [0, 3]),
-        ("cafe ekberg", [1]),
-        ("Cafe Ekbreg", [1]),
-        ("Bar", []),
-        ("stock", []),
-        ("building", []),
-    ],
-)
-def test_names_may_be_misspelt_a_little(noun, instances):
-    landmarks = Landmarks(["Stockmann", "Café Ekberg", "Bar", "Stockmann", None, "Stock Exchange"])
-    assert landmarks.meant_by(noun) == instances

@@ -16,7 +16,8 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
     owner = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
     is_coarse = np.isin(np.arange(len(log_p)), np.arange(len(log_p)) if coarse is None else coarse)
 
-    def field(_reading, cells, log_prior=None, inside=None):
+    def field(_reading, cells, log_prior=None, inside=None, told=None):
+        assert told is None
         nodes = np.concatenate([np.flatnonzero((owner == c) & (inside is None or inside)) for c in cells])
         prior = 0.0 if log_prior is None else log_prior(nodes_m[nodes])
         return Field(cells, nodes, np.searchsorted(cells, owner[nodes], sorter=np.argsort(cells)), log_p[nodes] + prior)

@@ -186,28 +186,6 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
     assert right / total > 0.7, "things alike stand side by side in this town"
 
 
-def test_a_named_landmark_binds_the_hint(town, cells):
-    reading = town.readings[2]
-    part = int(cells.parts.starts[town.place.truth[2]])
-    bears = torch.from_numpy(cells.parts.instance == cells.parts.instance[part])
-    named = Reading(reading.relation[:1] * 0 + torch.eye(10)[9], reading.label[:1], reading.colour[:1],
-                    reading.distance_m[:1], reading.absent[:1], {0: bears})  # fmt: skip
-    found = locate(town.posterior, named)
-    around = town.place.surroundings
-    rows = np.flatnonzero(cells.parts.instance[around.part] == cells.parts.instance[part])
-    sees = around.nodes_m[np.searchsorted(around.starts, rows, side="right") - 1]
-    for position in found.positions[:3]:
-        assert np.linalg.norm(sees - position, axis=1).min() < 3.0, "from where the landmark is near"
-    far = town.readings[30]  # what is said besides fits elsewhere
-    assert np.linalg.norm(town.place.positions_m[30] - town.place.positions_m[2]) > 50
-    joined = (torch.cat([one[:1], other[:2]]) for one, other in (
-        (named.relation, far.relation), (named.label, far.label), (named.colour, far.colour),
-        (named.distance_m, far.distance_m), (named.absent, far.absent),
-    ))  # fmt: skip
-    found = locate(town.posterior, Reading(*joined, {0: bears}))
-    assert np.linalg.norm(sees - found.positions[0], axis=1).min() < 3.0, "a name outweighs two hints"
-
-
 @pytest.mark.slow
 def test_fitting_makes_the_truth_likelier(town):
     texts, cells = town.texts(), np.arange(0, len(town.place.cells), 3)

@@ -1,0 +1,176 @@
+"""Measuring on texts that people wrote about places: errors on Earth, radii, and what each construction is worth."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+from pyproj import Geod
+from scipy.stats import binomtest
+
+from index.answers import Answer, Prior, Query
+from index.evaluation.report import Table, as_markdown
+from index.evaluation.scoring import calibration
+from index.localizer import Localizer
+from index.place_reader import PlaceReader, constructions
+from models.city.told_texts import SIGMA_M, ToldText
+from models.city.types import Floats, Progress
+from models.errors import DataError
+from models.language.places.languages import language_of
+from models.language.places.reader import listener_wind
+
+WITHIN_M: Final = (10, 30, 100, 250)
+CONSTRUCTIONS: Final = (
+    "street", "corner", "address", "name", "kind", "left, right, ahead, behind", "across", "wind", "side", "block",
+    "distance", "listener",
+)  # fmt: skip
+_EARTH = Geod(ellps="WGS84")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Told:
+    """What was answered to Q texts.
+
+    Attributes:
+        error_m: [Q] great-circle distance of estimate and goal; inf without an estimate.
+        radius_m: [Q, 2] p50 and p90.
+        probability: [Q] that the best cell is the right one.
+        hit: [Q] whether it is.
+    """
+
+    error_m: Floats
+    radius_m: Floats
+    probability: Floats
+    hit: npt.NDArray[np.bool_]
+
+
+def evaluate_told(
+    localizer: Localizer, texts: Sequence[ToldText], report_dir: Path | None, progress: Progress
+) -> dict[str, Any]:
+    """Ask an index texts with known goals; those with a start get a prior of 800 m round it.
+
+    Args:
+        localizer: of an index with a georeference.
+        texts: as people wrote them.
+        report_dir: where told.json and told.md go; None to write nothing.
+        progress: called as the work goes on.
+
+    Returns:
+        "texts", "within" {metres: share}, "median_m", "coverage" of p50 and p90 with its 95 % interval, "calibration",
+        "by_construction" (the same of the texts that have it) and "without" (of these, as if it had not been
+        said).
+
+    Raises:
+        DataError: the map is nowhere on Earth.
+    """
+    if not localizer.frame.is_georeferenced:
+        raise DataError(
+            "the index has no georeference, so goals in degrees are nowhere on it; index an OpenStreetMap file"
+        )
+    report: dict[str, Any] = {"data": localizer.manifest.map_name, "texts": len(texts)}
+    told = ask(localizer, texts, progress)
+    report |= _figures(told, np.ones(len(texts), np.bool_))
+    places = localizer.posterior.places
+    report["by_construction"], report["without"] = {}, {}
+    if places is not None:
+        said = [_said(places, text) for text in texts]
+        for name in CONSTRUCTIONS:
+            rows = np.array([name in some for some in said])
+            if not rows.any():
+                continue
+            report["by_construction"][name] = _figures(told, rows)
+            some = [text for text, has in zip(texts, rows, strict=True) if has]
+            report["without"][name] = _without(localizer, places, some, name, progress)
+    if report_dir:
+        report_dir.mkdir(parents=True, exist_ok=True)
+        (report_dir / "told.json").write_text(json.dumps(report, indent=1) + "\n")
+        (report_dir / "told.md").write_text("\n\n".join(as_markdown(table) for table in told_tables(report)) + "\n")
+    return report
+
+
+def ask(localizer: Localizer, texts: Sequence[ToldText], progress: Progress) -> Told:
+    """The answers to texts; arguments as `evaluate_told`."""
+    rows = []
+    for n, text in enumerate(texts):
+        progress("ask", n, len(texts))
+        prior = None if text.start is None else Prior((text.start[1], text.start[0]), SIGMA_M)
+        [answer] = localizer.localize([Query(text.text, prior=prior, crs="wgs84")])
+        rows.append(_row(localizer, text, answer))
+    progress("ask", len(texts), len(texts))
+    error, p50, p90, probability, hit = np.array(rows, dtype=np.float64).T
+    return Told(error, np.stack([p50, p90], axis=1), probability, hit > 0)
+
+
+def _row(localizer: Localizer, text: ToldText, answer: Answer) -> tuple[float, float, float, float, bool]:
+    estimate = answer.estimate
+    if estimate is None or estimate.wgs84 is None:
+        extent_m = localizer.gallery.cells.extent_m
+        return np.inf, extent_m, extent_m, 0.0, False
+    lat, lon = text.goal
+    error = _EARTH.inv(estimate.wgs84.lon, estimate.wgs84.lat, lon, lat)[2]
+    goal_m = localizer.frame.from_wgs84(lat, lon)
+    nearest = int(np.hypot(*(localizer.gallery.cells.center_m[:, :2] - goal_m).T).argmin())
+    hit = answer.candidates[0].cell_id == localizer.gallery.cells.ids[nearest]
+    return error, estimate.radius_m.p50, estimate.radius_m.p90, estimate.probability, hit
+
+
+def _said(places: PlaceReader, text: ToldText) -> set[str]:
+    mentions = places.read(text.text, language_of(text.text), to_listener=text.start is not None)
+    found = {name for mention in mentions for name in constructions(mention)}
+    return found | ({"listener"} if text.start is not None and listener_wind(text.text) is not None else set())
+
+
+def _without(
+    localizer: Localizer, places: PlaceReader, texts: Sequence[ToldText], name: str, progress: Progress
+) -> dict[str, Any]:
+    places.without = frozenset((name,))
+    try:
+        return _figures(ask(localizer, texts, progress), np.ones(len(texts), np.bool_))
+    finally:
+        places.without = frozenset()
+
+
+def _figures(told: Told, rows: npt.NDArray[np.bool_]) -> dict[str, Any]:
+    error, radius, count = told.error_m[rows], told.radius_m[rows], int(rows.sum())
+    held = {name: int((error <= radius[:, n]).sum()) for n, name in enumerate(("p50", "p90"))}
+    median = float(np.median(error))
+    return {
+        "texts": count,
+        "within": {str(m): round(float((error <= m).mean()), 4) for m in WITHIN_M},
+        "median_m": round(median, 2) if np.isfinite(median) else None,
+        "coverage": {
+            name: {
+                "true": round(inside / count, 4),
+                "interval": [round(v, 4) for v in binomtest(inside, count).proportion_ci(0.95, "wilson")],
+                "median_m": round(float(np.median(radius[:, n])), 2),
+            }
+            for n, (name, inside) in enumerate(held.items())
+        },
+        "calibration": calibration(told.probability[rows], told.hit[rows]),
+    }
+
+
+def told_tables(report: dict[str, Any]) -> list[Table]:
+    """The report as tables: the whole, and each construction with and without it."""
+    head = ("", "texts", "within 10/30/100/250 m", "median", "90 % radius holds", "its median", "ECE")
+    rows = [("all", *_cells(report))]
+    for name, figures in report["by_construction"].items():
+        rows += [(name, *_cells(figures)), (f"{name}: as if not said", *_cells(report["without"][name]))]
+    return [(head, rows)]
+
+
+def _cells(figures: dict[str, Any]) -> tuple[str, ...]:
+    p90 = figures["coverage"]["p90"]
+    low, high = p90["interval"]
+    median = figures["median_m"]
+    return (
+        f"{figures['texts']}",
+        "/".join(f"{share:.3f}" for share in figures["within"].values()),
+        "-" if median is None else f"{median:.1f} m",
+        f"{p90['true']:.3f} ({low:.2f}-{high:.2f})",
+        f"{p90['median_m']:.0f} m",
+        f"{figures['calibration']['expected_calibration_error']:.3f}",
+    )

@@ -1,0 +1,224 @@
+"""Places that a description names, on one map: what is read, what it tells of positions, and what explains it."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, Final
+
+import numpy as np
+import torch
+
+from index.answers import Evidence, Heading
+from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.gazetteer.ways import Ways
+from models.city.kinds.vocabulary import load_vocabulary
+from models.city.types import Floats
+from models.language.parsed_hint import WINDS, ParsedHint
+from models.language.places.languages import ENGLISH
+from models.language.places.lookup import Lookup
+from models.language.places.mentions import Mention
+from models.language.places.reader import find_mentions, is_meeting, listener_wind, with_goal
+from models.language.places.spans import PASSED, STOP
+from models.language.text_encoder import TextEncoder
+from models.localization.located import Located
+from models.posterior.places.field import PlaceField, Told
+from models.posterior.places.kernels import HEADINGS, PlaceKernels
+
+TRUSTED: Final = 0.5  # of a hint's class, from which on it is no place but what is near
+SPREAD: Final = 60.0  # degrees; a heading that is less sure is none
+_EGO: Final = ((22.5, "ahead"), (67.5, "ahead {}"), (112.5, "{}"), (157.5, "behind {}"), (181.0, "behind"))
+NEAR_WINDS: Final = frozenset(
+    ("seen", "wind", "near", "beside", "on", "inside")
+)  # relations that hints about what is near have too
+
+
+class PlaceReader:
+    """The names and kinds of one map. Not thread-safe.
+
+    Args:
+        kernels: fitted.
+        gazetteer: of the map, not empty.
+        text_encoder: says which words are everyday ones.
+        centers_m: [N, 2] of the gallery's cells.
+        grid_m: spacing of these.
+    """
+
+    def __init__(
+        self, kernels: PlaceKernels, gazetteer: Gazetteer, text_encoder: TextEncoder, centers_m: Floats, grid_m: float
+    ) -> None:
+        self.without: frozenset[str] = (
+            frozenset()
+        )  # constructions that are not heeded, for measuring what each is worth
+        self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
+        self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday)
+
+    def read(self, description: str, language: str, *, to_listener: bool) -> list[Mention]:
+        """What a description names.
+
+        Args:
+            description: any text.
+            language: of the text.
+            to_listener: whether it is said to somebody whose place is known; else the text tells whether it is of a
+                place to meet at.
+        """
+        mentions = find_mentions(description, self._lookup, language)
+        if language == ENGLISH and (to_listener or is_meeting(description)):
+            mentions = with_goal(mentions)
+        return [kept for mention in mentions if (kept := without(mention, self.without)) is not None]
+
+    def told(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> Told | None:
+        """What mentions tell of positions; None if they tell nothing."""
+        heeded = listener_m is not None and "listener" not in self.without
+        wind = listener_wind(description) if heeded else None
+        told = self.field.told(mentions, listener_m, wind)
+        return told if told.places.mentions or wind is not None else None
+
+    @torch.inference_mode()
+    def evidence(self, mentions: Sequence[Mention], told: Told | None, position: Floats) -> tuple[Evidence, ...]:
+        """How each mention was understood, and what explains it at a position [2]."""
+        known = told.places.mentions if told is not None else ()
+        at, one = position[None], np.zeros(1, np.int64)
+        heading = self.field.by_heading(told.places, at, one)[0].argmax() if told is not None else torch.tensor(0)
+        found = []
+        for mention in mentions:
+            row = next((n for n, other in enumerate(known) if other is mention), None)
+            if row is None or told is None:
+                found.append(_unexplained(mention))
+                continue
+            probability, chosen = self.field.explain(told.places, row, at, float(heading) * 360 / HEADINGS)
+            ways = self.field.ways(mention, at, one)
+            found.append(self._explained(mention, probability, chosen, ways))
+        return tuple(found)
+
+    def _explained(self, mention: Mention, probability: float, chosen: int, ways: Ways) -> Evidence:
+        found = _unexplained(mention)
+        if chosen < 0:
+            return found
+        item, way = int(ways.item[chosen]), ways.way_m[chosen]
+        shown: dict[str, Any] = {"away_m": round(float(np.hypot(*way)), 1)}
+        shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*way))) % 360, 1)
+        if item < len(mention.objects):
+            words = self.gazetteer.words[int(mention.objects[item])]
+            kind = words.kinds[0] if words.kinds else None
+            shown |= {"instance": kind, "name": words.names[0] if words.names else None, "source_id": words.source_id}
+        label = mention.kinds[0] if mention.kinds else shown.get("instance")
+        return replace(found, label=label or mention.form, explained=probability, **shown)
+
+    @torch.inference_mode()
+    def heading(self, told: Told | None, located: Located) -> Heading | None:
+        """Where the speaker looks, from the likeliest nodes; None where the text tells none."""
+        if told is None or not any(mention.cue.angle is not None for mention in told.places.mentions):
+            return None
+        near = np.hypot(*(located.points_m - located.positions[0]).T) <= located.radii_m(0.5)[0] + 3.0
+        rows = np.flatnonzero(near)[:400]
+        if not len(rows):
+            return None
+        by = self.field.by_heading(told.places, located.points_m[rows], np.zeros(len(rows), np.int64))
+        weight = torch.softmax(by, dim=1) * torch.from_numpy(located.weight[rows]).float()[:, None]
+        share = (weight.sum(dim=0) / weight.sum().clamp(min=1e-12)).double().numpy()
+        angle = np.arange(HEADINGS) * 2 * np.pi / HEADINGS
+        mean = complex((share * np.exp(1j * angle)).sum())
+        length = min(max(abs(mean), 1e-9), 1.0)
+        spread = float(np.degrees(np.sqrt(-2 * np.log(length))))
+        return (
+            Heading(round(float(np.degrees(np.angle(mean))) % 360, 1), round(spread, 1)) if spread <= SPREAD else None
+        )
+
+
+def constructions(mention: Mention) -> frozenset[str]:
+    """How a mention tells of a place."""
+    cue, found = mention.cue, set[str]()
+    if mention.form in ("corner", "span"):
+        found.add("corner")
+    elif mention.form == "thing":
+        found.add("kind" if mention.kinds and not mention.is_exact and mention.trust == 1.0 else "name")
+    elif mention.form in ("street", "address"):
+        found.add(mention.form)
+    told = (
+        ("left, right, ahead, behind", cue.angle),
+        ("wind", cue.wind),
+        ("distance", cue.distance_m),
+        ("side", mention.side),
+    )
+    found |= {name for name, value in told if value is not None}
+    return frozenset(found | ({cue.relation} if cue.relation in ("across", "block") else set()))
+
+
+def without(mention: Mention, left_out: frozenset[str]) -> Mention | None:
+    """A mention as if some constructions had not been said; None if nothing is left."""
+    if not left_out & constructions(mention):
+        return mention
+    if left_out & {"corner", "kind", "name", "street", "address"}:
+        return None
+    cue = mention.cue
+    if left_out & {"across", "block"}:
+        return replace(mention, cue=replace(cue, relation="seen"))
+    cue = replace(
+        cue,
+        angle=None if "left, right, ahead, behind" in left_out else cue.angle,
+        wind=None if "wind" in left_out else cue.wind,
+        distance_m=None if "distance" in left_out else cue.distance_m,
+    )
+    return replace(mention, cue=cue, side=None if "side" in left_out else mention.side)
+
+
+def near_hints(
+    hints: Sequence[ParsedHint], trust: Sequence[float], mentions: Sequence[Mention]
+) -> tuple[list[int], list[Mention]]:
+    """Which hints tell of what is near, and which mentions of places; what is both is one of them.
+
+    A class of the map that is said with a wind or none is a hint; whatever has a name, a street, or a place that only
+    the speaker's heading tells, is a mention.
+
+    Args:
+        hints: as they were read.
+        trust: of each one's class.
+        mentions: of the same text.
+    """
+    kept: list[int] = []
+    places = list(mentions)
+    for n, hint in enumerate(hints):
+        over = [m for m in places if m.start < hint.end and hint.start < m.end]
+        if over and all(_may_be_near(m) for m in over) and trust[n] >= TRUSTED:
+            places = [m for m in places if not any(m is other for other in over)]
+            kept.append(n)
+        elif (not over and _tells(hint, trust[n])) or (hint.absent >= TRUSTED and not over):
+            kept.append(n)
+    return kept, places
+
+
+def _may_be_near(mention: Mention) -> bool:
+    cue = mention.cue
+    loose = cue.angle is not None or cue.relation not in NEAR_WINDS or (cue.distance_m or 0.0) > 15.0
+    return (
+        mention.form == "thing" and not mention.is_exact and bool(mention.kinds) and mention.trust == 1.0 and not loose
+    )
+
+
+def _tells(hint: ParsedHint, trust: float) -> bool:
+    words = hint.noun.lower().split()
+    return trust >= TRUSTED and not (words and words[-1] in PASSED | STOP and float(hint.relation[-1]) > TRUSTED)
+
+
+def _unexplained(mention: Mention) -> Evidence:
+    return Evidence(
+        text=mention.text,
+        label=mention.kinds[0] if mention.kinds else None,
+        colour=None,
+        relation=_relation(mention),
+        distance_m=mention.cue.distance_m,
+        absent=False,
+        explained=0.0,
+        exact=mention.is_exact if mention.form != "unknown" else False,
+    )
+
+
+def _relation(mention: Mention) -> str:
+    cue = mention.cue
+    if cue.wind is not None:
+        return WINDS[round(((cue.wind + 180) % 360) / 45) % 8]
+    if cue.angle is not None:
+        side = "left" if cue.angle < 0 else "right"
+        return next(words.format(side) for most, words in _EGO if abs(cue.angle) <= most)
+    if mention.form in ("corner", "span", "address"):
+        return mention.form
+    return "near" if cue.relation == "seen" else cue.relation

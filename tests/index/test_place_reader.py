@@ -1,0 +1,127 @@
+"""People's words on a map with names: the tiny town has streets from west to east and paths from south to north."""
+
+import numpy as np
+import pytest
+
+from index.answers import Prior, Query
+from index.place_reader import constructions, near_hints, without
+from models.language.places.mentions import Mention
+from models.language.places.reader import find_mentions
+
+BLOCK_M = 60.0
+
+
+def corner_m(localizer, street, path):
+    """[2] where a street and a path cross: the town's south-west corner is at (-150, -150)."""
+    lat, lon = 60.0 + street * BLOCK_M / 111_412.0, 25.0 + path * BLOCK_M / 55_800.0
+    return localizer.frame.from_wgs84(lat, lon)
+
+
+def answer(localizer, text: str, **given):
+    [found] = localizer.localize([Query(text, **given)])
+    return found
+
+
+@pytest.mark.parametrize(
+    "text", ["I'm at the corner of East Street 2 and North Path 3", "east street 2 at north path 3"]
+)
+def test_a_corner_is_found_and_said(localizer, text) -> None:
+    found = answer(localizer, text)
+    assert found.estimate is not None
+    assert np.hypot(*(found.estimate.position - corner_m(localizer, 2, 3))) < 8.0
+    assert found.estimate.place is not None
+    assert "corner of" in found.estimate.place
+    assert all(name in found.estimate.place for name in ("East Street 2", "North Path 3"))
+    assert found.estimate.heading is None, "nothing tells where the speaker looks"
+
+
+def test_a_span_lies_between_its_paths(localizer) -> None:
+    found = answer(localizer, "I'm on East Street 2 between North Path 1 and North Path 2")
+    west, east = corner_m(localizer, 2, 1), corner_m(localizer, 2, 2)
+    assert found.estimate is not None
+    x, y = found.estimate.position
+    assert west[0] - 10 < x < east[0] + 10
+    assert abs(y - west[1]) < 12
+
+
+def test_a_heading_is_told_by_left_and_ahead(localizer) -> None:
+    found = answer(
+        localizer, "I'm at East Street 2 and North Path 3. East Street 3 is straight ahead, North Path 2 is on my left."
+    )
+    assert found.estimate is not None
+    heading = found.estimate.heading
+    assert heading is not None
+    assert min(heading.mean_deg, 360 - heading.mean_deg) < 40, "the next street lies to the north"
+
+
+def test_evidence_names_what_explains_and_warns_of_what_is_not_there(localizer) -> None:
+    found = answer(localizer, "I'm on East Street 2, next to Zorba's Taverna, at North Path 3")
+    by_text = {hint.text: hint for hint in found.evidence}
+    assert any("Zorba" in warning for warning in found.warnings)
+    street = next(hint for text, hint in by_text.items() if "East Street 2" in text)
+    assert street.explained > 0.5
+    unknown = next(hint for text, hint in by_text.items() if "Zorba" in text)
+    assert unknown.explained == 0.0
+    assert unknown.exact is False
+    assert found.estimate is not None
+    assert np.hypot(*(found.estimate.position - corner_m(localizer, 2, 3))) < 15.0, (
+        "a name that is unknown does no harm"
+    )
+
+
+def test_another_language_is_answered_by_names_with_a_warning(localizer) -> None:
+    found = answer(localizer, "Ich stehe an der Ecke East Street 2 und North Path 3, links von mir ist ein Briefkasten")
+    assert any("German" in warning for warning in found.warnings)
+    assert found.estimate is not None
+    assert np.hypot(*(found.estimate.position - corner_m(localizer, 2, 3))) < 40.0
+
+
+def test_winds_are_seen_from_the_listener(localizer) -> None:
+    start = tuple(corner_m(localizer, 2, 2).tolist())
+    text = "Meet me on North Path 2, {} of you."
+    positions = {}
+    for wind in ("north", "south"):
+        estimate = answer(localizer, text.format(wind), prior=Prior(start, 100.0)).estimate
+        assert estimate is not None
+        positions[wind] = estimate.position[1]
+    assert positions["north"] > start[1] > positions["south"]
+
+
+def test_a_start_off_the_map_is_a_prior_too(localizer) -> None:
+    found = answer(
+        localizer, "Meet me at the corner of East Street 2 and North Path 3.", prior=Prior((5000.0, 0.0), 800.0)
+    )
+    assert found.estimate is not None
+    assert np.isfinite(found.estimate.position).all()
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["East Street 2 " * 280, "5 km 5 km 5 km", "no, none, nothing", "meet me at the", "1/2 3/4", "at at at on on on"],
+)
+def test_odd_texts_are_answered_without_numbers_that_are_none(localizer, text) -> None:
+    found = answer(localizer, text)
+    assert found.estimate is None or np.isfinite([*found.estimate.position, found.estimate.radius_m.p90]).all()
+
+
+def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(localizer) -> None:
+    posterior = localizer.posterior
+    for text, kept in (("I am north of a bench.", 1), ("There is a bench on my left.", 0)):
+        [hints] = posterior.parse([text])
+        trust = posterior.binding.reading(hints).label.amax(dim=1).tolist()
+        mentions = posterior.places.read(text, "en", to_listener=False)
+        near, places = near_hints(hints, trust, mentions)
+        assert (len(near), len(places)) == (kept, 1 - kept)
+
+
+def test_a_construction_can_be_left_out(localizer) -> None:
+    [mention] = [
+        m for m in find_mentions("A bench is 20 m ahead.", localizer.posterior.places._lookup) if m.form == "thing"
+    ]
+    assert constructions(mention) == {"kind", "left, right, ahead, behind", "distance"}
+    assert without(mention, frozenset(("kind",))) is None
+    blind = without(mention, frozenset(("left, right, ahead, behind",)))
+    assert isinstance(blind, Mention)
+    assert blind.cue.angle is None
+    assert blind.cue.distance_m == 20.0
+    assert without(mention, frozenset(("street",))) is mention
