@@ -74,7 +74,7 @@ class Lookup:
             for word in set(plain):
                 postings.setdefault(word, []).append(row)
         self._postings = {word: frozenset(rows) for word, rows in postings.items()}
-        self._nouns = vocabulary.nouns(ENGLISH)
+        self._nouns = self._plain_nouns(ENGLISH)
         self._kinds: dict[tuple[str, tuple[str, ...]], Mapping[str, float]] = {}
 
     def worth(self, word: str) -> float:
@@ -183,7 +183,7 @@ class Lookup:
         key = language, tuple(words)
         found = self._kinds.get(key)
         if found is None:
-            nouns = self._nouns if language == ENGLISH else self._without_accents(language)
+            nouns = self._nouns if language == ENGLISH else self._plain_nouns(language)
             found = self._kinds[key] = self._kinds_of(key[1], nouns)
         return found
 
@@ -211,7 +211,7 @@ class Lookup:
     def _is_telling(self, word: str) -> bool:
         return len(self._postings.get(word, ())) <= 40 and word not in EMPTY and len(word) > 1 and not word[0].isdigit()
 
-    def _without_accents(self, language: str) -> Nouns:
+    def _plain_nouns(self, language: str) -> Nouns:
         nouns = self.vocabulary.nouns(language)
         return {" ".join(plain_words(noun)): kinds for noun, kinds in nouns.items()}
 

@@ -70,6 +70,9 @@ _SIDE = re.compile(
     rf"\b(?:on|in|at|to|along|up on)?\s*(?:the\s+)?(?:very\s+|far\s+)?({WIND_WORD})(?:ern|most)?\s+"
     r"(?:side|end|corner|edge|part|half|bank)(?:\s+(?:of|on))?\b"
 )
+_APPOSED = re.compile(r"(?:the|a|an|that|this|those|our)\s+(?:[\w'-]+\s*){1,4}")
+_LISTED = re.compile(r"\s*(?:,|and|&|n|or|with|,\s*(?:and|with))?\s*(?:the|a|an|that|some|our)?\s*", re.IGNORECASE)
+_WITH = re.compile(r"\bwith\s+(?:the|a|an|that|some|our)?\s*$", re.IGNORECASE)
 _OWNER = re.compile(r"['’`´]s$")  # noqa: RUF001
 _BARE = re.compile(r"^\s*(?:on|at|in|to)\s*(?:the)?\s*$")
 _SEEN_FROM = re.compile(r"\b(?:of|from|to|than)\s+$", re.IGNORECASE)
@@ -109,6 +112,22 @@ def with_cues(text: str, mentions: Sequence[Mention]) -> list[Mention]:
     return [_with_cue(mention, spelt(before[n]), spelt(after[n])) for n, mention in enumerate(mentions)]
 
 
+def listed(text: str, mentions: Sequence[Mention]) -> list[Mention]:
+    """Things of a list share where they are: "the bank and the cash machine to my left"."""
+    found = sorted(mentions, key=lambda mention: mention.start)
+    for n in range(len(found) - 1):
+        one, other = found[n], found[n + 1]
+        gap = text[one.end : other.start]
+        if not one.form == other.form == "thing" or not gap.strip():
+            continue
+        is_list = _LISTED.fullmatch(gap) is not None
+        if is_list and one.cue == SEEN and other.cue.angle is not None:
+            found[n] = replace(one, cue=other.cue)
+        elif (is_list or _WITH.search(gap)) and other.cue == SEEN and one.cue.angle is not None:
+            found[n + 1] = replace(other, cue=one.cue)
+    return found
+
+
 def joined(text: str, mentions: Sequence[Mention]) -> list[Mention]:
     """Mentions of one thing as one, with what each says of it: "by the TV tower ... The tower's on my left"."""
     kept: list[Mention] = []
@@ -116,6 +135,7 @@ def joined(text: str, mentions: Sequence[Mention]) -> list[Mention]:
         name = _OWNER.sub("", mention.text.lower())
         again = _AGAIN.search(text[: mention.start]) is not None and mention.form == "thing" and not mention.is_exact
         same = [n for n, one in enumerate(kept) if again and one.form == "thing" and _is_same(one.text.lower(), name)]
+        same = same or _called_so(kept, mention)
         if not same:
             kept.append(mention)
             continue
@@ -129,6 +149,16 @@ def joined(text: str, mentions: Sequence[Mention]) -> list[Mention]:
         )
         kept[same[-1]] = replace(first, cue=cue)
     return kept
+
+
+def _called_so(kept: Sequence[Mention], mention: Mention) -> list[int]:
+    """The named thing right before that a mere kind stands for: "outside the Motel One, hotel's on my right"."""
+    last = kept[-1] if kept else None
+    if last is None or last.form != "thing" or mention.form != "thing" or not mention.kinds or mention.is_exact:
+        return []
+    is_named = last.is_exact and last.cue.angle is None and last.cue.relation in ("at", "outside", "beside", "inside")
+    is_such = bool(np.isin(last.objects, mention.objects).all()) and mention.cue.angle is not None
+    return [len(kept) - 1] if is_named and is_such else []
 
 
 def _is_same(longer: str, name: str) -> bool:
@@ -152,8 +182,12 @@ def _shared(gap: str) -> tuple[str, str]:
     if breaks:
         # of several clauses those that go on about where ("ahead on my left, across 29th, and") belong to the first
         cut = breaks[0]
+        begin = cut.end()
         for piece in breaks[1:]:
-            part = spelt(gap[cut.end() : piece.start()])
+            part = spelt(gap[begin : piece.start()])
+            begin = piece.end()
+            if _APPOSED.fullmatch(part):
+                continue  # "Sanomatalo, the glass building, is ahead"
             if not part or _ENDS_OPEN.search(part) or not _GOES_ON.search(f"{part} "):
                 break
             cut = piece

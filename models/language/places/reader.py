@@ -8,7 +8,7 @@ from models.language.places.crossings import with_addresses, with_corners
 from models.language.places.cues import spelt, wind_of
 from models.language.places.languages import ENGLISH
 from models.language.places.lookup import Lookup
-from models.language.places.mentions import Mention, joined, with_cues, without_again
+from models.language.places.mentions import Mention, joined, listed, with_cues, without_again
 from models.language.places.spans import find_spans
 from models.language.places.words import english
 
@@ -35,7 +35,7 @@ def find_mentions(text: str, lookup: Lookup, language: str = ENGLISH) -> list[Me
     mentions = with_addresses([Mention.of(span, words, text) for span in spans], text, lookup)
     mentions = [m for m in mentions if len(m.objects) <= MOST_OBJECTS and not _is_passed(m, text)]
     text, mentions = without_again(text, mentions)
-    told = with_cues(text, with_corners(text, mentions, lookup))
+    told = listed(text, with_cues(text, with_corners(text, mentions, lookup)))
     return joined(text, [mention for mention in told if not mention.cue.is_absent])
 
 

@@ -38,8 +38,9 @@ def test_a_slash_joins_streets(lookup) -> None:
 
 def test_streets_that_never_meet_stay_streets(town, lookup) -> None:
     found = find_mentions("Harlem Road and 25th Street", lookup)
-    assert [m.form for m in found] == ["street", "street", "unknown"], "that they meet is not found"
-    assert [called(town, m.objects) for m in found[:2]] == [{"Harlem Road"}, {"West 25th Street"}]
+    assert sorted(m.form for m in found) == ["street", "street", "unknown"], "that they meet is not found"
+    streets = [called(town, m.objects) for m in found if m.form == "street"]
+    assert streets == [{"Harlem Road"}, {"West 25th Street"}]
 
 
 def test_streets_in_two_sentences_are_no_corner(lookup) -> None:

@@ -172,3 +172,27 @@ def test_what_is_told_of_again_is_one_thing_with_all_that_is_said(lookup) -> Non
     assert mention.text == "bakery"
     assert mention.cue.angle == pytest.approx(-90)
     assert mention.cue.relation == "beside"
+
+
+@pytest.mark.parametrize(
+    ("text", "angle", "things"),
+    [
+        ("the bakery and the optician on my left", -90, 2),
+        ("the bakery is on my right, with an optician", 90, 2),
+        ("the optician, the old one, is behind me and nothing else", 180, 1),
+    ],
+)
+def test_things_of_a_list_share_where_they_are(lookup, text, angle, things) -> None:
+    assert [mention.cue.angle for mention in find_mentions(text, lookup)] == pytest.approx([angle] * things)
+
+
+def test_a_kind_right_after_a_name_stands_for_it(lookup) -> None:
+    [mention] = find_mentions("I'm outside Rossi Bakery, bakery's on my right hand.", lookup)
+    assert mention.is_exact
+    assert mention.cue.relation == "outside"
+    assert mention.cue.angle == pytest.approx(90)
+
+
+def test_a_noun_with_a_hyphen_is_found(lookup) -> None:
+    [mention] = find_mentions("I'm next to the u-bahn", lookup)
+    assert any("subway" in kind for kind in mention.kinds)
