@@ -125,3 +125,14 @@ def test_a_construction_can_be_left_out(localizer) -> None:
     assert blind.cue.angle is None
     assert blind.cue.distance_m == 20.0
     assert without(mention, frozenset(("street",))) is mention
+
+
+def test_radii_are_scaled_by_what_the_text_is_of(localizer, monkeypatch) -> None:
+    weights = localizer.posterior.weights
+    widths = []
+    for scales in ({"place_scale": 1.0, "meeting_scale": 1.0}, {"place_scale": 2.0, "meeting_scale": 3.0}):
+        monkeypatch.setattr(weights, "config", weights.config.model_copy(update=scales))
+        texts = ("I'm at East Street 2 and North Path 3", "Meet me at East Street 2 and North Path 3")
+        widths.append([answer(localizer, text).estimate.radius_m.p50 for text in texts])
+    assert widths[1][0] == pytest.approx(2 * widths[0][0])
+    assert widths[1][1] == pytest.approx(3 * widths[0][1])

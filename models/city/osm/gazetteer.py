@@ -14,6 +14,7 @@ from models.city.frame import Frame
 from models.city.gazetteer.gazetteer import ADDRESS, STREET, Gazetteer, Words, build_gazetteer
 from models.city.gazetteer.streets import Ways, join_streets
 from models.city.kinds.vocabulary import Vocabulary, load_vocabulary
+from models.city.osm.map import geometries, source_id
 from models.city.types import Floats
 from models.errors import MapError
 
@@ -77,12 +78,7 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
 
 
 def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_Found]:
-    factory = osmium.geom.WKBFactory()
-    create: dict[str, Any] = {
-        "n": factory.create_point,
-        "w": factory.create_linestring,
-        "a": factory.create_multipolygon,
-    }
+    create = geometries()
     for element in processor:
         form = element.type_str()
         if form not in create or not element.tags:
@@ -95,7 +91,7 @@ def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_Found]:
             continue
         if form == "a" and (_is_line(tags) or tags.get("indoor") == "room"):
             continue
-        words = _street(tags, element) if is_street else _words(tags, vocabulary, _source_id(element, form))
+        words = _street(tags, element) if is_street else _words(tags, vocabulary, source_id(element, form))
         if words is None:
             continue
         try:
@@ -148,12 +144,6 @@ def _names(tags: dict[str, str]) -> tuple[str, ...]:
     if not found and "operator" in tags and OPERATED & tags.keys():
         found = [tags["operator"]]
     return tuple(dict.fromkeys(name for name in found if name))[:MOST_NAMES]
-
-
-def _source_id(element: Any, form: str) -> str:
-    if form == "a":
-        return f"{'way' if element.from_way() else 'relation'}/{element.orig_id()}"
-    return f"{'node' if form == 'n' else 'way'}/{element.id}"
 
 
 def _segments(shape: shapely.Geometry) -> Floats:

@@ -130,13 +130,21 @@ def _read_elements(path: Path) -> tuple[list[_Element], tuple[float, float, floa
     return elements, (box.bottom_left.lon, box.bottom_left.lat, box.top_right.lon, box.top_right.lat)
 
 
-def _classify(processor: Any) -> Iterator[_Element]:
+def geometries() -> dict[str, Any]:
+    """By osmium's letter of an element what makes its geometry: a point, a line or areas."""
     factory = osmium.geom.WKBFactory()
-    create: dict[str, Any] = {
-        "n": factory.create_point,
-        "w": factory.create_linestring,
-        "a": factory.create_multipolygon,
-    }
+    return {"n": factory.create_point, "w": factory.create_linestring, "a": factory.create_multipolygon}
+
+
+def source_id(element: Any, kind: str) -> str:
+    """Where an element comes from, "way/1234"; `kind` is osmium's letter."""
+    if kind == "a":
+        return f"{'way' if element.from_way() else 'relation'}/{element.orig_id()}"
+    return f"{'node' if kind == 'n' else 'way'}/{element.id}"
+
+
+def _classify(processor: Any) -> Iterator[_Element]:
+    create = geometries()
     for element in processor:
         kind = element.type_str()
         if kind not in create:
@@ -153,7 +161,7 @@ def _classify(processor: Any) -> Iterator[_Element]:
                         wkb = create[kind](element)
                     except (osmium.InvalidLocationError, RuntimeError):
                         break  # nodes left out by the extract, or a broken ring: this element has no geometry here
-                    yield _Element(wkb, row, order, tags, _source_id(element, kind))
+                    yield _Element(wkb, row, order, tags, source_id(element, kind))
                 break
 
 
@@ -174,12 +182,6 @@ def _is_wanted(element: Any, kind: str, row: OsmClass, tags: dict[str, str]) -> 
     if kind == "w":
         return linear if element.is_closed() else row.shape != "outline"
     return not linear or (row.shape != "wall" and not element.from_way())
-
-
-def _source_id(element: Any, kind: str) -> str:
-    if kind == "a":
-        return f"{'way' if element.from_way() else 'relation'}/{element.orig_id()}"
-    return f"{'node' if kind == 'n' else 'way'}/{element.id}"
 
 
 def _feature(element: _Element, geometry: shapely.Geometry) -> Feature:

@@ -46,7 +46,8 @@ class Span:
 
 def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list[Word], list[Span]]:
     """The words of a text, and what they name, in order and without overlaps; kinds by the nouns of a language."""
-    words = [_at_start(word, before, text, lookup) for word, before in _with_before(words_of(text))]
+    said = words_of(text)
+    words = [_at_start(word, said[n - 1] if n else None, text, lookup) for n, word in enumerate(said)]
     cased = any(word.is_capital for word in words[1:])
     mended = {word.plain: like_noun(word.plain, lookup) for word in words if lookup.is_strange(word.plain)}
     found: list[Span] = []
@@ -65,10 +66,6 @@ def like_noun(word: str, lookup: Lookup) -> str:
         return word
     like = process.extractOne(word, lookup.noun_words, scorer=OSA.normalized_similarity, score_cutoff=LIKE_NOUN)
     return like[0] if like else word
-
-
-def _with_before(words: Sequence[Word]) -> list[tuple[Word, Word | None]]:
-    return list(zip(words, [None, *words], strict=False))
 
 
 def _starts(word: Word, before: Word | None, text: str) -> bool:
