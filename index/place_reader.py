@@ -13,6 +13,7 @@ from models.city.gazetteer.ways import Ways
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.types import Floats
 from models.language.parsed_hint import WINDS, ParsedHint
+from models.language.places.cue_reader import CueReader
 from models.language.places.languages import ENGLISH
 from models.language.places.lookup import Lookup
 from models.language.places.mentions import Mention
@@ -36,6 +37,7 @@ class PlaceReader:
 
     Args:
         kernels: fitted.
+        cues: trained.
         gazetteer: of the map, not empty.
         text_encoder: says which words are everyday ones.
         centers_m: [N, 2] of the gallery's cells.
@@ -43,12 +45,19 @@ class PlaceReader:
     """
 
     def __init__(
-        self, kernels: PlaceKernels, gazetteer: Gazetteer, text_encoder: TextEncoder, centers_m: Floats, grid_m: float
+        self,
+        kernels: PlaceKernels,
+        cues: CueReader,
+        gazetteer: Gazetteer,
+        text_encoder: TextEncoder,
+        centers_m: Floats,
+        grid_m: float,
     ) -> None:
         self.without: frozenset[str] = (
             frozenset()
         )  # constructions that are not heeded, for measuring what each is worth
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
+        self._cues = cues
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday)
 
     def read(self, description: str, language: str, *, to_listener: bool) -> list[Mention]:
@@ -60,7 +69,7 @@ class PlaceReader:
             to_listener: whether it is said to somebody whose place is known; else the text tells whether it is of a
                 place to meet at.
         """
-        mentions = find_mentions(description, self._lookup, language)
+        mentions = find_mentions(description, self._lookup, self._cues, language)
         if language == ENGLISH and (to_listener or is_meeting(description)):
             mentions = with_goal(mentions)
         return [kept for mention in mentions if (kept := without(mention, self.without)) is not None]
@@ -69,7 +78,8 @@ class PlaceReader:
         """What mentions tell of positions; None if they tell nothing."""
         heeded = listener_m is not None and "listener" not in self.without
         wind = listener_wind(description) if heeded else None
-        told = self.field.told(mentions, listener_m, wind)
+        meets = listener_m is not None or is_meeting(description)
+        told = self.field.told(mentions, listener_m, wind, is_meeting=meets)
         return told if told.places.mentions or wind is not None else None
 
     @torch.inference_mode()

@@ -91,10 +91,11 @@ def train(
 def _train_places(
     method: str, data: list[Path], texts: list[str], reader: Path | None, out: Path, steps: int | None, seed: int | None
 ) -> None:
-    """Fit the kernels of places."""
+    """Train the reader of cues and fit the kernels of places."""
     from app.cli.progress import stage_bars
     from models.errors import TrainingError
-    from models.training.fit_places import STEPS, train_places
+    from models.training.fit_places import STEPS
+    from models.training.train_places import train_places
 
     if method != "places" or len(texts) != len(data):
         raise TrainingError("--texts is for --method places: name the texts of each --data, in the same order")
@@ -106,7 +107,7 @@ def _train_places(
             out,
             steps or STEPS,
             seed or 0,
-            lambda done, total, loss: show(f"fit, {loss:.2f}", done, total),
+            lambda stage, done, total, loss: show(f"{stage}, {loss:.2f}", done, total),
         )
     typer.echo(f"weights are in {out}; {', '.join(f'{name} {value:.3f}' for name, value in found.items())}")
 

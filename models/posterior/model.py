@@ -5,6 +5,7 @@ from typing import ClassVar
 
 from models.checkpoint import SHIPPED, Checkpoints
 from models.language.labels import LabelMatcher
+from models.language.places.cue_reader import CueReader
 from models.language.reader import Reader, ReaderConfig
 from models.language.text_encoder import OnTextEncoder, TextEncoder, fingerprint_of
 from models.posterior.likelihood import Likelihood
@@ -39,6 +40,7 @@ class PosteriorModel(OnTextEncoder):
         self.reader = Reader(text_encoder, config)
         self.matcher = LabelMatcher(text_encoder)
         self.likelihood = Likelihood()
+        self.cues = CueReader(text_encoder, self.reader.tuned, config.frozen_layers)
         self.places = PlaceKernels()
 
     @property

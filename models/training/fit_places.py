@@ -1,30 +1,26 @@
 """Fitting the kernels of places to texts that people wrote (docs/method.md, how the kernels were fitted)."""
 
-import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import log
-from pathlib import Path
 
 import numpy as np
 import torch
 from torch import Tensor
 
-from models.checkpoint import CONFIG_FILE, SHIPPED
 from models.city.frame import Frame
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.gazetteer.ways import Around, Ways
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.points import Ints
-from models.city.source import open_source
-from models.city.told_texts import SIGMA_M, ToldText, load_told_texts
+from models.city.told_texts import SIGMA_M, ToldText
 from models.city.types import Floats
 from models.errors import TrainingError
+from models.language.places.cue_reader import CueReader
 from models.language.places.lookup import Lookup
 from models.language.places.reader import find_mentions, is_meeting, listener_wind, with_goal
 from models.language.text_encoder import TextEncoder
 from models.posterior.locate import HIT_M
-from models.posterior.model import load_posterior, save_posterior
 from models.posterior.places.field import PlaceField, Places, Rough
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
@@ -33,9 +29,9 @@ NODE_M = 3.0  # spacing of the nodes in a cell
 BLUR_M = 4.0  # the truth is a normal distribution of this width
 MOST = 9.0  # nats: a text that cannot be explained pulls no harder
 BATCH = 48
-STEPS = 120
+STEPS = 100
 LEARNING_RATE = 0.06
-PULL = 0.02  # towards where the weights began
+PULL = 0.005  # towards where the weights began
 TEMPERS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)  # what `temper` is scaled with
 HELD = 0.9
 HEAVY = 256  # nodes that the best place is looked for among
@@ -71,6 +67,7 @@ class Case:
     ways: Sequence[Ways]
     rough: Sequence[Rough]
     log_prior: Tensor
+    walked: Tensor
     blur: Tensor
     goal_m: Floats
     cell: Ints
@@ -121,35 +118,45 @@ def fit_places(
     return float(np.mean(losses[-10 * BATCH :]))
 
 
-def read_cases(kernels: PlaceKernels, place: ToldPlace, encoder: TextEncoder, rng: np.random.Generator) -> list[Case]:
+def read_cases(
+    kernels: PlaceKernels,
+    place: ToldPlace,
+    encoder: TextEncoder,
+    cues_for: Callable[[str], CueReader],
+    rng: np.random.Generator,
+) -> list[Case]:
     """A place's texts, read; those that name nothing of the map are left out.
 
     Args:
         kernels: what is to be fitted.
         place: a map with texts.
         encoder: says which words are everyday ones.
+        cues_for: the reader of cues for a text.
         rng: draws cells.
     """
     field = PlaceField(kernels, place.gazetteer, place.centers_m, place.grid_m)
     lookup = Lookup(place.gazetteer, load_vocabulary(), encoder.is_everyday)
     sample = rng.choice(len(place.centers_m), min(SAMPLED, len(place.centers_m)), replace=False)
-    found = (_case(field, lookup, place, told, sample, rng) for told in place.texts)
+    found = (_case(field, lookup, cues_for(told.text), place, told, sample, rng) for told in place.texts)
     return [case for case in found if case is not None]
 
 
 def _case(
     field: PlaceField,
     lookup: Lookup,
+    cues: CueReader,
     place: ToldPlace,
     told: ToldText,
     sample: Ints,
     rng: np.random.Generator,
 ) -> Case | None:
-    mentions = find_mentions(told.text, lookup)
+    mentions = find_mentions(told.text, lookup, cues)
     listener_m = None if told.start is None else place.frame.from_wgs84(*told.start)
-    if listener_m is not None or is_meeting(told.text):
+    meets = listener_m is not None or is_meeting(told.text)
+    if meets:
         mentions = with_goal(mentions)
-    found = field.told(mentions, listener_m, None if listener_m is None else listener_wind(told.text))
+    wind = None if listener_m is None else listener_wind(told.text)
+    found = field.told(mentions, listener_m, wind, is_meeting=meets)
     if not found.places.mentions:
         return None
     goal, centers = place.frame.from_wgs84(*told.goal), place.centers_m
@@ -166,11 +173,12 @@ def _case(
         ways=[field.ways_from(mention, around) for mention in found.places.mentions],
         rough=[field.rough(mention).at(sample) for mention in found.places.mentions],
         log_prior=torch.from_numpy(_log_prior(points, listener_m)).float(),
+        walked=field.walked(found.places, points),
         blur=torch.from_numpy(-away / (2 * BLUR_M**2)).float(),
         goal_m=goal,
         cell=group,
         centers_m=centers[cells],
-        is_meeting=listener_m is not None or is_meeting(told.text),
+        is_meeting=meets,
     )
 
 
@@ -187,6 +195,7 @@ def _log_p(case: Case) -> Tensor:
     for mention, ways, rough in zip(case.places.mentions, case.ways, case.rough, strict=True):
         total = total + field.worth(mention, field.fits(mention, ways, len(case.points_m)), field.usual(mention, rough))
     log_p = field.kernels.temper.exp() * (total.logsumexp(dim=1) - log(HEADINGS))
+    log_p = log_p + field.kernels.standing(case.walked)
     return log_p + field.from_listener(case.places, case.points_m) + case.log_prior
 
 
@@ -254,51 +263,3 @@ def _nodes(centers_m: Floats, grid_m: float) -> tuple[Floats, Ints]:
     offsets = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
     points = (centers_m[:, None] + offsets[None]).reshape(-1, 2)
     return points, np.repeat(np.arange(len(centers_m)), len(offsets))
-
-
-def train_places(
-    maps: Sequence[tuple[Path, Sequence[Path]]],
-    weights: Path | None,
-    out: Path,
-    steps: int,
-    seed: int,
-    progress: Callable[[int, int, float], None] | None = None,
-) -> dict[str, float]:
-    """Fit and calibrate the kernels of a posterior on maps with people's texts, save it all.
-
-    Args:
-        maps: each an OpenStreetMap file, with files of texts about it (`load_told_texts`).
-        weights: of the posterior whose other parts are kept; None for those that ship with the package.
-        out: directory for model.safetensors and config.json; may be that of the weights.
-        steps: see `fit_places`; twice as many are spent on calibration.
-        seed: of what is drawn.
-        progress: see `fit_places`.
-
-    Returns:
-        The mean surprise, and the scales of the radii.
-
-    Raises:
-        WeightsError, MapError, DataError: something cannot be read.
-        TrainingError: no text names anything of its map.
-    """
-    model = load_posterior(weights)
-    record = json.loads(((weights or SHIPPED / "posterior") / CONFIG_FILE).read_text())["training"]
-    torch.manual_seed(seed)
-    rng, kernels = np.random.default_rng(seed), PlaceKernels()
-    cases = []
-    for path, files in maps:
-        source = open_source(path)
-        centers_m = source.data.cells.center_m[:, :2].astype(np.float64)
-        texts = [text for file in files for text in load_told_texts(file)]
-        place = ToldPlace(source.gazetteer(), source.data.frame, centers_m, source.data.grid_m, texts)
-        cases += read_cases(kernels, place, model.text_encoder, rng)
-    temper, own, meeting = calibrate_places(kernels, cases, steps, rng)
-    surprise = fit_places(kernels, cases, steps, rng, progress)
-    with torch.no_grad():
-        kernels.temper.add_(log(temper))
-    model.places = kernels
-    model.config = model.config.model_copy(update={"place_scale": own, "meeting_scale": meeting})
-    figures = {"surprise": surprise, "temper_scale": temper, "place_scale": own, "meeting_scale": meeting}
-    fitted_to = {path.name: [file.name for file in files] for path, files in maps}
-    save_posterior(model, out, record | {"places": figures | {"texts": fitted_to, "seed": seed, "steps": steps}})
-    return figures

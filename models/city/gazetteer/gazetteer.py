@@ -18,6 +18,7 @@ from models.errors import IndexBroken
 
 STREET: Final = "street"  # the kind of a street with all its pieces
 ADDRESS: Final = "address"  # the kind of what has a house number alone
+WALKED: Final = "walked"  # the kind of the one object that is all lines people walk on
 SHAPES_FILE = "gazetteer.safetensors"
 WORDS_FILE = "gazetteer.json"
 

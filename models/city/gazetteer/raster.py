@@ -12,6 +12,7 @@ from models.city.types import Floats
 SAMPLED_M = 6.0  # between samples of lines
 MARGIN_M = 300.0  # round the cells, in which objects count too
 LARGE_M = 20.0  # areas that reach farther have samples inside
+LATTICE_M = 9.0  # between these
 KEPT = 512
 
 
@@ -53,7 +54,7 @@ class Raster:
     def metres_to_lines(self, lines_m: Floats) -> Floats:
         """[N] the same for segments [n, 4]."""
         steps = np.maximum(1, np.ceil(np.hypot(*(lines_m[:, 2:] - lines_m[:, :2]).T) / SAMPLED_M)).astype(int) + 1
-        return self._metres(self.pixels(_along(lines_m, steps)))
+        return self._metres(self.pixels(along(lines_m, steps)))
 
     def _metres(self, pixels: Ints) -> Floats:
         pixels = pixels[pixels >= 0]
@@ -66,7 +67,7 @@ class Raster:
         return metres
 
 
-def _along(lines_m: Floats, steps: Ints) -> Floats:
+def along(lines_m: Floats, steps: Ints) -> Floats:
     """Points along segments [n, 4], so many of each."""
     line = np.repeat(np.arange(len(lines_m)), steps)
     share = (np.arange(steps.sum()) - np.repeat(np.cumsum(steps) - steps, steps)) / np.repeat(
@@ -84,10 +85,10 @@ def _samples(gazetteer: Gazetteer) -> tuple[Floats, Ints]:
     lines = gazetteer.segments_m
     steps = np.ceil(np.hypot(*(lines[:, 2:] - lines[:, :2]).T) / SAMPLED_M).astype(int) + 1
     owner = np.repeat(np.repeat(np.arange(len(gazetteer)), np.diff(gazetteer.starts)), steps)
-    points, owners = [_along(lines, steps)], [owner]
+    points, owners = [along(lines, steps)], [owner]
     for number in np.flatnonzero(gazetteer.is_area & (gazetteer.reach_m > LARGE_M)):
         ends = lines[gazetteer.starts[number] : gazetteer.starts[number + 1]].astype(np.float64)
-        inside = _lattice(ends)
+        inside = lattice(ends, LATTICE_M)
         points.append(inside)
         owners.append(np.full(len(inside), number))
     joined, of = np.concatenate(points), np.concatenate(owners)
@@ -95,10 +96,10 @@ def _samples(gazetteer: Gazetteer) -> tuple[Floats, Ints]:
     return joined[order], np.searchsorted(of[order], np.arange(len(gazetteer) + 1))
 
 
-def _lattice(ends: Floats) -> Floats:
-    """Points inside rings, 9 m apart."""
+def lattice(ends: Floats, apart_m: float) -> Floats:
+    """Points inside rings of segments [n, 4], in rows and columns."""
     low, high = ends.reshape(-1, 2).min(axis=0), ends.reshape(-1, 2).max(axis=0)
-    axes = [np.arange(a + 4.5, b, 9.0) for a, b in zip(low, high, strict=True)]
+    axes = [np.arange(a + apart_m / 2, b, apart_m) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
     x, y = grid.T[:, :, None]
     x1, y1, x2, y2 = ends.T

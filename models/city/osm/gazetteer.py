@@ -11,7 +11,7 @@ import osmium
 import shapely
 
 from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import ADDRESS, STREET, Gazetteer, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import ADDRESS, STREET, WALKED, Gazetteer, Words, build_gazetteer
 from models.city.gazetteer.streets import Ways, join_streets
 from models.city.kinds.vocabulary import Vocabulary, load_vocabulary
 from models.city.osm.map import geometries, source_id
@@ -33,8 +33,15 @@ NO_STREETS = frozenset(("proposed", "construction", "bus_stop", "street_lamp", "
 OPERATED = frozenset(("amenity", "shop", "office", "tourism", "leisure", "healthcare"))  # known by who runs them
 UNBUILT = frozenset(("proposed", "construction"))
 UNNAMED_WAYS = frozenset(("steps", "pedestrian", "cycleway"))  # what lines without a name are taken of
+WALKED_ON = frozenset(
+    (
+        "footway", "pedestrian", "path", "steps", "living_street", "residential", "unclassified", "tertiary",
+        "secondary", "primary", "service", "cycleway",
+    )
+)  # fmt: skip
 SIMPLER_M = 0.5  # how far a geometry may be from the one that is mapped
 MOST_NAMES = 12
+_WALKED = Words((WALKED,))
 _LANGUAGE = re.compile(r"(?:alt_|official_|short_|old_)?name:[a-z]{2,3}(?:[-_][A-Za-z]+)?")
 
 
@@ -65,7 +72,8 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
     shapes = shapely.simplify(shapes, SIMPLER_M, preserve_topology=True)
     segments = [_segments(shape) for shape in shapes]
     streets = [n for n, one in enumerate(found) if one.nodes]
-    others = [n for n, one in enumerate(found) if not one.nodes]
+    walked = [n for n, one in enumerate(found) if one.words is _WALKED]
+    others = [n for n, one in enumerate(found) if not one.nodes and one.words is not _WALKED]
     words = [found[n].words for n in others]
     shown = [segments[n] for n in others]
     is_area = [found[n].is_area for n in others]
@@ -74,6 +82,10 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
     words += joined.words
     shown += joined.segments_m
     is_area += [False] * len(joined.words)
+    if walked and words:
+        words.append(_WALKED)
+        shown.append(np.concatenate([segments[n] for n in walked]))
+        is_area.append(False)
     return build_gazetteer(words, shown, is_area, (joined.corner_streets, joined.corners_m))
 
 
@@ -84,6 +96,8 @@ def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_Found]:
         if form not in create or not element.tags:
             continue
         tags = {tag.k: tag.v for tag in element.tags}
+        if form == "w" and tags.get("highway") in WALKED_ON and tags.get("indoor") != "yes":
+            yield from _found(element, create, "w", _WALKED)
         is_street = form == "w" and "highway" in tags and tags["highway"] not in NO_STREETS and _named(tags)
         if form == "w" and not is_street and element.is_closed() and not _is_line(tags):
             continue  # it comes again as an area
@@ -94,12 +108,17 @@ def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_Found]:
         words = _street(tags, element) if is_street else _words(tags, vocabulary, source_id(element, form))
         if words is None:
             continue
-        try:
-            wkb = create[form](element)
-        except (osmium.InvalidLocationError, RuntimeError):
-            continue  # nodes left out by the extract, or a broken ring
         nodes = {n.ref: (n.lon, n.lat) for n in element.nodes if n.location.valid()} if is_street else {}
-        yield _Found(wkb, words, form == "a", nodes)
+        yield from _found(element, create, form, words, nodes)
+
+
+def _found(
+    element: Any, create: dict[str, Any], form: str, words: Words, nodes: dict[int, tuple[float, float]] | None = None
+) -> Iterator[_Found]:
+    try:
+        yield _Found(create[form](element), words, form == "a", nodes or {})
+    except (osmium.InvalidLocationError, RuntimeError):
+        return  # nodes left out by the extract, or a broken ring
 
 
 def _named(tags: dict[str, str]) -> bool:

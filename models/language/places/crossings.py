@@ -19,6 +19,7 @@ _W = english()
 _MEETS, _AND = _W.pattern("streets", "meets"), _W.pattern("streets", "and")
 _LOOSELY, _BETWEEN = _W.pattern("streets", "loosely"), _W.pattern("streets", "between")
 _SURELY = re.compile(r"\b(?:and|at|meets|crosses|corner of)\b|[&/@]", re.IGNORECASE)
+_AT_END = re.compile(r"\s*(?:$|[.,;!?\n]|corner\b|crossing\b|intersection\b)", re.IGNORECASE)
 _NUMBER = re.compile(r"(?<![\w.])(?:number |no\.? |#)?(\d{1,5}[a-z]?)\s+$", re.IGNORECASE)
 _NUMBER_AFTER = re.compile(
     r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?![\w.]|\s*(?:m|met|feet|ft|yards|steps|min|blocks?|doors?|and|/)\b)",
@@ -56,7 +57,7 @@ def with_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list
         m = streets[k + 1]
         if n in used or m in used:
             continue
-        main = next((mentions[s] for s in streets if s not in (n, m)), None)
+        main = _main(mentions, [s for s in streets if s not in (n, m)], n, m)
         found = _together(text, mentions[n], mentions[m], main, lookup, is_last=k + 2 >= len(streets))
         if found is not None and found.form == "unknown":
             apart.append(found)
@@ -74,6 +75,14 @@ def with_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list
     return kept + apart
 
 
+def _main(mentions: Sequence[Mention], others: Sequence[int], n: int, m: int) -> Mention | None:
+    """The street that two others cut a span from: the last before them, else the first after; not one of them again."""
+    objects = np.concatenate([mentions[n].objects, mentions[m].objects])
+    apart = [s for s in others if not np.isin(mentions[s].objects, objects).any()]
+    before = [s for s in apart if s < n]
+    return mentions[before[-1] if before else apart[0]] if apart else None
+
+
 def _together(
     text: str, one: Mention, other: Mention, main: Mention | None, lookup: Lookup, *, is_last: bool
 ) -> Mention | None:
@@ -85,6 +94,8 @@ def _together(
         return span and _said(span, *whole)
     if not _MEETS.fullmatch(between) or (not is_last and _BETWEEN.search(text[: other.start])):
         return None
+    if between.strip() == "," and not _AT_END.match(text, other.end):
+        return None  # "in Rochstraße, Münzstraße is just behind me"
     corner = _corner(one, other, lookup)
     cue = Cue("near" if _LOOSELY.search(between) else "at")
     if corner is None:

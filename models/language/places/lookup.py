@@ -171,7 +171,8 @@ class Lookup:
 
     def is_strange(self, word: str) -> bool:
         """Whether a word is in no name, street or noun, and no everyday one: misspelt, or a name that is not here."""
-        known = word in self._postings or word in self.street_words or word in self.noun_words
+        is_noun = any(form in self.noun_words for form in _singulars(word))
+        known = is_noun or word in self._postings or word in self.street_words
         return not known and not self.is_common(word) and word.isalpha()
 
     def is_name(self, words: Sequence[str]) -> bool:

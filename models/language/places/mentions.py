@@ -9,7 +9,8 @@ import numpy as np
 
 from models.city.points import Ints
 from models.city.types import Floats
-from models.language.places.cues import SEEN, WIND_WORD, Cue, cue_of, spelt, wind_of
+from models.language.places.cue_reader import CueReader, ReadCue
+from models.language.places.cues import SEEN, WIND_WORD, Cue, Said, distances_of, wind_of, winds_of
 from models.language.places.names import Word
 from models.language.places.spans import Form, Span
 from models.language.places.words import english
@@ -61,143 +62,84 @@ class Mention:
         return cls(*given, match.objects, match.weights, NO_LINES, match.trust, match.is_exact, kinds)
 
 
-_W = english()
-_BREAK = _W.pattern("clauses", "break")
-_GOES_ON, _ENDS_OPEN = _W.pattern("clauses", "goes_on"), _W.pattern("clauses", "ends_open")
-_EGO_END = _W.pattern("clauses", "ego_end")
-_SENTENCE = re.compile(r"[.;!?\n]+(?:\s|$)")
 _SIDE = re.compile(
-    rf"\b(?:on|in|at|to|along|up on)?\s*(?:the\s+)?(?:very\s+|far\s+)?({WIND_WORD})(?:ern|most)?\s+"
-    r"(?:side|end|corner|edge|part|half|bank)(?:\s+(?:of|on))?\b"
+    rf"\b({WIND_WORD})(?:ern|most)?\s+(?:side|end|corner|edge|part|half|bank)(?:\s+(?:of|on))?\b", re.IGNORECASE
 )
-_APPOSED = re.compile(r"(?:the|a|an|that|this|those|our)\s+(?:[\w'-]+\s*){1,4}")
-_LISTED = re.compile(r"\s*(?:,|and|&|n|or|with|,\s*(?:and|with))?\s*(?:the|a|an|that|some|our)?\s*", re.IGNORECASE)
-_WITH = re.compile(r"\bwith\s+(?:the|a|an|that|some|our)?\s*$", re.IGNORECASE)
-_OWNER = re.compile(r"['’`´]s$")  # noqa: RUF001
-_BARE = re.compile(r"^\s*(?:on|at|in|to)\s*(?:the)?\s*$")
-_SEEN_FROM = re.compile(r"\b(?:of|from|to|than)\s+$", re.IGNORECASE)
-_AGAIN = re.compile(r"\b(?:the|this|that|our|my)\s+$", re.IGNORECASE)
+_ABSENT = english().pattern("cues", "absent", r"\b(?:{})\s+(?:[a-z]+\s+){{0,2}}$")
+_SENTENCE = re.compile(r"[.;!?\n]\s")
+_THE = re.compile(r"\b(?:the|this|that|our|my)\s+$", re.IGNORECASE)
+_FARTHEST = 80  # characters between a distance, a wind or a side and what it is said of
 
 
-def without_again(text: str, mentions: Sequence[Mention]) -> tuple[str, list[Mention]]:
-    """Without kinds that others are seen from, which become "it": "The Apple Store is a block east of the cafe"."""
-    first: dict[tuple[str, ...], Mention] = {}
-    kept = []
-    for mention in mentions:
-        known = first.get(mention.kinds) if mention.kinds and mention.form == "thing" else None
-        again = _AGAIN.search(text[: mention.start]) if known is not None else None
-        is_again = known is not None and mention.text.lower() in known.text.lower() and not mention.is_exact
-        if again is not None and is_again and _SEEN_FROM.search(text[: again.start()]):
-            text = text[: again.start()] + "it".ljust(mention.end - again.start()) + text[mention.end :]
-            continue
-        first.setdefault(mention.kinds, mention)
-        kept.append(mention)
-    return text, kept
+def with_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[Mention]:
+    """Mentions with what the text says of each; without those that it does not mean, or says are not there."""
+    mentions = [mention for n, mention in enumerate(mentions) if not _is_again(text, mention, mentions[:n])]
+    read = reader.read(text, [(mention.start, mention.end, mention.form) for mention in mentions])
+    kept = [
+        (mention, cue)
+        for mention, cue in zip(mentions, read, strict=True)
+        if cue.is_meant and not _ABSENT.search(text[: mention.start])
+    ]
+    sides = [Said(m.start(), m.end(), wind_of(m[1]) or 0.0) for m in _SIDE.finditer(text)]
+    winds = _apart(winds_of(text), [*mentions, *sides])  # the east of East 53rd Street is none
+    far = _shared(text, distances_of(text), [mention for mention, _ in kept])
+    toward = _shared(text, winds, [mention if cue.has_wind else None for mention, cue in kept])
+    of_streets = [mention if mention.form in ("street", "span", "corner") else None for mention, _ in kept]
+    beside = _shared(text, _apart(sides, mentions), of_streets)
+    said = [_cue(mention, cue, far.get(n), toward.get(n)) for n, (mention, cue) in enumerate(kept)]
+    return [
+        replace(mention, cue=said[n], side=beside[n].value if n in beside else None)
+        for n, (mention, _) in enumerate(kept)
+    ]
 
 
-def with_cues(text: str, mentions: Sequence[Mention]) -> list[Mention]:
-    """Mentions with what the words round each say of it."""
-    order = sorted(range(len(mentions)), key=lambda n: mentions[n].start)
-    before, after = [""] * len(mentions), [""] * len(mentions)
-    end = 0
-    for k, n in enumerate(order):
-        gap = text[end : mentions[n].start]
-        if k == 0:
-            before[n] = _SENTENCE.split(gap)[-1]
-        else:
-            after[order[k - 1]], before[n] = _shared(gap)
-        end = max(end, mentions[n].end)
-    if order:
-        after[order[-1]] = _SENTENCE.split(text[end:])[0]
-    return [_with_cue(mention, spelt(before[n]), spelt(after[n])) for n, mention in enumerate(mentions)]
+def _is_again(text: str, mention: Mention, before: Sequence[Mention]) -> bool:
+    """Whether a kind is named again in the same words: "the bank is north of the cafe", where a cafe is the goal."""
+    if mention.form != "thing" or mention.is_exact or _THE.search(text[: mention.start]) is None:
+        return False
+    words = mention.text.lower()
+    return any(one.form == "thing" and one.text.lower().endswith(words) and not one.is_exact for one in before)
 
 
-def listed(text: str, mentions: Sequence[Mention]) -> list[Mention]:
-    """Things of a list share where they are: "the bank and the cash machine to my left"."""
-    found = sorted(mentions, key=lambda mention: mention.start)
-    for n in range(len(found) - 1):
-        one, other = found[n], found[n + 1]
-        gap = text[one.end : other.start]
-        if not one.form == other.form == "thing" or not gap.strip():
-            continue
-        is_list = _LISTED.fullmatch(gap) is not None
-        if is_list and one.cue == SEEN and other.cue.angle is not None:
-            found[n] = replace(one, cue=other.cue)
-        elif (is_list or _WITH.search(gap)) and other.cue == SEEN and one.cue.angle is not None:
-            found[n + 1] = replace(other, cue=one.cue)
+def _apart(said: Sequence[Said], others: Sequence[Said | Mention]) -> list[Said]:
+    """Those that stand in none of the others."""
+    return [one for one in said if not any(one.start < other.end and other.start < one.end for other in others)]
+
+
+def _cue(mention: Mention, read: ReadCue, far: Said | None, wind: Said | None) -> Cue:
+    degrees = None
+    if wind is not None:
+        # who is north of it has it in the south
+        degrees = (wind.value + 180.0) % 360.0 if wind.is_of and wind.start < mention.start else wind.value
+    relation = (
+        mention.cue.relation if mention.cue != SEEN else read.relation
+    )  # of corners and spans: by their own words
+    metres, is_loose = (far.value, far.is_loose) if far is not None else (None, False)
+    if degrees is not None:
+        return Cue(relation, None, degrees, metres, is_loose)
+    return Cue(relation, read.angle, None, metres, is_loose, read.angles)
+
+
+def _shared(text: str, said: Sequence[Said], mentions: Sequence[Mention | None]) -> dict[int, Said]:
+    """Of each mention the distance, wind or side that is nearest to it in the text; each is of one mention."""
+    pairs = sorted(
+        (_gap(text, one, mention), k, n)
+        for k, one in enumerate(said)
+        for n, mention in enumerate(mentions)
+        if mention is not None
+    )
+    found: dict[int, Said] = {}
+    given: set[int] = set()
+    for gap, k, n in pairs:
+        if gap < _FARTHEST and n not in found and k not in given:
+            found[n] = said[k]
+            given.add(k)
     return found
 
 
-def joined(text: str, mentions: Sequence[Mention]) -> list[Mention]:
-    """Mentions of one thing as one, with what each says of it: "by the TV tower ... The tower's on my left"."""
-    kept: list[Mention] = []
-    for mention in mentions:
-        name = _OWNER.sub("", mention.text.lower())
-        again = _AGAIN.search(text[: mention.start]) is not None and mention.form == "thing" and not mention.is_exact
-        same = [n for n, one in enumerate(kept) if again and one.form == "thing" and _is_same(one.text.lower(), name)]
-        same = same or _called_so(kept, mention)
-        if not same:
-            kept.append(mention)
-            continue
-        first, later = kept[same[-1]], mention.cue
-        cue = replace(
-            first.cue,
-            angle=first.cue.angle if later.angle is None else later.angle,
-            wind=first.cue.wind if later.wind is None else later.wind,
-            distance_m=first.cue.distance_m if later.distance_m is None else later.distance_m,
-            is_loose=first.cue.is_loose or later.is_loose,
-        )
-        kept[same[-1]] = replace(first, cue=cue)
-    return kept
-
-
-def _called_so(kept: Sequence[Mention], mention: Mention) -> list[int]:
-    """The named thing right before that a mere kind stands for: "outside the Motel One, hotel's on my right"."""
-    last = kept[-1] if kept else None
-    if last is None or last.form != "thing" or mention.form != "thing" or not mention.kinds or mention.is_exact:
-        return []
-    is_named = last.is_exact and last.cue.angle is None and last.cue.relation in ("at", "outside", "beside", "inside")
-    is_such = bool(np.isin(last.objects, mention.objects).all()) and mention.cue.angle is not None
-    return [len(kept) - 1] if is_named and is_such else []
-
-
-def _is_same(longer: str, name: str) -> bool:
-    return f" {_OWNER.sub('', longer)}".endswith(f" {name}")
-
-
-def _with_cue(mention: Mention, before: str, after: str) -> Mention:
-    has_side = mention.form in ("street", "span", "corner")
-    side = _SIDE.search(f"{before} | {after}") if has_side else None
-    told = mention.form in ("corner", "span") and mention.cue != SEEN  # by the words between its streets
-    cue = mention.cue if told else cue_of(_SIDE.sub(" on ", before), _SIDE.sub(" ", after))
-    return replace(mention, cue=cue, side=wind_of(side[1]) if side else None)
-
-
-def _shared(gap: str) -> tuple[str, str]:
-    """What of the words between two things belongs to the first, and what to the second."""
-    ends = list(_SENTENCE.finditer(gap))
-    if ends:
-        return gap[: ends[0].start()], gap[ends[-1].end() :]
-    breaks = list(_BREAK.finditer(gap))
-    if breaks:
-        # of several clauses those that go on about where ("ahead on my left, across 29th, and") belong to the first
-        cut = breaks[0]
-        begin = cut.end()
-        for piece in breaks[1:]:
-            part = spelt(gap[begin : piece.start()])
-            begin = piece.end()
-            if _APPOSED.fullmatch(part):
-                continue  # "Sanomatalo, the glass building, is ahead"
-            if not part or _ENDS_OPEN.search(part) or not _GOES_ON.search(f"{part} "):
-                break
-            cut = piece
-        return gap[: cut.start()], gap[cut.end() :]
-    side = _SIDE.search(gap.lower())
-    if side and side.start() > 0:
-        return gap[: side.start()], gap[side.start() :]
-    words = spelt(gap)
-    if _GOES_ON.search(f"{words} ") and not _BARE.search(words):
-        ego = list(_EGO_END.finditer(gap))
-        if ego:
-            return gap[: ego[-1].end()], gap[ego[-1].end() :]
-    return "", gap
+def _gap(text: str, said: Said, mention: Mention) -> int:
+    """Characters between the two; more over the end of a sentence, and back from what is "north of" something else."""
+    is_before = said.start < mention.start
+    start, end = (said.end, mention.start) if is_before else (mention.end, said.start)
+    is_far = _SENTENCE.search(text, start, max(start, end)) is not None or (said.is_of and not is_before)
+    return max(0, end - start) + (_FARTHEST // 2 if is_far else 0)

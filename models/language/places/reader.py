@@ -4,26 +4,29 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
+from models.language.places.again import resolved, with_again
 from models.language.places.crossings import with_addresses, with_corners
-from models.language.places.cues import spelt, wind_of
+from models.language.places.cue_reader import CueReader
+from models.language.places.cues import wind_of
 from models.language.places.languages import ENGLISH
 from models.language.places.lookup import Lookup
-from models.language.places.mentions import Mention, joined, listed, with_cues, without_again
+from models.language.places.mentions import Mention, with_cues
 from models.language.places.spans import find_spans
 from models.language.places.words import english
 
 MOST_OBJECTS: Final = 2500  # what so many things may be tells nothing
 _W = english()
 _OF_YOU, _GOES = _W.pattern("listener", "of_you"), _W.pattern("listener", "goes")
-_MEETING, _OVER = _W.pattern("listener", "meeting"), _W.pattern("streets", "over")
+_MEETING = _W.pattern("listener", "meeting")
 
 
-def find_mentions(text: str, lookup: Lookup, language: str = ENGLISH) -> list[Mention]:
+def find_mentions(text: str, lookup: Lookup, cues: CueReader, language: str = ENGLISH) -> list[Mention]:
     """What a text names on a map, in its order, each with where it is from the speaker; not what it says is not there.
 
     Args:
         text: any.
         lookup: of the map.
+        cues: says where each thing is from the speaker.
         language: of the text; what the words of others than English say of where things are is not read.
     """
     if language != ENGLISH:
@@ -33,10 +36,10 @@ def find_mentions(text: str, lookup: Lookup, language: str = ENGLISH) -> list[Me
     text = _OF_YOU.sub(lambda found: " " * len(found[0]), text)
     words, spans = find_spans(text, lookup)
     mentions = with_addresses([Mention.of(span, words, text) for span in spans], text, lookup)
-    mentions = [m for m in mentions if len(m.objects) <= MOST_OBJECTS and not _is_passed(m, text)]
-    text, mentions = without_again(text, mentions)
-    told = listed(text, with_cues(text, with_corners(text, mentions, lookup)))
-    return joined(text, [mention for mention in told if not mention.cue.is_absent])
+    mentions = [mention for mention in mentions if len(mention.objects) <= MOST_OBJECTS]
+    streets = [mention for mention in mentions if mention.form == "street"]
+    told = with_cues(text, with_again(text, with_corners(text, mentions, lookup)), cues)
+    return resolved(told, streets, lookup)
 
 
 def with_goal(mentions: Sequence[Mention]) -> list[Mention]:
@@ -62,11 +65,6 @@ def listener_wind(text: str) -> float | None:
     """Degrees from the listener to the speaker ("north of you", "head southwest"); None if the text tells none."""
     found = _OF_YOU.search(text)
     if found:
-        return wind_of(spelt(found[0]))
+        return wind_of(found[0])
     goes = _GOES.search(text)
-    return wind_of(spelt(goes[1])) if goes else None
-
-
-def _is_passed(mention: Mention, text: str) -> bool:
-    """Whether a street is only said to lie between: "across Broadway"."""
-    return mention.form == "street" and _OVER.search(text[: mention.start]) is not None
+    return wind_of(goes[1]) if goes else None

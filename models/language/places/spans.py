@@ -20,7 +20,9 @@ MOST_WORDS: Final = 6  # of a name
 SHORTEST: Final = 3  # characters; a shorter name behind a kind is another thing
 LOOSE_TERM: Final = 0.55  # a single word must mean a kind more surely
 LIKE_NOUN: Final = 0.8  # share of the letters of a misspelt noun that must agree
-STREET, TYPED, PER_WORD, NOUN, STRANGE = 5.0, 2.0, 3.0, 2.0, 5.0  # what spans are worth beside names
+STREET, TYPED, PER_WORD, NOUN, NOUNS, STRANGE = 5.0, 2.0, 3.0, 2.0, 5.0, 5.0  # what spans are worth beside names
+MEETING: Final = 3.0  # of a street beside a numbered one
+_MEET: Final = frozenset(("and", "at", "&", "@", "/", "n"))
 EXACT, PART, PLAIN_ONE, PLAIN_MORE, AT_START = 1.3, 0.8, 0.5, 0.7, 0.5
 OF_ANOTHER_KIND: Final = 0.4  # weight of what bears the name but is not what the text calls it
 _W = english()
@@ -28,6 +30,7 @@ STOP, PASSED = _W.list("stop"), _W.list("passed")
 _ABBREVIATED, _ONE = _W.list("abbreviated"), _W.list("one")
 _STREET_BEFORE, _STREET_AFTER = _W.list("street_before"), _W.list("street_after")
 _NO_STREET_AFTER, _LOWER_BEFORE = _W.list("no_street_after"), _W.list("lower_street_before")
+_SAID_OF, _SEEN_TOO, _OVER = _W.list("said_of_street"), _W.list("seen_too"), _W.list("over")
 _APPOSED = re.compile(r"\s*,\s*(?:the|a|an|that|our)\s+(?:\w+\s+)?|\s*,?\s+called\s+")
 _NAMED_SO = re.compile(r"\s*,\s*|\s+|\s*,?\s+called\s+")
 
@@ -104,9 +107,10 @@ def _spans_at(
     found = list(streets)
     if (plain[0] in EMPTY or plain[-1] in EMPTY) and not lookup.is_name(plain):
         return found
-    kinds = _kinds(plain, mended, lookup, language)
+    is_passed = first == last and plain[0] in PASSED and not _is_seen(words, first)
+    kinds = {} if is_passed else _kinds(plain, mended, lookup, language)
     if kinds:
-        found.append(Span(first, last, "thing", None, NOUN + NOUN * len(plain), kinds))
+        found.append(Span(first, last, "thing", None, (NOUN if len(plain) == 1 else NOUNS) + NOUN * len(plain), kinds))
     is_street = any(span.match is not None and span.match.is_exact for span in streets)
     named = None if is_street else _named(some, plain, lookup, cased=cased, is_kind=bool(kinds))
     if named:
@@ -116,18 +120,23 @@ def _spans_at(
 
 def _kinds(plain: tuple[str, ...], mended: Mapping[str, str], lookup: Lookup, language: str) -> Mapping[str, float]:
     """The kinds that words mean; "the Thai one" is a Thai place, "the Kahvila" a cafe."""
-    if len(plain) == 1 and plain[0] in PASSED | STOP:
+    if len(plain) == 1 and plain[0] in STOP:
         return {}
     if language != ENGLISH:
         return lookup.kinds(plain, language)
-    noun = tuple(mended.get(word, word) for word in plain)
-    noun = (*noun[:-1], "place") if len(noun) > 1 and noun[-1] in _ONE else noun
-    kinds = lookup.kinds(noun)
+    noun = (*plain[:-1], "place") if len(plain) > 1 and plain[-1] in _ONE else plain
+    kinds = lookup.kinds(noun) or lookup.kinds([mended.get(word, word) for word in noun])
     if len(plain) > 1:
-        return kinds
+        return kinds or (lookup.kinds(noun[:-1]) if noun[-1] == "place" else {})
     if not kinds and not lookup.is_common(plain[0]):
         return lookup.foreign_kinds(plain[0])
     return {kind: weight for kind, weight in kinds.items() if weight > LOOSE_TERM}
+
+
+def _is_seen(words: Sequence[Word], n: int) -> bool:
+    """Whether what is often only crossed is told of itself: "by the crossing", not "across the path"."""
+    before = [word.plain for word in words[max(0, n - 2) : n]]
+    return words[n].plain in _SEEN_TOO and before[-1:] in (["the"], ["a"], ["this"], ["an"]) and before[0] not in _OVER
 
 
 def _named(
@@ -139,7 +148,7 @@ def _named(
     match = lookup.named(plain)
     if match is None:
         return None
-    if len(some) == 1 and some[0].begins and match.is_exact and plain[0] not in lookup.noun_words:
+    if len(some) == 1 and some[0].begins and match.is_exact:
         return replace(match, trust=AT_START), lookup.worth(plain[0])
     capital = any(word.is_capital for word in some if word.plain not in EMPTY)
     is_plain = all(lookup.is_common(word) or word in lookup.noun_words for word in plain)
@@ -182,24 +191,38 @@ def _streets_at(words: Sequence[Word], first: int, last: int, plain: tuple[str, 
         match = lookup.street_like(plain[0])
     if match is None or not _is_told(words, first, last, match, has_type, lookup):
         return []
-    return [Span(first, last, "street", match, STREET + PER_WORD * len(plain) + (TYPED if has_type else 0.0))]
+    score = STREET + PER_WORD * len(plain) + (TYPED if has_type else 0.0)
+    return [Span(first, last, "street", match, score + (MEETING if _meets_ordinal(words, first, last) else 0.0))]
+
+
+def _meets_ordinal(words: Sequence[Word], first: int, last: int) -> bool:
+    """Whether words stand beside a numbered street: "Vanderbilt and 43rd"."""
+    after = last + 2 < len(words) and words[last + 1].plain in _MEET and ORDINAL.fullmatch(words[last + 2].plain)
+    before = first > 1 and words[first - 1].plain in _MEET and ORDINAL.fullmatch(words[first - 2].plain)
+    return bool(after or before)
 
 
 def _is_told(words: Sequence[Word], first: int, last: int, match: Match, has_type: bool, lookup: Lookup) -> bool:
-    end = words[last].owner or words[last].plain
-    is_ordinal = ORDINAL.fullmatch(end) is not None
-    has_wind = last > first and is_ordinal and words[first].plain in WINDS.keys() | WINDS.values()
-    whole = match.is_exact and (last > first or words[first].is_capital or not lookup.is_common(end))
+    plain = [word.owner or word.plain for word in words[first : last + 1]]
+    is_ordinal = ORDINAL.fullmatch(plain[-1]) is not None
+    is_capital = words[first].is_capital or words[first].begins
+    has_wind = last > first and is_ordinal and plain[0] in WINDS.keys() | WINDS.values()
+    whole = match.is_exact and (last > first or words[first].is_capital or not lookup.is_common(plain[-1]))
     follower = words[last + 1] if last + 1 < len(words) else None
     if not has_type and not has_wind and not (whole and not is_ordinal):
         before, after = words[first - 1].plain if first else "", follower.plain if follower else ""
-        told = before in _STREET_BEFORE or after in _STREET_AFTER or (first == 0 and words[first].is_capital)
-        is_common = is_ordinal or any(lookup.is_common(word.plain) for word in words[first : last + 1])
+        said = is_ordinal or is_capital
+        is_noun = not is_ordinal and plain[-1] in lookup.noun_words
+        is_subject = said and not is_noun and before != "the" and (after in _SAID_OF or words[last].owner is not None)
+        told = (
+            before in _STREET_BEFORE or (said and after in _STREET_AFTER) or is_subject or (first == 0 and is_capital)
+        )
+        is_common = is_ordinal or any(lookup.is_common(word) for word in plain)
         if (is_common and not told) or (is_ordinal and after in _NO_STREET_AFTER):
             return False
-        if is_common and not is_ordinal and not words[first].is_capital and before not in _LOWER_BEFORE:
+        if is_common and not is_ordinal and not is_capital and before not in _LOWER_BEFORE:
             return False
-    if follower is None or has_type or whole:
+    if follower is None or has_type or is_ordinal:
         return True
     # "Waterside Park" goes on
     goes_on = follower.is_capital and follower.start - words[last].end == 1 and not follower.plain[0].isdigit()

@@ -66,6 +66,8 @@ def forms_of(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
     )
     if kind is None:
         return
+    if rest[-1] != kind:
+        yield rest[:-1], 0.85  # "Hudson Boulevard" of its east side
     bare = tuple(word for word in rest if word != kind)
     if bare and not set(bare) <= _WINDS and bare != ("the",):
         yield bare, 0.9

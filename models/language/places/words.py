@@ -22,11 +22,6 @@ class Words:
         """Metres of a unit."""
         return dict(self._said["metres"])
 
-    @cached_property
-    def misspelt(self) -> dict[str, str]:
-        """What is often misspelt."""
-        return dict(self._said["spelt"])
-
     def text(self, table: str, name: str) -> str:
         """A pattern as it is written, line ends left out."""
         return str(self._said[table][name]).replace("\n", "")

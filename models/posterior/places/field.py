@@ -1,7 +1,7 @@
 """A text's mentions on a map: log p(T | x) at cells, roughly, and at nodes, with the speaker's heading summed out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import log, pi, radians
 from typing import Final
 
@@ -9,8 +9,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.gazetteer.gazetteer import WALKED, Gazetteer
 from models.city.gazetteer.raster import Raster
+from models.city.gazetteer.walkways import Walkways
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
 from models.city.points import Ints
 from models.city.types import Floats
@@ -56,12 +57,14 @@ class Places:
         common: [K] mean of each mention's kernel over the map: what is near everywhere tells nothing.
         listener_m: [2] where the listener is, if winds are seen from there.
         listener_wind: degrees from the listener to the speaker; None if not said.
+        is_meeting: whether the place told of is not where the speaker stands.
     """
 
     mentions: tuple[Mention, ...]
     common: Tensor
     listener_m: Floats | None = None
     listener_wind: float | None = None
+    is_meeting: bool = False
 
 
 class Told:
@@ -97,10 +100,18 @@ class PlaceField:
     def __init__(self, kernels: PlaceKernels, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         self.kernels, self.gazetteer, self._centers_m = kernels, gazetteer, centers_m
         self.raster = Raster(gazetteer, centers_m, spacing_m)
+        self._walkways: Walkways | None = None
+        if WALKED in gazetteer.by_kind:
+            self._walkways = Walkways(gazetteer, centers_m.min(axis=0), centers_m.max(axis=0))
 
     @torch.inference_mode()
     def told(
-        self, mentions: Sequence[Mention], listener_m: Floats | None = None, listener_wind: float | None = None
+        self,
+        mentions: Sequence[Mention],
+        listener_m: Floats | None = None,
+        listener_wind: float | None = None,
+        *,
+        is_meeting: bool = False,
     ) -> Told:
         """A text on this map.
 
@@ -108,6 +119,7 @@ class PlaceField:
             mentions: what it names.
             listener_m: [2] where the listener is, if that is known.
             listener_wind: degrees from the listener to the speaker, if that is said.
+            is_meeting: whether the place told of is not where the speaker stands.
         """
         known = tuple(m for m in mentions if len(m.objects) or len(m.lines_m))
         total, common, kept = torch.zeros(len(self._centers_m)), [], []
@@ -119,7 +131,9 @@ class PlaceField:
             kept.append(mention)
             common.append(mean)
             total += self.worth(mention, fits, mean)
-        places = Places(tuple(kept), torch.stack(common) if common else torch.zeros(0), listener_m, listener_wind)
+        places = Places(
+            tuple(kept), torch.stack(common) if common else torch.zeros(0), listener_m, listener_wind, is_meeting
+        )
         total = self.kernels.temper.exp() * total + self.from_listener(places, self._centers_m)
         return Told(self, places, total.double().numpy())
 
@@ -127,7 +141,14 @@ class PlaceField:
         """[M] log p(T | x) of positions [M, 2], up to a constant; `group` ascending, of those that lie together."""
         by_heading = self.by_heading(places, points_m, group)
         total = by_heading.logsumexp(dim=1) - log(HEADINGS)
-        return self.kernels.temper.exp() * total + self.from_listener(places, points_m)
+        standing = self.kernels.standing(self.walked(places, points_m))
+        return self.kernels.temper.exp() * total + self.from_listener(places, points_m) + standing
+
+    def walked(self, places: Places, points_m: Floats) -> Tensor:
+        """[M] metres from positions [M, 2] to where people walk; 0 where that is not known or does not matter."""
+        if self._walkways is None or places.is_meeting:
+            return torch.zeros(len(points_m))
+        return torch.from_numpy(self._walkways.metres(points_m))
 
     def by_heading(self, places: Places, points_m: Floats, group: Ints) -> Tensor:
         """[M, HEADINGS] log p(T | x, heading)."""
@@ -207,23 +228,30 @@ class PlaceField:
         return torch.zeros(points, fits.shape[1]).scatter_reduce(0, index, fits, "amax")
 
     def _fits_of_ways(self, mention: Mention, ways: Ways) -> Tensor:
-        """[P, 1] or [P, HEADINGS] the kernel of each way."""
-        weight = torch.from_numpy(mention.weights[ways.item]).float()
+        """[P, 1] or [P, HEADINGS] the kernel of each way, over all that the angle may be."""
+        angles = mention.cue.angles or ((mention.cue.angle, 1.0),)
         metres = torch.from_numpy(ways.metres).float()
-        fits = (weight * self._kernel(mention, metres))[:, None]
         bearing = torch.from_numpy(np.arctan2(ways.way_m[:, 0], ways.way_m[:, 1])).float()
+        read = [replace(mention, cue=replace(mention.cue, angle=angle)) for angle, _ in angles]
+        fits = [p * self._toward(one, metres, bearing) for one, (_, p) in zip(read, angles, strict=True)]
+        total = torch.from_numpy(mention.weights[ways.item]).float()[:, None] * sum(fits[1:], fits[0])
+        if mention.side is None:
+            return total
+        # the street lies on the other side of who is on its north side
+        across = -metres * torch.cos(bearing - radians(mention.side))
+        return total * self.kernels.on_side(across)[:, None]
+
+    def _toward(self, mention: Mention, metres: Tensor, bearing: Tensor) -> Tensor:
+        """[P, 1] or [P, HEADINGS] the kernel of things in a distance and a direction."""
+        fits = self._kernel(mention, metres)[:, None]
         kernels, cue = self.kernels, mention.cue
         if cue.wind is not None:
-            fits = fits * kernels.toward(kernels.wind, bearing - radians(cue.wind), metres)[:, None]
-        elif cue.angle is not None:
-            heading = torch.arange(HEADINGS) * (2 * pi / HEADINGS)
-            away = bearing[:, None] - heading - radians(cue.angle)
-            fits = fits * kernels.toward(kernels.ego, away, metres[:, None])
-        if mention.side is not None:
-            # the street lies on the other side of who is on its north side
-            across = -metres * torch.cos(bearing - radians(mention.side))
-            fits = fits * kernels.on_side(across)[:, None]
-        return fits
+            return fits * kernels.toward(kernels.wind, bearing - radians(cue.wind), metres)[:, None]
+        if cue.angle is None:
+            return fits
+        heading = torch.arange(HEADINGS) * (2 * pi / HEADINGS)
+        away = bearing[:, None] - heading - radians(cue.angle)
+        return fits * kernels.toward(kernels.ego, away, metres[:, None])
 
     def _kernel(self, mention: Mention, metres: Tensor) -> Tensor:
         cue, kernels = mention.cue, self.kernels

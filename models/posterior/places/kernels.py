@@ -36,6 +36,8 @@ class PlaceKernels(nn.Module):
         self.slip = nn.Parameter(torch.tensor(0.1).logit())  # of directions
         self.measured = nn.Parameter(torch.tensor([0.4, 0.7]).log())  # log-normal width of exact and of loose distances
         self.side_m = nn.Parameter(torch.tensor(4.0).log())  # how sharp the side of a street is
+        self.walk_m = nn.Parameter(torch.tensor(4.0).log())  # how far people stand from where they walk
+        self.walk_floor = nn.Parameter(torch.tensor(0.12).logit())  # how seldom they stand elsewhere
         self.temper = nn.Parameter(torch.tensor(0.0))  # log power of the whole
 
     def near(self, kind: int, metres: Tensor) -> Tensor:
@@ -59,6 +61,11 @@ class PlaceKernels(nn.Module):
         slip = self.slip.sigmoid()
         density: Tensor = (1 - slip) * torch.exp(kappa * (torch.cos(away) - 1)) / torch.special.i0e(kappa) + slip
         return density
+
+    def standing(self, metres: Tensor) -> Tensor:
+        """Log density, up to a constant, of people who are so far from where people walk."""
+        floor = self.walk_floor.sigmoid()
+        return torch.log(floor + (1 - floor) * torch.exp(-0.5 * (metres / self.walk_m.exp()) ** 2))
 
     def on_side(self, metres: Tensor) -> Tensor:
         """The kernel of being so far on the side of a street that is said, negative on the other."""

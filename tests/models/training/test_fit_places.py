@@ -5,6 +5,7 @@ import torch
 from models.city.frame import Frame
 from models.city.told_texts import ToldText
 from models.errors import TrainingError
+from models.posterior.model import load_posterior
 from models.posterior.places.kernels import PlaceKernels
 from models.training.fit_places import Case, ToldPlace, calibrate_places, fit_places, read_cases
 from tests.models.city.gazetteer.made_town import is_common, made_gazetteer
@@ -40,7 +41,7 @@ def told(texts: dict[str, tuple[float, float]]) -> ToldPlace:
 
 
 def cases_of(kernels: PlaceKernels, texts: dict[str, tuple[float, float]] = SAID) -> list[Case]:
-    return read_cases(kernels, told(texts), Everyday(), np.random.default_rng(0))
+    return read_cases(kernels, told(texts), Everyday(), lambda _: load_posterior().cues, np.random.default_rng(0))
 
 
 def fitted(steps: int, **changed: float) -> tuple[PlaceKernels, list[tuple[int, int, float]]]:

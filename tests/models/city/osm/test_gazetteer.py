@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import ADDRESS, STREET, Gazetteer
+from models.city.gazetteer.gazetteer import ADDRESS, STREET, WALKED, Gazetteer
 from models.city.osm.gazetteer import MOST_NAMES, load_gazetteer
 from models.errors import MapError
 
@@ -78,7 +78,7 @@ def test_streets_that_share_a_node_meet_there(tmp_path) -> None:
     osm.way([osm.node((0, 0)), middle, osm.node((100, 0))], highway="residential", name="Main Street")
     osm.way([osm.node((50, -60)), middle, osm.node((50, 60))], highway="secondary", name="Oak Avenue")
     found = osm.load(tmp_path)
-    assert [words.kinds for words in found.words] == [(STREET,), (STREET,)]
+    assert [words.kinds for words in found.words] == [(STREET,), (STREET,), (WALKED,)]
     assert names(found) == ["Main Street", "Oak Avenue"]
     assert found.corner_streets.tolist() == [[0, 1]]
     assert found.corners_m[0] == pytest.approx([50, 0], abs=0.3)
@@ -130,7 +130,8 @@ def test_a_node_with_a_house_number_alone_is_an_address(tmp_path, osm) -> None:
     osm.node((5, 5), addr__housenumber="7", addr__street="High Street")
     osm.node((9, 9), addr__housenumber="8")
     found = osm.load(tmp_path)
-    assert [words.kinds for words in found.words] == [(ADDRESS,), (STREET,)], "a number without a street is no address"
+    kinds = [words.kinds for words in found.words]
+    assert kinds == [(ADDRESS,), (STREET,), (WALKED,)], "a number without a street is no address"
 
 
 def test_a_multipolygon_park_keeps_its_hole(tmp_path, osm) -> None:
@@ -225,7 +226,7 @@ def test_a_round_street_is_a_line_and_a_square_an_area(tmp_path, osm) -> None:
     osm.ring(0, 60, highway="residential", name="Ring Street")
     osm.ring(100, 160, place="square", name="Old Square")
     found = osm.load(tmp_path)
-    area = {words.names[0]: bool(is_area) for words, is_area in zip(found.words, found.is_area, strict=True)}
+    area = {w.names[0]: bool(is_area) for w, is_area in zip(found.words, found.is_area, strict=True) if w.names}
     assert area == {"Old Square": True, "High Street": False, "Ring Street": False}
 
 
@@ -242,6 +243,16 @@ def test_a_map_without_names_is_empty(tmp_path) -> None:
     found = osm.load(tmp_path)
     assert len(found) == 0
     assert found.corners_m.shape == (0, 2)
+
+
+def test_all_that_people_walk_on_is_one_object(tmp_path, osm) -> None:
+    osm.line((0, 0), (50, 0), highway="footway")
+    osm.line((0, 30), (50, 30), highway="motorway")
+    osm.line((0, 60), (50, 60), highway="footway", indoor="yes")
+    found = osm.load(tmp_path)
+    [walked] = found.by_kind[WALKED]
+    assert sorted(segments(found, walked)[:, 1].round().tolist()) == [0, 900], "the footway and the street"
+    assert not found.words[walked].names
 
 
 def test_a_map_without_streets(tmp_path) -> None:

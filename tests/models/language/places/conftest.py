@@ -2,7 +2,9 @@ import pytest
 
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
+from models.language.places.cue_reader import CueReader
 from models.language.places.lookup import Lookup
+from models.posterior.model import load_posterior
 from tests.models.city.gazetteer.made_town import is_common, made_gazetteer
 
 
@@ -14,3 +16,8 @@ def town() -> Gazetteer:
 @pytest.fixture(scope="session")
 def lookup(town: Gazetteer) -> Lookup:
     return Lookup(town, load_vocabulary(), is_common)
+
+
+@pytest.fixture(scope="session")
+def cues() -> CueReader:
+    return load_posterior().cues

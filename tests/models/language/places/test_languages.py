@@ -1,5 +1,6 @@
 import pytest
 
+from models.language.places.cue_reader import CueReader
 from models.language.places.languages import language_of
 from models.language.places.lookup import Lookup
 from models.language.places.reader import find_mentions
@@ -21,14 +22,14 @@ def test_another_language_is_told_where_it_is_sure(text, language) -> None:
     assert language_of(text) == language
 
 
-def test_another_language_gives_names_and_nouns_without_directions(lookup: Lookup) -> None:
+def test_another_language_gives_names_and_nouns_without_directions(lookup: Lookup, cues: CueReader) -> None:
     german = "Ich stehe vor der Apotheke, links ist die Bäckerei"
-    mentions = find_mentions(german, lookup, language_of(german))
+    mentions = find_mentions(german, lookup, cues, language_of(german))
     assert {kind for mention in mentions for kind in mention.kinds} >= {"amenity/pharmacy", "shop/bakery"}
     assert all(mention.cue.angle is None for mention in mentions)
 
 
-def test_a_foreign_noun_in_an_english_text_is_a_kind(lookup: Lookup) -> None:
-    [mention] = find_mentions("I am next to the Kahvila.", lookup)
+def test_a_foreign_noun_in_an_english_text_is_a_kind(lookup: Lookup, cues: CueReader) -> None:
+    [mention] = find_mentions("I am next to the Kahvila.", lookup, cues)
     assert "amenity/cafe" in mention.kinds
     assert mention.cue.relation == "beside"

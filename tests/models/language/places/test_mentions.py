@@ -1,13 +1,14 @@
 import pytest
 
-from models.language.places.mentions import Mention, with_cues, without_again
+from models.language.places.cue_reader import CueReader
+from models.language.places.mentions import Mention, with_cues
 from models.language.places.reader import find_mentions
 
 
-def cues(text: str, *things: str) -> list[tuple[str, float | None]]:
+def said(text: str, cues: CueReader, *things: str) -> list[tuple[str, float | None]]:
     """(relation, angle) of things in a text."""
     mentions = [Mention(thing, text.index(thing), text.index(thing) + len(thing), "thing") for thing in things]
-    return [(m.cue.relation, m.cue.angle) for m in with_cues(text, mentions)]
+    return [(m.cue.relation, m.cue.angle) for m in with_cues(text, mentions, cues)]
 
 
 @pytest.mark.parametrize(
@@ -23,20 +24,20 @@ def cues(text: str, *things: str) -> list[tuple[str, float | None]]:
         ("AAA is on my left BBB is on my right", [("seen", -90), ("seen", 90)]),
     ],
 )
-def test_words_go_to_the_thing_that_they_tell_of(text, expected) -> None:
-    assert cues(text, "AAA", "BBB") == [
+def test_words_go_to_the_thing_that_they_tell_of(cues, text, expected) -> None:
+    assert said(text, cues, "AAA", "BBB") == [
         (relation, pytest.approx(angle) if angle is not None else None) for relation, angle in expected
     ]
 
 
-def test_mentions_keep_their_order() -> None:
+def test_mentions_keep_their_order(cues) -> None:
     text = "near AAA, past BBB"
     mentions = [Mention("BBB", 15, 18, "thing"), Mention("AAA", 5, 8, "thing")]
-    assert [(m.text, m.cue.relation) for m in with_cues(text, mentions)] == [("BBB", "past"), ("AAA", "near")]
+    assert [(m.text, m.cue.relation) for m in with_cues(text, mentions, cues)] == [("BBB", "past"), ("AAA", "near")]
 
 
-def test_no_mentions() -> None:
-    assert with_cues("nothing", []) == []
+def test_no_mentions(cues) -> None:
+    assert with_cues("nothing", [], cues) == []
 
 
 @pytest.mark.parametrize(
@@ -50,26 +51,17 @@ def test_no_mentions() -> None:
         ("on 25th Street", None),
     ],
 )
-def test_the_side_of_a_street(lookup, text, side) -> None:
-    (mention,) = find_mentions(text, lookup)
+def test_the_side_of_a_street(lookup, cues, text, side) -> None:
+    (mention,) = find_mentions(text, lookup, cues)
     assert mention.side == side
     assert mention.cue.wind is None, "a side is no wind"
 
 
-def test_a_kind_named_again_is_the_same_thing(lookup) -> None:
-    found = find_mentions("There is a cafe on my left. The bakery is a block east of the cafe.", lookup)
+def test_a_kind_named_again_is_the_same_thing(lookup, cues) -> None:
+    found = find_mentions("There is a cafe on my left. The bakery is a block east of the cafe.", lookup, cues)
     assert [m.text for m in found] == ["cafe", "bakery"]
 
 
-def test_another_of_a_kind_is_another(lookup) -> None:
-    found = find_mentions("a bench on my left and a bench on my right", lookup)
+def test_another_of_a_kind_is_another(lookup, cues) -> None:
+    found = find_mentions("a bench on my left and a bench on my right", lookup, cues)
     assert [m.cue.angle for m in found] == [pytest.approx(-90), pytest.approx(90)]
-
-
-def test_naming_again_leaves_the_text_as_long_as_it_was() -> None:
-    text = "a cafe, a bank north of the cafe"
-    mentions = [Mention("cafe", at, at + 4, "thing", kinds=("amenity/cafe",)) for at in (2, 28)]
-    shorter, kept = without_again(text, mentions)
-    assert len(shorter) == len(text)
-    assert shorter.startswith("a cafe, a bank north of it")
-    assert kept == mentions[:1]

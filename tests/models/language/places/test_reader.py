@@ -14,9 +14,9 @@ from tests.models.city.gazetteer.made_town import called, is_common, point
 LETTERS = st.text(st.sampled_from("25th 10ave on&W st.,/'!éßⅣ²፩ﾞ٣京\u0308\u200dI"), max_size=25)
 
 
-def test_a_whole_text(town, lookup) -> None:
+def test_a_whole_text(town, lookup, cues) -> None:
     text = "Hi, I'm on 25th between 9th and 10th. Bottino is across the street, Whole Foods is 50 m ahead on my left."
-    found = find_mentions(text, lookup)
+    found = find_mentions(text, lookup, cues)
     assert [(m.form, m.cue.relation) for m in found[1:]] == [("span", "on"), ("thing", "across"), ("thing", "seen")]
     assert called(town, found[3].objects) == {"Whole Foods Market"}
     assert found[3].cue.distance_m == 50
@@ -24,9 +24,9 @@ def test_a_whole_text(town, lookup) -> None:
     assert [text[m.start : m.end] for m in found] == [m.text for m in found]
 
 
-def test_dictation_without_punctuation(town, lookup) -> None:
+def test_dictation_without_punctuation(town, lookup, cues) -> None:
     text = "im on twenty fifth street cafe zoe is on my left and the bakery is behind me hurry please"
-    street, cafe, bakery = find_mentions(text, lookup)
+    street, cafe, bakery = find_mentions(text, lookup, cues)
     assert called(town, street.objects) == {"West 25th Street"}
     assert called(town, cafe.objects) == {"Café Zoë"}
     assert cafe.cue.angle == pytest.approx(-90)
@@ -35,29 +35,29 @@ def test_dictation_without_punctuation(town, lookup) -> None:
 
 
 @pytest.mark.parametrize("text", ["Bottino is across 10th Avenue", "Elmo is on the other side of 25th Street"])
-def test_a_street_that_is_crossed_is_not_where_one_is(lookup, text) -> None:
-    found = find_mentions(text, lookup)
-    assert [m.form for m in found] == ["thing"]
-    assert found[0].cue.relation == "across"
+def test_a_street_that_is_crossed_is_not_what_lies_across(lookup, cues, text) -> None:
+    thing, street = find_mentions(text, lookup, cues)
+    assert (thing.form, thing.cue.relation) == ("thing", "across")
+    assert (street.form, street.cue.relation) == ("street", "seen")
 
 
-def test_names_that_the_map_lacks_are_unknown(lookup) -> None:
-    (mention,) = find_mentions("next to the Blarney Stone", lookup)
+def test_names_that_the_map_lacks_are_unknown(lookup, cues) -> None:
+    (mention,) = find_mentions("next to the Blarney Stone", lookup, cues)
     assert mention.form == "unknown"
     assert not len(mention.objects)
     assert not len(mention.lines_m)
     assert mention.text == "Blarney Stone"
 
 
-def test_a_kind_that_the_map_lacks_is_unknown(lookup) -> None:
-    (mention,) = find_mentions("by the lighthouse", lookup)
+def test_a_kind_that_the_map_lacks_is_unknown(lookup, cues) -> None:
+    (mention,) = find_mentions("by the lighthouse", lookup, cues)
     assert mention.form == "unknown"
     assert mention.kinds
 
 
 @pytest.mark.parametrize("text", ["", " ", "!!!1", "...", "😀", "1", "5", "on", "\n\n", "the the the", "@", "&"])
-def test_texts_that_say_nothing(lookup, text) -> None:
-    assert find_mentions(text, lookup) == []
+def test_texts_that_say_nothing(lookup, cues, text) -> None:
+    assert find_mentions(text, lookup, cues) == []
     assert listener_wind(text) is None
     assert not is_meeting(text)
 
@@ -66,45 +66,45 @@ def test_texts_that_say_nothing(lookup, text) -> None:
     ("text", "name"),
     [("Рядом с Кафе Пушкин", "Кафе Пушкин"), ("北京饭店", "北京饭店"), ("I'm at 北京饭店", "北京饭店")],  # noqa: RUF001
 )
-def test_other_scripts(town, lookup, text, name) -> None:
-    (mention,) = find_mentions(text, lookup)
+def test_other_scripts(town, lookup, cues, text, name) -> None:
+    (mention,) = find_mentions(text, lookup, cues)
     assert called(town, mention.objects) == {name}
 
 
-def test_a_long_text(lookup) -> None:
+def test_a_long_text(lookup, cues) -> None:
     text = ("I'm on 25th between 9th and 10th, Bottino is on my left and the Blarney Stone behind me. " * 60)[:4000]
-    found = find_mentions(text, lookup)
+    found = find_mentions(text, lookup, cues)
     assert sum(m.form == "span" for m in found) >= 1
     assert all(a.start <= b.start for a, b in pairwise(found))
-    assert len(find_mentions("x" * 4000, lookup)) <= 1
-    assert find_mentions("a " * 2000, lookup) == []
+    assert len(find_mentions("x" * 4000, lookup, cues)) <= 1
+    assert find_mentions("a " * 2000, lookup, cues) == []
 
 
 @pytest.mark.parametrize("text", ["፩ street", "on ፩ Ave", "ﾞ", "Bottino ﾞ"])
-def test_odd_letters_do_no_harm(lookup, text) -> None:
-    find_mentions(text, lookup)
+def test_odd_letters_do_no_harm(lookup, cues, text) -> None:
+    find_mentions(text, lookup, cues)
 
 
 @settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.one_of(st.text(max_size=40), LETTERS))
-def test_any_text_can_be_read(lookup, text) -> None:
-    for mention in find_mentions(text, lookup):
+def test_any_text_can_be_read(lookup, cues, text) -> None:
+    for mention in find_mentions(text, lookup, cues):
         assert 0 <= mention.start < mention.end <= len(text)
         assert len(mention.weights) == len(mention.objects) + len(mention.lines_m)
         assert np.isfinite(mention.weights).all()
 
 
-def test_a_map_without_names(lookup) -> None:
+def test_a_map_without_names(lookup, cues) -> None:
     bare = Lookup(NOTHING_NAMED, load_vocabulary(), is_common)
-    found = find_mentions("I'm at 25th and 10th, Bottino on my left, a bench behind me, at 5 Main Street", bare)
+    found = find_mentions("I'm at 25th and 10th, Bottino on my left, a bench behind me, at 5 Main Street", bare, cues)
     assert all(not len(m.objects) and not len(m.lines_m) for m in found)
     assert all(m.form == "unknown" for m in found)
 
 
-def test_what_so_many_things_may_be_is_left_out() -> None:
+def test_what_so_many_things_may_be_is_left_out(cues) -> None:
     count = MOST_OBJECTS + 1
     town = build_gazetteer([Words(("amenity/bench",))] * count, [point(0, 0)] * count, [False] * count)
-    assert find_mentions("a bench", Lookup(town, load_vocabulary(), is_common)) == []
+    assert find_mentions("a bench", Lookup(town, load_vocabulary(), is_common), cues) == []
 
 
 @pytest.mark.parametrize(
@@ -116,22 +116,22 @@ def test_what_so_many_things_may_be_is_left_out() -> None:
         "Meet me, the cafe, near Bottino",
     ],
 )
-def test_the_goal_of_a_meeting(town, lookup, text) -> None:
+def test_the_goal_of_a_meeting(town, lookup, cues, text) -> None:
     assert is_meeting(text)
-    first = with_goal(find_mentions(text, lookup))[0]
+    first = with_goal(find_mentions(text, lookup, cues))[0]
     assert first.text == "cafe"
     assert first.cue.relation == "at"
     assert first.cue.angle is None
 
 
-def test_what_is_said_to_be_elsewhere_is_no_goal(lookup) -> None:
+def test_what_is_said_to_be_elsewhere_is_no_goal(lookup, cues) -> None:
     text = "Meet me across from the cafe, two blocks north of Bottino, by the bakery"
-    relations = [(m.text, m.cue.relation) for m in with_goal(find_mentions(text, lookup))]
+    relations = [(m.text, m.cue.relation) for m in with_goal(find_mentions(text, lookup, cues))]
     assert relations == [("cafe", "across"), ("Bottino", "wind"), ("bakery", "at")]
 
 
-def test_a_goal_that_is_said_is_kept(lookup) -> None:
-    mentions = find_mentions("Near Bottino, meet me at the cafe", lookup)
+def test_a_goal_that_is_said_is_kept(lookup, cues) -> None:
+    mentions = find_mentions("Near Bottino, meet me at the cafe", lookup, cues)
     assert [m.cue.relation for m in with_goal(mentions)] == [m.cue.relation for m in mentions] == ["near", "at"]
     assert with_goal([]) == []
 
@@ -156,19 +156,19 @@ def test_where_the_listener_is_to_look(text, degrees) -> None:
     assert listener_wind(text) == degrees
 
 
-def test_the_wind_from_the_listener_is_not_one_from_the_speaker(lookup) -> None:
-    (mention,) = find_mentions("I'm at Bottino, north of you", lookup)
+def test_the_wind_from_the_listener_is_not_one_from_the_speaker(lookup, cues) -> None:
+    (mention,) = find_mentions("I'm at Bottino, north of you", lookup, cues)
     assert mention.cue.wind is None
     assert mention.cue.relation == "at"
 
 
 @pytest.mark.parametrize("text", ["There is no bakery here.", "I can't see the bakery", "we are not at the bakery"])
-def test_what_is_not_there_is_no_mention(lookup, text) -> None:
-    assert find_mentions(text, lookup) == []
+def test_what_is_not_there_is_no_mention(lookup, cues, text) -> None:
+    assert find_mentions(text, lookup, cues) == []
 
 
-def test_what_is_told_of_again_is_one_thing_with_all_that_is_said(lookup) -> None:
-    [mention] = find_mentions("I'm next to a bakery in the rain. The bakery's on my left.", lookup)
+def test_what_is_told_of_again_is_one_thing_with_all_that_is_said(lookup, cues) -> None:
+    [mention] = find_mentions("I'm next to a bakery in the rain. The bakery's on my left.", lookup, cues)
     assert mention.text == "bakery"
     assert mention.cue.angle == pytest.approx(-90)
     assert mention.cue.relation == "beside"
@@ -182,17 +182,17 @@ def test_what_is_told_of_again_is_one_thing_with_all_that_is_said(lookup) -> Non
         ("the optician, the old one, is behind me and nothing else", 180, 1),
     ],
 )
-def test_things_of_a_list_share_where_they_are(lookup, text, angle, things) -> None:
-    assert [mention.cue.angle for mention in find_mentions(text, lookup)] == pytest.approx([angle] * things)
+def test_things_of_a_list_share_where_they_are(lookup, cues, text, angle, things) -> None:
+    assert [mention.cue.angle for mention in find_mentions(text, lookup, cues)] == pytest.approx([angle] * things)
 
 
-def test_a_kind_right_after_a_name_stands_for_it(lookup) -> None:
-    [mention] = find_mentions("I'm outside Rossi Bakery, bakery's on my right hand.", lookup)
+def test_a_kind_right_after_a_name_stands_for_it(lookup, cues) -> None:
+    [mention] = find_mentions("I'm outside Rossi Bakery, bakery's on my right hand.", lookup, cues)
     assert mention.is_exact
     assert mention.cue.relation == "outside"
     assert mention.cue.angle == pytest.approx(90)
 
 
-def test_a_noun_with_a_hyphen_is_found(lookup) -> None:
-    [mention] = find_mentions("I'm next to the u-bahn", lookup)
+def test_a_noun_with_a_hyphen_is_found(lookup, cues) -> None:
+    [mention] = find_mentions("I'm next to the u-bahn", lookup, cues)
     assert any("subway" in kind for kind in mention.kinds)

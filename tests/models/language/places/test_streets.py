@@ -30,7 +30,7 @@ def test_streets_written_out(said, full) -> None:
     [
         ("West 25th Street", {"west 25th street", "25th street", "25th", "west 25th"}),
         ("10th Avenue", {"10th avenue", "10th"}),
-        ("Park Avenue South", {"park avenue south", "park south"}),
+        ("Park Avenue South", {"park avenue south", "park avenue", "park south"}),
         ("Broadway", {"broadway", "bway"}),
         ("Lexington Avenue", {"lexington avenue", "lexington", "lex"}),
         ("Avenue A", {"avenue a"}),

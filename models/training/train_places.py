@@ -1,0 +1,95 @@
+"""Training everything that reads and places people's texts: the reader of cues, then the kernels."""
+
+import json
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import log
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from models.checkpoint import CONFIG_FILE, SHIPPED
+from models.city.source import open_source
+from models.city.told_texts import load_told_texts
+from models.language.places.cue_reader import CueReader
+from models.posterior.model import PosteriorModel, load_posterior, save_posterior
+from models.posterior.places.kernels import PlaceKernels
+from models.training.fit_cues import EPOCHS, LABELLED, accuracy, fit_cues, load_labelled
+from models.training.fit_places import ToldPlace, calibrate_places, fit_places, read_cases
+
+
+def train_places(
+    maps: Sequence[tuple[Path, Sequence[Path]]],
+    weights: Path | None,
+    out: Path,
+    steps: int,
+    seed: int,
+    progress: Callable[[str, int, int, float], None] | None = None,
+) -> dict[str, float]:
+    """Train the reader of cues, fit and calibrate the kernels on maps with people's texts, save it all.
+
+    The kernels are fitted to texts as a reader reads them that was not trained on these: of two, each on half of them.
+
+    Args:
+        maps: each an OpenStreetMap file, with files of texts about it (`load_told_texts`).
+        weights: of the posterior whose other parts are kept; None for those that ship with the package.
+        out: directory for model.safetensors and config.json; may be that of the weights.
+        steps: see `fit_places`; twice as many are spent on calibration.
+        seed: of what is drawn.
+        progress: called with what is done, (steps done, steps, mean loss).
+
+    Returns:
+        How the readers read what they were not trained on, the mean surprise, and the scales of the radii.
+
+    Raises:
+        WeightsError, MapError, DataError: something cannot be read.
+        TrainingError: no text names anything of its map.
+    """
+    model = load_posterior(weights)
+    record = json.loads(((weights or SHIPPED / "posterior") / CONFIG_FILE).read_text())["training"]
+    torch.manual_seed(seed)
+    rng, kernels = np.random.default_rng(seed), PlaceKernels()
+    cues_for, figures = _train_readers(model, rng, progress)
+    cases = []
+    for path, files in maps:
+        source = open_source(path)
+        centers_m = source.data.cells.center_m[:, :2].astype(np.float64)
+        texts = [text for file in files for text in load_told_texts(file)]
+        place = ToldPlace(source.gazetteer(), source.data.frame, centers_m, source.data.grid_m, texts)
+        cases += read_cases(kernels, place, model.text_encoder, cues_for, rng)
+    temper, own, meeting = calibrate_places(kernels, cases, steps, rng)
+    surprise = fit_places(kernels, cases, steps, rng, progress and partial(progress, "fit kernels"))
+    with torch.no_grad():
+        kernels.temper.add_(log(temper))
+    model.places = kernels
+    model.config = model.config.model_copy(update={"place_scale": own, "meeting_scale": meeting})
+    figures |= {"surprise": surprise, "temper_scale": temper, "place_scale": own, "meeting_scale": meeting}
+    fitted_to = {path.name: [file.name for file in files] for path, files in maps}
+    save_posterior(model, out, record | {"places": figures | {"texts": fitted_to, "seed": seed, "steps": steps}})
+    return figures
+
+
+def _train_readers(
+    model: PosteriorModel, rng: np.random.Generator, progress: Callable[[str, int, int, float], None] | None
+) -> tuple[Callable[[str], CueReader], dict[str, float]]:
+    """Train the model's reader of cues on all labelled texts, and one on each half of the people's.
+
+    Returns:
+        For a text a reader that was not trained on it, and shares of what those two read right of the other half.
+    """
+    people = load_labelled(LABELLED / "people.jsonl")
+    others = [text for name in ("invented", "meeting") for text in load_labelled(LABELLED / f"{name}.jsonl")]
+    half = rng.permutation(len(people)) % 2
+    halves = [[text for text, side in zip(people, half, strict=True) if side == n] for n in (0, 1)]
+    readers, right = [], []
+    for n, trained_on in enumerate(halves):
+        reader = CueReader(model.text_encoder, model.reader.tuned, model.config.frozen_layers)
+        fit_cues(reader, [*trained_on, *others], EPOCHS, rng, progress and partial(progress, f"cues {n + 1} of 3"))
+        readers.append(reader)
+        right.append(accuracy(reader, halves[1 - n]))
+    model.cues = CueReader(model.text_encoder, model.reader.tuned, model.config.frozen_layers)
+    fit_cues(model.cues, [*people, *others], EPOCHS, rng, progress and partial(progress, "cues 3 of 3"))
+    by_text = {text.text: readers[1 - n] for n, some in enumerate(halves) for text in some}
+    figures = {f"{name}_right": (right[0][name] + right[1][name]) / 2 for name in right[0]}
+    return lambda text: by_text.get(text, model.cues), figures
