@@ -162,9 +162,10 @@ def without(mention: Mention, left_out: frozenset[str]) -> Mention | None:
     cue = mention.cue
     if left_out & {"across", "block"}:
         return replace(mention, cue=replace(cue, relation="seen"))
+    if "left, right, ahead, behind" in left_out:
+        cue = replace(cue, angle=None, angles=())
     cue = replace(
         cue,
-        angle=None if "left, right, ahead, behind" in left_out else cue.angle,
         wind=None if "wind" in left_out else cue.wind,
         distance_m=None if "distance" in left_out else cue.distance_m,
     )

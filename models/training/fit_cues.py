@@ -27,7 +27,8 @@ _SIDES = re.compile(r"\b(left|right)\b", re.IGNORECASE)
 _OTHER = {"left": "right", "right": "left"}
 # "right" is an adverb too, which has no mirror image
 _ADVERB = re.compile(
-    r"\bright\s+(?!(?:hand|side|of|and|is|are|s|then|there|with|now)\b)(?:[a-z]+)|\bleft\s+(?:the|my|a)\b|\b(?:just|have|i|we)\s+left\b", re.IGNORECASE
+    r"\bright\s+(?!(?:hand|side|of|and|is|are|s|then|there|with|now)\b)(?:[a-z]+)|\bleft\s+(?:the|my|a)\b|\b(?:just|have|i|we)\s+left\b",
+    re.IGNORECASE,
 )
 
 
