@@ -11,8 +11,9 @@ from rapidfuzz.distance import OSA
 
 from models.language.places.languages import ENGLISH
 from models.language.places.lookup import EMPTY, Lookup, Match
-from models.language.places.names import WINDS, Word, words_of
-from models.language.places.streets import KINDS, ORDINAL, TYPES, ordinal
+from models.language.places.names import Word, words_of
+from models.language.places.street_spans import streets_at
+from models.language.places.streets import ORDINAL
 from models.language.places.words import english
 
 Form = Literal["thing", "street", "corner", "span", "address", "unknown"]
@@ -20,17 +21,13 @@ MOST_WORDS: Final = 6  # of a name
 SHORTEST: Final = 3  # characters; a shorter name behind a kind is another thing
 LOOSE_TERM: Final = 0.55  # a single word must mean a kind more surely
 LIKE_NOUN: Final = 0.8  # share of the letters of a misspelt noun that must agree
-STREET, TYPED, PER_WORD, NOUN, NOUNS, STRANGE = 5.0, 2.0, 3.0, 2.0, 5.0, 5.0  # what spans are worth beside names
-MEETING: Final = 3.0  # of a street beside a numbered one
-_MEET: Final = frozenset(("and", "at", "&", "@", "/", "n"))
+NOUN, NOUNS, STRANGE = 2.0, 5.0, 5.0  # what spans are worth beside names
 EXACT, PART, PLAIN_ONE, PLAIN_MORE, AT_START = 1.3, 0.8, 0.5, 0.7, 0.5
 OF_ANOTHER_KIND: Final = 0.4  # weight of what bears the name but is not what the text calls it
 _W = english()
 STOP, PASSED = _W.list("stop"), _W.list("passed")
 _ABBREVIATED, _ONE = _W.list("abbreviated"), _W.list("one")
-_STREET_BEFORE, _STREET_AFTER = _W.list("street_before"), _W.list("street_after")
-_NO_STREET_AFTER, _LOWER_BEFORE = _W.list("no_street_after"), _W.list("lower_street_before")
-_SAID_OF, _SEEN_TOO, _OVER = _W.list("said_of_street"), _W.list("seen_too"), _W.list("over")
+_SEEN_TOO, _OVER = _W.list("seen_too"), _W.list("over")
 _APPOSED = re.compile(r"\s*,\s*(?:the|a|an|that|our)\s+(?:\w+\s+)?|\s*,?\s+called\s+")
 _NAMED_SO = re.compile(r"\s*,\s*|\s+|\s*,?\s+called\s+")
 
@@ -118,6 +115,11 @@ def _spans_at(
     return found
 
 
+def _streets_at(words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup) -> list[Span]:
+    found = streets_at(words, first, last, plain, lookup)
+    return [] if found is None else [Span(first, last, "street", *found)]
+
+
 def _kinds(plain: tuple[str, ...], mended: Mapping[str, str], lookup: Lookup, language: str) -> Mapping[str, float]:
     """The kinds that words mean; "the Thai one" is a Thai place, "the Kahvila" a cafe."""
     if len(plain) == 1 and plain[0] in STOP:
@@ -177,56 +179,6 @@ def _is_crossing(plain: tuple[str, ...], lookup: Lookup) -> bool:
         for n, word in enumerate(plain)
         if 0 < n < len(plain) - 1
     )
-
-
-def _streets_at(words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup) -> list[Span]:
-    """Streets of a name; a short form, such as an ordinal, only where the words beside it tell of a street."""
-    if len(plain) == 1 and plain[0].isdecimal():
-        return []
-    has_type = plain[-1] in KINDS or plain[-1] in TYPES
-    match = lookup.street(plain)
-    if match is None and has_type and len(plain) > 1 and plain[-2].isdecimal() and plain[-2].isascii():
-        match = lookup.street((*plain[:-2], ordinal(int(plain[-2])), plain[-1]))
-    if match is None and len(plain) == 1:
-        match = lookup.street_like(plain[0])
-    if match is None or not _is_told(words, first, last, match, has_type, lookup):
-        return []
-    score = STREET + PER_WORD * len(plain) + (TYPED if has_type else 0.0)
-    return [Span(first, last, "street", match, score + (MEETING if _meets_ordinal(words, first, last) else 0.0))]
-
-
-def _meets_ordinal(words: Sequence[Word], first: int, last: int) -> bool:
-    """Whether words stand beside a numbered street: "Vanderbilt and 43rd"."""
-    after = last + 2 < len(words) and words[last + 1].plain in _MEET and ORDINAL.fullmatch(words[last + 2].plain)
-    before = first > 1 and words[first - 1].plain in _MEET and ORDINAL.fullmatch(words[first - 2].plain)
-    return bool(after or before)
-
-
-def _is_told(words: Sequence[Word], first: int, last: int, match: Match, has_type: bool, lookup: Lookup) -> bool:
-    plain = [word.owner or word.plain for word in words[first : last + 1]]
-    is_ordinal = ORDINAL.fullmatch(plain[-1]) is not None
-    is_capital = words[first].is_capital or words[first].begins
-    has_wind = last > first and is_ordinal and plain[0] in WINDS.keys() | WINDS.values()
-    whole = match.is_exact and (last > first or words[first].is_capital or not lookup.is_common(plain[-1]))
-    follower = words[last + 1] if last + 1 < len(words) else None
-    if not has_type and not has_wind and not (whole and not is_ordinal):
-        before, after = words[first - 1].plain if first else "", follower.plain if follower else ""
-        said = is_ordinal or is_capital
-        is_noun = not is_ordinal and plain[-1] in lookup.noun_words
-        is_subject = said and not is_noun and before != "the" and (after in _SAID_OF or words[last].owner is not None)
-        told = (
-            before in _STREET_BEFORE or (said and after in _STREET_AFTER) or is_subject or (first == 0 and is_capital)
-        )
-        is_common = is_ordinal or any(lookup.is_common(word) for word in plain)
-        if (is_common and not told) or (is_ordinal and after in _NO_STREET_AFTER):
-            return False
-        if is_common and not is_ordinal and not is_capital and before not in _LOWER_BEFORE:
-            return False
-    if follower is None or has_type or is_ordinal:
-        return True
-    # "Waterside Park" goes on
-    goes_on = follower.is_capital and follower.start - words[last].end == 1 and not follower.plain[0].isdigit()
-    return not goes_on
 
 
 def _chosen(spans: Sequence[Span], words: Sequence[Word]) -> list[Span]:

@@ -16,7 +16,7 @@ from models.city.gazetteer.ways import Around, Ways, cut, ways_to
 from models.city.points import Ints
 from models.city.types import Floats
 from models.language.places.mentions import Mention
-from models.posterior.places.kernels import HEADINGS, SURE, TYPES, PlaceKernels
+from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of
 
 FEW_REACH, MANY_REACH = 5.0, 2.5  # scales of a kernel, as far as which objects are looked at
 MANY: Final = 60  # objects
@@ -26,7 +26,6 @@ SAID_REACH, FARTHEST_M = 2.5, 600.0  # the same of distances that were said
 ROUGH_M: Final = 5.0  # what a distance on the grid may be too long by
 LEAST: Final = 1e-6  # of a kernel's mean
 FAINT: Final = 0.02  # what fits nowhere better than this is not near the map
-ASIDE: Final = 60.0  # degrees from ahead or behind, from which on something is at the side
 TIERS: Final = (1.0, 0.7, 0.4, 0.2)  # weights on the grid are rounded to these
 
 
@@ -266,7 +265,7 @@ class PlaceField:
 
     def _floor(self, mention: Mention) -> Tensor:
         """How likely a mention is no evidence at all."""
-        return 1 - (1 - self.kernels.floor[SURE.index(_sure(mention))].sigmoid()) * mention.trust
+        return 1 - (1 - self.kernels.floor[SURE.index(sure_of(mention))].sigmoid()) * mention.trust
 
     def from_listener(self, places: Places, points_m: Floats) -> Tensor:
         """[M] what winds seen from the listener tell of positions [M, 2]."""
@@ -276,30 +275,3 @@ class PlaceField:
         metres = torch.from_numpy(np.hypot(*way.T)).float()
         bearing = torch.from_numpy(np.arctan2(way[:, 0], way[:, 1])).float()
         return self.kernels.toward(self.kernels.listener, bearing - radians(places.listener_wind), metres).log()
-
-
-def kernel_of(mention: Mention) -> int:
-    """Which of TYPES tells how far what is mentioned may be."""
-    relation = mention.cue.relation
-    loose = relation in ("near", "far", "past", "off", "across", "block", "wind")
-    if mention.form == "street":
-        loose = loose or mention.cue.angle is not None
-        return TYPES.index("street near" if loose else "street")
-    if mention.form == "corner":
-        return TYPES.index("corner near" if relation in ("near", "far", "past", "off", "block", "wind") else "corner")
-    if mention.form in ("span", "address"):
-        return TYPES.index(mention.form)
-    if relation == "seen" and mention.cue.angle is not None:
-        off = abs(mention.cue.angle)
-        return TYPES.index("ahead" if off < ASIDE else "behind" if off > 180.0 - ASIDE else "side")
-    return TYPES.index(relation)
-
-
-def _sure(mention: Mention) -> str:
-    if mention.form == "street":
-        return "street"
-    if mention.form in ("corner", "span", "address"):
-        return "corner"
-    if mention.kinds and not mention.is_exact and mention.trust == 1.0:
-        return "kind"
-    return "exact" if mention.is_exact else "part"

@@ -5,6 +5,8 @@ from typing import Final
 import torch
 from torch import Tensor, nn
 
+from models.language.places.mentions import Mention
+
 # What a thing, street or corner may be to the speaker; the metres over which each falls, to start from.
 SCALES: Final = {
     "at": 8.0, "outside": 10.0, "beside": 14.0, "near": 30.0, "across": 14.0, "inside": 10.0, "past": 40.0,
@@ -19,6 +21,7 @@ SURE: Final = tuple(FLOORS)
 HEADINGS: Final = 16
 ACROSS_M: Final = 24.0
 POWER: Final = 1.5
+ASIDE: Final = 60.0  # degrees from ahead or behind, from which on something is at the side
 
 
 class PlaceKernels(nn.Module):
@@ -70,3 +73,31 @@ class PlaceKernels(nn.Module):
     def on_side(self, metres: Tensor) -> Tensor:
         """The kernel of being so far on the side of a street that is said, negative on the other."""
         return 2 * torch.sigmoid(metres / self.side_m.exp()) * 0.95 + 0.05
+
+
+def kernel_of(mention: Mention) -> int:
+    """Which of TYPES tells how far what is mentioned may be."""
+    relation = mention.cue.relation
+    loose = relation in ("near", "far", "past", "off", "across", "block", "wind")
+    if mention.form == "street":
+        loose = loose or mention.cue.angle is not None
+        return TYPES.index("street near" if loose else "street")
+    if mention.form == "corner":
+        return TYPES.index("corner near" if relation in ("near", "far", "past", "off", "block", "wind") else "corner")
+    if mention.form in ("span", "address"):
+        return TYPES.index(mention.form)
+    if relation == "seen" and mention.cue.angle is not None:
+        off = abs(mention.cue.angle)
+        return TYPES.index("ahead" if off < ASIDE else "behind" if off > 180.0 - ASIDE else "side")
+    return TYPES.index(relation)
+
+
+def sure_of(mention: Mention) -> str:
+    """Which of SURE a mention is."""
+    if mention.form == "street":
+        return "street"
+    if mention.form in ("corner", "span", "address"):
+        return "corner"
+    if mention.kinds and not mention.is_exact and mention.trust == 1.0:
+        return "kind"
+    return "exact" if mention.is_exact else "part"
