@@ -1,6 +1,6 @@
 """How answers hold when descriptions are short, wrong, misspelt or worded freely, and when the map is out of date."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -11,6 +11,7 @@ from index.evaluation.candidates import candidate_recall, candidate_table
 from index.evaluation.evaluation import predict
 from index.evaluation.report import Table
 from index.evaluation.scoring import score
+from index.evaluation.trials import CANDIDATES_OF, Trial, all_trials
 from index.finding import CellLocalizer
 from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
@@ -21,37 +22,12 @@ from models.city.hints import direction_index
 from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
 from models.city.queries import Queries
-from models.city.templates import TEMPLATES, render_hint
 from models.city.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
-from models.language.grammar.labelled_text import Fact, LabelledText
-from models.language.grammar.typos import typos
-from models.language.grammar.wording import Wording
 from models.posterior.surroundings import STEP_M, Surroundings
 
-TEMPLATE, FREE = CANDIDATES_OF = ("template text", "free wording, unseen grammar")
 MOST_QUERIES = 300
 SEED = 0
-INVERSE = TEMPLATES.index("There is {a} {o} of me.")
-Say = Callable[[tuple[Hint, ...], np.random.Generator], tuple[str, ...]]
-
-
-@dataclass(frozen=True, slots=True)
-class Trial:
-    """One way to make it hard.
-
-    Attributes:
-        name: for the table.
-        say: what is said of a query's hints.
-        hints: tell of so many things instead of the query's own hints, the nearest ones.
-        dropped, relabelled: shares of the map's instances that are gone, or have another's label.
-    """
-
-    name: str
-    say: Say
-    hints: int | None = None
-    dropped: float = 0.0
-    relabelled: float = 0.0
 
 
 def robustness(
@@ -67,7 +43,8 @@ def robustness(
         progress: called as the work goes on.
 
     Returns:
-        "trials": of each "name" and, for "retriever" and "posterior", "retrieval" {k: recall} and "localization";
+        "trials": of each "name" and, for "retriever" and "posterior", "retrieval" {k: recall}, "localization",
+        "coverage" of the radii and "calibration";
         "candidates" {text: `candidate_recall`} for some of them.
 
     Raises:
@@ -102,7 +79,7 @@ def robustness(
 
 def _ask(data: MapData, queries: Queries, localizer: CellLocalizer) -> dict[str, Any]:
     report = score(predict(data, queries, localizer, lambda *_: None))
-    return {key: report[key] for key in ("retrieval", "localization")}
+    return {key: report[key] for key in ("retrieval", "localization", "coverage", "calibration")}
 
 
 def robustness_tables(found: dict[str, Any]) -> list[Table]:
@@ -111,84 +88,19 @@ def robustness_tables(found: dict[str, Any]) -> list[Table]:
 
 
 def _trials(rows: Sequence[dict[str, Any]]) -> Table:
-    """Recall@1, and recall within 5 m at k = 1, of both."""
-    head = ("", "retriever R@1", "posterior R@1", "retriever k=1: 5/10/15 m", "posterior k=1: 5/10/15 m")
+    """Recall@1, and recall within 5, 10 and 15 m at k = 1, of both; how honest the posterior is."""
+    recall_head = ("retriever R@1", "posterior R@1", "retriever k=1: 5/10/15 m", "posterior k=1: 5/10/15 m")
+    head = ("", *recall_head, "its 90 % radius holds", "ECE")
     found = []
     for row in rows:
         recalls = [f"{row[name]['retrieval']['1']:.3f}" for name in ("retriever", "posterior")]
         within = [
             "/".join(f"{v:.3f}" for v in row[name]["localization"]["1"].values()) for name in ("retriever", "posterior")
         ]
-        found.append((row["name"], *recalls, *within))
+        asked = row["posterior"]
+        honest = asked["coverage"]["p90"]["true"], asked["calibration"]["expected_calibration_error"]
+        found.append((row["name"], *recalls, *within, *(f"{value:.3f}" for value in honest)))
     return head, found
-
-
-def all_trials(data: MapData) -> list[Trial]:
-    """Every trial."""
-    words = sorted(set(data.palette.words))
-    free = Wording("test")
-    trials = [Trial(TEMPLATE, _template)]
-    trials += [Trial(f"{n} hints", _first(n)) for n in range(1, 6)]
-    trials += [
-        Trial("12 hints", _template, hints=12),
-        Trial("one hint of six wrong", _one_wrong(words)),
-        Trial("two colours of six wrong", _wrong_colours(words, 2)),
-        Trial("hints in another order", _shuffled),
-        Trial("inverse phrasing", lambda hints, _rng: tuple(render_hint(hint, INVERSE) for hint in hints)),
-        Trial(FREE, lambda hints, rng: _pieces(_write(free, hints, rng))),
-        Trial("free wording, three typos", lambda hints, rng: _pieces(typos(_write(free, hints, rng), 3, rng))),
-    ]
-    trials += [Trial(f"{share:.0%} of the instances gone", _template, dropped=share) for share in (0.1, 0.2)]
-    trials += [Trial(f"{share:.0%} of the labels wrong", _template, relabelled=share) for share in (0.1, 0.2)]
-    return trials
-
-
-def _template(hints: tuple[Hint, ...], _rng: np.random.Generator) -> tuple[str, ...]:
-    return tuple(render_hint(hint) for hint in hints)
-
-
-def _first(count: int) -> Say:
-    return lambda hints, rng: _template(tuple(hints[i] for i in rng.permutation(len(hints))[:count]), rng)
-
-
-def _shuffled(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
-    return _template(tuple(hints[i] for i in rng.permutation(len(hints))), rng)
-
-
-def _one_wrong(words: Sequence[str]) -> Say:
-    """One hint says another direction and another colour than is true."""
-
-    def say(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
-        at = int(rng.integers(len(hints)))
-        others: list[Direction] = [d for d in DIRECTIONS[:4] if d != hints[at].direction]
-        wrong = replace(
-            hints[at], direction=others[int(rng.integers(len(others)))], colour=_other(words, hints[at], rng)
-        )
-        return _template((*hints[:at], wrong, *hints[at + 1 :]), rng)
-
-    return say
-
-
-def _wrong_colours(words: Sequence[str], count: int) -> Say:
-    def say(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
-        at = set(rng.permutation(len(hints))[:count].tolist())
-        wrong = (replace(h, colour=_other(words, h, rng)) if n in at else h for n, h in enumerate(hints))
-        return _template(tuple(wrong), rng)
-
-    return say
-
-
-def _other(words: Sequence[str], hint: Hint, rng: np.random.Generator) -> str:
-    others = [word for word in words if word != hint.colour]
-    return others[int(rng.integers(len(others)))]
-
-
-def _write(wording: Wording, hints: tuple[Hint, ...], rng: np.random.Generator) -> LabelledText:
-    return wording.write([Fact(hint.label, hint.direction, hint.colour) for hint in hints], rng)
-
-
-def _pieces(said: LabelledText) -> tuple[str, ...]:
-    return tuple(line for line in said.text.split("\n") if line.strip())
 
 
 def some_of(queries: Queries) -> Queries:
