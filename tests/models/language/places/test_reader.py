@@ -196,3 +196,26 @@ def test_a_kind_right_after_a_name_stands_for_it(lookup, cues) -> None:
 def test_a_noun_with_a_hyphen_is_found(lookup, cues) -> None:
     [mention] = find_mentions("I'm next to the u-bahn", lookup, cues)
     assert any("subway" in kind for kind in mention.kinds)
+
+
+@pytest.mark.parametrize(
+    ("text", "street"),
+    [
+        ("I'm at 25th and 10th, the avenue is behind me.", "10th Avenue"),
+        ("I'm on 25th, Bottino on my left, and the street is at my back.", "West 25th Street"),
+    ],
+)
+def test_a_street_named_by_its_kind_alone_is_the_last_such(town, lookup, cues, text, street) -> None:
+    again = [mention for mention in find_mentions(text, lookup, cues) if mention.text in ("avenue", "street")]
+    assert [called(town, mention.objects) for mention in again] == [{street}]
+    assert again[0].cue.angle == 180
+
+
+@pytest.mark.parametrize("text", ["Bottino is across the street.", "I walk down the street to Bottino."])
+def test_the_street_of_across_the_street_is_none(lookup, cues, text) -> None:
+    assert [mention.text for mention in find_mentions(text, lookup, cues)] == ["Bottino"]
+
+
+def test_the_east_of_a_street_is_no_wind(lookup, cues) -> None:
+    found = find_mentions("Bottino is north of me on West 25th Street", lookup, cues)
+    assert {mention.text: mention.cue.wind for mention in found} == {"Bottino": 0, "West 25th Street": None}

@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, WALKED, Words, build_gazetteer
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
-from models.posterior.places.field import PlaceField, Told, kernel_of
-from models.posterior.places.kernels import HEADINGS, TYPES, PlaceKernels
+from models.posterior.places.field import PlaceField, Told
+from models.posterior.places.kernels import HEADINGS, TYPES, PlaceKernels, kernel_of
 from tests.models.city.gazetteer.made_town import BENCHES, line, made_gazetteer, numbered, point
 
 GRID_M = 10.0
@@ -68,6 +68,34 @@ def test_headings_are_clockwise_from_north(field, angle, heading) -> None:
     with torch.inference_mode():
         by_heading = field.by_heading(places, np.array([[120.0, 120.0]]), np.zeros(1, np.int64))[0]
     assert by_heading.argmax() == heading
+
+
+def test_an_angle_that_is_not_sure_is_summed_over(field) -> None:
+    elmo, at = numbered(TOWN, "Elmo"), np.array([[120.0, 120.0]])
+    either = Cue(angle=-90.0, angles=((-90.0, 0.6), (90.0, 0.4)))
+    shares = []
+    for cue in (Cue(angle=-90.0), Cue(angle=90.0), either):
+        places = field.told([thing("Elmo", cue=cue), thing("T-Optik", cue=Cue("at"))]).places
+        with torch.inference_mode():
+            ways = field.ways(places.mentions[0], at, np.zeros(1, np.int64))
+            shares.append(field.fits(places.mentions[0], ways, 1)[0])
+    assert places.mentions[0].objects.tolist() == [elmo]
+    assert torch.allclose(shares[2], 0.6 * shares[0] + 0.4 * shares[1], atol=1e-6)
+
+
+def test_people_stand_where_they_walk() -> None:
+    town = build_gazetteer(
+        [Words(("amenity/bench",)), Words((WALKED,))],
+        [point(100.0, 100.0), line((0.0, 110.0), (200.0, 110.0))],
+        [False, False],
+    )
+    field = PlaceField(PlaceKernels(), town, CENTERS, GRID_M)
+    bench = Mention("bench", 0, 1, "thing", np.array([0]), np.ones(1), kinds=("amenity/bench",), cue=Cue("beside"))
+    beside = np.array([(100.0, 110.0), (100.0, 90.0)])  # as far from the bench
+    walks, other = field.told([bench]).at(beside, np.zeros(2, np.int64))
+    assert walks > other + 1
+    walks, other = field.told([bench], is_meeting=True).at(beside, np.zeros(2, np.int64))
+    assert walks == pytest.approx(other, abs=1e-5), "where to meet may be anywhere"
 
 
 def test_a_wind_tells_the_side(field) -> None:
