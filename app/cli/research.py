@@ -31,7 +31,7 @@ def train(
         str,
         typer.Option(
             help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), posterior, "
-            "or places: the posterior's kernels for people's texts"
+            "or places: the posterior's reader of cues and kernels for people's texts"
         ),
     ] = "mncl",
     change: Annotated[
@@ -50,7 +50,7 @@ def train(
     reader: Annotated[
         Path | None,
         typer.Option(
-            help="weights whose reader is kept: of posterior, fit the likelihood alone; of places, the kernels"
+            help="weights that are kept but for the likelihood (posterior), or for cues and kernels (places)"
         ),
     ] = None,
     texts: Annotated[

@@ -16,6 +16,7 @@ from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 from models.training.engine.loop import Progress, run_training
+from models.training.fit_cues import EPOCHS, fit_cues, labelled_texts
 from models.training.fit_likelihood import Texts, fit_likelihood
 from models.training.fit_reader import ReadingSet, ReadingTask, reading_figures
 from models.training.places import Place
@@ -75,6 +76,7 @@ def train_posterior(
     record = settings_record(trained.method, model, config)
     history = run_training(task, config, run_dir, resume, progress, record=record)
     round_large(trained)  # as `refit_posterior` reads it
+    fit_cues(trained.cues, labelled_texts(), EPOCHS, np.random.default_rng(config.seed))
     return fit_and_save(trained, validation, data, splits, out, config, history.best_step)
 
 

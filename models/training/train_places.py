@@ -15,7 +15,7 @@ from models.city.told_texts import load_told_texts
 from models.language.places.cue_reader import CueReader
 from models.posterior.model import PosteriorModel, load_posterior, save_posterior
 from models.posterior.places.kernels import PlaceKernels
-from models.training.fit_cues import EPOCHS, LABELLED, accuracy, fit_cues, load_labelled
+from models.training.fit_cues import EPOCHS, LABELLED, OTHERS, PEOPLE, accuracy, fit_cues, load_labelled
 from models.training.fit_places import ToldPlace, calibrate_places, fit_places, read_cases
 
 
@@ -78,8 +78,8 @@ def _train_readers(
     Returns:
         For a text a reader that was not trained on it, and shares of what those two read right of the other half.
     """
-    people = load_labelled(LABELLED / "people.jsonl")
-    others = [text for name in ("invented", "meeting") for text in load_labelled(LABELLED / f"{name}.jsonl")]
+    people = load_labelled(LABELLED / f"{PEOPLE}.jsonl")
+    others = [text for name in OTHERS for text in load_labelled(LABELLED / f"{name}.jsonl")]
     half = rng.permutation(len(people)) % 2
     halves = [[text for text, side in zip(people, half, strict=True) if side == n] for n in (0, 1)]
     readers, right = [], []

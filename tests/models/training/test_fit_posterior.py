@@ -24,6 +24,9 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     small = {"TEXTS": 48, "VALIDATION_TEXTS": 16, "FITTED_TEXTS": 8, "CALIBRATED_TEXTS": 8}
     for name, value in (small | {"FIT_STEPS": 1, "CALIBRATION_STEPS": 1}).items():
         monkeypatch.setattr(fit_posterior, name, value)
+    labelled = fit_posterior.labelled_texts()[:32]
+    monkeypatch.setattr(fit_posterior, "labelled_texts", lambda: labelled)
+    monkeypatch.setattr(fit_posterior, "EPOCHS", 1)
     config = TrainingConfig(steps=2, batch_size=16, validate_every=2)
     seen = []
     figures = fit_posterior.train_posterior(
