@@ -9,7 +9,6 @@ import torch
 
 from index.answers import Evidence, Heading
 from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.ways import Ways
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.types import Floats
 from models.language.parsed_hint import WINDS, ParsedHint
@@ -21,7 +20,7 @@ from models.language.places.reader import find_mentions, is_meeting, listener_wi
 from models.language.places.spans import PASSED, STOP
 from models.language.text_encoder import TextEncoder
 from models.localization.located import Located
-from models.posterior.places.field import PlaceField, Told
+from models.posterior.places.field import Explained, PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
 TRUSTED: Final = 0.5  # of a hint's class, from which on it is no place but what is near
@@ -86,32 +85,25 @@ class PlaceReader:
     def evidence(self, mentions: Sequence[Mention], told: Told | None, position: Floats) -> tuple[Evidence, ...]:
         """How each mention was understood, and what explains it at a position [2]."""
         known = told.places.mentions if told is not None else ()
-        at, one = position[None], np.zeros(1, np.int64)
-        heading = self.field.by_heading(told.places, at, one)[0].argmax() if told is not None else torch.tensor(0)
+        explained = self.field.explain(told.places, position[None]) if told is not None else []
         found = []
         for mention in mentions:
             row = next((n for n, other in enumerate(known) if other is mention), None)
-            if row is None or told is None:
-                found.append(_unexplained(mention))
-                continue
-            probability, chosen = self.field.explain(told.places, row, at, float(heading) * 360 / HEADINGS)
-            ways = self.field.ways(mention, at, one)
-            found.append(self._explained(mention, probability, chosen, ways))
+            found.append(_unexplained(mention) if row is None else self._explained(mention, explained[row]))
         return tuple(found)
 
-    def _explained(self, mention: Mention, probability: float, chosen: int, ways: Ways) -> Evidence:
+    def _explained(self, mention: Mention, by: Explained) -> Evidence:
         found = _unexplained(mention)
-        if chosen < 0:
+        if by.item < 0:
             return found
-        item, way = int(ways.item[chosen]), ways.way_m[chosen]
-        shown: dict[str, Any] = {"away_m": round(float(np.hypot(*way)), 1)}
-        shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*way))) % 360, 1)
-        if item < len(mention.objects):
-            words = self.gazetteer.words[int(mention.objects[item])]
+        shown: dict[str, Any] = {"away_m": round(float(np.hypot(*by.way_m)), 1)}
+        shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*by.way_m))) % 360, 1)
+        if by.item < len(mention.objects):
+            words = self.gazetteer.words[int(mention.objects[by.item])]
             kind = words.kinds[0] if words.kinds else None
             shown |= {"instance": kind, "name": words.names[0] if words.names else None, "source_id": words.source_id}
         label = mention.kinds[0] if mention.kinds else shown.get("instance")
-        return replace(found, label=label or mention.form, explained=probability, **shown)
+        return replace(found, label=label or mention.form, explained=by.probability, **shown)
 
     @torch.inference_mode()
     def heading(self, told: Told | None, located: Located) -> Heading | None:

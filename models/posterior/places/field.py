@@ -66,6 +66,24 @@ class Places:
     is_meeting: bool = False
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Explained:
+    """What explains a mention at a position.
+
+    Attributes:
+        probability: that something does.
+        item: which of the mention's objects, beyond them which of its lines; -1 for none.
+        way_m: [2] from the position to it.
+    """
+
+    probability: float
+    item: int
+    way_m: Floats
+
+
+NOT_EXPLAINED: Final = Explained(0.0, -1, np.zeros(2))
+
+
 class Told:
     """What a text says of places, for `locate`: at every cell, roughly, and at any position.
 
@@ -160,22 +178,25 @@ class PlaceField:
                 )
         return total
 
-    def ways(self, mention: Mention, points_m: Floats, group: Ints) -> Ways:
-        """The ways to what a mention may mean; items beyond its objects are its lines."""
-        return self.ways_from(mention, Around.of(points_m, group))
-
     @torch.inference_mode()
-    def explain(self, places: Places, row: int, point_m: Floats, heading_deg: float) -> tuple[float, int]:
-        """How likely a mention is explained at a position [1, 2], and by which of its `ways` (-1 for none)."""
-        mention = places.mentions[row]
-        ways = self.ways(mention, point_m, np.zeros(1, np.int64))
-        if not len(ways.item):
-            return 0.0, -1
-        fits = self._fits_of_ways(mention, ways)
-        fit = fits[:, round(heading_deg * HEADINGS / 360) % HEADINGS] if fits.shape[1] > 1 else fits[:, 0]
-        floor = self._floor(mention)
-        told = (1 - floor) * fit.max() / places.common[row]
-        return float(told / (told + floor)), int(fit.argmax())
+    def explain(self, places: Places, point_m: Floats) -> list[Explained]:
+        """What explains each mention at a position [1, 2], in the heading that fits best there."""
+        around, found = Around.of(point_m, np.zeros(1, np.int64)), []
+        ways = [self.ways_from(mention, around) for mention in places.mentions]
+        fits = [self._fits_of_ways(mention, each) for mention, each in zip(places.mentions, ways, strict=True)]
+        total = torch.zeros(HEADINGS)
+        for mention, fit, mean in zip(places.mentions, fits, places.common, strict=True):
+            total = total + self.worth(mention, fit.amax(dim=0) if len(fit) else torch.zeros(1), mean)
+        heading = int(total.argmax())
+        for mention, each, fit, mean in zip(places.mentions, ways, fits, places.common, strict=True):
+            if not len(fit):
+                found.append(NOT_EXPLAINED)
+                continue
+            here = fit[:, heading if fit.shape[1] > 1 else 0]
+            best, floor = int(here.argmax()), self._floor(mention)
+            told = (1 - floor) * here[best] / mean
+            found.append(Explained(float(told / (told + floor)), int(each.item[best]), each.way_m[best]))
+        return found
 
     def ways_from(self, mention: Mention, around: Around) -> Ways:
         """As `ways`, of positions that are grouped already."""

@@ -3,6 +3,7 @@ import pytest
 import torch
 
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, WALKED, Words, build_gazetteer
+from models.city.gazetteer.ways import Around
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.posterior.places.field import PlaceField, Told
@@ -77,7 +78,7 @@ def test_an_angle_that_is_not_sure_is_summed_over(field) -> None:
     for cue in (Cue(angle=-90.0), Cue(angle=90.0), either):
         places = field.told([thing("Elmo", cue=cue), thing("T-Optik", cue=Cue("at"))]).places
         with torch.inference_mode():
-            ways = field.ways(places.mentions[0], at, np.zeros(1, np.int64))
+            ways = field.ways_from(places.mentions[0], Around.of(at, np.zeros(1, np.int64)))
             shares.append(field.fits(places.mentions[0], ways, 1)[0])
     assert places.mentions[0].objects.tolist() == [elmo]
     assert torch.allclose(shares[2], 0.6 * shares[0] + 0.4 * shares[1], atol=1e-6)
@@ -214,11 +215,12 @@ def test_a_mention_is_explained_by_what_is_near(field) -> None:
     mention = thing("Elmo", "Bottino", cue=Cue("beside"))
     places = field.told([mention]).places
     at = np.array([[215.0, 95.0]])
-    explained, way = field.explain(places, 0, at, 0.0)
-    ways = field.ways(mention, at, np.zeros(1, np.int64))
-    assert explained > 0.8
-    assert ways.item[way] == 1, "Bottino"
-    assert field.explain(places, 0, np.array([[3000.0, 95.0]]), 0.0) == (0.0, -1)
+    [explained] = field.explain(places, at)
+    assert explained.probability > 0.8
+    assert explained.item == 1, "Bottino"
+    assert explained.way_m == pytest.approx([0, -3])
+    [nothing] = field.explain(places, np.array([[3000.0, 95.0]]))
+    assert (nothing.probability, nothing.item) == (0.0, -1)
 
 
 def test_inside_a_park_is_all_of_it(field) -> None:
