@@ -107,9 +107,12 @@ class Predictions:
 
     def errors_m(self) -> Floats:
         """[Q, J] metres in the plane from each predicted position to the truth; infinite in another scene."""
-        first = self.ranked[:, : self.predicted_m.shape[1]]
+        return np.where(self._same_scene(self.ranked[:, : self.predicted_m.shape[1]]), self.distances_m(), np.inf)
+
+    def distances_m(self) -> Floats:
+        """[Q, J] the same in another scene too, where the frame puts it: what a circle on the map holds."""
         distance: Floats = np.linalg.norm(self.predicted_m - self.positions_m[:, None], axis=2)
-        return np.where(self._same_scene(first), distance, np.inf)
+        return distance
 
     def center_errors_m(self, rows: Ints) -> Floats:
         """[Q, J] metres in the plane from the centres of some cells [Q, J] to the truth; infinite in another scene."""

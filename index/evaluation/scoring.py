@@ -52,7 +52,7 @@ def score(predictions: Predictions) -> dict[str, Any]:
         "calibration": calibration(p.probability, retrieval_hits(p.ranked, p.queried_cells)[1]),
     }
     if not np.isnan(p.radius_m).any():
-        report["coverage"] = _coverage(p.radius_m, errors[:, 0])
+        report["coverage"] = _coverage(p.radius_m, p.distances_m()[:, 0])
     return dict(_with_text_keys(report))
 
 
