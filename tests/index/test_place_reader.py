@@ -116,7 +116,11 @@ def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(local
 
 def test_a_construction_can_be_left_out(localizer) -> None:
     [mention] = [
-        m for m in find_mentions("A bench is 20 m ahead.", localizer.posterior.places._lookup) if m.form == "thing"
+        m
+        for m in find_mentions(
+            "A bench is 20 m ahead.", localizer.posterior.places._lookup, localizer.posterior.weights.cues
+        )
+        if m.form == "thing"
     ]
     assert constructions(mention) == {"kind", "left, right, ahead, behind", "distance"}
     assert without(mention, frozenset(("kind",))) is None

@@ -21,7 +21,7 @@ def test_texts_that_it_was_not_trained_on_are_read_well(cues) -> None:
     ("text", "expected"),
     [
         ("the bank is on my left and the cafe on my right", [-90, 90]),
-        ("bank on my left, cafe behind me", [-90, 180]),
+        ("There's a bank on my left, a cafe behind me.", [-90, 180]),
         ("behind me there's a bank, and straight ahead the cafe", [180, 0]),
         ("the bank and the cafe are on my right", [90, 90]),
         ("with the bank at my back im looking at the cafe", [180, 0]),

