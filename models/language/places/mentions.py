@@ -68,6 +68,7 @@ _SIDE = re.compile(
 _ABSENT = english().pattern("cues", "absent", r"\b(?:{})\s+(?:[a-z]+\s+){{0,2}}$")
 _SENTENCE = re.compile(r"[.;!?\n]\s")
 _THE = re.compile(r"\b(?:the|this|that|our|my)\s+$", re.IGNORECASE)
+_ON_TOP = re.compile(r"\bon[\s-]top of\s+(?:[a-z-]+\s+){0,3}$", re.IGNORECASE)
 _FARTHEST = 80  # characters between a distance, a wind or a side and what it is said of
 
 
@@ -86,7 +87,7 @@ def with_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list
     toward = _shared(text, winds, [mention if cue.has_wind else None for mention, cue in kept])
     of_streets = [mention if mention.form in ("street", "span", "corner") else None for mention, _ in kept]
     beside = _shared(text, _apart(sides, mentions), of_streets)
-    said = [_cue(mention, cue, far.get(n), toward.get(n)) for n, (mention, cue) in enumerate(kept)]
+    said = [_cue(text, mention, cue, far.get(n), toward.get(n)) for n, (mention, cue) in enumerate(kept)]
     return [
         replace(mention, cue=said[n], side=beside[n].value if n in beside else None)
         for n, (mention, _) in enumerate(kept)
@@ -106,7 +107,7 @@ def _apart(said: Sequence[Said], others: Sequence[Said | Mention]) -> list[Said]
     return [one for one in said if not any(one.start < other.end and other.start < one.end for other in others)]
 
 
-def _cue(mention: Mention, read: ReadCue, far: Said | None, wind: Said | None) -> Cue:
+def _cue(text: str, mention: Mention, read: ReadCue, far: Said | None, wind: Said | None) -> Cue:
     degrees = None
     if wind is not None:
         # who is north of it has it in the south
@@ -114,6 +115,10 @@ def _cue(mention: Mention, read: ReadCue, far: Said | None, wind: Said | None) -
     relation = (
         mention.cue.relation if mention.cue != SEEN else read.relation
     )  # of corners and spans: by their own words
+    if _ON_TOP.search(text[: mention.start]):
+        relation = "on"
+    elif relation == "block" and degrees is not None and "block" not in text.lower():
+        relation = "wind"
     metres, is_loose = (far.value, far.is_loose) if far is not None else (None, False)
     if degrees is not None:
         return Cue(relation, None, degrees, metres, is_loose)
