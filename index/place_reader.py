@@ -190,11 +190,11 @@ def near_hints(
 
 
 def _may_be_near(mention: Mention) -> bool:
+    """Whether no more is said than a class and a wind; the gazetteer may lack it: driveways are near or nowhere."""
     cue = mention.cue
     loose = cue.angle is not None or cue.relation not in NEAR_WINDS or (cue.distance_m or 0.0) > 15.0
-    return (
-        mention.form == "thing" and not mention.is_exact and bool(mention.kinds) and mention.trust == 1.0 and not loose
-    )
+    is_kind = mention.form in ("thing", "unknown") and bool(mention.kinds) and not mention.is_exact
+    return is_kind and mention.trust == 1.0 and not loose
 
 
 def _tells(hint: ParsedHint, trust: float) -> bool:

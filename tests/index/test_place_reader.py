@@ -1,10 +1,13 @@
 """People's words on a map with names: the tiny town has streets from west to east and paths from south to north."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from index.answers import Prior, Query
 from index.place_reader import constructions, near_hints, without
+from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.language.places.reader import find_mentions
 
@@ -112,6 +115,14 @@ def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(local
         mentions = posterior.places.read(text, "en", to_listener=False)
         near, places = near_hints(hints, trust, mentions)
         assert (len(near), len(places)) == (kept, 1 - kept)
+
+
+def test_a_class_that_the_gazetteer_lacks_stays_a_hint(localizer) -> None:
+    posterior = localizer.posterior
+    [hints] = posterior.parse(["The pose is south of a bench."])
+    lacks = Mention("bench", 23, 28, "unknown", kinds=("amenity/bench",), cue=Cue("wind", wind=0.0))
+    assert near_hints(hints, [1.0], [lacks]) == ([0], [])
+    assert near_hints(hints, [1.0], [replace(lacks, kinds=())])[0] == [], "a name is no class"
 
 
 def test_a_construction_can_be_left_out(localizer) -> None:
