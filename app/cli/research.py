@@ -49,9 +49,7 @@ def train(
     resume: Annotated[bool, typer.Option("--resume", help="go on with the run in --run-dir, if there is one")] = False,
     reader: Annotated[
         Path | None,
-        typer.Option(
-            help="weights that are kept but for the likelihood (posterior), or for cues and kernels (places)"
-        ),
+        typer.Option(help="weights that are kept but for the likelihood (posterior), or for cues and kernels (places)"),
     ] = None,
     texts: Annotated[
         list[str] | None,
