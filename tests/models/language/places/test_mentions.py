@@ -64,3 +64,23 @@ def test_a_kind_named_again_is_the_same_thing(lookup, cues) -> None:
 def test_another_of_a_kind_is_another(lookup, cues) -> None:
     found = find_mentions("a bench on my left and a bench on my right", lookup, cues)
     assert [m.cue.angle for m in found] == [pytest.approx(-90), pytest.approx(90)]
+
+
+def test_on_top_of_is_on(lookup, cues) -> None:
+    [mention] = find_mentions("The pose is on-top of a gray bench.", lookup, cues)
+    assert mention.cue.relation == "on"
+
+
+def test_each_wind_is_of_one_thing_and_not_of_another_sentence(lookup, cues) -> None:
+    found = find_mentions("I'm north of Bottino. Elmo is west of me.", lookup, cues)
+    assert {mention.text: mention.cue.wind for mention in found} == {"Bottino": 180, "Elmo": 270}
+
+
+def test_a_kind_named_again_takes_no_part(lookup, cues) -> None:
+    found = find_mentions("Meet me at the bakery. Bottino is north of the bakery.", lookup, cues)
+    assert [mention.text for mention in found] == ["bakery", "Bottino"]
+
+
+def test_a_distance_goes_to_what_it_stands_beside(lookup, cues) -> None:
+    found = find_mentions("Bottino is 30 m ahead, Elmo is behind me.", lookup, cues)
+    assert {mention.text: mention.cue.distance_m for mention in found} == {"Bottino": 30, "Elmo": None}

@@ -85,3 +85,14 @@ def test_spans_are_in_order_and_apart(lookup) -> None:
 )
 def test_misspelt_nouns(lookup, wrong, right) -> None:
     assert like_noun(wrong, lookup) == right
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("10th is on my left", True), ("I see 9th's lights", True), ("the 10th is on my left", False),
+        ("by the crossing", False), ("across the crossing", False),
+    ],
+)  # fmt: skip
+def test_an_ordinal_that_is_told_of_is_a_street(lookup, text, found) -> None:
+    assert ("street" in [form for form, _ in spans(text, lookup)]) is found
