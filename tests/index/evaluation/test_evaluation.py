@@ -7,6 +7,7 @@ import pytest
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate, grow, rescore
 from index.evaluation.predictions import FILE, Predictions
+from index.evaluation.scoring import score
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.city.hints import hint_table
@@ -111,6 +112,8 @@ def test_another_scene_is_never_a_hit(run_dir) -> None:
     elsewhere = replace(whole, cell_scenes=np.array(["other"] * len(whole.cell_ids)))
     assert np.isfinite(whole.errors_m()).all()
     assert np.isinf(elsewhere.errors_m()).all()
+    everywhere = replace(elsewhere, radius_m=np.full((len(elsewhere.positions_m), 2), 1e9))
+    assert score(everywhere)["coverage"]["p90"]["true"] == 1.0, "a circle round the whole map holds every scene"
 
 
 def test_a_query_far_from_every_cell_is_asked_and_missed(asked, vectors) -> None:

@@ -201,6 +201,7 @@ def test_a_noun_with_a_hyphen_is_found(lookup, cues) -> None:
     ("text", "street"),
     [
         ("I'm at 25th and 10th, the avenue is behind me.", "10th Avenue"),
+        ("I'm at 10th and 25th, the avenue is behind me.", "10th Avenue"),
         ("I'm on 25th, Bottino on my left, and the street is at my back.", "West 25th Street"),
     ],
 )
