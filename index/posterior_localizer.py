@@ -20,6 +20,7 @@ from models.city.gallery import Gallery, MapData
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
 from models.city.points import Ints, ranges
 from models.language.parsed_hint import RELATIONS, ParsedHint
+from models.language.places.contradictions import contradictions
 from models.language.places.languages import ENGLISH, NAMES, language_of
 from models.language.places.mentions import Mention
 from models.language.places.reader import is_meeting
@@ -127,7 +128,7 @@ class PosteriorLocalizer:
         reading = self.binding.reading(hints) if hints else None
         near, mentions, told = self._places(query, language, hints, reading)
         timings = {"encode": encode_ms + _since(start)}
-        warnings += _not_found(mentions)
+        warnings += (*_not_found(mentions), *contradictions(mentions))
         if not near and told is None:
             said = NOTHING_FITS if mentions else NOTHING_SAID
             return Finding(None, said, timings_ms=timings, warnings=warnings)

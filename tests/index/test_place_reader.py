@@ -57,6 +57,13 @@ def test_a_heading_is_told_by_left_and_ahead(localizer) -> None:
     assert min(heading.mean_deg, 360 - heading.mean_deg) < 40, "the next street lies to the north"
 
 
+def test_a_contradiction_is_told_of(localizer) -> None:
+    found = answer(localizer, "I'm on the north side of East Street 2 and on the south side of East Street 2.")
+    assert found.estimate is not None
+    assert any("its north side and its south side" in warning for warning in found.warnings)
+    assert found.status == "ambiguous"
+
+
 def test_evidence_names_what_explains_and_warns_of_what_is_not_there(localizer) -> None:
     found = answer(localizer, "I'm on East Street 2, next to Zorba's Taverna, at North Path 3")
     by_text = {hint.text: hint for hint in found.evidence}
