@@ -164,6 +164,15 @@ def without(mention: Mention, left_out: frozenset[str]) -> Mention | None:
     return replace(mention, cue=cue, side=None if "side" in left_out else mention.side)
 
 
+def may_be_near(hints: Sequence[ParsedHint], mentions: Sequence[Mention]) -> list[ParsedHint]:
+    """The hints that `near_hints` may keep: what a name, a street or the speaker's heading tells of is none of them."""
+    return [
+        hint
+        for hint in hints
+        if all(_may_be_near(mention) for mention in mentions if mention.start < hint.end and hint.start < mention.end)
+    ]
+
+
 def near_hints(
     hints: Sequence[ParsedHint], trust: Sequence[float], mentions: Sequence[Mention]
 ) -> tuple[list[int], list[Mention]]:

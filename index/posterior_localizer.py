@@ -11,7 +11,7 @@ import numpy as np
 from index.answers import Evidence, Method, ModelName, Query
 from index.filters import inside, log_prior, position_m
 from index.finding import Finding
-from index.place_reader import PlaceReader, near_hints
+from index.place_reader import PlaceReader, may_be_near, near_hints
 from index.place_text import place_text
 from index.ranking import Ranker
 from models.city.colours import Palette
@@ -125,15 +125,13 @@ class PosteriorLocalizer:
         language = language_of(query.description)
         hints = hints if language == ENGLISH else []
         warnings = _of_language(language)
-        reading = self.binding.reading(hints) if hints else None
-        near, mentions, told = self._places(query, language, hints, reading)
+        hints, mentions, told = self._places(query, language, hints)
         timings = {"encode": encode_ms + _since(start)}
         warnings += (*_not_found(mentions), *contradictions(mentions))
-        if not near and told is None:
+        if not hints and told is None:
             said = NOTHING_FITS if mentions else NOTHING_SAID
             return Finding(None, said, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
-        hints = [hints[n] for n in near]
         reading = self.binding.reading(hints) if hints else None
         located = self._located(query, hints, reading, told)
         timings["search"] = _since(start)
@@ -163,16 +161,17 @@ class PosteriorLocalizer:
         return Finding(located, evidence=evidence, place=place, heading=heading)
 
     def _places(
-        self, query: Query, language: str, hints: Sequence[ParsedHint], reading: Reading | None
-    ) -> tuple[list[int], list[Mention], Told | None]:
-        """Which hints tell of what is near, what the text names besides, and what that tells."""
+        self, query: Query, language: str, hints: Sequence[ParsedHint]
+    ) -> tuple[Sequence[ParsedHint], list[Mention], Told | None]:
+        """The hints that tell of what is near, what the text names besides, and what that tells."""
         if self.places is None:
-            return list(range(len(hints))), [], None
+            return hints, [], None
         listener_m = None if query.prior is None else position_m(query.prior.position, query, self.frame)
         mentions = self.places.read(query.description, language, to_listener=listener_m is not None)
-        trust = [] if reading is None else reading.label.amax(dim=1).tolist()
+        hints = may_be_near(hints, mentions)
+        trust = self.binding.reading(hints).label.amax(dim=1).tolist() if hints else []
         near, mentions = near_hints(hints, trust, mentions)
-        return near, mentions, self.places.told(mentions, query.description, listener_m)
+        return [hints[n] for n in near], mentions, self.places.told(mentions, query.description, listener_m)
 
     def _located(
         self, query: Query, hints: Sequence[ParsedHint], reading: Reading | None, told: Told | None

@@ -15,6 +15,7 @@ from models.city.gazetteer.walkways import Walkways
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
 from models.city.points import Ints
 from models.city.types import Floats
+from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of
 
@@ -249,12 +250,10 @@ class PlaceField:
 
     def _fits_of_ways(self, mention: Mention, ways: Ways) -> Tensor:
         """[P, 1] or [P, HEADINGS] the kernel of each way, over all that the angle may be."""
-        angles = mention.cue.angles or ((mention.cue.angle, 1.0),)
         metres = torch.from_numpy(ways.metres).float()
         bearing = torch.from_numpy(np.arctan2(ways.way_m[:, 0], ways.way_m[:, 1])).float()
-        read = [replace(mention, cue=replace(mention.cue, angle=angle)) for angle, _ in angles]
-        fits = [p * self._toward(one, metres, bearing) for one, (_, p) in zip(read, angles, strict=True)]
-        total = torch.from_numpy(mention.weights[ways.item]).float()[:, None] * sum(fits[1:], fits[0])
+        fits = self._toward(mention, metres, bearing)
+        total = torch.from_numpy(mention.weights[ways.item]).float()[:, None] * fits
         if mention.side is None:
             return total
         # the street lies on the other side of who is on its north side
@@ -263,21 +262,35 @@ class PlaceField:
 
     def _toward(self, mention: Mention, metres: Tensor, bearing: Tensor) -> Tensor:
         """[P, 1] or [P, HEADINGS] the kernel of things in a distance and a direction."""
-        fits = self._kernel(mention, metres)[:, None]
         kernels, cue = self.kernels, mention.cue
         if cue.wind is not None:
-            return fits * kernels.toward(kernels.wind, bearing - radians(cue.wind), metres)[:, None]
-        if cue.angle is None:
-            return fits
-        heading = torch.arange(HEADINGS) * (2 * pi / HEADINGS)
-        away = bearing[:, None] - heading - radians(cue.angle)
-        return fits * kernels.toward(kernels.ego, away, metres[:, None])
+            away = bearing - radians(cue.wind)
+            return (self._kernel(mention, metres) * kernels.toward(kernels.wind, away, metres))[:, None]
+        total = torch.zeros(1, 1)
+        first: float | None = None
+        for angle, p in cue.angles or ((cue.angle, 1.0),):
+            kernel = kernel_of(replace(mention, cue=replace(cue, angle=angle)))
+            fits = (p * self._near(kernel, cue, metres))[:, None]
+            if angle is None:
+                total = total + fits
+                continue
+            if first is None:
+                first = angle
+                heading = torch.arange(HEADINGS) * (2 * pi / HEADINGS)
+                density = kernels.toward(kernels.ego, bearing[:, None] - heading - radians(angle), metres[:, None])
+            # what is on the right of who looks north is ahead of who looks east
+            steps = round((angle - first) * HEADINGS / 360.0)
+            total = total + fits * (density.roll(-steps, 1) if steps else density)
+        return total
 
     def _kernel(self, mention: Mention, metres: Tensor) -> Tensor:
-        cue, kernels = mention.cue, self.kernels
+        return self._near(kernel_of(mention), mention.cue, metres)
+
+    def _near(self, kernel: int, cue: Cue, metres: Tensor) -> Tensor:
+        """The kernel of a distance that was said, or the one of TYPES."""
         if cue.distance_m is not None:
-            return kernels.said(metres, cue.distance_m, is_loose=cue.is_loose)
-        return kernels.near(kernel_of(mention), metres)
+            return self.kernels.said(metres, cue.distance_m, is_loose=cue.is_loose)
+        return self.kernels.near(kernel, metres)
 
     def worth(self, mention: Mention, fits: Tensor, mean: Tensor) -> Tensor:
         """Log of how much likelier a mention is here than anywhere."""
