@@ -20,8 +20,9 @@ NAMES = ("models.city.gazetteer", "models.city.kinds")
 PLACES = (*NAMES, "models.language.places", "models.posterior.places")
 SERVED = (*RETRIEVAL, *SOURCES, *PLACES, "models.localization", "models.posterior")
 TRAINED = (*SERVED, GRAMMAR, "models.city.synthetic", "models.training", "models.training.engine")
+FITTED = (*TRAINED, "models.training.posterior")
 ANSWERS = (*SERVED, "index")
-MEASURES = (*TRAINED, "index", "index.evaluation")
+MEASURES = (*FITTED, "index", "index.evaluation")
 # A package: whose modules it may import, beside its own. "models" stands for the modules right in models/.
 MAY_IMPORT = {
     "models": ("models.language",),
@@ -48,6 +49,7 @@ MAY_IMPORT = {
     ),
     "models.posterior.places": (*LANGUAGE, "models.city.gazetteer", "models.language.places"),
     "models.training": TRAINED,
+    "models.training.posterior": FITTED,
     "models.training.engine": RETRIEVAL,
     "index": SERVED,
     "index.evaluation": MEASURES,

@@ -92,8 +92,8 @@ def _train_places(
     """Train the reader of cues and fit the kernels of places."""
     from app.cli.progress import stage_bars
     from models.errors import TrainingError
-    from models.training.fit_places import STEPS
-    from models.training.train_places import train_places
+    from models.training.posterior.fit_places import STEPS
+    from models.training.posterior.train_places import train_places
 
     if method != "places" or len(texts) != len(data):
         raise TrainingError("--texts is for --method places: name the texts of each --data, in the same order")
@@ -150,7 +150,7 @@ def _train_posterior(
     *rest: Any,
 ) -> str:
     """Train the hint posterior, or fit its likelihood alone; its figures in words."""
-    from models.training.fit_posterior import refit_posterior, train_posterior
+    from models.training.posterior.fit_posterior import refit_posterior, train_posterior
 
     if reader is None:
         figures = train_posterior(data, splits, out, model, config, *rest)

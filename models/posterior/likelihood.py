@@ -55,7 +55,7 @@ class Likelihood(nn.Module):
     pi falls with distance and rank and is shared among what is near; an instance that explains several hints counts
     less for each (at most one hint an instance, softly). eps, a hint that nothing explains, is likelier for what is
     said often in the map. About a hundred weights, fitted by maximum likelihood on training towns
-    (`models.training.fit_likelihood`).
+    (`models.training.posterior.fit_likelihood`).
     """
 
     def __init__(self) -> None:

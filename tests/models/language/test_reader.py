@@ -17,7 +17,7 @@ from models.posterior.binding import Binding, colour_table
 from models.posterior.model import load_posterior
 from models.posterior.node_batch import colour_words
 from models.training.engine.loop import LoopConfig, run_training
-from models.training.fit_reader import ReadingSet, ReadingTask, draw_facts, example_targets, reading_figures
+from models.training.posterior.fit_reader import ReadingSet, ReadingTask, draw_facts, example_targets, reading_figures
 
 KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "vegetation")
 

@@ -12,8 +12,8 @@ from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
 from models.posterior.node_batch import colour_words
 from models.posterior.posterior import HintPosterior
-from models.training.fit_likelihood import Texts, around_cells, fit_likelihood, surprise
-from models.training.places import Place
+from models.training.posterior.fit_likelihood import Texts, around_cells, fit_likelihood, surprise
+from models.training.posterior.places import Place
 
 
 @dataclass

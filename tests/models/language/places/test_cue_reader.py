@@ -1,7 +1,7 @@
 import pytest
 
 from models.language.places.cue_reader import LONGEST, CueReader
-from models.training.fit_cues import LABELLED, accuracy, load_labelled
+from models.training.posterior.fit_cues import LABELLED, accuracy, load_labelled
 
 
 def angles(cues: CueReader, text: str, *things: str) -> list[float | None]:

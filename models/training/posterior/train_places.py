@@ -15,8 +15,8 @@ from models.city.told_texts import load_told_texts
 from models.language.places.cue_reader import CueReader
 from models.posterior.model import PosteriorModel, load_posterior, save_posterior
 from models.posterior.places.kernels import PlaceKernels
-from models.training.fit_cues import EPOCHS, LABELLED, OTHERS, PEOPLE, accuracy, fit_cues, load_labelled
-from models.training.fit_places import ToldPlace, calibrate_places, fit_places, read_cases
+from models.training.posterior.fit_cues import EPOCHS, LABELLED, OTHERS, PEOPLE, accuracy, fit_cues, load_labelled
+from models.training.posterior.fit_places import ToldPlace, calibrate_places, fit_places, read_cases
 
 
 def train_places(

@@ -16,10 +16,10 @@ from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 from models.training.engine.loop import Progress, run_training
-from models.training.fit_cues import EPOCHS, fit_cues, labelled_texts
-from models.training.fit_likelihood import Texts, fit_likelihood
-from models.training.fit_reader import ReadingSet, ReadingTask, reading_figures
-from models.training.places import Place
+from models.training.posterior.fit_cues import EPOCHS, fit_cues, labelled_texts
+from models.training.posterior.fit_likelihood import Texts, fit_likelihood
+from models.training.posterior.fit_reader import ReadingSet, ReadingTask, reading_figures
+from models.training.posterior.places import Place
 from models.training.settings import TrainingConfig, settings_record
 
 TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chosen by

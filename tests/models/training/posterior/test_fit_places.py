@@ -7,7 +7,7 @@ from models.city.told_texts import ToldText
 from models.errors import TrainingError
 from models.posterior.model import load_posterior
 from models.posterior.places.kernels import PlaceKernels
-from models.training.fit_places import Case, ToldPlace, calibrate_places, fit_places, read_cases
+from models.training.posterior.fit_places import Case, ToldPlace, calibrate_places, fit_places, read_cases
 from tests.models.city.gazetteer.made_town import is_common, made_gazetteer
 
 FRAME = Frame("map", 40.75, -74.0)
@@ -58,11 +58,11 @@ def fitted(steps: int, **changed: float) -> tuple[PlaceKernels, list[tuple[int, 
 def _small(monkeypatch):
     """Few cells, so that a step takes hundredths of a second; means of the last step alone."""
     for name, value in {"HARD": 60, "RANDOM": 20, "SAMPLED": 300, "BATCH": 1, "PULL": 0.0}.items():
-        monkeypatch.setattr(f"models.training.fit_places.{name}", value)
+        monkeypatch.setattr(f"models.training.posterior.fit_places.{name}", value)
 
 
 def test_fitting_lowers_the_surprise(monkeypatch) -> None:
-    monkeypatch.setattr("models.training.fit_places.BATCH", 5)
+    monkeypatch.setattr("models.training.posterior.fit_places.BATCH", 5)
     _, done = fitted(30, scale=1.5)  # far too wide
     assert [step for step, _, _ in done] == list(range(1, 31))
     first, last = done[0][2], done[-1][2]
@@ -84,7 +84,7 @@ def test_a_strong_pull_keeps_the_weights(monkeypatch) -> None:
         return sum(float(((a - b) ** 2).sum().detach()) for a, b in pairs)
 
     free = moved(fitted(12)[0])
-    monkeypatch.setattr("models.training.fit_places.PULL", 100.0)
+    monkeypatch.setattr("models.training.posterior.fit_places.PULL", 100.0)
     assert moved(fitted(12)[0]) < free / 2
 
 

@@ -7,7 +7,7 @@ import torch
 from models.errors import TrainingError
 from models.language.places.cue_reader import ANGLES, CueReader
 from models.posterior.model import load_posterior
-from models.training.fit_cues import CueText, Item, accuracy, fit_cues, load_labelled, mirrored, varied
+from models.training.posterior.fit_cues import CueText, Item, accuracy, fit_cues, load_labelled, mirrored, varied
 
 TEXTS = [
     CueText("the bank is on my left", (Item(4, 8, 0, ANGLES.index(-90.0)),)),
@@ -24,7 +24,7 @@ def reader() -> CueReader:
 
 
 def test_it_learns_and_leaves_the_other_reader_as_it_was(reader, monkeypatch) -> None:
-    monkeypatch.setattr("models.training.fit_cues.WARM_UP", 5)
+    monkeypatch.setattr("models.training.posterior.fit_cues.WARM_UP", 5)
     base = [p.clone() for p in load_posterior().reader.tuned.parameters()]
     losses = []
     fit_cues(reader, TEXTS, 30, np.random.default_rng(0), lambda *row: losses.append(row[2]))

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
@@ -11,15 +11,17 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
+from models.city.points import Ints
 from models.errors import TrainingError
 from models.language.places.cue_reader import ANGLES, FLAGS, FORMS, RELATIONS, CueReader, token_span
 
-LABELLED: Final = Path(__file__).parents[1] / "language" / "places" / "labelled"
+LABELLED: Final = Path(__file__).parents[2] / "language" / "places" / "labelled"
 PEOPLE: Final = "people"  # of them the kernels of places are fitted to some, so that they are read by halves
 OTHERS: Final = ("invented", "meeting")
 TRAINED_ON: Final = (PEOPLE, *OTHERS)
 EPOCHS: Final = 9
 BATCH: Final = 16
+DRAWN: Final = 16  # batches that are sorted by length together
 RATE, HEAD_RATE = 1e-3, 2e-3
 WARM_UP: Final = 40  # steps
 SMOOTHING: Final = 0.03  # of labels
@@ -126,13 +128,11 @@ def fit_cues(
     batches = -(-len(texts) // BATCH)
     losses: list[float] = []
     for epoch in range(epochs):
-        order = rng.permutation(len(texts))
-        for n in range(batches):
+        for n, rows in enumerate(_batches(texts, rng)):
             step = epoch * batches + n
             for group in optimizer.param_groups:
                 group["lr"] = group["rate"] * min(1.0, (step + 1) / WARM_UP) * max(0.02, 1 - step / (epochs * batches))
-            some = [varied(texts[row], rng) for row in order[n * BATCH : (n + 1) * BATCH]]
-            loss = _loss(reader, some)
+            loss = _loss(reader, [varied(texts[row], rng) for row in rows])
             optimizer.zero_grad()
             loss.backward()
             nn.utils.clip_grad_norm_([*low, *high], 1.0)
@@ -142,6 +142,17 @@ def fit_cues(
                 progress(step + 1, epochs * batches, float(np.mean(losses[-batches:])))
     reader.eval()
     return float(np.mean(losses[-batches:]))
+
+
+def _batches(texts: Sequence[CueText], rng: np.random.Generator) -> Iterator[Ints]:
+    """All texts once, at random; those of like length together, as what is padded costs time."""
+    order = rng.permutation(len(texts))
+    length = np.array([len(text.text) for text in texts])
+    some = [order[start : start + DRAWN * BATCH] for start in range(0, len(order), DRAWN * BATCH)]
+    order = np.concatenate([rows[np.argsort(length[rows], kind="stable")] for rows in some])
+    starts = np.arange(0, len(order), BATCH)
+    for start in rng.permutation(starts):
+        yield order[start : start + BATCH]
 
 
 def _loss(reader: CueReader, texts: Sequence[CueText]) -> Tensor:

@@ -14,8 +14,8 @@ from models.language.lexicon.lexicon import load_lexicon
 from models.language.parsed_hint import WINDS
 from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
-from models.training import fit_posterior
-from models.training.places import Place
+from models.training.posterior import fit_posterior
+from models.training.posterior.places import Place
 from models.training.settings import TrainingConfig
 
 
@@ -75,7 +75,7 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
 
 def test_a_slip_changes_one_fact_to_what_is_not_true(monkeypatch) -> None:
     """Of texts in the benchmark's wording."""
-    monkeypatch.setattr("models.training.places.SLIPS", 1.0)
+    monkeypatch.setattr("models.training.posterior.places.SLIPS", 1.0)
     shipped, texts = load_posterior(), []
 
     def read(some):
