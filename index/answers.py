@@ -179,7 +179,11 @@ class Evidence:
         float | None, Field(description="of places: from the estimate to it, clockwise from north")
     ] = None
     exact: Annotated[
-        bool | None, Field(description="of places: whether the map has just this name; null for what is near")
+        bool | None,
+        Field(
+            description="of places: whether this is a name of it on the map, or another of its chain; null for what is "
+            "near"
+        ),
     ] = None
 
 

@@ -24,6 +24,7 @@ from models.posterior.places.field import Explained, PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
 TRUSTED: Final = 0.5  # of a hint's class, from which on it is no place but what is near
+HEADING_NODES: Final = 128  # that the heading is told from: the likeliest
 SPREAD: Final = 60.0  # degrees; a heading that is less sure is none
 _EGO: Final = ((22.5, "ahead"), (67.5, "ahead {}"), (112.5, "{}"), (157.5, "behind {}"), (181.0, "behind"))
 NEAR_WINDS: Final = frozenset(
@@ -111,7 +112,8 @@ class PlaceReader:
         if told is None or not any(mention.cue.angle is not None for mention in told.places.mentions):
             return None
         near = np.hypot(*(located.points_m - located.positions[0]).T) <= located.radii_m(0.5)[0] + 3.0
-        rows = np.flatnonzero(near)[:400]
+        rows = np.flatnonzero(near)
+        rows = rows[np.argsort(-located.weight[rows], kind="stable")[:HEADING_NODES]]
         if not len(rows):
             return None
         by = self.field.by_heading(told.places, located.points_m[rows], np.zeros(len(rows), np.int64))

@@ -15,6 +15,7 @@ from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrio
 from models.posterior.surroundings import SPACING_M
 
 HIT_M = 6.5  # positions are chosen to have most of the mass this near, softly
+PLACE_HIT_M = 10.0  # the same where places are named: what is far away leaves a wider peak
 BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
 MEAN_M = 3.0  # and are then the mean of the mass this near
 HEAVY = 256  # nodes that the mass within reach is added up from: the likeliest
@@ -74,7 +75,7 @@ def locate(
         score=mass[order],
         probability=np.exp(mass[order] - total),
         other=float(np.exp(rest - total)),
-        positions=_positions(field, nodes_m, weight, order, posterior.cells),
+        positions=_positions(field, nodes_m, weight, order, posterior.cells, HIT_M if told is None else PLACE_HIT_M),
         points_m=nodes_m,
         points=field.nodes,
         weight=weight,
@@ -146,7 +147,7 @@ def _cell_scores(
     return np.where(starts[1:] > starts[:-1], scores, -np.inf)
 
 
-def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable) -> Floats:
+def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable, reach_m: float) -> Floats:
     """[K, 2] for each cell, in the given order, the place with most mass within reach.
 
     Of the first cell anywhere in its cube, which the cells beside it share; of the others in the part that each owns,
@@ -161,7 +162,7 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     with torch.inference_mode():
         square = _squares(nodes_m[centers])
         share = torch.from_numpy(weight[centers] / max(weight[centers].max(), 1e-300)).float().clamp(min=1e-30)
-        near_mass = (_bump(square / HIT_M**2) @ share).numpy()
+        near_mass = (_bump(square / reach_m**2) @ share).numpy()
     owner = field.cell[centers]
     chosen = np.zeros(len(field.cells), np.int64)
     ascending = np.lexsort((near_mass, owner))

@@ -52,7 +52,7 @@ class Said:
         start, end: its characters.
         value: metres, or degrees clockwise from north.
         is_loose: of a distance: whether its unit is a loose one.
-        is_of: of a wind: whether it is "north of" something.
+        is_of: whether it is "north of" something, or "30 m short of" it.
     """
 
     start: int
@@ -81,7 +81,13 @@ _WIND = re.compile(rf"\b({WIND_WORD})(?:ern|erly|wards?|bound)?\b", re.IGNORECAS
 _OF = re.compile(
     r"(?:\s+(?:side|end|corner))?\s+(?:of|from|to)\b(?!\s+(?:me|us|it|here|this|you|there|where|that)\b)", re.IGNORECASE
 )
+_FROM = re.compile(
+    r"\s+(?:[a-z-]+\s+){0,2}(?:of|from|before|past|off|beyond|after)\b(?!\s+(?:me|us|it|here|this|you|there|where|that)\b)",
+    re.IGNORECASE,
+)
 _LOOSE = _W.list("loose_units")
+_THINGS = ("yard", "foot", "meter", "metre", "door", "shop", "store", "building")
+_AWAY = re.compile(r"\s+(?:away|ahead|behind|past|off|from|or\s+so|back|further|over|up|down)\b", re.IGNORECASE)
 
 
 def distances_of(text: str) -> list[Said]:
@@ -100,11 +106,23 @@ def distances_of(text: str) -> list[Said]:
 
 def _measured(plain: str) -> Iterator[Said]:
     for found in _DISTANCE.finditer(plain):
+        if not _is_distance(plain, found):
+            continue
         word, unit = found[1].lower(), found[3].lower()
         number = NUMBERS[word] if word in NUMBERS else float(_THOUSANDS.sub("", word).replace(",", "."))
         metres = (number + (0.5 if found[2] or found[4] else 0.0)) * _W.metres[unit]
         if metres <= FARTHEST_M:
-            yield Said(found.start(), found.end(), metres, unit in _LOOSE)
+            is_of = _FROM.match(plain, found.end()) is not None
+            yield Said(found.start(), found.end(), metres, unit in _LOOSE, is_of)
+
+
+def _is_distance(plain: str, found: re.Match[str]) -> bool:
+    """Whether a number and a unit are a distance: neither a Foot Locker, nor two Miles Galleries, nor a shop."""
+    number, unit = found[1], found[3]
+    if unit[:1].isupper() and number[:1].islower() and not plain.isupper():
+        return False
+    is_thing = number.lower() in ("a", "an") and unit.lower() in _THINGS
+    return not is_thing or _AWAY.match(plain, found.end()) is not None
 
 
 def _compound(found: re.Match[str]) -> str:

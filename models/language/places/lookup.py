@@ -34,7 +34,7 @@ class Match:
         objects: [n] of the gazetteer.
         weights: [n] relative.
         trust: that the words mean one of them.
-        is_exact: whether a whole name was said as it is written.
+        is_exact: whether a whole name was said as it is written, or as a chain is also called.
     """
 
     objects: Ints
@@ -75,6 +75,7 @@ class Lookup:
                 postings.setdefault(word, []).append(row)
         self._postings = {word: frozenset(rows) for word, rows in postings.items()}
         self._nouns = self._plain_nouns(ENGLISH)
+        self._spellings = self._other_spellings()
         self._kinds: dict[tuple[str, tuple[str, ...]], Mapping[str, float]] = {}
 
     def worth(self, word: str) -> float:
@@ -143,6 +144,8 @@ class Lookup:
         """Objects that bear a name, or of whose names the words are a telling part."""
         plain = tuple(words)
         row = self._row.get(plain)
+        if row is None and plain in self._spellings:
+            return _match(dict.fromkeys(self._spellings[plain], 1.0), 1.0, is_exact=True)
         exact = dict.fromkeys(self._objects[row].tolist(), 1.0) if row is not None else {}
         content = [word for word in plain if word not in EMPTY]
         is_part = bool(content) and all(word in self._postings for word in content)
@@ -159,6 +162,18 @@ class Lookup:
         if exact:
             return _match({n: PART * weight for n, weight in found.items()} | exact, 1.0, is_exact=True)
         return _match(found, 0.9, is_exact=False)
+
+    def _other_spellings(self) -> Mapping[tuple[str, ...], list[int]]:
+        """The objects of chains by spellings that the map has not: Kentucky Fried Chicken is KFC."""
+        found: dict[tuple[str, ...], list[int]] = {}
+        for number in self.gazetteer.named.tolist():
+            for name in self.gazetteer.words[number].names:
+                for spelling in self.vocabulary.spellings(name):
+                    plain = plain_words(spelling)
+                    is_telling = any(len(word) > 2 and not self.is_common(word) for word in plain)
+                    if is_telling and plain not in self._row and not self._nouns.get(" ".join(plain)):
+                        found.setdefault(plain, []).append(number)
+        return found
 
     def misspelt(self, words: Sequence[str]) -> Match | None:
         """Objects whose names differ by a letter in six or so."""

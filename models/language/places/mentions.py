@@ -65,10 +65,12 @@ class Mention:
 _SIDE = re.compile(
     rf"\b({WIND_WORD})(?:ern|most)?\s+(?:side|end|corner|edge|part|half|bank)(?:\s+(?:of|on))?\b", re.IGNORECASE
 )
+_THE_STREET = re.compile(r"\s+(?:the|that|this)\s+(?:same\s+)?(?:street|road|avenue|ave|st)\b", re.IGNORECASE)
 _ABSENT = english().pattern("cues", "absent", r"\b(?:{})\s+(?:[a-z]+\s+){{0,2}}$")
 _SENTENCE = re.compile(r"[.;!?\n]\s")
 _THE = re.compile(r"\b(?:the|this|that|our|my)\s+$", re.IGNORECASE)
 _ON_TOP = re.compile(r"\bon[\s-]top of\s+(?:[a-z-]+\s+){0,3}$", re.IGNORECASE)
+_PAUSE = re.compile(r"\s*[,)]|\s+and\b", re.IGNORECASE)
 _FARTHEST = 80  # characters between a distance, a wind or a side and what it is said of
 
 
@@ -85,8 +87,7 @@ def with_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list
     winds = _apart(winds_of(text), [*mentions, *sides])  # the east of East 53rd Street is none
     far = _shared(text, distances_of(text), [mention for mention, _ in kept])
     toward = _shared(text, winds, [mention if cue.has_wind else None for mention, cue in kept])
-    of_streets = [mention if mention.form in ("street", "span", "corner") else None for mention, _ in kept]
-    beside = _shared(text, _apart(sides, mentions), of_streets)
+    beside = _sides(text, _apart(sides, mentions), kept)
     said = [_cue(text, mention, cue, far.get(n), toward.get(n)) for n, (mention, cue) in enumerate(kept)]
     return [
         replace(mention, cue=said[n], side=beside[n].value if n in beside else None)
@@ -125,6 +126,25 @@ def _cue(text: str, mention: Mention, read: ReadCue, far: Said | None, wind: Sai
     return Cue(relation, read.angle, None, metres, is_loose, read.angles)
 
 
+def _sides(text: str, sides: Sequence[Said], kept: Sequence[tuple[Mention, ReadCue]]) -> dict[int, Said]:
+    """Of each street the side that is said: "the north side of the street" is that of the street it lies on."""
+    found: dict[int, Said] = {}
+    for side in sides:
+        if _THE_STREET.match(text, side.end):
+            before = [
+                n for n, (mention, _) in enumerate(kept) if mention.form == "street" and mention.end <= side.start
+            ]
+            on = [n for n in before if kept[n][1].relation == "inside"]
+            if before:
+                found[(on or before)[-1]] = side
+    rest = [side for side in sides if side not in found.values()]
+    streets = [
+        mention if mention.form in ("street", "span", "corner") and n not in found else None
+        for n, (mention, _) in enumerate(kept)
+    ]
+    return found | _shared(text, rest, streets)
+
+
 def _shared(text: str, said: Sequence[Said], mentions: Sequence[Mention | None]) -> dict[int, Said]:
     """Of each mention the distance, wind or side that is nearest to it in the text; each is of one mention."""
     pairs = sorted(
@@ -143,8 +163,9 @@ def _shared(text: str, said: Sequence[Said], mentions: Sequence[Mention | None])
 
 
 def _gap(text: str, said: Said, mention: Mention) -> int:
-    """Characters between the two; more over the end of a sentence, and back from what is "north of" something else."""
+    """Characters between the two; more over the end of a sentence or clause, and back from what is "north of" more."""
     is_before = said.start < mention.start
     start, end = (said.end, mention.start) if is_before else (mention.end, said.start)
     is_far = _SENTENCE.search(text, start, max(start, end)) is not None or (said.is_of and not is_before)
-    return max(0, end - start) + (_FARTHEST // 2 if is_far else 0)
+    is_over = is_before and _PAUSE.match(text, said.end) is not None
+    return max(0, end - start) + (_FARTHEST // 2 if is_far else 0) + (_FARTHEST // 4 if is_over else 0)

@@ -1,11 +1,7 @@
 """Training the reader of cues on labelled texts (docs/method.md, how texts about places are read)."""
 
-import json
-import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import torch
@@ -14,12 +10,9 @@ from torch import Tensor, nn
 from models.city.points import Ints
 from models.errors import TrainingError
 from models.language.places.cue_reader import ANGLES, FLAGS, FORMS, RELATIONS, CueReader, token_span
+from models.training.posterior.cue_texts import CueText, names_of, varied
 
-LABELLED: Final = Path(__file__).parents[2] / "language" / "places" / "labelled"
-PEOPLE: Final = "people"  # of them the kernels of places are fitted to some, so that they are read by halves
-OTHERS: Final = ("invented", "meeting")
-TRAINED_ON: Final = (PEOPLE, *OTHERS)
-EPOCHS: Final = 9
+EPOCHS: Final = 12
 BATCH: Final = 16
 DRAWN: Final = 16  # batches that are sorted by length together
 RATE, HEAD_RATE = 1e-3, 2e-3
@@ -27,75 +20,6 @@ WARM_UP: Final = 40  # steps
 SMOOTHING: Final = 0.03  # of labels
 RELATION_WEIGHT, FLAG_WEIGHT = 0.6, 0.3
 NEAR: Final = 30.0  # degrees: read right
-MIRRORED, SPOILT, LEFT_OUT = 0.5, 0.4, 0.15  # shares of texts
-_SIDES = re.compile(r"\b(left|right)\b", re.IGNORECASE)
-_OTHER = {"left": "right", "right": "left"}
-# "right" is an adverb too, which has no mirror image
-_ADVERB = re.compile(
-    r"\bright\s+(?!(?:hand|side|of|and|is|are|s|then|there|with|now)\b)(?:[a-z]+)|\bleft\s+(?:the|my|a)\b|\b(?:just|have|i|we)\s+left\b",
-    re.IGNORECASE,
-)
-
-
-@dataclass(frozen=True, slots=True)
-class Item:
-    """A mention of a labelled text: characters, and rows of FORMS, ANGLES, RELATIONS; whether it is meant at all."""
-
-    start: int
-    end: int
-    form: int
-    angle: int = 0
-    relation: int = 0
-    has_wind: bool = False
-    is_meant: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class CueText:
-    """A labelled text."""
-
-    text: str
-    items: tuple[Item, ...]
-
-
-def load_labelled(path: Path) -> list[CueText]:
-    """Labelled texts, one JSON object a line.
-
-    Raises:
-        TrainingError: a line is no labelled text.
-    """
-    found = []
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-        try:
-            row = json.loads(line)
-            items = [_item(one) for one in row["mentions"]]
-            items += [
-                Item(one["start"], one["end"], FORMS.index(one["form"]), is_meant=False)
-                for one in row.get("not_meant", ())
-            ]
-            found.append(CueText(row["text"], tuple(sorted(items, key=lambda item: item.start))))
-        except (ValueError, KeyError, TypeError) as error:
-            raise TrainingError(
-                f"{path}, line {number}: {type(error).__name__}: {error}; see labelled/README.md"
-            ) from error
-    return found
-
-
-def labelled_texts() -> list[CueText]:
-    """All that ship, but for those that are held out."""
-    return [text for name in TRAINED_ON for text in load_labelled(LABELLED / f"{name}.jsonl")]
-
-
-def _item(row: dict[str, Any]) -> Item:
-    angle = row["angle"]
-    return Item(
-        row["start"],
-        row["end"],
-        FORMS.index(row["form"]),
-        ANGLES.index(None if angle is None else float(angle)),
-        RELATIONS.index(row["relation"]),
-        bool(row.get("wind")),
-    )
 
 
 def fit_cues(
@@ -125,14 +49,14 @@ def fit_cues(
         [{"params": low, "rate": RATE}, {"params": high, "rate": HEAD_RATE}], weight_decay=0.01
     )
     reader.train()
-    batches = -(-len(texts) // BATCH)
+    batches, names = -(-len(texts) // BATCH), names_of(texts)
     losses: list[float] = []
     for epoch in range(epochs):
         for n, rows in enumerate(_batches(texts, rng)):
             step = epoch * batches + n
             for group in optimizer.param_groups:
                 group["lr"] = group["rate"] * min(1.0, (step + 1) / WARM_UP) * max(0.02, 1 - step / (epochs * batches))
-            loss = _loss(reader, [varied(texts[row], rng) for row in rows])
+            loss = _loss(reader, [varied(texts[row], names, rng) for row in rows])
             optimizer.zero_grad()
             loss.backward()
             nn.utils.clip_grad_norm_([*low, *high], 1.0)
@@ -200,53 +124,3 @@ def _is_near(one: float | None, other: float | None) -> bool:
     if one is None or other is None:
         return one is other
     return abs((one - other + 180.0) % 360.0 - 180.0) <= NEAR
-
-
-def varied(text: CueText, rng: np.random.Generator) -> CueText:
-    """A text, now and then its mirror image, misspelt, without punctuation or with a mention less."""
-    if rng.random() < MIRRORED:
-        text = mirrored(text)
-    if rng.random() < SPOILT:
-        text = replace(text, text=_spoilt(text.text, rng))
-    if rng.random() < LEFT_OUT and len(text.items) > 1:
-        gone = int(rng.integers(len(text.items)))
-        text = replace(text, items=text.items[:gone] + text.items[gone + 1 :])
-    return text
-
-
-def mirrored(text: CueText) -> CueText:
-    """A text with left and right exchanged; as it is where "right" is an adverb."""
-    sides = list(_SIDES.finditer(text.text))
-    if not sides or _ADVERB.search(text.text):
-        return text
-
-    def moved(at: int) -> int:
-        return at + sum(len(_OTHER[side[0].lower()]) - len(side[0]) for side in sides if side.end() <= at)
-
-    items = [
-        replace(item, start=moved(item.start), end=moved(item.end), angle=_mirror(item.angle)) for item in text.items
-    ]
-    return CueText(_SIDES.sub(_exchanged, text.text), tuple(items))
-
-
-def _exchanged(found: re.Match[str]) -> str:
-    other = _OTHER[found[0].lower()]
-    return other.capitalize() if found[0][0].isupper() else other
-
-
-def _mirror(angle: int) -> int:
-    degrees = ANGLES[angle]
-    return angle if degrees in (None, 180.0) else ANGLES.index(-degrees if degrees else 0.0)
-
-
-def _spoilt(text: str, rng: np.random.Generator) -> str:
-    """As typed in a hurry: without capitals, without punctuation, or with letters exchanged; as long as before."""
-    drawn = rng.random()
-    if drawn < 0.4:
-        text = text.lower()
-        return re.sub(r"[.,;!?]", " ", text) if drawn < 0.25 else text
-    letters = list(text)
-    for at in rng.integers(1, max(2, len(letters) - 1), size=int(rng.integers(1, 4))):
-        if "".join(letters[at - 1 : at + 2]).isalpha():
-            letters[at - 1], letters[at] = letters[at], letters[at - 1]
-    return "".join(letters)

@@ -20,7 +20,7 @@ from models.language.places.cue_reader import CueReader
 from models.language.places.lookup import Lookup
 from models.language.places.reader import find_mentions, is_meeting, listener_wind, with_goal
 from models.language.text_encoder import TextEncoder
-from models.posterior.locate import HIT_M
+from models.posterior.locate import PLACE_HIT_M
 from models.posterior.places.field import PlaceField, Places, Rough
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
@@ -243,7 +243,7 @@ def _answer(case: Case) -> tuple[float, float, float]:
     hit = best == int(np.hypot(*(case.centers_m - case.goal_m).T).argmin())
     heavy = np.argsort(-weight)[:HEAVY]
     away = ((case.points_m[heavy][:, None] - case.points_m[heavy][None]) ** 2).sum(axis=2)
-    at = case.points_m[heavy[(np.exp(-((away / HIT_M**2) ** 3)) @ weight[heavy]).argmax()]]
+    at = case.points_m[heavy[(np.exp(-((away / PLACE_HIT_M**2) ** 3)) @ weight[heavy]).argmax()]]
     radius = np.hypot(*(case.points_m - at).T)
     order = np.argsort(radius)
     p90 = radius[order][np.searchsorted(np.cumsum(weight[order]), HELD)]

@@ -16,7 +16,8 @@ from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 from models.training.engine.loop import Progress, run_training
-from models.training.posterior.fit_cues import EPOCHS, fit_cues, labelled_texts
+from models.training.posterior.cue_texts import labelled_texts
+from models.training.posterior.fit_cues import EPOCHS, fit_cues
 from models.training.posterior.fit_likelihood import Texts, fit_likelihood
 from models.training.posterior.fit_reader import ReadingSet, ReadingTask, reading_figures
 from models.training.posterior.places import Place

@@ -2,8 +2,10 @@
 
 import json
 from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from functools import partial
 from math import log
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +17,8 @@ from models.city.told_texts import load_told_texts
 from models.language.places.cue_reader import CueReader
 from models.posterior.model import PosteriorModel, load_posterior, save_posterior
 from models.posterior.places.kernels import PlaceKernels
-from models.training.posterior.fit_cues import EPOCHS, LABELLED, OTHERS, PEOPLE, accuracy, fit_cues, load_labelled
+from models.training.posterior.cue_texts import LABELLED, OTHERS, PEOPLE, CueText, load_labelled
+from models.training.posterior.fit_cues import EPOCHS, accuracy, fit_cues
 from models.training.posterior.fit_places import ToldPlace, calibrate_places, fit_places, read_cases
 
 
@@ -50,7 +53,7 @@ def train_places(
     record = json.loads(((weights or SHIPPED / "posterior") / CONFIG_FILE).read_text())["training"]
     torch.manual_seed(seed)
     rng, kernels = np.random.default_rng(seed), PlaceKernels()
-    cues_for, figures = _train_readers(model, rng, progress)
+    cues_for, figures = _train_readers(model, weights, seed, rng, progress)
     cases = []
     for path, files in maps:
         source = open_source(path)
@@ -71,9 +74,13 @@ def train_places(
 
 
 def _train_readers(
-    model: PosteriorModel, rng: np.random.Generator, progress: Callable[[str, int, int, float], None] | None
+    model: PosteriorModel,
+    weights: Path | None,
+    seed: int,
+    rng: np.random.Generator,
+    progress: Callable[[str, int, int, float], None] | None,
 ) -> tuple[Callable[[str], CueReader], dict[str, float]]:
-    """Train the model's reader of cues on all labelled texts, and one on each half of the people's.
+    """Train the model's reader of cues on all labelled texts, and one on each half of the people's, at the same time.
 
     Returns:
         For a text a reader that was not trained on it, and shares of what those two read right of the other half.
@@ -82,14 +89,33 @@ def _train_readers(
     others = [text for name in OTHERS for text in load_labelled(LABELLED / f"{name}.jsonl")]
     half = rng.permutation(len(people)) % 2
     halves = [[text for text, side in zip(people, half, strict=True) if side == n] for n in (0, 1)]
-    readers, right = [], []
-    for n, trained_on in enumerate(halves):
-        reader = CueReader(model.text_encoder, model.reader.tuned, model.config.frozen_layers)
-        fit_cues(reader, [*trained_on, *others], EPOCHS, rng, progress and partial(progress, f"cues {n + 1} of 3"))
-        readers.append(reader)
-        right.append(accuracy(reader, halves[1 - n]))
-    model.cues = CueReader(model.text_encoder, model.reader.tuned, model.config.frozen_layers)
-    fit_cues(model.cues, [*people, *others], EPOCHS, rng, progress and partial(progress, "cues 3 of 3"))
-    by_text = {text.text: readers[1 - n] for n, some in enumerate(halves) for text in some}
+    trained_on = [[*some, *others] for some in (*halves, people)]
+    losses = [0.0] * len(trained_on)
+    readers = [_new_reader(model) for _ in trained_on]
+    with ProcessPoolExecutor(len(readers), get_context("spawn")) as pool:
+        fits = {pool.submit(_fit_reader, weights, texts, EPOCHS, (seed, n)): n for n, texts in enumerate(trained_on)}
+        for done, fit in enumerate(as_completed(fits), 1):
+            state, losses[fits[fit]] = fit.result()
+            readers[fits[fit]].load_state_dict(state)
+            if progress:
+                progress("train readers of cues", done, len(readers), losses[fits[fit]])
+    *crossed, model.cues = (reader.eval() for reader in readers)
+    right = [accuracy(reader, halves[1 - n]) for n, reader in enumerate(crossed)]
+    by_text = {text.text: crossed[1 - n] for n, some in enumerate(halves) for text in some}
     figures = {f"{name}_right": (right[0][name] + right[1][name]) / 2 for name in right[0]}
     return lambda text: by_text.get(text, model.cues), figures
+
+
+def _fit_reader(
+    weights: Path | None, texts: Sequence[CueText], epochs: int, seed: tuple[int, int]
+) -> tuple[dict[str, torch.Tensor], float]:
+    """The weights of a reader of cues trained on texts, and its last loss; in a process of its own."""
+    torch.set_num_threads(1)
+    torch.manual_seed(seed[0] + seed[1])
+    reader = _new_reader(load_posterior(weights))
+    loss = fit_cues(reader, texts, epochs, np.random.default_rng(seed))
+    return reader.state_dict(), loss
+
+
+def _new_reader(model: PosteriorModel) -> CueReader:
+    return CueReader(model.text_encoder, model.reader.tuned, model.config.frozen_layers)

@@ -1,7 +1,8 @@
 import pytest
 
 from models.language.places.cue_reader import LONGEST, CueReader
-from models.training.posterior.fit_cues import LABELLED, accuracy, load_labelled
+from models.training.posterior.cue_texts import LABELLED, load_labelled
+from models.training.posterior.fit_cues import accuracy
 
 
 def angles(cues: CueReader, text: str, *things: str) -> list[float | None]:

@@ -36,10 +36,23 @@ def test_distances(text, metres, loose) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["900 km from it", "5 of them", "near it", "", "I am in the park", "99999999999999999999999999 meters"]
-)
+    "text",
+    [
+        "900 km from it", "5 of them", "near it", "", "I am in the park", "99999999999999999999999999 meters",
+        "there's a Foot Locker", "the two Miles McEnery doors", "I'm in a yard", "a shop on my left", "in a building",
+    ],
+)  # fmt: skip
 def test_no_distances(text) -> None:
     assert distances_of(text) == []
+
+
+@pytest.mark.parametrize(("text", "is_of"), [
+    ("100 feet short of 34th", True), ("30 meters up from 40th", True), ("twenty metres south-east of it", False),
+    ("two doors down from the corner", True), ("40 feet ahead of me", False), ("maybe 80 feet, and a bench", False),
+    ("a foot away from the wall", True),
+])  # fmt: skip
+def test_what_a_distance_is_measured_from(text, is_of) -> None:
+    assert [said.is_of for said in distances_of(text)] == [is_of]
 
 
 def test_every_distance_of_a_text_is_found_where_it_stands() -> None:

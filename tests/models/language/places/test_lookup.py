@@ -175,3 +175,14 @@ def test_a_map_without_names_knows_kinds_alone() -> None:
         assert lookup.street_like("broadway") is None
         found = lookup.of_kinds(lookup.kinds(("bench",)))
         assert (found is None) == (len(town) == 0)
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [("Kentucky Fried Chicken", [0]), ("Chicken", None), ("KFC", [0]), ("Mobile", None), ("Hotel", None)],
+)
+def test_a_chain_is_found_by_its_other_names(text, found) -> None:
+    given = [Words(("amenity/fast_food",), ("KFC",)), Words(("amenity/fuel",), ("Mobil",))]
+    shops = build_gazetteer(given, [np.zeros((1, 4)), np.ones((1, 4))], [False, False])
+    match = Lookup(shops, load_vocabulary(), lambda word: word in ("mobile", "chicken")).named(words(text))
+    assert (match.objects.tolist() if match else None) == found

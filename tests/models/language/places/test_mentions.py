@@ -84,3 +84,24 @@ def test_a_kind_named_again_takes_no_part(lookup, cues) -> None:
 def test_a_distance_goes_to_what_it_stands_beside(lookup, cues) -> None:
     found = find_mentions("Bottino is 30 m ahead, Elmo is behind me.", lookup, cues)
     assert {mention.text: mention.cue.distance_m for mention in found} == {"Bottino": 30, "Elmo": None}
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [
+        ("I'm on 25th about 30 m short of 10th.", {"25th": None, "10th": 30}),
+        ("Bottino is straight ahead of me, maybe 30 m, and there's Elmo.", {"Bottino": 30, "Elmo": None}),
+        ("I'm on 25th, 30 m from Bottino.", {"25th": None, "Bottino": 30}),
+    ],
+)
+def test_a_distance_is_of_what_it_is_measured_from(lookup, cues, text, metres) -> None:
+    assert {mention.text: mention.cue.distance_m for mention in find_mentions(text, lookup, cues)} == metres
+
+
+def test_the_side_of_the_street_is_of_the_street_it_lies_on(lookup, cues) -> None:
+    text = "I'm on 25th, at a bar that I have never seen before, with a friend of mine and two dogs. Bottino is near. "
+    found = find_mentions(text + "It's on the north side of the street.", lookup, cues)
+    assert {mention.text: mention.side for mention in found if mention.text in ("25th", "Bottino")} == {
+        "25th": 0.0,
+        "Bottino": None,
+    }

@@ -7,7 +7,8 @@ import torch
 from models.errors import TrainingError
 from models.language.places.cue_reader import ANGLES, CueReader
 from models.posterior.model import load_posterior
-from models.training.posterior.fit_cues import CueText, Item, accuracy, fit_cues, load_labelled, mirrored, varied
+from models.training.posterior.cue_texts import CueText, Item, load_labelled, mirrored, names_of, renamed, varied
+from models.training.posterior.fit_cues import accuracy, fit_cues
 
 TEXTS = [
     CueText("the bank is on my left", (Item(4, 8, 0, ANGLES.index(-90.0)),)),
@@ -54,10 +55,30 @@ def test_what_has_no_mirror_image_is_left_alone(text) -> None:
     assert mirrored(given) == given
 
 
+def test_a_thing_gets_another_name_and_keeps_what_is_said_of_it() -> None:
+    text = CueText("The bank is left, the cafe is behind.", (Item(4, 8, 0, 8), Item(22, 26, 0, 6)))
+    names = names_of([CueText("a hairdresser", (Item(2, 13, 0),)), CueText("Elmo", (Item(0, 4, 0),))])
+    found = {renamed(text, names, np.random.default_rng(n)) for n in range(20)}
+    assert {one.text for one in found} == {
+        "The hairdresser is left, the cafe is behind.",
+        "The bank is left, the hairdresser is behind.",
+    }
+    for one in found:
+        assert sorted(one.text[item.start : item.end] for item in one.items)[-1] == "hairdresser"
+        assert [item.angle for item in one.items] == [8, 6]
+
+
+def test_what_is_named_twice_keeps_its_name() -> None:
+    text = CueText("At the bank, the bank is on my left.", (Item(7, 11, 0, 8),))
+    names = {(0, False): ["hairdresser"]}
+    assert renamed(text, names, np.random.default_rng(0)) == text
+
+
 def test_variants_keep_their_mentions_where_they_are() -> None:
     rng = np.random.default_rng(0)
     text = CueText("The bank, on my left, is shut; the cafe's behind me.", (Item(4, 8, 0, 8), Item(35, 39, 0, 6)))
-    variants = [varied(text, rng) for _ in range(200)]
+    names = names_of([text, CueText("a bakery", (Item(2, 8, 0),))])
+    variants = [varied(text, names, rng) for _ in range(200)]
     assert len({variant.text for variant in variants}) > 20
     for variant in variants:
         for item in variant.items:

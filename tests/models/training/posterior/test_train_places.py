@@ -1,0 +1,38 @@
+import json
+
+import pytest
+import torch
+
+from models.posterior.model import load_posterior
+from models.training.posterior.train_places import train_places
+
+SAID = {
+    "I'm at East Street 2 and North Path 3": (60.00215, 25.0032),
+    "on East Street 1, North Path 2 is on my left": (60.0016, 25.0030),
+    "East Street 2 is behind me, a bench ahead": (60.0022, 25.0010),
+    "just off North Path 1, near East Street 3": (60.0026, 25.0011),
+}
+
+
+@pytest.mark.slow
+def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypatch) -> None:
+    """Three readers in three processes, one of them for what answers; the kernels are fitted to the texts."""
+    where = "models.training.posterior.train_places."
+    monkeypatch.setattr(where + "LABELLED", tmp_path)
+    monkeypatch.setattr(where + "EPOCHS", 1)
+    mention = {"start": 0, "end": 5, "form": "thing", "relation": "seen", "angle": 90}
+    for name in ("people", "invented", "meeting"):
+        rows = [{"text": f"bank{n} on my right", "mentions": [mention]} for n in range(4)]
+        (tmp_path / f"{name}.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
+    texts, out = tmp_path / "said.jsonl", tmp_path / "weights"
+    told = [{"id": n, "text": text, "goal": at} for n, (text, at) in enumerate(SAID.items())]
+    texts.write_text("".join(json.dumps(row) + "\n" for row in told))
+    done: list[tuple[str, int, int, float]] = []
+    figures = train_places([(osm_file, [texts])], None, out, 2, 0, lambda *row: done.append(row))
+    assert 0.0 <= figures["angle_right"] <= 1.0
+    assert [row[1:3] for row in done if row[0].startswith("train readers")] == [(1, 3), (2, 3), (3, 3)]
+    before, after = load_posterior(), load_posterior(out)
+    assert not torch.equal(before.places.scale, after.places.scale)
+    assert not torch.equal(before.cues.head[0].weight, after.cues.head[0].weight)
+    assert torch.equal(before.likelihood.temper, after.likelihood.temper), "the rest is kept"
+    assert json.loads((out / "config.json").read_text())["training"]["places"]["steps"] == 2
