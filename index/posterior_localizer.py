@@ -23,7 +23,7 @@ from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.places.contradictions import contradictions
 from models.language.places.languages import ENGLISH, NAMES, language_of
 from models.language.places.mentions import Mention
-from models.language.places.reader import is_meeting
+from models.language.places.reader import is_meeting, listener_wind
 from models.language.reader import COLOURS
 from models.language.sentences import reader_texts
 from models.localization.located import Located
@@ -86,7 +86,8 @@ class PosteriorLocalizer:
         self.places: PlaceReader | None = None
         if len(gazetteer):
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
-            self.places = PlaceReader(model.places, model.cues, gazetteer, model.text_encoder, centers_m, grid_m)
+            fitted = model.places, model.meetings, model.cues
+            self.places = PlaceReader(*fitted, gazetteer, model.text_encoder, centers_m, grid_m)
         self._read_lately: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
 
     @classmethod
@@ -168,7 +169,7 @@ class PosteriorLocalizer:
             return hints, [], None
         listener_m = None if query.prior is None else position_m(query.prior.position, query, self.frame)
         mentions = self.places.read(query.description, language, to_listener=listener_m is not None)
-        hints = may_be_near(hints, mentions)
+        hints = [] if mentions and _is_elsewhere(query) else may_be_near(hints, mentions)
         trust = self.binding.reading(hints).label.amax(dim=1).tolist() if hints else []
         near, mentions = near_hints(hints, trust, mentions)
         return [hints[n] for n in near], mentions, self.places.told(mentions, query.description, listener_m)
@@ -257,6 +258,12 @@ class PosteriorLocalizer:
             explained=explained,
             **shown,
         )
+
+
+def _is_elsewhere(query: Query) -> bool:
+    """Whether a text surely tells of a place that the speaker does not stand at: what it names need not be near."""
+    is_told = query.prior is not None and listener_wind(query.description) is not None
+    return is_told or is_meeting(query.description)
 
 
 def _of_language(language: str) -> tuple[str, ...]:

@@ -158,3 +158,12 @@ def test_radii_are_scaled_by_what_the_text_is_of(localizer, monkeypatch) -> None
         widths.append([answer(localizer, text).estimate.radius_m.p50 for text in texts])
     assert widths[1][0] == pytest.approx(2 * widths[0][0])
     assert widths[1][1] == pytest.approx(3 * widths[0][1])
+
+
+def test_what_is_said_of_a_place_to_meet_at_is_not_what_is_near(localizer) -> None:
+    """Classes of the map are hints about the speaker's surroundings, but not where somebody else is told to come."""
+    said = "a bench is south of it, and a building west of it."
+    told = answer(localizer, "Meet me on East Street 2: " + said)
+    own = answer(localizer, "I'm on East Street 2: " + said)
+    assert {one.exact for one in own.evidence} > {None}, "hints about what is near have no exact name"
+    assert None not in {one.exact for one in told.evidence}

@@ -48,6 +48,14 @@ def test_names_that_the_map_lacks_are_unknown(lookup, cues) -> None:
     assert mention.text == "Blarney Stone"
 
 
+def test_an_unknown_name_is_told_of_and_a_greeting_is_not(lookup, cues) -> None:
+    assert [m.text for m in find_mentions("I'm outside Zanzibar Moon Palace and Elmo is on my left", lookup, cues)] == [
+        "Zanzibar Moon Palace",
+        "Elmo",
+    ]
+    assert [m.text for m in find_mentions("This is Ruth. I'm at 25th and 10th.", lookup, cues)] == ["25th and 10th"]
+
+
 def test_a_kind_that_the_map_lacks_is_unknown(lookup, cues) -> None:
     (mention,) = find_mentions("by the lighthouse", lookup, cues)
     assert mention.form == "unknown"

@@ -25,7 +25,9 @@ def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypat
         rows = [{"text": f"bank{n} on my right", "mentions": [mention]} for n in range(4)]
         (tmp_path / f"{name}.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
     texts, out = tmp_path / "said.jsonl", tmp_path / "weights"
-    told = [{"id": n, "text": text, "goal": at} for n, (text, at) in enumerate(SAID.items())]
+    told: list[dict[str, object]] = [{"id": n, "text": text, "goal": at} for n, (text, at) in enumerate(SAID.items())]
+    meeting = {"text": "Meet me on East Street 3, north of you", "goal": [60.0027, 25.002], "start": [60.001, 25.002]}
+    told += [{"id": n, **meeting} for n in (8, 9)]
     texts.write_text("".join(json.dumps(row) + "\n" for row in told))
     done: list[tuple[str, int, int, float]] = []
     figures = train_places([(osm_file, [texts])], None, out, 2, 0, lambda *row: done.append(row))
@@ -34,5 +36,6 @@ def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypat
     before, after = load_posterior(), load_posterior(out)
     assert not torch.equal(before.places.scale, after.places.scale)
     assert not torch.equal(before.cues.head[0].weight, after.cues.head[0].weight)
+    assert not torch.equal(after.meetings.scale, after.places.scale), "where to meet has kernels of its own"
     assert torch.equal(before.likelihood.temper, after.likelihood.temper), "the rest is kept"
     assert json.loads((out / "config.json").read_text())["training"]["places"]["steps"] == 2
