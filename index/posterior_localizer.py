@@ -37,7 +37,7 @@ from models.posterior.surroundings import STEP_M, Surroundings
 
 LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
 KEPT_TEXTS = 2000
-PLACE_CANDIDATES = 256  # cells whose nodes are looked at for texts that name places
+PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
 READ_AT_ONCE = 16
 EXPLAINED = 0.5  # a hint counts as explained from this probability on
 NOTHING_SAID = (
