@@ -36,8 +36,7 @@ class PlaceReader:
     """The names and kinds of one map. Not thread-safe.
 
     Args:
-        kernels: fitted; of where the speaker is.
-        meetings: the same of where to meet.
+        kernels: fitted.
         cues: trained.
         gazetteer: of the map, not empty.
         text_encoder: says which words are everyday ones.
@@ -48,7 +47,6 @@ class PlaceReader:
     def __init__(
         self,
         kernels: PlaceKernels,
-        meetings: PlaceKernels,
         cues: CueReader,
         gazetteer: Gazetteer,
         text_encoder: TextEncoder,
@@ -58,8 +56,7 @@ class PlaceReader:
         self.without: frozenset[str] = (
             frozenset()
         )  # constructions that are not heeded, for measuring what each is worth
-        self.gazetteer, self._field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
-        self._meetings = self._field.with_kernels(meetings)
+        self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
         self._cues = cues
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday)
 
@@ -82,15 +79,14 @@ class PlaceReader:
         heeded = listener_m is not None and "listener" not in self.without
         wind = listener_wind(description) if heeded else None
         meets = listener_m is not None or is_meeting(description)
-        field = self._meetings if meets else self._field
-        told = field.told(mentions, listener_m, wind, is_meeting=meets)
+        told = self.field.told(mentions, listener_m, wind, is_meeting=meets)
         return told if told.places.mentions or wind is not None else None
 
     @torch.inference_mode()
     def evidence(self, mentions: Sequence[Mention], told: Told | None, position: Floats) -> tuple[Evidence, ...]:
         """How each mention was understood, and what explains it at a position [2]."""
         known = told.places.mentions if told is not None else ()
-        explained = told.field.explain(told.places, position[None]) if told is not None else []
+        explained = self.field.explain(told.places, position[None]) if told is not None else []
         found = []
         for mention in mentions:
             row = next((n for n, other in enumerate(known) if other is mention), None)
@@ -120,7 +116,7 @@ class PlaceReader:
         rows = rows[np.argsort(-located.weight[rows], kind="stable")[:HEADING_NODES]]
         if not len(rows):
             return None
-        by = told.field.by_heading(told.places, located.points_m[rows], np.zeros(len(rows), np.int64))
+        by = self.field.by_heading(told.places, located.points_m[rows], np.zeros(len(rows), np.int64))
         weight = torch.softmax(by, dim=1) * torch.from_numpy(located.weight[rows]).float()[:, None]
         share = (weight.sum(dim=0) / weight.sum().clamp(min=1e-12)).double().numpy()
         angle = np.arange(HEADINGS) * 2 * np.pi / HEADINGS

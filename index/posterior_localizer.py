@@ -86,8 +86,7 @@ class PosteriorLocalizer:
         self.places: PlaceReader | None = None
         if len(gazetteer):
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
-            fitted = model.places, model.meetings, model.cues
-            self.places = PlaceReader(*fitted, gazetteer, model.text_encoder, centers_m, grid_m)
+            self.places = PlaceReader(model.places, model.cues, gazetteer, model.text_encoder, centers_m, grid_m)
         self._read_lately: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
 
     @classmethod

@@ -41,7 +41,7 @@ class PosteriorModel(OnTextEncoder):
         self.matcher = LabelMatcher(text_encoder)
         self.likelihood = Likelihood()
         self.cues = CueReader(text_encoder, self.reader.tuned, config.frozen_layers)
-        self.places, self.meetings = PlaceKernels(), PlaceKernels()
+        self.places = PlaceKernels()
 
     @property
     def fingerprint(self) -> str:

@@ -1,7 +1,6 @@
 """A text's mentions on a map: log p(T | x) at cells, roughly, and at nodes, with the speaker's heading summed out."""
 
 from collections.abc import Sequence
-from copy import copy
 from dataclasses import dataclass, replace
 from math import log, pi, radians
 from typing import Final
@@ -90,20 +89,19 @@ class Told:
     """What a text says of places, for `locate`: at every cell, roughly, and at any position.
 
     Attributes:
-        field: that was asked.
         places: the text's mentions on the map.
         cells: [N] about log p(T | cell).
     """
 
     def __init__(self, field: "PlaceField", places: Places, cells: Floats) -> None:
-        self.field, self.places, self.cells = field, places, cells
+        self._field, self.places, self.cells = field, places, cells
 
     @torch.inference_mode()
     def at(self, points_m: Floats, group: Ints) -> Floats:
         """[M] log p(T | x) of positions [M, 2]; `group` as `PlaceField.log_p`."""
         if not len(points_m):
             return np.zeros(0)
-        log_p: Floats = self.field.log_p(self.places, points_m, group).double().numpy()
+        log_p: Floats = self._field.log_p(self.places, points_m, group).double().numpy()
         return log_p
 
 
@@ -123,12 +121,6 @@ class PlaceField:
         self._walkways: Walkways | None = None
         if WALKED in gazetteer.by_kind:
             self._walkways = Walkways(gazetteer, centers_m.min(axis=0), centers_m.max(axis=0))
-
-    def with_kernels(self, kernels: PlaceKernels) -> "PlaceField":
-        """The same map with other kernels."""
-        other = copy(self)
-        other.kernels = kernels
-        return other
 
     @torch.inference_mode()
     def told(

@@ -3,8 +3,6 @@
 import json
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from copy import deepcopy
-from dataclasses import replace
 from functools import partial
 from math import log
 from multiprocessing import get_context
@@ -13,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from models.checkpoint import CONFIG_FILE, SHIPPED, round_large
+from models.checkpoint import CONFIG_FILE, SHIPPED
 from models.city.source import open_source
 from models.city.told_texts import load_told_texts
 from models.language.places.cue_reader import CueReader
@@ -21,9 +19,7 @@ from models.posterior.model import PosteriorModel, load_posterior, save_posterio
 from models.posterior.places.kernels import PlaceKernels
 from models.training.posterior.cue_texts import LABELLED, OTHERS, PEOPLE, CueText, load_labelled
 from models.training.posterior.fit_cues import EPOCHS, accuracy, fit_cues
-from models.training.posterior.fit_places import Case, ToldPlace, calibrate_places, fit_places, read_cases
-
-ROUNDS = 3  # of fitting the kernels of where to meet
+from models.training.posterior.fit_places import ToldPlace, calibrate_places, fit_places, read_cases
 
 
 def train_places(
@@ -65,49 +61,11 @@ def train_places(
     with torch.no_grad():
         kernels.temper.add_(log(temper))
     model.places = kernels
-    round_large(model)
-    meeting = fit_meetings(model, places, steps, seed) or meeting
     model.config = model.config.model_copy(update={"place_scale": own, "meeting_scale": meeting})
     figures |= {"surprise": surprise, "temper_scale": temper, "place_scale": own, "meeting_scale": meeting}
     fitted_to = {path.name: [file.name for file in files] for path, files in maps}
     save_posterior(model, out, record | {"places": figures | {"texts": fitted_to, "seed": seed, "steps": steps}})
     return figures
-
-
-def fit_meetings(model: PosteriorModel, places: Sequence[ToldPlace], steps: int, seed: int) -> float | None:
-    """Fit the kernels of where to meet to texts with a start, from those of all texts on, in place.
-
-    Args:
-        model: with its reader of cues and `places`.
-        places: maps with texts.
-        steps: see `fit_places`.
-        seed: of what is drawn.
-
-    Returns:
-        The scale of the radii; None with less than two such texts, where the kernels are those of all texts.
-    """
-    kernels, rng = deepcopy(model.places), np.random.default_rng((seed, 1))
-    model.meetings = kernels
-    meetings = [replace(place, texts=[text for text in place.texts if text.start is not None]) for place in places]
-
-    def read() -> list[Case]:
-        some = (place for place in meetings if place.texts)
-        return [
-            case for place in some for case in read_cases(kernels, place, model.text_encoder, lambda _: model.cues, rng)
-        ]
-
-    for _ in range(ROUNDS):
-        cases = read()  # what competes with the truth are cells that fit as the kernels are now
-        if len(cases) < 2:  # calibration is by halves
-            return None
-        fit_places(kernels, cases, steps // 2, rng)
-    cases, fitted = read(), {name: value.clone() for name, value in kernels.state_dict().items()}
-    kernels.load_state_dict(model.places.state_dict())
-    temper, _, scale = calibrate_places(kernels, cases, steps, rng)
-    kernels.load_state_dict(fitted)
-    with torch.no_grad():
-        kernels.temper.add_(log(temper))
-    return scale
 
 
 def _told_place(path: Path, files: Sequence[Path]) -> ToldPlace:
