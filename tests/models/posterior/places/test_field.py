@@ -258,3 +258,15 @@ def test_a_long_street_is_near_along_all_of_it() -> None:
     along = told.at(np.stack([np.arange(0, 400, 40.0), np.full(10, 80.0)], axis=1), np.zeros(10, np.int64))
     assert np.ptp(along) < 1e-4
     assert along[0] > told.at(np.array([[200.0, 160.0]]), np.zeros(1, np.int64)) + 1
+
+
+@pytest.mark.parametrize(("one", "other"), [(0.0, 90.0), (-90.0, 45.0), (180.0, None), (None, -135.0)])
+def test_angles_that_are_not_sure_are_summed_over(field, one, other) -> None:
+    around = Around.of(np.array([[120.0, 120.0], [131.0, 124.0]]), np.zeros(2, np.int64))
+
+    def fits(cue: Cue) -> torch.Tensor:
+        mention = thing("Elmo", cue=cue)
+        return field.fits(mention, field.ways_from(mention, around), 2)
+
+    both = fits(Cue(angle=one, angles=((one, 0.7), (other, 0.3))))
+    torch.testing.assert_close(both, 0.7 * fits(Cue(angle=one)) + 0.3 * fits(Cue(angle=other)))
