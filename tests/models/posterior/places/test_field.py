@@ -264,7 +264,7 @@ def test_a_long_street_is_near_along_all_of_it() -> None:
 def test_angles_that_are_not_sure_are_summed_over(field, one, other) -> None:
     around = Around.of(np.array([[120.0, 120.0], [131.0, 124.0]]), np.zeros(2, np.int64))
 
-    def fits(cue: Cue) -> torch.Tensor:
+    def fits(cue):
         mention = thing("Elmo", cue=cue)
         return field.fits(mention, field.ways_from(mention, around), 2)
 
