@@ -8,6 +8,7 @@
 <root>/<version>/cells.safetensors, cells.json where the cells are and what is in them
 <root>/<version>/surroundings.safetensors      what lies around every position
 <root>/<version>/gazetteer.safetensors, gazetteer.json   what a passer-by could name
+<root>/<version>/meanings.faiss, meanings.json a vector a name or noun of it, to find it by its meaning
 """
 
 import hashlib
@@ -25,7 +26,7 @@ from models.files import FileRecord, replace_file, sha256
 
 MANIFEST = "manifest.json"
 ALIASES = "aliases.json"
-FORMAT = 4
+FORMAT = 5
 ADVICE = "build it with 'hereabouts index --map MAP --out DIR'"
 
 

@@ -13,12 +13,16 @@ from index.artifact import (
     write_manifest,
 )
 from index.hint_features import save_hint_features, template_hints
+from index.meaning import Meanings
 from index.ranking import Ranker
 from models.city.gallery import MapData
+from models.city.kinds.vocabulary import load_vocabulary
 from models.city.source import open_source
 from models.city.types import Progress
 from models.errors import IndexUnusable
 from models.files import file_records, new_directory
+from models.language.places.lookup import Lookup
+from models.language.text_encoder import load_text_encoder
 from models.posterior.surroundings import Surroundings
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
@@ -64,7 +68,8 @@ def build_index(
     ranker = Ranker.of(retriever if levels else retriever.global_alone(), data.cells, data.gallery.labels)
     surroundings = Surroundings.of(source.bodies(), data.cells, report)
     report("read names", 0, 0)
-    gazetteer = source.gazetteer()
+    gazetteer, encoder = source.gazetteer(), load_text_encoder()
+    meanings = Meanings.of(Lookup(gazetteer, load_vocabulary(), encoder.is_everyday), encoder.embed)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
     with new_directory(out_dir / origin["version"]) as directory:
@@ -73,6 +78,7 @@ def build_index(
         data.gallery.save(directory)
         surroundings.save(directory)
         gazetteer.save(directory)
+        meanings.save(directory)
         manifest = Manifest(
             **origin, **_describe(data), model=retriever.name, dim=ranker.store.dim, files=file_records(directory)
         )

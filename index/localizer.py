@@ -10,6 +10,7 @@ from index.answers import Answer, CellDetail, CellInstance, IndexFacts, LatLon, 
 from index.artifact import Manifest, check_model, open_version
 from index.finding import CellLocalizer, to_answer
 from index.hint_features import load_hint_features
+from index.meaning import Meanings
 from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer, raw_sentences
@@ -18,6 +19,7 @@ from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.types import Floats
+from models.language.text_encoder import load_text_encoder
 from models.localization.checkpoint import load_fine
 from models.localization.fine_model import FineModel
 from models.posterior.model import PosteriorModel, load_posterior
@@ -127,7 +129,8 @@ class Localizer:
         """The hint posterior on this gallery."""
         surroundings = Surroundings.load(self._directory)
         given = self._load_model(), self.gallery, self.palette, self.frame, surroundings, self.ranker
-        return PosteriorLocalizer(*given, Gazetteer.load(self._directory), self.manifest.grid_m)
+        meanings = Meanings.load(self._directory, load_text_encoder().embed)
+        return PosteriorLocalizer(*given, Gazetteer.load(self._directory), self.manifest.grid_m, meanings)
 
     @cached_property
     def _vectors(self) -> VectorLocalizer:

@@ -31,6 +31,8 @@ COLOURS = {
 }
 OTHER_COLOUR = "#e0a84f"
 DPI = 130
+LABEL_BOX = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8}
+LISTED = 10  # cells whose probabilities are written
 
 
 def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> None:
@@ -58,7 +60,8 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
                 Rectangle((west, south), east - west, north - south, fill=False, lw=1.2, color="#1d3557", alpha=0.9)
             )
             if reach and abs(candidate.center[0] - x) < reach and abs(candidate.center[1] - y) < reach:
-                axes.annotate(f"{candidate.rank}: {candidate.probability:.0%}", (west + 1, north - 4), fontsize=7)
+                at = candidate.center[:2]
+                axes.annotate(str(candidate.rank), at, fontsize=8, ha="center", va="center", bbox=LABEL_BOX)
         radius = answer.estimate.radius_m.p90
         axes.add_patch(CirclePatch((x, y), radius, fill=False, ls="--", lw=1.2, color="#e63946"))
         axes.plot(x, y, marker="*", ms=13, color="#e63946", mec="white")
@@ -66,6 +69,9 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
         axes.set_xlabel("east (m)")
         axes.set_ylabel("north (m)")
         if reach:
+            shares = (f"{candidate.rank}: {candidate.probability:.0%}" for candidate in answer.candidates[:LISTED])
+            told = "cells by their middles\n" + "\n".join(shares)
+            axes.text(0.02, 0.98, told, transform=axes.transAxes, fontsize=8, va="top", bbox=LABEL_BOX)
             axes.set(xlim=(x - reach, x + reach), ylim=(y - reach, y + reach))
             axes.set_title(
                 f"best position, and the circle that holds the true one with 90 %: {radius:.0f} m", fontsize=9

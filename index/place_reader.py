@@ -8,6 +8,7 @@ import numpy as np
 import torch
 
 from index.answers import Evidence, Heading
+from index.meaning import Meanings
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.types import Floats
@@ -42,6 +43,7 @@ class PlaceReader:
         text_encoder: says which words are everyday ones.
         centers_m: [N, 2] of the gallery's cells.
         grid_m: spacing of these.
+        meanings: of the map; None to understand names and nouns of it alone.
     """
 
     def __init__(
@@ -52,24 +54,29 @@ class PlaceReader:
         text_encoder: TextEncoder,
         centers_m: Floats,
         grid_m: float,
+        meanings: Meanings | None = None,
     ) -> None:
         self.without: frozenset[str] = (
             frozenset()
         )  # constructions that are not heeded, for measuring what each is worth
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
-        self._cues = cues
+        self._cues, self._meanings = cues, meanings
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday)
 
-    def read(self, description: str, language: str, *, to_listener: bool) -> list[Mention]:
+    def read(
+        self, description: str, language: str, nouns: Sequence[tuple[int, int]] = (), *, to_listener: bool
+    ) -> list[Mention]:
         """What a description names.
 
         Args:
             description: any text.
             language: of the text.
+            nouns: characters start..end of the nouns that the reader of hints found in it.
             to_listener: whether it is said to somebody whose place is known; else the text tells whether it is of a
                 place to meet at.
         """
-        mentions = find_mentions(description, self._lookup, self._cues, language)
+        like = None if self._meanings is None else self._meanings.like
+        mentions = find_mentions(description, self._lookup, self._cues, language, nouns, like)
         if language == ENGLISH and (to_listener or is_meeting(description)):
             mentions = with_goal(mentions)
         return [kept for mention in mentions if (kept := without(mention, self.without)) is not None]

@@ -2,7 +2,7 @@
 
 import time
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from index.answers import Evidence, Method, ModelName, Query
 from index.filters import inside, log_prior, position_m
 from index.finding import Finding
+from index.meaning import Meanings
 from index.place_reader import PlaceReader, may_be_near, near_hints
 from index.place_text import place_text
 from index.ranking import Ranker
@@ -60,6 +61,7 @@ class PosteriorLocalizer:
         ranker: of the gallery: gives candidates beside the inverted list's.
         gazetteer: of the map; empty where nothing has a name.
         grid_m: spacing of the cells.
+        meanings: of the gazetteer; None to understand its names and nouns alone.
     """
 
     method: Method = "posterior"
@@ -74,6 +76,7 @@ class PosteriorLocalizer:
         ranker: Ranker,
         gazetteer: Gazetteer = NOTHING_NAMED,
         grid_m: float = 10.0,
+        meanings: Meanings | None = None,
     ) -> None:
         self.weights, self.gallery, self.frame, self.ranker = model, gallery, frame, ranker
         self.surroundings, self._palette = surroundings, palette
@@ -82,11 +85,12 @@ class PosteriorLocalizer:
         label = number.astype(np.int64)[gallery.cells.parts.instance]
         self.nodes = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette)
         self.binding = Binding(model.matcher, self.labels.tolist(), palette)
-        self._gazetteer, self._grid_m = gazetteer, grid_m
+        self._gazetteer, self._grid_m, self._meanings = gazetteer, grid_m, meanings
         self.places: PlaceReader | None = None
         if len(gazetteer):
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
-            self.places = PlaceReader(model.places, model.cues, gazetteer, model.text_encoder, centers_m, grid_m)
+            of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings
+            self.places = PlaceReader(model.places, model.cues, *of_map)
         self._read_lately: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
 
     @classmethod
@@ -111,7 +115,7 @@ class PosteriorLocalizer:
         gallery = replace(self.gallery, cells=self.gallery.cells.take(rows))
         surroundings, ranker = self.surroundings.take(rows, part_of), self.ranker.take(rows)
         given = self.weights, gallery, self._palette, self.frame, surroundings, ranker
-        return PosteriorLocalizer(*given, self._gazetteer, self._grid_m)
+        return PosteriorLocalizer(*given, self._gazetteer, self._grid_m, self._meanings)
 
     def find(self, queries: Sequence[Query]) -> list[Finding]:
         """See CellLocalizer."""
@@ -167,7 +171,9 @@ class PosteriorLocalizer:
         if self.places is None:
             return hints, [], None
         listener_m = None if query.prior is None else position_m(query.prior.position, query, self.frame)
-        mentions = self.places.read(query.description, language, to_listener=listener_m is not None)
+        text = " ".join(reader_texts(query.description, LONGEST)) or query.description  # what the hints' places are of
+        nouns = [(hint.start, hint.end) for hint in hints]
+        mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)
         hints = [] if mentions and _is_elsewhere(query) else may_be_near(hints, mentions)
         trust = self.binding.reading(hints).label.amax(dim=1).tolist() if hints else []
         near, mentions = near_hints(hints, trust, mentions)
@@ -185,14 +191,15 @@ class PosteriorLocalizer:
             also=None if reading is None else self.candidates(hints, reading),
             told=told,
         )
-        return located and replace(located, radius_scale=self._radius_scale(query, told))
+        return located and self._honest(located, query, told)
 
-    def _radius_scale(self, query: Query, told: Told | None) -> float:
+    def _honest(self, located: Located, query: Query, told: Told | None) -> Located:
+        """With radii that hold what they say, as on validation data."""
         config: PosteriorConfig = self.weights.config
         if told is None:
-            return config.radius_scale
+            return replace(located, held=config.radius_held)
         is_told_to = query.prior is not None or is_meeting(query.description)
-        return config.meeting_scale if is_told_to else config.place_scale
+        return replace(located, radius_scale=config.meeting_scale if is_told_to else config.place_scale)
 
     def candidates(self, hints: Sequence[ParsedHint], reading: Reading) -> Ints:
         """[A] the cells that the vector index finds for hints, in the retriever's words."""
@@ -211,7 +218,10 @@ class PosteriorLocalizer:
         ]
 
     def parse(self, descriptions: Sequence[str]) -> list[tuple[ParsedHint, ...]]:
-        """What each description names; several go through the reader together, the latest are remembered."""
+        """What each description names; several go through the reader together, the latest are remembered.
+
+        Characters are those of `reader_texts`, joined by blanks.
+        """
         pieces = [reader_texts(description, LONGEST) for description in descriptions]
         texts = [text for some in pieces for text in some]
         kept = self._read_lately
@@ -221,7 +231,7 @@ class PosteriorLocalizer:
             kept.update((text, tuple(found)) for text, found in zip(some, self.weights.reader.read(some), strict=True))
         for text in texts:
             kept.move_to_end(text)
-        parsed = [tuple(hint for text in some for hint in kept[text]) for some in pieces]
+        parsed = [tuple(_shifted(some, kept)) for some in pieces]
         while len(kept) > KEPT_TEXTS:
             kept.popitem(last=False)
         return parsed
@@ -257,6 +267,14 @@ class PosteriorLocalizer:
             explained=explained,
             **shown,
         )
+
+
+def _shifted(pieces: Sequence[str], read: Mapping[str, Sequence[ParsedHint]]) -> Iterator[ParsedHint]:
+    """The hints of the pieces of a text, with their places in the whole."""
+    before = 0
+    for piece in pieces:
+        yield from (replace(hint, start=hint.start + before, end=hint.end + before) for hint in read[piece])
+        before += len(piece) + 1
 
 
 def _is_elsewhere(query: Query) -> bool:

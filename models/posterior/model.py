@@ -8,6 +8,7 @@ from models.language.labels import LabelMatcher
 from models.language.places.cue_reader import CueReader
 from models.language.reader import Reader, ReaderConfig
 from models.language.text_encoder import OnTextEncoder, TextEncoder, fingerprint_of
+from models.localization.located import TOLD
 from models.posterior.likelihood import Likelihood
 from models.posterior.places.kernels import PlaceKernels
 
@@ -16,13 +17,13 @@ class PosteriorConfig(ReaderConfig):
     """Shape and calibration.
 
     Attributes:
-        radius_scale: what the radii are multiplied with; fitted on validation data.
-        place_scale: the same for texts that name places; fitted on people's own texts.
+        radius_held: what radii must hold of the distribution to hold .5 and .9 of the truths; from validation data.
+        place_scale: what the radii of texts that name places are multiplied with; fitted on people's own texts.
         meeting_scale: the same for texts that tell somebody where to come.
         grammar_sha256: of the phrases that the reader was trained on.
     """
 
-    radius_scale: float = 1.0
+    radius_held: tuple[float, float] = TOLD
     place_scale: float = 1.0
     meeting_scale: float = 1.0
     grammar_sha256: str = ""

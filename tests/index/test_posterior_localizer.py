@@ -27,6 +27,7 @@ def read_exactly(texts):
 def _noticed(relation, thing, start):
     colour = next((c for c in COLOURS if thing.startswith(c + " ")), None)
     noun = thing.removeprefix(f"{colour} ")
+    start += len(thing) - len(noun)
     said = torch.eye(len(COLOURS) + 1)[COLOURS.index(colour) if colour else -1]
     return ParsedHint(
         noun, start, start + len(noun), torch.eye(len(RELATIONS))[RELATIONS.index(relation)], said, 0.0, None
@@ -105,10 +106,10 @@ def test_a_filter_holds_for_every_position(answer, query, city):
     assert "within" in off.warnings[0]
 
 
-def test_radii_are_scaled_as_validation_said(answer, query, posterior, monkeypatch):
+def test_radii_hold_the_share_that_validation_said(answer, query, posterior, monkeypatch):
     plain = answer(query).estimate.radius_m
-    monkeypatch.setattr(posterior.weights, "config", PosteriorConfig(width=32, radius_scale=1.5))
-    assert answer(query).estimate.radius_m.p90 == pytest.approx(1.5 * plain.p90)
+    monkeypatch.setattr(posterior.weights, "config", PosteriorConfig(width=32, radius_held=(0.3, 0.5)))
+    assert answer(query).estimate.radius_m.p90 == pytest.approx(plain.p50)
 
 
 def test_a_prior_pulls(answer, query):
@@ -141,18 +142,20 @@ def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_
 
 
 def test_long_descriptions_are_read_in_pieces(posterior):
-    [hints] = posterior.parse([" ".join(f"The pose is north of a gray bench number{n}." for n in range(60))])
+    text = " ".join(f"The pose is north of a gray bench number{n}." for n in range(60))
+    [hints] = posterior.parse([text])
     assert len(hints) == 60
+    assert {text[hint.start : hint.end] for hint in hints[::10]} == {hint.noun for hint in hints[::10]}
     assert posterior.parse(["no full stop"]) == [()]
 
 
 def test_weights_are_saved_and_read_back(text_encoder, tmp_path):
     torch.manual_seed(1)
-    model = PosteriorModel(text_encoder, PosteriorConfig(width=32, radius_scale=1.5)).eval()
+    model = PosteriorModel(text_encoder, PosteriorConfig(width=32, radius_held=(0.4, 0.8))).eval()
     save_posterior(model, tmp_path, {"note": "made up"})
     again = load_posterior(tmp_path)
     assert again.fingerprint == model.fingerprint
-    assert again.config.radius_scale == 1.5
+    assert again.config.radius_held == (0.4, 0.8)
     text = "I am north of a gray pole."
     for one, other in zip(model.reader.read([text])[0], again.reader.read([text])[0], strict=True):
         assert torch.equal(one.relation, other.relation)

@@ -40,7 +40,7 @@ def with_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> li
         objects, lines = lookup.address(told[1], mention.objects)
         words = text[start:end]
         if not len(objects) and not len(lines):
-            found += [mention] if before else [mention, Mention(words, start, end, "unknown")]
+            found += [mention, Mention(words, start, end, "unknown")]
             continue
         weights = np.ones(len(objects) or len(lines))
         found.append(Mention(words, start, end, "address", objects, weights, lines, 1.0, is_exact=len(objects) > 0))

@@ -194,6 +194,12 @@ class Lookup:
         """Whether words are a whole name."""
         return tuple(words) in self._row
 
+    def phrases(self) -> list[str]:
+        """Every name of two words or more, and every such noun of a kind that the map has."""
+        here = self.gazetteer.by_kind
+        nouns = (noun for noun, kinds in self._nouns.items() if any(kind in here for kind, _ in kinds))
+        return sorted({phrase for phrase in (*self._joined, *nouns) if " " in phrase})
+
     def kinds(self, words: Sequence[str], language: str = ENGLISH) -> Mapping[str, float]:
         """The kinds that a noun means, and how surely; none for many."""
         key = language, tuple(words)

@@ -10,6 +10,7 @@ from models.language.places.cue_reader import CueReader
 from models.language.places.cues import wind_of
 from models.language.places.languages import ENGLISH
 from models.language.places.lookup import Lookup
+from models.language.places.meaning import Like, with_meant
 from models.language.places.mentions import Mention, with_cues
 from models.language.places.spans import find_spans
 from models.language.places.words import english
@@ -20,7 +21,14 @@ _OF_YOU, _GOES = _W.pattern("listener", "of_you"), _W.pattern("listener", "goes"
 _MEETING = _W.pattern("listener", "meeting")
 
 
-def find_mentions(text: str, lookup: Lookup, cues: CueReader, language: str = ENGLISH) -> list[Mention]:
+def find_mentions(
+    text: str,
+    lookup: Lookup,
+    cues: CueReader,
+    language: str = ENGLISH,
+    nouns: Sequence[tuple[int, int]] = (),
+    like: Like | None = None,
+) -> list[Mention]:
     """What a text names on a map, in its order, each with where it is from the speaker; not what it says is not there.
 
     Args:
@@ -28,6 +36,8 @@ def find_mentions(text: str, lookup: Lookup, cues: CueReader, language: str = EN
         lookup: of the map.
         cues: says where each thing is from the speaker.
         language: of the text; what the words of others than English say of where things are is not read.
+        nouns: characters start..end of each noun that was found in another way.
+        like: see `with_meant`; None to leave out what is no name or noun of the map.
     """
     if language != ENGLISH:
         words, spans = find_spans(text, lookup, language)
@@ -35,6 +45,8 @@ def find_mentions(text: str, lookup: Lookup, cues: CueReader, language: str = EN
         return [mention for mention in mentions if len(mention.objects) <= MOST_OBJECTS]
     text = _OF_YOU.sub(lambda found: " " * len(found[0]), text)
     words, spans = find_spans(text, lookup)
+    if like is not None:
+        spans = with_meant(spans, words, nouns, text, lookup, like)
     mentions = with_addresses([Mention.of(span, words, text) for span in spans], text, lookup)
     mentions = [mention for mention in mentions if len(mention.objects) <= MOST_OBJECTS]
     streets = [mention for mention in mentions if mention.form == "street"]

@@ -57,7 +57,7 @@ def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list
                 break
             found += _spans_at(words, first, last, mended, lookup, language, cased=cased)
     chosen = _with_unknown(_chosen(found, words), words, text, lookup)
-    return words, [_resolved(span, lookup) for span in _joined(chosen, words, text)]
+    return words, [with_objects(span, lookup) for span in _joined(chosen, words, text)]
 
 
 def like_noun(word: str, lookup: Lookup) -> str:
@@ -271,7 +271,7 @@ def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Spa
     return joined
 
 
-def _resolved(span: Span, lookup: Lookup) -> Span:
+def with_objects(span: Span, lookup: Lookup) -> Span:
     """A span with its objects: those of the name, the more if of the kind said; without a name those of the kind."""
     if span.form != "thing":
         return span

@@ -12,6 +12,7 @@ from models.checkpoint import CONFIG_FILE, round_large
 from models.city.source import CHOSEN_BY, open_sources
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
+from models.localization.located import TOLD
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
@@ -25,7 +26,7 @@ from models.training.settings import TrainingConfig, settings_record
 
 TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chosen by
 FITTED_TEXTS, CALIBRATED_TEXTS = 1200, 500  # of each place
-FIT_STEPS, CALIBRATION_STEPS = 200, 60
+FIT_STEPS, CALIBRATION_STEPS = 400, 60
 CALIBRATED = ("temper", "background")  # weights that validation places decide
 TEMPERS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)  # what `temper` is scaled with
 Columns = np.ndarray[tuple[int, int], np.dtype[np.float64]]
@@ -123,7 +124,7 @@ def fit_and_save(
     rng = np.random.default_rng(config.seed)
     places = [[Place.of(source, source.queries(CHOSEN_BY)) for source in open_sources(path, splits)] for path in data]
     fitted = fit_places(trained, [of_fit for of_fit, _ in places], rng)
-    measured = calibrate_places(trained, [of_check for _, of_check in places], rng)
+    measured = calibrate_places(trained, [place for both in places for place in both], rng)
     figures = reading_figures(trained.reader, validation) | measured
     facts: dict[str, Any] = {
         "config": config.model_dump(mode="json"),
@@ -146,7 +147,10 @@ def fit_places(model: PosteriorModel, places: Sequence[Place], rng: np.random.Ge
 
 
 def calibrate_places(model: PosteriorModel, places: Sequence[Place], rng: np.random.Generator) -> dict[str, float]:
-    """Fit to other places what makes probabilities and radii honest, of texts with slips too; figures there."""
+    """Fit what makes probabilities and radii honest, to texts that nothing was fitted to; figures of these.
+
+    Places are those that nothing was fitted to, and those that something was: their maps are as large as in service.
+    """
     texts = [_texts(model, place, CALIBRATED_TEXTS, rng) for place in places]
     for name, parameter in model.likelihood.named_parameters():
         parameter.requires_grad_(name in CALIBRATED)
@@ -154,10 +158,11 @@ def calibrate_places(model: PosteriorModel, places: Sequence[Place], rng: np.ran
     for parameter in model.likelihood.parameters():
         parameter.requires_grad_(True)
     _temper(model.likelihood, texts)
-    error, p90, hit, _ = _all_answers(model.likelihood, texts)
-    scale = float(np.quantile(error / p90, 0.9))
-    model.config = model.config.model_copy(update={"radius_scale": scale})
-    return {"recall@1": float(hit.mean()), "within_5m": float((error <= 5).mean()), "radius_scale": scale}
+    error, share, hit, _ = _all_answers(model.likelihood, texts)
+    half, most = (float(held) for held in np.quantile(share, TOLD).clip(0.01, 0.999))
+    model.config = model.config.model_copy(update={"radius_held": (half, most)})
+    figures = {"recall@1": float(hit.mean()), "within_5m": float((error <= 5).mean())}
+    return figures | {"held_p50": half, "held_p90": most}
 
 
 def _temper(likelihood: Likelihood, texts: Sequence[Texts]) -> None:
@@ -183,7 +188,7 @@ def _all_answers(likelihood: Likelihood, texts: Sequence[Texts]) -> Columns:
 
 
 def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
-    """[Q, 4] error in metres, unscaled radius p90, whether the best cell is the first, and the first's probability."""
+    """[Q, 4] error, mass of the circle with that radius, whether the best cell is the first, its probability."""
     place, posterior = texts.place, texts.place.posterior(likelihood)
     scenes = np.array(place.cells.scenes)
     found = []
@@ -192,6 +197,6 @@ def _answers(likelihood: Likelihood, texts: Texts) -> Columns:
         assert located is not None
         same = scenes[located.rows[0]] == scenes[place.truth[row]]
         error = float(np.linalg.norm(located.positions[0] - place.positions_m[row])) if same else np.inf
-        [p90] = located.radii_m(0.9)
-        found.append((error, p90, float(located.rows[0] == place.truth[row]), located.probability[0]))
+        is_first = float(located.rows[0] == place.truth[row])
+        found.append((error, located.share_within(error), is_first, located.probability[0]))
     return np.array(found)

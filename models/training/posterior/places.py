@@ -15,6 +15,7 @@ from models.city.types import DIRECTIONS, Floats, Hint
 from models.language.grammar.files import Grammar
 from models.language.grammar.labelled_text import Fact
 from models.language.grammar.wording import Wording
+from models.language.parsed_hint import WINDS
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
@@ -23,6 +24,9 @@ from models.posterior.surroundings import Surroundings
 
 READ_AT_ONCE = 16
 SLIPS = 0.15  # share of the texts that say something wrong, as people do
+FEWER, FEWEST = 0.3, 2  # share of the texts that tell of less, and of how few things
+DISTANT, DISTANT_M = 0.2, (20.0, 60.0)  # share of the texts in free wording that also tell of what is so far away
+MEASURED = 0.5  # of that, with its distance
 SLIPS_OF_CLASS = 0.4  # of those, that name something else; the others give another direction and colour
 
 
@@ -73,7 +77,9 @@ class Place:
     def read(
         self, model: PosteriorModel, rows: Ints, grammars: Sequence[Grammar | None], rng: np.random.Generator
     ) -> list[Reading]:
-        """Texts about some positions, worded and read; some of them (`SLIPS`) say something wrong.
+        """Texts about some positions, worded and read.
+
+        Some of them say something wrong (`SLIPS`), tell of less (`FEWER`), or of what is further off (`DISTANT`).
 
         Args:
             model: reads them.
@@ -89,6 +95,10 @@ class Place:
             facts = [Fact(hint.label, hint.direction, hint.colour) for hint in self.hints[row]]
             if rng.random() < SLIPS:
                 facts = _slip(facts, self.palette, self.labels, rng)
+            if rng.random() < FEWER and len(facts) > FEWEST:
+                facts = [facts[n] for n in rng.permutation(len(facts))[: int(rng.integers(FEWEST, len(facts)))]]
+            if grammar and rng.random() < DISTANT:
+                facts += self._further_off(int(row), rng)
             wording = wordings[grammar]
             texts.append((wording.write(facts, rng) if grammar else wording.published(facts)).text)
         readings = []
@@ -96,6 +106,20 @@ class Place:
             read = model.reader.read(texts[start : start + READ_AT_ONCE])
             readings += [binding.reading(noticed) if noticed else binding.nothing() for noticed in read]
         return readings
+
+    def _further_off(self, row: int, rng: np.random.Generator) -> list[Fact]:
+        """One or two things that are told of at other positions, some tens of metres away."""
+        scenes = np.asarray(self.cells.scenes)[self.truth]
+        way = self.positions_m[row] - self.positions_m
+        metres = np.hypot(*way.T)
+        others = np.flatnonzero((metres > DISTANT_M[0]) & (metres < DISTANT_M[1]) & (scenes == scenes[row]))
+        facts = []
+        for n in rng.permutation(others)[: int(rng.integers(1, 3))]:
+            hint = self.hints[n][int(rng.integers(len(self.hints[n])))]
+            wind = WINDS[round(float(np.degrees(np.arctan2(*way[n]))) / 45) % 8]
+            said = float(metres[n].round()) if rng.random() < MEASURED else None
+            facts.append(Fact(hint.label, wind, hint.colour, distance_m=said))
+        return facts
 
 
 def _slip(facts: Sequence[Fact], palette: Palette, labels: Sequence[str], rng: np.random.Generator) -> list[Fact]:

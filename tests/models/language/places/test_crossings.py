@@ -106,8 +106,9 @@ def test_an_address_between_two(lookup, cues) -> None:
     assert len(address.weights) == 1
 
 
-def test_a_number_past_the_end_leaves_the_street(town, lookup, cues) -> None:
-    (street,) = find_mentions("at 900 West 25th Street", lookup, cues)
+def test_a_number_past_the_end_leaves_the_street_and_is_told_of(town, lookup, cues) -> None:
+    address, street = find_mentions("at 900 West 25th Street", lookup, cues)
+    assert (address.form, address.text) == ("unknown", "900 West 25th Street")
     assert street.form == "street"
     assert called(town, street.objects) == {"West 25th Street"}
 

@@ -10,6 +10,8 @@ import torch
 from models.city.colours import KITTI360_PALETTE
 from models.city.types import Hint
 from models.language.grammar.files import load_grammar
+from models.language.grammar.labelled_text import LabelledText
+from models.language.grammar.wording import Wording
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.parsed_hint import WINDS
 from models.posterior.likelihood import Likelihood
@@ -35,7 +37,7 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     assert [p.step for p in seen] == [1, 2]
     assert 0 <= figures["recall@1"] <= 1
     model = load_posterior(tmp_path)
-    assert model.config.radius_scale == pytest.approx(figures["radius_scale"])
+    assert model.config.radius_held == pytest.approx((figures["held_p50"], figures["held_p90"]))
     record = json.loads((tmp_path / "config.json").read_text())
     assert record["fingerprint"] == model.fingerprint
     assert record["training"]["validation"] == figures
@@ -58,7 +60,7 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
         claimed = np.exp(float(likelihood.temper.detach()) - fitted) * 0.5 / 0.6
         return SimpleNamespace(
             rows=np.array([int(is_right)]), positions=np.zeros((1, 2)), probability=np.array([claimed]),
-            radii_m=lambda *_: [1.0],
+            share_within=lambda _: 0.8,
         )  # fmt: skip
 
     monkeypatch.setattr(fit_posterior, "locate", locate)
@@ -71,11 +73,13 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
     figures = fit_posterior.calibrate_places(model, [place, place], np.random.default_rng(0))
     assert float(model.likelihood.temper.detach()) - fitted == pytest.approx(np.log(0.6))
     assert figures["recall@1"] == 0.5
+    assert model.config.radius_held == pytest.approx((0.8, 0.8)), "what a radius of 90 % must hold to hold 90 %"
 
 
-def test_a_slip_changes_one_fact_to_what_is_not_true(monkeypatch) -> None:
-    """Of texts in the benchmark's wording."""
-    monkeypatch.setattr("models.training.posterior.places.SLIPS", 1.0)
+def read_texts(monkeypatch, wording, **shares) -> list[str]:
+    """Twenty texts about three things, as they are given to the reader."""
+    for name, value in shares.items():
+        monkeypatch.setattr(f"models.training.posterior.places.{name}", value)
     shipped, texts = load_posterior(), []
 
     def read(some):
@@ -84,12 +88,41 @@ def test_a_slip_changes_one_fact_to_what_is_not_true(monkeypatch) -> None:
 
     model: Any = SimpleNamespace(matcher=shipped.matcher, reader=SimpleNamespace(read=read))
     hints = (Hint("north", "bench", "gray"), Hint("on-top", "tree", None), Hint("east", "road", "black"))
+    there = (Hint("north", "fountain", None),)
     nowhere: Any = None
     place = Place(
-        nowhere, nowhere, np.zeros(0, np.int64), ("bench", "tree", "road"), KITTI360_PALETTE, [hints] * 20,
-        np.zeros((20, 2)), np.zeros(20, np.int64),
+        nowhere, SimpleNamespace(scenes=("town", "other")), np.zeros(0, np.int64),
+        ("bench", "fountain", "road", "tree"),
+        KITTI360_PALETTE, [*[hints] * 20, there, there, there],
+        np.array([*[(0.0, 0.0)] * 20, (45.0, 0.0), (70.0, 0.0), (40.0, 0.0)]), np.array([0] * 22 + [1]),
     )  # fmt: skip
-    place.read(model, np.arange(20), (None,), np.random.default_rng(0))
+    place.read(model, np.arange(20), (wording,), np.random.default_rng(0))
+    assert len(texts) == 20
+    return texts
+
+
+def test_some_texts_tell_of_less(monkeypatch) -> None:
+    whole = read_texts(monkeypatch, None, SLIPS=0.0, FEWER=0.0)
+    assert {text.count("The pose") for text in whole} == {3}
+    some = read_texts(monkeypatch, None, SLIPS=0.0, FEWER=1.0)
+    assert {text.count("The pose") for text in some} == {2}
+
+
+@pytest.mark.parametrize("measured", [0.0, 1.0])
+def test_some_texts_tell_of_what_is_further_off(monkeypatch, measured) -> None:
+    """Of a thing that is told of 45 m away in the same scene."""
+    given = {"SLIPS": 0.0, "FEWER": 0.0, "MEASURED": measured}
+    told = []
+    monkeypatch.setattr(Wording, "write", lambda self, facts, rng: told.extend(facts) or LabelledText("", ()))
+    read_texts(monkeypatch, "train", **given, DISTANT=1.0)
+    distant = [fact for fact in told if fact.label == "fountain"]
+    assert len(distant) == 20
+    assert {(fact.relation, fact.distance_m) for fact in distant} == {("west", 45.0 if measured else None)}
+
+
+def test_a_slip_changes_one_fact_to_what_is_not_true(monkeypatch) -> None:
+    """Of texts in the benchmark's wording."""
+    texts = read_texts(monkeypatch, None, SLIPS=1.0, FEWER=0.0)
     facts = [("north", "gray bench"), ("on-top", "tree"), ("east", "black road")]
     seen = set()
     for text in texts:

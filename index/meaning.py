@@ -1,0 +1,72 @@
+"""A map's names and nouns by what they mean: "the makeup shop" is one for cosmetics, "the defence ministry" a name."""
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from torch import Tensor
+
+from index.store import FaissStore, VectorStore
+from models.errors import IndexBroken
+from models.language.places.lookup import EMPTY, Lookup
+from models.language.places.names import plain_words
+
+LIKE: Final = 0.85  # cosine from which on words mean the same
+VECTORS_FILE, PHRASES_FILE = "meanings.faiss", "meanings.json"
+READ_AT_ONCE: Final = 64  # phrases, of like length
+Embed = Callable[[Sequence[str]], Tensor]
+
+
+class Meanings:
+    """Names and nouns of two words or more of a map, found by the cosine of the frozen text encoder's vectors.
+
+    Args:
+        phrases: P of them, in plain words.
+        store: their unit vectors [P, W].
+        embed: gives unit vectors [S, W] of S phrases.
+    """
+
+    def __init__(self, phrases: Sequence[str], store: VectorStore, embed: Embed) -> None:
+        self._phrases, self._store, self._embed = phrases, store, embed
+
+    @classmethod
+    def of(cls, lookup: Lookup, embed: Embed) -> "Meanings":
+        """Those of a map; some hundreds a second."""
+        phrases = sorted(lookup.phrases(), key=len)
+        starts = range(0, len(phrases), READ_AT_ONCE)
+        vectors = [embed(phrases[start : start + READ_AT_ONCE]).numpy() for start in starts]
+        return cls(phrases, FaissStore.of(np.concatenate([embed(["a"]).numpy()[:0], *vectors])), embed)
+
+    def like(self, said: str) -> tuple[str, ...] | None:
+        """The plain words of the name or noun that means what was said; None for single words, and if there is none."""
+        words = [word for word in plain_words(said) if word not in EMPTY]
+        if len(words) < 2 or not self._phrases:
+            return None
+        cosine, row = self._store.search(self._embed([" ".join(words)]).numpy(), 1)
+        return tuple(self._phrases[row[0, 0]].split()) if cosine[0, 0] >= LIKE else None
+
+    def save(self, directory: Path) -> None:
+        """Write two files."""
+        self._store.save(directory / VECTORS_FILE)
+        text = json.dumps(self._phrases, ensure_ascii=False, separators=(",", ":"))
+        (directory / PHRASES_FILE).write_text(text, encoding="utf-8")
+
+    @classmethod
+    def load(cls, directory: Path, embed: Embed) -> "Meanings":
+        """Read what `save` wrote.
+
+        Raises:
+            IndexBroken: the files do not hold it.
+        """
+        store = FaissStore.load(directory / VECTORS_FILE)
+        try:
+            phrases = json.loads((directory / PHRASES_FILE).read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise IndexBroken(
+                f"{directory / PHRASES_FILE} cannot be read; rebuild it with 'hereabouts index'"
+            ) from error
+        if len(store) != len(phrases):
+            raise IndexBroken(f"the meanings in {directory} do not belong together; rebuild it with 'hereabouts index'")
+        return cls(phrases, store, embed)
