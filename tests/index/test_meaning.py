@@ -15,6 +15,7 @@ THINGS = {
     ("shop/baby_goods", "shop"): (),
     ("building",): ("City Art Museum",),
     ("amenity/cafe",): ("Old Mill",),
+    ("amenity/bar",): ("Baby Goods Shop",),
 }
 
 

@@ -39,8 +39,9 @@ def with_meant(
         plain = like(text[start:end]) if rows and taken.isdisjoint(rows) else None
         if plain is None or plain == plain_words(text[start:end]):
             continue  # the latter was looked up
-        match = lookup.named(plain) if lookup.is_name(plain) else None
-        span = with_objects(Span(rows[0], rows[-1], "thing", match, 0.0, lookup.kinds(plain)), lookup)
+        kinds = lookup.kinds(plain)
+        match = lookup.named(plain) if not kinds and lookup.is_name(plain) else None  # "makeup store" is a noun first
+        span = with_objects(Span(rows[0], rows[-1], "thing", match, 0.0, kinds), lookup)
         if span.match is not None:
             found.append(replace(span, match=replace(span.match, trust=TRUST, is_exact=False)))
             taken.update(rows)
