@@ -70,6 +70,12 @@ def test_what_is_said_in_a_name_is_not_read_twice(lookup, meanings, cues) -> Non
     assert [mention.text for mention in mentions] == [m.text for m in find_mentions(text, lookup, cues)]
 
 
+def test_what_has_a_name_is_not_taken_for_another(lookup, cues) -> None:
+    text = "I'm outside the Old Mill"
+    [mention] = find_mentions(text, lookup, cues, nouns=[(16, 24)], like=lambda _: ("baby", "goods", "shop"))
+    assert mention.objects.tolist() == [2]
+
+
 def test_meanings_are_saved_and_read_back(lookup, meanings, text_encoder, tmp_path) -> None:
     meanings.save(tmp_path)
     again = Meanings.load(tmp_path, text_encoder.embed)

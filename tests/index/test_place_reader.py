@@ -132,6 +132,18 @@ def test_a_class_that_the_gazetteer_lacks_stays_a_hint(localizer) -> None:
     assert near_hints(hints, [1.0], [replace(lacks, kinds=())])[0] == [], "a name is no class"
 
 
+def test_nouns_are_read_where_they_stand_in_the_text(localizer, monkeypatch) -> None:
+    given, read = [], localizer.posterior.places.read
+
+    def watched(text, language, nouns, **rest):
+        given.extend(text[start:end] for start, end in nouns)
+        return read(text, language, nouns, **rest)
+
+    monkeypatch.setattr(localizer.posterior.places, "read", watched)
+    answer(localizer, "I'm on East Street 2.\n- A gray bench is to my west\n- I see a tree")
+    assert {"bench", "tree"} <= set(given)
+
+
 def test_a_construction_can_be_left_out(localizer) -> None:
     [mention] = [
         m

@@ -29,12 +29,17 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     labelled = fit_posterior.labelled_texts()[:32]
     monkeypatch.setattr(fit_posterior, "labelled_texts", lambda: labelled)
     monkeypatch.setattr(fit_posterior, "EPOCHS", 1)
+    calibrate, places = fit_posterior.calibrate_places, []
+    monkeypatch.setattr(
+        fit_posterior, "calibrate_places", lambda m, some, rng: (places.append(len(some)), calibrate(m, some, rng))[1]
+    )
     config = TrainingConfig(steps=2, batch_size=16, validate_every=2)
     seen = []
     figures = fit_posterior.train_posterior(
         [osm_file], ("train", "test"), tmp_path, PosteriorConfig(width=32), config, progress=seen.append
     )
     assert [p.step for p in seen] == [1, 2]
+    assert places == [2], "calibrated on the place that was fitted to and on the other"
     assert 0 <= figures["recall@1"] <= 1
     model = load_posterior(tmp_path)
     assert model.config.radius_held == pytest.approx((figures["held_p50"], figures["held_p90"]))
