@@ -22,7 +22,7 @@ _SURELY = re.compile(r"\b(?:and|at|meets|crosses|corner of)\b|[&/@]", re.IGNOREC
 _AT_END = re.compile(r"\s*(?:$|[.,;!?\n]|corner\b|crossing\b|intersection\b)", re.IGNORECASE)
 _NUMBER = re.compile(r"(?<![\w.])(?:number |no\.? |#)?(\d{1,5}[a-z]?)\s+$", re.IGNORECASE)
 _NUMBER_AFTER = re.compile(
-    r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?![\w.]|\s*(?:m|met|feet|ft|yards|steps|min|blocks?|doors?|and|/)\b)",
+    r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?!\w|\.\d|\s*(?:m|met|feet|ft|yards|steps|min|blocks?|doors?|and|/)\b)",
     re.IGNORECASE,
 )
 

@@ -113,6 +113,13 @@ def test_a_number_past_the_end_leaves_the_street_and_is_told_of(town, lookup, cu
     assert called(town, street.objects) == {"West 25th Street"}
 
 
+def test_a_number_behind_a_street_may_end_the_sentence(town, lookup, cues) -> None:
+    address = of_form("I'm at West 25th Street 402. Help.", lookup, cues, "address")
+    assert called(town, address.objects) == {"402"}
+    assert [m.form for m in find_mentions("I'm at West 25th Street 999.", lookup, cues)] == ["street", "unknown"]
+    assert [m.form for m in find_mentions("I'm at West 25th Street 2.5 km off", lookup, cues)] == ["street"]
+
+
 @pytest.mark.parametrize(
     "text", ["on 25th street 50 m from here", "on 25th street 2 blocks away", "25th Street, 30 feet ahead"]
 )
