@@ -89,3 +89,10 @@ def sha256(path: Path) -> str:
 def file_records(directory: Path) -> dict[str, FileRecord]:
     """Sizes and sums of the files of a directory, by name in order."""
     return {p.name: FileRecord(sha256=sha256(p), bytes=p.stat().st_size) for p in sorted(directory.iterdir())}
+
+
+def cache_directory() -> Path:
+    """Where computed things are kept: HEREABOUTS_CACHE_DIR, else hereabouts in XDG_CACHE_HOME, else in ~/.cache."""
+    if own := os.environ.get("HEREABOUTS_CACHE_DIR"):
+        return Path(own)
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "hereabouts"

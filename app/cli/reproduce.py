@@ -1,39 +1,97 @@
 """The command that makes the paper's tables again. Heavy imports are inside, so that --help is quick."""
 # ruff: noqa: PLC0415
 
+import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from models.errors import DataError
 
+if TYPE_CHECKING:
+    from models.training.experiments import Scale
+
 MADE_UP = ("demo", "full")  # scales of `models.city.synthetic.towns.write_towns`
 TOWN_SEED = 0
+PARTS = ("retriever", "fine", "points")  # tables of a --config
 
 
 def reproduce(
     out: Annotated[Path, typer.Option(help="directory for runs and report; what is done there is kept")],
     data: Annotated[str, typer.Option(help="demo or full (made-up towns), or a directory of KITTI360Pose")] = "demo",
     seeds: Annotated[str, typer.Option(help="of the trainings: 0 or 0,1,2; figure 4 is made with the first")] = "0",
+    tables: Annotated[
+        str | None, typer.Option(help="1, 2, 3, 4, 4a, 4b, graph, attention, code, inputs; else all")
+    ] = None,
+    steps: Annotated[int | None, typer.Option(min=1, help="of each training")] = None,
+    epochs: Annotated[
+        int | None, typer.Option(min=1, help="of each training; validates after each, rates halve every five")
+    ] = None,
+    config: Annotated[
+        Path | None,
+        typer.Option(help="TOML: tables retriever, fine, points, in each model and training, as --set of train"),
+    ] = None,
+    workers: Annotated[int | None, typer.Option(min=1, help="trainings at once; else one a processor")] = None,
+    device: Annotated[str, typer.Option(help="auto, cpu or cuda; of several GPUs each takes its turn")] = "auto",
     report: Annotated[Path | None, typer.Option(help="directory for the report; OUT if left out")] = None,
 ) -> None:
-    """Make the tables 1-4 and figures 4-5 of MNCL: train what is missing, measure, print beside what is published."""
+    """Make the tables 1-4 and figures 3-5 of MNCL: train what is missing, measure, print beside what is published."""
     from app.cli.progress import stage_bars
     from app.threads import usable_cpus
+    from index.evaluation.reproduce import chosen, figure_3_of, in_epochs
     from index.evaluation.reproduce import reproduce as run
     from index.evaluation.reproduce_report import write_reproduction
     from models.training.experiments import SCALES
 
-    numbers = _numbers(seeds)
+    if steps and epochs:
+        raise DataError("--steps and --epochs both say how long to train; give one of them")
+    numbers, experiments = _numbers(seeds), chosen(tables)
+    scale = _changed(SCALES["demo" if data == "demo" else "full"], config, steps, device)
     with stage_bars() as show:
-        store = _towns(data, out, show) if data in MADE_UP else Path(data)
-        found = run(store, out, SCALES["demo" if data == "demo" else "full"], numbers, usable_cpus(), show)
+        store = _store(_towns(data, out, show) if data in MADE_UP else Path(data), out, show)
+        scale = in_epochs(scale, store, epochs) if epochs else scale
+        found = run(store, out, scale, numbers, workers or usable_cpus(), show, experiments)
     name = f"the {data} towns" if data in MADE_UP else Path(data).resolve().name
     directory = report or out
-    write_reproduction(directory, found, name)
+    write_reproduction(directory, found, name, figure_3_of(store, out, scale, numbers[0]))
     typer.echo(f"the report is {directory / 'report.md'}")
+
+
+def _changed(scale: "Scale", config: Path | None, steps: int | None, device: str) -> "Scale":
+    """A scale with what a configuration file and the options say, the latter last."""
+    told = _read(config) if config else {}
+    lasts = (f"training.steps={steps}", f"training.validate_every={max(1, steps // 20)}") if steps else ()
+    parts = {
+        part: (
+            *getattr(scale, part),
+            *told.get(part, ()),
+            *(() if part == "points" else lasts),
+            f"training.device={device}",
+        )
+        for part in PARTS
+    }
+    return replace(scale, **parts)
+
+
+def _read(config: Path) -> dict[str, tuple[str, ...]]:
+    """The settings of each part of a configuration file, as `load_settings` takes them."""
+    try:
+        tables: dict[str, Any] = tomllib.loads(config.read_text())
+    except (OSError, ValueError) as error:
+        raise DataError(f"--config {config} cannot be read ({error}); it is a TOML file, see docs/use.md") from error
+    if unknown := [part for part in tables if part not in PARTS]:
+        raise DataError(f"--config {config}: there is no table '{unknown[0]}'; it has {', '.join(PARTS)}")
+    return {
+        part: tuple(
+            f"{table}.{name}={','.join(map(str, value)) if isinstance(value, list) else value}"
+            for table, fields in of_part.items()
+            for name, value in fields.items()
+        )
+        for part, of_part in tables.items()
+    }
 
 
 def _numbers(text: str) -> list[int]:
@@ -44,15 +102,25 @@ def _numbers(text: str) -> list[int]:
 
 
 def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path:
-    """Made-up towns as a store, made if they are not there yet."""
+    """Made-up towns in the published layout, made if they are not there yet."""
     from models.city.kitti360.job import prepare_data
-    from models.city.store.files import MANIFEST, convert
     from models.city.synthetic.towns import write_towns
 
-    raw, prepared, store = (out / "data" / name for name in ("raw", "prepared", "store"))
-    if not (store / MANIFEST).is_file():
-        if not raw.is_dir():
-            write_towns(raw, scale, TOWN_SEED, lambda done, total: show("towns", done, total))
-        prepare_data(raw, prepared, None, seed=TOWN_SEED, progress=show)
-        convert(prepared, store, None, lambda done, total: show("MB of points", done >> 20, total >> 20))
+    raw, prepared = (out / "data" / name for name in ("raw", "prepared"))
+    if not raw.is_dir():
+        write_towns(raw, scale, TOWN_SEED, lambda done, total: show("towns", done, total))
+    prepare_data(raw, prepared, None, seed=TOWN_SEED, progress=show)
+    return prepared
+
+
+def _store(data: Path, out: Path, show: Callable[[str, int, int], None]) -> Path:
+    """Data as a store, which each training opens in no time; an OpenStreetMap file and a store stay what they are."""
+    from index.artifact import fingerprint
+    from models.city.store.files import MANIFEST, convert
+
+    if not data.is_dir() or (data / MANIFEST).is_file():
+        return data
+    store = out / "data" / f"store-{fingerprint(data)[:12]}"
+    if not store.is_dir():
+        convert(data, store, None, lambda done, total: show("MB of points", done >> 20, total >> 20))
     return store

@@ -30,8 +30,8 @@ def train(
     method: Annotated[
         str,
         typer.Option(
-            help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), posterior, "
-            "or places: the posterior's reader of cues and kernels for people's texts"
+            help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), points: the point "
+            "encoder that either may take, posterior, or places: its reader of cues and kernels for people's texts"
         ),
     ] = "mncl",
     change: Annotated[
@@ -81,6 +81,8 @@ def train(
         train_it: Callable[..., str] = _train_fine if method in FINE_METHODS else _train_retriever
         if method == "posterior":
             train_it = partial(_train_posterior, reader)
+        elif method == "points":
+            train_it = _train_points
         found = train_it(*given, show)
         if distributed.is_first():
             typer.echo(f"weights are in {out}; validation {found}")
@@ -136,6 +138,18 @@ def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: A
         lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data],
         out, method, model, config, *rest,
     )  # fmt: skip
+    return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
+
+
+def _train_points(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
+    """Train the point encoder; its figures in words."""
+    from models.training.fit_points import train_points
+    from models.training.training_data import load_training
+
+    out, *rest = where
+    figures = train_points(
+        lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data], out, config, *rest
+    )
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 

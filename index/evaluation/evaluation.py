@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import cKDTree
 
 from index.answers import Query
 from index.evaluation.ambiguity import ambiguity
@@ -18,7 +17,7 @@ from index.evaluation.scoring import score
 from index.finding import CellLocalizer
 from models.city.gallery import MapData
 from models.city.queries import Queries
-from models.city.types import Floats, Progress
+from models.city.types import Progress
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 
@@ -117,8 +116,8 @@ def grow(
 ) -> list[tuple[float, tuple[MapData, Queries], npt.NDArray[np.intp]]]:
     """The scalability protocol (MNCL, figure 5): the same queries, a gallery that grows around them.
 
-    The queries are those within the least radius of one centre (the query's position with most others around it, in
-    its scene); the gallery is every cell within each radius of it.
+    The gallery is every cell within each radius of the middle of its scene; the queries are those whose position and
+    best cell lie within the least.
 
     Returns:
         For each radius, in ascending order: the radius, gallery and queries, and the gallery's rows in `data`.
@@ -131,11 +130,14 @@ def grow(
     radii = sorted(set(radii_m))
     if radii[0] <= 0:
         raise DataError(f"grow: {radii[0]:g} m is no radius; give metres above 0, such as 200,300,400,500")
-    asked, center, scene = _densest(queries, radii[0])
     cells = data.cells
-    distance = np.hypot(*(cells.center_m[:, :2] - center).T)
-    distance[np.array(cells.scenes) != scene] = np.inf
-    asked = asked[distance[queries.truth[asked]] <= radii[0]]  # whose best cell is in the least gallery
+    names, scene = np.unique(cells.scenes, return_inverse=True)
+    middle = np.stack([cells.center_m[scene == n, :2].mean(axis=0) for n in range(len(names))])
+    distance = np.hypot(*(cells.center_m[:, :2] - middle[scene]).T)
+    known = np.flatnonzero(queries.truth >= 0)
+    truth = queries.truth[known]
+    away = np.hypot(*(queries.positions_m[known] - middle[scene[truth]]).T)
+    asked = known[np.maximum(away, distance[truth]) <= radii[0]]
     if not len(asked):
         raise DataError(f"grow: no query has its cell within {radii[0]:g} m; begin with a larger radius")
     steps = []
@@ -148,22 +150,6 @@ def grow(
         part = replace(asked_here, truth=position[asked_here.truth], hints=None)
         steps.append((radius, (replace(data, gallery=gallery), part), rows))
     return steps
-
-
-def _densest(queries: Queries, radius_m: float) -> tuple[npt.NDArray[np.intp], Floats, str]:
-    """Rows of the queries around the position that has most of them in reach, that position, and its scene."""
-    scenes = np.array(queries.scenes)
-    best: npt.NDArray[np.intp] = np.empty(0, np.intp)
-    center, scene = np.zeros(2), ""
-    for name in np.unique(scenes).tolist():
-        rows = np.flatnonzero((scenes == name) & (queries.truth >= 0))
-        if len(rows):
-            tree = cKDTree(queries.positions_m[rows])
-            at = int(tree.query_ball_point(queries.positions_m[rows], radius_m, return_length=True).argmax())
-            near = rows[tree.query_ball_point(queries.positions_m[rows[at]], radius_m)]
-            if len(near) > len(best):
-                best, center, scene = np.sort(near), queries.positions_m[rows[at]], name
-    return best, center, scene
 
 
 def save_run(report_dir: Path, predictions: Predictions, grown: Sequence[tuple[float, Predictions]] = ()) -> None:

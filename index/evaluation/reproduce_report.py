@@ -6,140 +6,246 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
-from index.evaluation.report import DPI, Table, as_markdown
-from models.training.experiments import (
-    EXPERIMENTS,
-    FIGURE_4A,
-    FIGURE_4B,
-    FINE,
-    GROWTH,
-    LOCALIZATION,
-    MNCL,
-    ORDERS,
-    Experiment,
-    Row,
-    Run,
-)
-from models.training.metrics import RETRIEVAL_KS
+from index.evaluation.report import Table, as_markdown
+from index.evaluation.reproduce_plots import draw_figure_4, draw_figure_5
+from models.training.experiments import VARIANTS, Experiment, Row, made_of
+from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
+from models.training.paper_tables import EXPERIMENTS, GROWTH, MNCL
 
-PUBLISHED = " (paper)"
+RECALLS = tuple(f"R@{k}" for k in RETRIEVAL_KS)
+PUBLISHED, VALIDATED = " (paper)", ", validation"
+COSTS = ("best_step", "steps"), ("seconds_to_best", "seconds")
+FIGURES_4 = ("4a", "4b")
 Found = dict[str, Any]
+Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
-def write_reproduction(directory: Path, found: Found, name: str) -> None:
-    """Write results.json, report.md, figure4.png and figure5.png.
+def write_reproduction(directory: Path, found: Found, name: str, figure_3: Path | None = None) -> None:
+    """Write results.json, report.md, and the figures.
 
     Args:
         directory: made if it is missing.
         found: what `index.evaluation.reproduce.reproduce` gave.
         name: of the data.
+        figure_3: the picture that a job made, if there is one.
     """
     directory.mkdir(parents=True, exist_ok=True)
+    if figure_3 and figure_3.is_file():
+        (directory / "figure3.png").write_bytes(figure_3.read_bytes())
+    found = found | {"figure_3": (directory / "figure3.png").is_file()}
     (directory / "results.json").write_text(json.dumps(found, indent=1) + "\n")
     (directory / "report.md").write_text(markdown(found, name))
-    _draw_figure_4(directory / "figure4.png", found)
-    _draw_figure_5(directory / "figure5.png", found)
+    curves = [experiment for experiment in experiments_of(found) if experiment.key in FIGURES_4]
+    if curves:
+        recalls = [[_recalls(row, variant, found)[0] for row, variant in e.made()] for e in curves]
+        draw_figure_4(directory / "figure4.png", [e.title for e in curves], recalls)
+    if grown := _grown(found):
+        draw_figure_5(directory / "figure5.png", [row["cells"] for row in grown[0][2][0]], [
+            (name, np.array([[row["R@1"] for row in rows] for rows in by_seed])) for name, _, by_seed in grown
+        ])  # fmt: skip
+
+
+def experiments_of(found: Found) -> list[Experiment]:
+    """The tables and figures that were made."""
+    return [EXPERIMENTS[key] for key in found["experiments"]]
 
 
 def markdown(found: Found, name: str) -> str:
     """The report as a page."""
-    data, seeds = found["data"], found["seeds"]
-    exact = ", ".join(f"R@{k} {value:.3f}" for k, value in data["exact_matching"].items())
-    spread = "mean ± standard deviation over them, figure 4 of the first" if len(seeds) > 1 else "one run each"
-    parts = [
-        f"# The paper's tables and figures on {name}",
-        f"Test scenes: {data['cells']} cells, {data['queries']} queries. Seeds {', '.join(map(str, seeds))}; {spread}. "
-        f"Exact matching of the hints, which knows what each sentence means: {exact}. Columns marked (paper) are "
-        "published figures on KITTI360Pose's test scenes: other data, so their order is what compares.",
-    ]
-    for experiment in EXPERIMENTS:
-        parts += [f"## {experiment.title}", as_markdown(_table(experiment, found))]
-    parts += ["![figure 4](figure4.png)", "## Figure 5: a growing gallery", as_markdown(_growth_table(found))]
-    parts += ["![figure 5](figure5.png)", "## Do the orders hold?", as_markdown(_orders_table(found))]
-    parts += ["## Ranking, validation scenes", as_markdown(_ranking_table(found))]
-    parts += ["## Fine stages, true cell given, validation scenes", as_markdown(_fine_table(found))]
+    parts = [f"# The paper's tables and figures on {name}", *_head(found)]
+    for experiment in experiments_of(found):
+        parts += [f"## {experiment.title}", *([experiment.note] if experiment.note else [])]
+        parts.append(as_markdown(_table(experiment, found)))
+        if experiment.key == FIGURES_4[-1]:
+            parts.append("![figure 4](figure4.png)")
+    if found["figure_3"]:
+        parts += [
+            "## Figure 3: queries and what is retrieved",
+            "Drawn at random, MNCL, our inputs. ![figure 3](figure3.png)",
+        ]
+    if _grown(found):
+        parts += ["## Figure 5: a growing gallery", as_markdown(_growth_table(found)), "![figure 5](figure5.png)"]
+    parts += ["## Do the orders hold?", as_markdown(_orders_table(found))]
+    if rankings := _ranking_rows(found):
+        parts += ["## Ranking of MNCL, validation scenes", as_markdown((("", *RECALLS), rankings))]
+    if fine := _fine_rows(found):
+        head = "", "5 m", "10 m", "5 m, neighbour cell", "10 m, neighbour cell"
+        parts += ["## Fine stages, true cell given, validation scenes", as_markdown((head, fine))]
     parts += ["## What training costs", as_markdown(_cost_table(found))]
     return "\n\n".join(parts) + "\n"
 
 
-def _table(experiment: Experiment, found: Found) -> Table:
-    head = ["", *experiment.metrics]
-    published = [m for m in experiment.metrics if any(m in row.published for row in experiment.rows)]
-    rows = [
-        (row.name, *_figures(row, experiment, found), *(row.published.get(m, "-") for m in published))
-        for row in experiment.rows
+def _head(found: Found) -> list[str]:
+    """What was measured on, how much was trained, and what published figures are worth here."""
+    data, seeds, runs = found["data"], found["seeds"], found["runs"]
+    exact = ", ".join(f"R@{k} {value:.3f}" for k, value in data["exact_matching"].items())
+    spread = (
+        "mean ± standard deviation over them, figure 4 and what is said so of the first"
+        if len(seeds) > 1
+        else "one run each"
+    )
+    hours = sum(result["training"]["seconds"] for results in runs.values() for result in results) / 3600
+    return [
+        f"Test scenes: {data['cells']} cells, {data['queries']} queries. Exact matching of the hints, which knows what "
+        f"each sentence means: {exact}. Seeds {', '.join(map(str, seeds))}; {spread}. {hours:.1f} hours of training in "
+        "all, one thread each.",
+        as_markdown(_settings_table(found)),
+        "Our inputs: an instance's label, mean colour, centre, point closest to the cell's centre, size and number of "
+        "points. The paper's inputs: its points by a frozen PointNet++, mean colour, centre and number of points; no "
+        "label. Columns marked (paper) are published figures on KITTI360Pose, with the paper's inputs and T5: other "
+        "data and perhaps another text encoder, so their order is what compares.",
     ]
-    return (*head, *(m + PUBLISHED for m in published)), rows
 
 
-def _figures(row: Row, experiment: Experiment, found: Found) -> list[str]:
-    results = found["runs"][row.run.name]
+def _settings_table(found: Found) -> Table:
+    """How each kind of model was trained."""
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for name, results in found["runs"].items():
+        told = results[0]["settings"]
+        steps = f"{told['steps']}, best of validation" + (f", patience {told['patience']}" if told["patience"] else "")
+        rate = f"{told['learning_rate']:g}, {told['schedule']}"
+        key = (
+            steps,
+            str(told["batch_size"]),
+            str(told.get("width", "-")),
+            rate,
+            told.get("text_encoder", "-"),
+            told["wording"],
+        )
+        rows.setdefault(key, []).append(name.split("-")[0])
+    head = "trained", "steps", "batch", "width", "learning rate", "text encoder", "wording"
+    return head, [(", ".join(dict.fromkeys(names)), *key) for key, names in rows.items()]
+
+
+def _table(experiment: Experiment, found: Found) -> Table:
+    metrics = RECALLS if experiment.metric == "retrieval" else tuple(f"k={k}" for k in LOCALIZATION_KS)
+    validated = metrics if experiment.metric == "retrieval" else metrics[:1]
+    published = [m for m in metrics if any(m in row.published for row in experiment.rows)]
+    published_validated = [m for m in validated if any(m in row.validation for row in experiment.rows)]
+    rows = []
+    for row, variant in experiment.made():
+        test, validation = _recalls(row, variant, found)
+        name = f"{row.name}, {variant}" if len(experiment.variants) > 1 else row.name
+        rows.append((
+            name, *_columns(test, experiment), *_columns(validation, experiment)[: len(validated)],
+            *(row.published.get(m, "-") for m in published), *(row.validation.get(m, "-") for m in published_validated),
+        ))  # fmt: skip
+    head = ("", *metrics, *(m + VALIDATED for m in validated), *(m + PUBLISHED for m in published))
+    return (*head, *(m + VALIDATED + PUBLISHED for m in published_validated)), rows
+
+
+def _recalls(row: Row, variant: str, found: Found) -> tuple[Numbers, Numbers]:
+    """[seeds, metrics] on the test and on the validation scenes; of localization [seeds, k, metres]."""
+    results = found["runs"][made_of(row.run, variant).name]
+    if row.fine is None:
+        splits = "retrieval", "validation_retrieval"
+        test, validation = ([list(result[split].values()) for result in results] for split in splits)
+    else:
+        of_fine = [result["localization"][made_of(row.fine, variant).name] for result in results]
+        test, validation = (
+            [[list(by.values()) for by in by_split[split].values()] for by_split in of_fine]
+            for split in ("test", "val")
+        )
+    return np.array(test), np.array(validation)
+
+
+def _columns(recalls: Numbers, experiment: Experiment) -> list[str]:
     if not experiment.every_seed:
-        results = results[:1]
-    if experiment.metrics == LOCALIZATION:
-        by_k = [{k: list(by.values()) for k, by in r["localization"].items()} for r in results]
-        return ["/".join(_spread([r[k][n] for r in by_k]) for n in range(3)) for k in by_k[0]]
-    return [_spread([r["retrieval"][str(k)] for r in results]) for k in RETRIEVAL_KS]
+        recalls = recalls[:1]
+    if experiment.metric == "retrieval":
+        return [_spread(column) for column in recalls.T]
+    return ["/".join(_spread(recalls[:, k, metres]) for metres in range(3)) for k in range(recalls.shape[1])]
 
 
-def _spread(values: Sequence[float] | np.ndarray[Any, Any]) -> str:
+def _spread(values: Sequence[float] | Numbers) -> str:
     text = f"{np.mean(values):.3f}"
     return text if len(values) < 2 else f"{text} ± {np.std(values, ddof=1):.3f}"
 
 
-def _recall_at_1(found: Found, run: Run) -> np.ndarray[Any, np.dtype[np.float64]]:
-    return np.array([result["retrieval"]["1"] for result in found["runs"][run.name]])
-
-
 def _orders_table(found: Found) -> Table:
+    """Each order that the paper's tables have, by its first figure: all pairs of rows with different figures."""
     rows: list[tuple[str, ...]] = []
-    for claim, worse, better in ORDERS:
-        gain = _recall_at_1(found, better) - _recall_at_1(found, worse)
-        holds = "yes" if gain.mean() > 0 else "no"
-        rows.append((claim, holds, f"{(gain > 0).sum()} of {len(gain)}", _spread(gain)))
-    return ("R@1", "in the mean", "seeds where it holds", "difference"), rows
+    for experiment in experiments_of(found):
+        place = experiment.title.split(":")[0]
+        for variant in experiment.variants:
+            for worse, better in experiment.orders():
+                gain = _gain(worse, better, variant, found)
+                holds = "yes" if gain.mean() > 0 else "no"
+                rows.append(
+                    (
+                        place,
+                        f"{better.name} above {worse.name}",
+                        variant,
+                        holds,
+                        f"{(gain > 0).sum()} of {len(gain)}",
+                        _spread(gain),
+                    )
+                )
+    return ("", "the paper's order", "of", "in the mean", "seeds where it holds", "difference"), rows
+
+
+def _gain(worse: Row, better: Row, variant: str, found: Found) -> Numbers:
+    """[seeds] by how much the first figure is better: recall@1, or the share of first positions within 5 m."""
+    first = [_recalls(row, variant, found)[0] for row in (worse, better)]
+    seeds = min(len(recalls) for recalls in first)
+    below, above = (recalls[:seeds].reshape(seeds, -1)[:, 0] for recalls in first)
+    return above - below
+
+
+def _grown(found: Found) -> list[tuple[str, str, list[list[dict[str, Any]]]]]:
+    """(name, published, [seeds] rows) of each curve of figure 5 that was made."""
+    curves = [
+        (f"{name}, {variant}", published, made_of(run, variant))
+        for name, (run, published) in GROWTH.items()
+        for variant in VARIANTS
+    ]
+    runs = found["runs"]
+    return [
+        (name, told, [result["growth"] for result in runs[run.name]]) for name, told, run in curves if run.name in runs
+    ]
 
 
 def _growth_table(found: Found) -> Table:
-    radii = [row["radius_m"] for row in found["runs"][MNCL.name][0]["growth"]]
+    grown = _grown(found)
     rows: list[tuple[str, ...]] = []
-    for name, (run, published) in GROWTH.items():
-        recalls = _growth(found, run)
-        loss = recalls.mean(axis=0)[1:] / max(recalls.mean(axis=0)[0], 1e-9) - 1
-        rows.append(
-            (
-                name,
-                *(f"{r:.3f}" for r in recalls.mean(axis=0)),
-                "/".join(f"{100 * x:+.1f}" for x in loss) + " %",
-                published,
-            )
-        )
-    return ("R@1 within", *(f"{r:g} m" for r in radii), "against the first", "against the first" + PUBLISHED), rows
+    for name, published, by_seed in grown:
+        recalls = np.mean([[row["R@1"] for row in rows_] for rows_ in by_seed], axis=0)
+        loss = "/".join(f"{100 * x:+.1f}" for x in recalls[1:] / max(recalls[0], 1e-9) - 1) + " %"
+        rows.append((name, *(f"{r:.3f}" for r in recalls), loss, published))
+    first = grown[0][2][0]
+    head = (f"{row['radius_m']:g} m, {row['cells']} cells" for row in first)
+    return (
+        f"R@1 of the same {first[0]['queries']} queries within",
+        *head,
+        "against the first",
+        "against the first" + PUBLISHED,
+    ), rows
 
 
-def _growth(found: Found, run: Run) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """[seeds, radii] recall@1."""
-    return np.array([[row["R@1"] for row in result["growth"]] for result in found["runs"][run.name]])
+def _ranking_rows(found: Found) -> list[tuple[str, ...]]:
+    rows = []
+    for variant in VARIANTS:
+        results = [result["rankings"] for result in found["runs"].get(made_of(MNCL, variant).name, [])]
+        rows += [
+            (f"{name}, {variant}", *(_spread([result[name][str(k)] for result in results]) for k in RETRIEVAL_KS))
+            for name in (results[0] if results else ())
+        ]
+    return rows
 
 
-def _ranking_table(found: Found) -> Table:
-    results = [result["rankings"] for result in found["runs"][MNCL.name]]
-    rows = [
-        (name, *(_spread([result[name][str(k)] for result in results]) for k in RETRIEVAL_KS)) for name in results[0]
-    ]
-    return ("MNCL", *(f"R@{k}" for k in RETRIEVAL_KS)), rows
-
-
-def _fine_table(found: Found) -> Table:
-    runs = list(dict.fromkeys(FINE.values()))
-    measured = [(run.name, [result["validation"] for result in found["runs"][run.name]]) for run in runs]
+def _fine_rows(found: Found) -> list[tuple[str, ...]]:
     names = ("within_5m", "within_10m", "neighbour_within_5m", "neighbour_within_10m")
-    rows = [("cell's centre", *(f"{measured[0][1][0]['cell_center'][name]:.3f}" for name in names))]
-    rows += [(name, *(_spread([f[key] for f in figures]) for key in names)) for name, figures in measured]
-    return ("", "5 m", "10 m", "5 m, neighbour cell", "10 m, neighbour cell"), rows
+    measured = [
+        (name, [result["validation"] for result in results])
+        for name, results in found["runs"].items()
+        if "within_5m" in results[0].get("validation", {})
+    ]
+    if not measured:
+        return []
+    center = measured[0][1][0]["cell_center"]
+    rows = [("cell's centre", *(f"{center[name]:.3f}" for name in names))]
+    return rows + [(name, *(_spread([f[key] for f in figures]) for key in names)) for name, figures in measured]
 
 
 def _cost_table(found: Found) -> Table:
@@ -147,38 +253,10 @@ def _cost_table(found: Found) -> Table:
     for name, results in found["runs"].items():
         training = [result["training"] for result in results]
         # The median over the seeds: one of them may have shared the machine, or been stopped for a while.
-        typical = {key: np.median([facts[key] for facts in training]) for key in training[0]}
+        typical = {key: float(np.median([facts[key] for facts in training])) for key in training[0]}
         size = f"{results[0]['parameters'] / 1e6:.2f} M" if "parameters" in results[0] else "-"
         cell = f"{results[0]['bytes_a_cell']:.0f}" if "bytes_a_cell" in results[0] else "-"
-        rows.append((
-            name, f"{typical['descriptions_per_second']:.0f}", f"{typical['seconds_to_best']:.0f} s",
-            f"{typical['peak_memory_mb']:.0f} MB", size, cell,
-        ))  # fmt: skip
-    return ("", "descriptions/s", "to the best weights", "peak memory", "parameters", "bytes a cell"), rows
-
-
-def _draw_figure_4(path: Path, found: Found) -> None:
-    figure = Figure(figsize=(9, 3.6), layout="constrained", dpi=DPI)
-    for axes, experiment, label in zip(
-        figure.subplots(1, 2), (FIGURE_4A, FIGURE_4B), ("layers of the graph", "exponent a"), strict=True
-    ):
-        for k in RETRIEVAL_KS:
-            recalls = [found["runs"][row.run.name][0]["retrieval"][str(k)] for row in experiment.rows]
-            axes.plot(range(len(recalls)), recalls, marker="o", label=f"R@{k}")
-        axes.set(xlabel=label, ylabel="retrieval recall", ylim=(0, 1), xticks=range(len(experiment.rows)))
-        axes.grid(alpha=0.3)
-        axes.legend(frameon=False)
-    FigureCanvasAgg(figure).print_png(path)
-
-
-def _draw_figure_5(path: Path, found: Found) -> None:
-    figure = Figure(figsize=(5.4, 3.6), layout="constrained", dpi=DPI)
-    axes = figure.subplots()
-    cells = [row["cells"] for row in found["runs"][MNCL.name][0]["growth"]]
-    for name, (run, _) in GROWTH.items():
-        recalls = _growth(found, run)
-        axes.errorbar(cells, recalls.mean(axis=0), recalls.std(axis=0), marker="o", label=name)
-    axes.set(xlabel="cells in the gallery", ylabel="recall@1, the same queries", ylim=(0, 1))
-    axes.grid(alpha=0.3)
-    axes.legend(frameon=False)
-    FigureCanvasAgg(figure).print_png(path)
+        steps, seconds = (f"{typical[best]:.0f} of {typical[of]:.0f}" for best, of in COSTS)
+        speed, memory = f"{typical['descriptions_per_second']:.0f}", f"{typical['peak_memory_mb']:.0f} MB"
+        rows.append((name, speed, steps, f"{seconds} s", memory, size, cell))
+    return ("", "descriptions/s", "best step", "until then", "peak memory", "parameters", "bytes a cell"), rows

@@ -13,12 +13,20 @@ from torch import Tensor, nn
 
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import NUM_GEOMETRY, CellBatch, CellFeatures, InstanceEncoder
+from models.retrieval.instance_encoder import (
+    DISTANCE,
+    OURS,
+    CellBatch,
+    CellFeatures,
+    Input,
+    InstanceEncoder,
+    columns,
+)
 from models.retrieval.layers import HintEncoder
+from models.retrieval.point_encoder import PointEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 10 MB at D = 128
 PAIRS = 1024  # of description and cell, located at once
-DISTANCE = 5  # column of CellFeatures.geometry: how far the closest point lies from the cell's centre
 Offsets = npt.NDArray[np.float64]
 FineMethod = Literal["regressor", "matching"]
 
@@ -29,6 +37,9 @@ class FineConfig(BaseModel):
     Attributes:
         text_encoder: "minilm", a directory or a hub id.
         width: D.
+        inputs: what of an instance is looked at, see `InstanceEncoder`; "points" needs a `PointEncoder`.
+        plain: whether the instances' plain geometry is added to their features, whose normalising blurs coordinates;
+            False is the papers'.
         max_instances: of a cell, those nearest to its centre; None for all of them, which measures better than the
             paper's 16.
         rounds: of cross-attention between hints and instances.
@@ -41,6 +52,8 @@ class FineConfig(BaseModel):
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
     width: int = 128
+    inputs: tuple[Input, ...] = Field(default=OURS, min_length=1)
+    plain: bool = True
     max_instances: int | None = Field(default=None, ge=1)
     rounds: int = Field(default=2, ge=1)
     heads: int = 4
@@ -105,8 +118,10 @@ class FineModel(OnTextEncoder):
         self._hint_cache = RecentFeatures(self._read_sentences, HINT_CACHE_SIZE)
         self._label_cache: dict[tuple[str, ...], Tensor] = {}
         self.hint_encoder = HintEncoder(text_encoder.width, config.width, config.dropout)
-        self.instance_encoder = InstanceEncoder(text_encoder.width, config.width)
-        self.geometry = nn.Linear(NUM_GEOMETRY, config.width)
+        self.points = PointEncoder().requires_grad_(False) if "points" in config.inputs else None
+        self.instance_encoder = InstanceEncoder(text_encoder.width, config.width, config.inputs)
+        self.columns = columns(config.inputs)
+        self.geometry = nn.Linear(len(self.columns), config.width) if config.plain else None
         self.rounds = nn.ModuleList(
             CrossAttentionRound(config.width, config.heads, config.dropout) for _ in range(config.rounds)
         )
@@ -150,6 +165,10 @@ class FineModel(OnTextEncoder):
         features: Tensor = self.hint_encoder(tokens.values.to(self.device), tokens.mask.to(self.device))
         return features
 
+    def seen(self, cells: CellFeatures) -> CellFeatures:
+        """Cells as this model takes them, see `Retriever.seen`."""
+        return cells.seen(self.points)
+
     def look(self, cells: CellBatch, label_embeddings: Tensor) -> Instances:
         """Features of the instances of cells, of no more than `max_instances`.
 
@@ -160,9 +179,10 @@ class FineModel(OnTextEncoder):
         order = nearest(cells, self.config.max_instances)
         row = torch.arange(len(order), device=order.device)[:, None]
         geometry, mask = cells.geometry[row, order], cells.mask[row, order]
-        real = geometry[mask]
-        found = self.instance_encoder(real, label_embeddings[cells.label[row, order][mask]])
-        found = found + self.geometry(real)  # the encoder normalises, which blurs coordinates
+        real, label, shape = geometry[mask], cells.label[row, order][mask], cells.shape[row, order][mask]
+        found = self.instance_encoder(real, label_embeddings[label], shape)
+        if self.geometry is not None:
+            found = found + self.geometry(real[:, self.columns])
         features = found.new_zeros(*mask.shape, self.config.width)
         features[mask] = found
         return Instances(features, geometry, mask, order)

@@ -8,7 +8,6 @@ from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder
 from models.localization.fine_model import FineConfig, FineMethod, FineModel, Instances, Truth
-from models.retrieval.instance_encoder import NUM_GEOMETRY
 from models.retrieval.layers import masked_max, mlp
 
 
@@ -43,7 +42,7 @@ class Regressor(FineModel):
         width = config.width
         if config.point:
             self.point_from, self.point_to = nn.Linear(width, width), nn.Linear(width, width)
-            self.pointed_at = nn.Linear(NUM_GEOMETRY, width)
+            self.pointed_at = nn.Linear(len(self.columns), width)
         self.vote = mlp(width, 2 * width, width)
         self.head = mlp(width, width // 2, 2)
 
@@ -72,6 +71,6 @@ class Regressor(FineModel):
         if self.config.point:
             scores = self.point_from(met) @ self.point_to(seen).transpose(1, 2) / math.sqrt(met.shape[-1])
             log_share = scores.masked_fill(~instances.mask[:, None, :], float("-inf")).log_softmax(dim=2)
-            met = met + self.pointed_at(torch.matmul(log_share.exp(), instances.geometry))
+            met = met + self.pointed_at(torch.matmul(log_share.exp(), instances.geometry[..., self.columns]))
         from_center: Tensor = self.head(masked_max(self.vote(met), hint_mask))  # in half cells
         return from_center / 2 + 0.5, log_share

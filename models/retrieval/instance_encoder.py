@@ -1,7 +1,11 @@
 """Instances of cells as features: what an instance is, how it looks, how large it is and where it lies."""
 
+import hashlib
+import logging
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from itertools import accumulate
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -12,11 +16,23 @@ from models.city.cells import CellTable
 from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
 from models.errors import WeightsError
+from models.files import cache_directory, replacing
+from models.language.text_encoder import fingerprint_of
 from models.retrieval.layers import mlp
-from models.retrieval.point_encoder import PointEncoder
+from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
 
-GEOMETRY = {"position": 8, "size": 3, "count": 1, "colour": 4}  # widths of the columns of `CellFeatures.geometry`
+Input = Literal["position", "closest", "size", "count", "colour", "label", "points"]
+# Columns of `CellFeatures.geometry`: the centre; the closest point, how far it is and which way; the rest.
+GEOMETRY: dict[Input, int] = {"position": 3, "closest": 5, "size": 3, "count": 1, "colour": 4}
 NUM_GEOMETRY = sum(GEOMETRY.values())
+DISTANCE = 5  # the column that says how far the closest point lies from the cell's centre
+# Inputs that pass an MLP together.
+BRANCHES: dict[str, tuple[Input, ...]] = {
+    "position": ("position", "closest"), "size": ("size",), "count": ("count",), "colour": ("colour",),
+}  # fmt: skip
+OURS: tuple[Input, ...] = ("position", "closest", "size", "count", "colour", "label")
+PAPERS: tuple[Input, ...] = ("points", "colour", "position", "count")
+_log = logging.getLogger(__name__)
 SEEN_AT_ONCE = 512  # instances whose points are looked at together, about
 
 
@@ -71,18 +87,42 @@ class CellFeatures:
         shape = np.zeros((len(index), 0), dtype=np.float32)
         return cls(parts.starts, geometry, index.astype(np.int64), tuple(labels.tolist()), cells.sample, shape)
 
-    def seen(self, encoder: PointEncoder) -> "CellFeatures":
-        """The same with `shape`, computed a few cells at a time.
+    def seen(self, encoder: PointEncoder | None) -> "CellFeatures":
+        """The same with `shape`, computed a few cells at a time, or read where an earlier process left it.
 
         Raises:
-            WeightsError: the instances' points are not at hand.
+            WeightsError: there is an encoder, and the instances' points are not at hand.
         """
+        if encoder is None:
+            return self
+        self.points(np.zeros(1, dtype=np.int64))  # that they are at hand
+        path = cache_directory() / "points" / f"{self._key(encoder)}.npy"
+        try:
+            shape = np.load(path)
+        except (OSError, ValueError):
+            shape = self._look(encoder)
+            try:
+                with replacing(path) as file:
+                    np.save(file, shape)
+            except OSError as error:
+                _log.warning("no cache in %s (%s)", path.parent, error)
+        return replace(self, shape=shape)
+
+    def _look(self, encoder: PointEncoder) -> npt.NDArray[Any]:
+        """[R, S] what an encoder makes of all instances."""
         device = next(encoder.parameters()).device
         ends = np.searchsorted(self.starts, np.arange(SEEN_AT_ONCE, self.starts[-1], SEEN_AT_ONCE))
         groups = np.split(np.arange(len(self)), np.unique(ends))
         with torch.inference_mode():
             parts = [encoder(self.points(cells).to(device)).cpu().numpy() for cells in groups if len(cells)]
-        return replace(self, shape=np.concatenate(parts))
+        return np.concatenate(parts)
+
+    def _key(self, encoder: PointEncoder) -> str:
+        """sha256 of the encoder and of what is known of the instances beside their points, which tells them apart."""
+        digest = hashlib.sha256(fingerprint_of(encoder.state_dict()).encode())
+        for column in (self.starts, self.geometry, self.label):
+            digest.update(np.ascontiguousarray(column).tobytes())
+        return digest.hexdigest()
 
     def points(self, cells: Ints) -> Tensor:
         """[R, 256, 6] points of the instances of some cells.
@@ -92,7 +132,7 @@ class CellFeatures:
         """
         if self.sample is None:
             raise WeightsError(
-                "these weights look at points (model.point_encoder), and these cells come without; "
+                "these weights look at points (model.inputs), and these cells come without; "
                 "take a map or a data set, or other weights"
             )
         return torch.from_numpy(self.sample(cells))
@@ -133,25 +173,35 @@ class CellBatch:
         return CellBatch(*(x.to(device) for x in (self.geometry, self.label, self.mask, self.shape)))
 
 
-class InstanceEncoder(nn.Module):
-    """Instance features F^C from position, size, point count, colour where known, and the label's text embedding.
+def columns(inputs: Sequence[Input]) -> list[int]:
+    """Which columns of `CellFeatures.geometry` some inputs are."""
+    start = dict(zip(GEOMETRY, accumulate(GEOMETRY.values(), initial=0), strict=False))
+    return [start[name] + k for name, width in GEOMETRY.items() if name in inputs for k in range(width)]
 
-    MNCL's point backbone section; differs: the label enters as text, so that any word can be a label,
-    and the closest point to the cell's centre stands beside the instance's centre, because hints speak of
-    closest points. What a point encoder makes of the points is one more part.
+
+class InstanceEncoder(nn.Module):
+    """Instance features F^C of what is known of an instance, each input through layers of its own.
+
+    MNCL's point backbone. The paper's inputs are PAPERS: points through PointNet++, mean colour, centre, number of
+    points. Ours leave the points out and add the label, as text, so that any word can be one, the point closest to the
+    cell's centre, because hints speak of closest points, and the size. Differs: the number of points enters as its
+    logarithm, and a column says whether a colour is known.
 
     Args:
         label_width: W, of the text embeddings.
         width: D, of the features.
-        shape_width: S, of the point encoder's features; 0 without one.
+        inputs: what is looked at.
     """
 
-    def __init__(self, label_width: int, width: int, shape_width: int = 0) -> None:
+    def __init__(self, label_width: int, width: int, inputs: Sequence[Input] = OURS) -> None:
         super().__init__()
-        self.branches = nn.ModuleDict({name: mlp(size, 64, width) for name, size in GEOMETRY.items()})
-        self.label = mlp(label_width, width)
-        self.shape = mlp(shape_width, width) if shape_width else None
-        self.merge = mlp((len(GEOMETRY) + 1 + bool(shape_width)) * width, width, width)
+        looked_at = {name: columns([part for part in parts if part in inputs]) for name, parts in BRANCHES.items()}
+        self.columns = {name: found for name, found in looked_at.items() if found}
+        self.branches = nn.ModuleDict({name: mlp(len(found), 64, width) for name, found in self.columns.items()})
+        self.label = mlp(label_width, width) if "label" in inputs else None
+        self.shape = mlp(POINT_WIDTH, width) if "points" in inputs else None
+        parts = len(self.columns) + sum(part is not None for part in (self.label, self.shape))
+        self.merge = mlp(parts * width, width, width)
 
     def padded(self, batch: CellBatch, label_embeddings: Tensor) -> Tensor:
         """[B, I, D] features of cells, 0 at padding; `label_embeddings` [L, W] of each label."""
@@ -169,12 +219,12 @@ class InstanceEncoder(nn.Module):
             label_embedding: [R, W] text embedding of each instance's label.
             shape: [R, S] of the point encoder.
         """
-        columns = dict(zip(GEOMETRY, torch.split(geometry, list(GEOMETRY.values()), dim=-1), strict=True))
-        parts = [branch(columns[name]) for name, branch in self.branches.items()]
-        parts.append(self.label(label_embedding))
+        parts = [branch(geometry[:, self.columns[name]]) for name, branch in self.branches.items()]
+        if self.label is not None:
+            parts.append(self.label(label_embedding))
         if self.shape is not None:
             if shape is None or not shape.shape[-1]:
-                raise ValueError("cells without what the point encoder makes of them; call Retriever.seen first")
+                raise ValueError("cells without what the point encoder makes of them; call `seen` first")
             parts.append(self.shape(shape))
         merged: Tensor = self.merge(torch.cat([nn.functional.normalize(part, dim=-1) for part in parts], dim=-1))
         return merged

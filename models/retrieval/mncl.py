@@ -4,6 +4,7 @@ import copy
 from typing import ClassVar, Literal
 
 import torch
+from pydantic import Field
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
@@ -12,7 +13,7 @@ from models.retrieval.layers import HintEncoder, SetTransformer, groups_by_size,
 from models.retrieval.levels import Level, Levels, level_scores
 from models.retrieval.losses import contrastive_loss, negative_contrastive_loss
 from models.retrieval.retriever import Retriever, RetrieverConfig
-from models.retrieval.scene_graph import CellEdges, HintEdges, SceneGraph
+from models.retrieval.scene_graph import Aggregate, Axis, CellEdges, HintEdges, Query, SceneGraph
 
 
 class MnclConfig(RetrieverConfig):
@@ -26,9 +27,11 @@ class MnclConfig(RetrieverConfig):
         loss: "contrastive" is the vanilla loss (InfoNCE), "negative" the paper's.
         loss_temperature: tau.
         exponent: a of the negative loss's weights; 0 is the vanilla loss (figure 4).
+        least_weight: what these weights are at least: 0.8 in the released code, 0 in the paper.
         graph_layers: m of the scene graph (figure 4).
         aggregate: whether the graph's nodes gather their edges ("gcn", the paper's word) or only pass on their own
             state ("code").
+        attention_query, attention_axis: of external space attention, see `ExternalSpaceAttention`.
     """
 
     levels: tuple[Level, ...] = ("global", "instance", "relation")
@@ -38,8 +41,11 @@ class MnclConfig(RetrieverConfig):
     loss: Literal["contrastive", "negative"] = "negative"
     loss_temperature: float = 0.05
     exponent: float = 2.0
+    least_weight: float = Field(default=0.8, ge=0, le=1)
     graph_layers: int = 3
-    aggregate: Literal["code", "gcn"] = "code"
+    aggregate: Aggregate = "code"
+    attention_query: Query = "edges"
+    attention_axis: Axis = "edges"
 
 
 class Mncl(Retriever):
@@ -58,12 +64,12 @@ class Mncl(Retriever):
         width, dropout = config.width, config.dropout
         self.hints = HintEncoder(text_encoder.width, width, dropout)
         self.description = SetTransformer(width, config.hint_layers, num_heads=4, dropout=dropout)
-        self.instances = InstanceEncoder(text_encoder.width, width, config.shape_width)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.inputs)
         self.cell = SetTransformer(width, config.cell_layers, num_heads=4, dropout=dropout)
         if "relation" in config.levels:
             self.hint_edges, self.cell_edges = HintEdges(width), CellEdges(width)
-            self.hint_graph = SceneGraph(width, config.graph_layers, config.aggregate)
-            self.cell_graph = SceneGraph(width, config.graph_layers, config.aggregate)
+            shape = width, config.graph_layers, config.aggregate, config.attention_query, config.attention_axis
+            self.hint_graph, self.cell_graph = SceneGraph(*shape), SceneGraph(*shape)
         elif "instance" in config.levels:
             self.hint_subspace, self.cell_subspace = (mlp(width, width, width, width) for _ in range(2))
 
@@ -105,12 +111,11 @@ class Mncl(Retriever):
 
     def _graph_of_cells(self, features: Tensor, centers: Tensor, mask: Tensor) -> tuple[Tensor, Tensor]:
         """Nodes and relations [B, I, D]: cells of like size together, as the edges grow with its square."""
-        nodes, relations = torch.zeros_like(features), torch.zeros_like(features)
+        nodes, relations = (torch.zeros_like(features, dtype=torch.float32) for _ in range(2))
         for rows, longest in groups_by_size(mask):
             edges = self.cell_edges(centers[rows, :longest])
-            nodes[rows, :longest], relations[rows, :longest] = self.cell_graph(
-                features[rows, :longest], edges, mask[rows, :longest]
-            )
+            found = self.cell_graph(features[rows, :longest], edges, mask[rows, :longest])
+            nodes[rows, :longest], relations[rows, :longest] = (part.float() for part in found)
         return nodes, relations
 
     def _with_graph(self, whole: Tensor, mask: Tensor, graph: tuple[Tensor, Tensor]) -> Levels:
@@ -128,9 +133,8 @@ class Mncl(Retriever):
                 terms.append(contrastive_loss(scores, same_cell, config.loss_temperature))
             else:
                 means = text.mean_of(level), cells.mean_of(level)
-                terms.append(
-                    negative_contrastive_loss(scores, *means, same_cell, config.loss_temperature, config.exponent)
-                )
+                weights = config.loss_temperature, config.exponent, config.least_weight
+                terms.append(negative_contrastive_loss(scores, *means, same_cell, *weights))
         return torch.stack(terms).sum()
 
 

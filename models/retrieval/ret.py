@@ -132,7 +132,7 @@ class Ret(Retriever):
         self.hints = WordEncoder(text_encoder, width)
         self.hint_relation = HintRelation(width)
         self.description = RelationTransformer(width, config.hint_layers, dropout)
-        self.instances = InstanceEncoder(text_encoder.width, width, config.shape_width)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.inputs)
         self.instance_relation = InstanceRelation(width)
         self.cell = RelationTransformer(width, config.cell_layers, dropout)
 

@@ -1,19 +1,19 @@
 """What every retriever is: hint sentences and cells into vectors, near each other where they belong together."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 import torch
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor
 
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import CellBatch, CellFeatures
+from models.retrieval.instance_encoder import OURS, CellBatch, CellFeatures, Input
 from models.retrieval.levels import Level, Levels, sum_of_z_scores
-from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
+from models.retrieval.point_encoder import PointEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 20 MB at D = 256
 ENCODE_BATCH = 256  # cells
@@ -26,8 +26,7 @@ class RetrieverConfig(BaseModel):
     Attributes:
         text_encoder: "minilm", a directory or a hub id.
         width: D, size of the vectors.
-        point_encoder: "pointnet" also looks at the points of the instances (`PointEncoder`), as the papers do; "none"
-            at their summary alone.
+        inputs: what of an instance is looked at, see `InstanceEncoder`; "points" needs a `PointEncoder`.
         level_weights: of each level in a cell's score, in order of `Retriever.levels`; fitted on validation data; empty
             until then: the levels' z-scores over the gallery are added.
         temperature: of a description of one hint, see `Retriever.temperature`; fitted on validation data.
@@ -40,17 +39,12 @@ class RetrieverConfig(BaseModel):
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
     width: int = 256
-    point_encoder: Literal["none", "pointnet"] = "none"
+    inputs: tuple[Input, ...] = Field(default=OURS, min_length=1)
     level_weights: tuple[float, ...] = ()
     temperature: float = 0.2
     temperature_decay: float = 1.0
     global_temperature: float | None = None
     global_temperature_decay: float | None = None
-
-    @property
-    def shape_width(self) -> int:
-        """Of the point encoder's features; 0 without one."""
-        return POINT_WIDTH if self.point_encoder == "pointnet" else 0
 
 
 class Retriever(OnTextEncoder):
@@ -62,7 +56,7 @@ class Retriever(OnTextEncoder):
     def __init__(self, text_encoder: TextEncoder, config: RetrieverConfig) -> None:
         super().__init__(text_encoder)
         self.config = config
-        self.points = PointEncoder().requires_grad_(False) if config.shape_width else None
+        self.points = PointEncoder().requires_grad_(False) if "points" in config.inputs else None
         self._hint_cache = RecentFeatures(self._read_sentences, HINT_CACHE_SIZE)
 
     @property
@@ -151,7 +145,7 @@ class Retriever(OnTextEncoder):
         Raises:
             WeightsError: it has one, and the points are not at hand.
         """
-        return cells if self.points is None else cells.seen(self.points)
+        return cells.seen(self.points)
 
     @torch.inference_mode()
     def encode_description(self, hints: Sequence[str]) -> Levels:

@@ -56,7 +56,7 @@ class Text2Loc(Retriever):
         self.description = nn.ModuleList(
             SetTransformer(width, num_layers=1, num_heads=NUM_HEADS, dropout=dropout) for _ in range(config.hint_layers)
         )
-        self.instances = InstanceEncoder(text_encoder.width, width, config.shape_width)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.inputs)
         self.cell = SetTransformer(width, config.cell_layers, num_heads=NUM_HEADS, dropout=dropout)
 
     def read(self, tokens: TokenFeatures) -> Tensor:

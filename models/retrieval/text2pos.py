@@ -96,7 +96,7 @@ class Text2Pos(Retriever):
         super().__init__(text_encoder, config)
         width = config.width
         self.hints = WordEncoder(text_encoder, width)
-        self.instances = InstanceEncoder(text_encoder.width, width, config.shape_width)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.inputs)
         self.graph = EdgeConvolution(width, config.neighbours)
         self.cell = mlp(width, width, width)
 

@@ -123,8 +123,8 @@ class FineValidation:
     offset: Floats
 
     @classmethod
-    def of(cls, gallery: Gallery, asked: Queries) -> "FineValidation":
-        """Of queries, each in its best cell and in another that contains its position."""
+    def of(cls, gallery: Gallery, asked: Queries, model: FineModel) -> "FineValidation":
+        """Of queries, each in its best cell and in another that contains its position; cells as a model takes them."""
         cells = gallery.cells
         starts, neighbours = containing_cells(cells, asked.positions_m, asked.truth)
         count = np.diff(starts)
@@ -133,7 +133,7 @@ class FineValidation:
         other = np.where(count > 0, np.append(neighbours, -1)[np.minimum(pick, len(neighbours))], -1)
         rows = np.column_stack([asked.truth, other])
         offset = offsets_in(cells, rows, asked.positions_m[:, None])
-        features = CellFeatures.of(cells, np.array(gallery.labels))
+        features = model.seen(CellFeatures.of(cells, np.array(gallery.labels)))
         return cls(features, cells.size_m, asked.sentences, rows, offset)
 
     def residuals_m(self, model: FineModel) -> Floats:

@@ -15,6 +15,7 @@ from models.localization.fine_model import FineConfig, FineModel, Truth
 from models.training.engine import distributed
 from models.training.engine.loop import History, Progress, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
+from models.training.fit_points import look_at_points
 from models.training.retrieval_data import HintVocabulary
 from models.training.settings import TrainingConfig, settings_record
 from models.training.training_data import TrainingData
@@ -44,7 +45,7 @@ class FineTask:
     @cached_property
     def validations(self) -> list[FineValidation]:
         """Of each source; the first process alone asks for them."""
-        return [FineValidation.of(source.gallery, source.queries) for source in self.sources]
+        return [FineValidation.of(source.gallery, source.queries, self.model) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
         """Which source, and examples of it."""
@@ -113,15 +114,18 @@ def train_fine(
     sources = load(encoder, rng)
     fine = FINE_METHODS[method](encoder, model)
     task = FineTask(fine, sources, config.batch_size, config.pmc)
+    points = look_at_points(fine, sources, config, run_dir and run_dir / "points", resume, progress)
     record = settings_record(method, model, config) | {"sources": [source.facts for source in sources]}
     try:
         history = run_training(task, config, run_dir, resume, progress, rng, record)
-        return distributed.from_first(lambda: _finish(task, out, config, history))
+        return distributed.from_first(lambda: _finish(task, out, config, history, points))
     finally:
         encoder.to("cpu")  # it is shared with whatever this process does next
 
 
-def _finish(task: FineTask, out: Path, config: TrainingConfig, history: History) -> dict[str, float]:
+def _finish(
+    task: FineTask, out: Path, config: TrainingConfig, history: History, points: dict[str, float]
+) -> dict[str, float]:
     """Measure, save; the figures that `train_fine` returns."""
     fine, validations = task.model, task.validations
     figures = [validation.figures(fine) for validation in validations]
@@ -131,6 +135,7 @@ def _finish(task: FineTask, out: Path, config: TrainingConfig, history: History)
         "config": config.model_dump(mode="json"),
         "sources": [_facts(*part) for part in zip(task.sources, validations, figures, strict=True)],
         **history.facts,
+        "point_encoder": points,
     }
     save_fine(fine.cpu(), out, training)
     return _mean(figures)

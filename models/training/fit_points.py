@@ -1,5 +1,9 @@
-"""Training the point encoder to tell what an instance is and which colour it has; it is frozen after that."""
+"""Training the point encoder to tell what an instance is and which colour it has; it is frozen after that.
 
+Two heads, one for the label and one for the colour, their cross-entropies added (Text2Pos and after it all, MNCL too).
+"""
+
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,17 +11,25 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 import torch
+from safetensors import SafetensorError
+from safetensors.torch import load_file, save
 from torch import Tensor, nn
 
+from models.checkpoint import CONFIG_FILE, WEIGHTS_FILE
 from models.city.colours import KITTI360_PALETTE
+from models.errors import WeightsError
+from models.files import replace_file
+from models.language.text_encoder import TextEncoder, load_text_encoder
+from models.localization.fine_model import FineModel
 from models.retrieval.instance_encoder import GEOMETRY, CellFeatures
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
+from models.retrieval.retriever import Retriever
 from models.training.engine import distributed
 from models.training.engine.loop import LoopConfig, Progress, run_training
+from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingData
 
 CELLS_A_SOURCE, CHOSEN_BY_CELLS = 800, 100  # whose instances it is trained on, and chosen by
-STEPS, VALIDATE_EVERY, BATCH, LEARNING_RATE = 600, 100, 64, 2e-3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,11 +89,12 @@ class _PointTask:
 
     criterion = "label"
 
-    def __init__(self, model: _Classifier, training: PointExamples, validation: PointExamples) -> None:
+    def __init__(self, model: _Classifier, training: PointExamples, validation: PointExamples, batch_size: int) -> None:
         self.model, self.training, self.validation = model, training, validation
+        self.share = distributed.share_of(batch_size)
 
     def batch(self, rng: np.random.Generator) -> PointExamples:
-        return self.training.take(rng.choice(len(self.training), distributed.share_of(BATCH)))
+        return self.training.take(rng.choice(len(self.training), self.share))
 
     def loss(self, batch: PointExamples) -> Tensor:
         device = next(self.model.parameters()).device
@@ -107,6 +120,79 @@ def _cross_entropy(logits: Tensor, wanted: Tensor) -> Tensor:
 
 
 def train_points(
+    load: Callable[[TextEncoder, np.random.Generator], Sequence[TrainingData]],
+    out: Path,
+    config: TrainingConfig,
+    run_dir: Path | None = None,
+    resume: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+) -> dict[str, float]:
+    """Train a point encoder alone and save it, for `TrainingConfig.points` of what is trained after it.
+
+    Args:
+        load: reads what to train on, as for a retriever.
+        out: directory for model.safetensors and config.json.
+        config: how to optimise.
+        run_dir: see `run_training`.
+        resume: see `run_training`.
+        progress: see `run_training`.
+
+    Returns:
+        As `fit_points`.
+
+    Raises:
+        WeightsError, TrainingError: see `fit_points`.
+    """
+    torch.manual_seed(config.seed)
+    sources = load(load_text_encoder(), np.random.default_rng(config.seed))
+    encoder = PointEncoder()
+    figures = fit_points(encoder, sources, config, run_dir, resume, progress)
+    out.mkdir(parents=True, exist_ok=True)
+    replace_file(out / WEIGHTS_FILE, save(encoder.cpu().state_dict()))
+    facts = {"config": config.model_dump(mode="json"), "validation": figures, "sources": [s.facts for s in sources]}
+    replace_file(out / CONFIG_FILE, (json.dumps({"method": "points", **facts}, indent=2) + "\n").encode())
+    return figures
+
+
+def look_at_points(
+    model: Retriever | FineModel,
+    sources: Sequence[TrainingData],
+    config: TrainingConfig,
+    run_dir: Path | None,
+    resume: bool,
+    progress: Callable[[Progress], None] | None,
+) -> dict[str, float]:
+    """Give a model its point encoder, if it takes points, and look once at all that it is trained on.
+
+    The point encoder is read from `config.points`, or trained here; arguments, return and errors as `fit_points`.
+    """
+    if model.points is None:
+        return {}
+    if config.points is None:
+        _, loop = load_settings("points", [f"training.seed={config.seed}", f"training.device={config.device}"])
+        figures = fit_points(model.points, sources, loop, run_dir, resume, progress)
+    else:
+        figures = _read_points(model.points, config.points)
+    for source in sources:
+        source.training.features = model.seen(source.training.features)
+    return figures
+
+
+def _read_points(encoder: PointEncoder, directory: Path) -> dict[str, float]:
+    """Load what `train_points` saved; its figures."""
+    try:
+        encoder.load_state_dict(load_file(directory / WEIGHTS_FILE))
+        figures: dict[str, float] = json.loads((directory / CONFIG_FILE).read_text())["validation"]
+    except (OSError, SafetensorError, RuntimeError, ValueError, KeyError) as error:
+        raise WeightsError(
+            f"training.points={directory}: no point encoder there ({type(error).__name__}); make one with "
+            f"'hereabouts train --method points --out {directory}', or leave training.points out"
+        ) from error
+    encoder.requires_grad_(False).eval()
+    return figures
+
+
+def fit_points(
     encoder: PointEncoder,
     sources: Sequence[TrainingData],
     config: LoopConfig,
@@ -114,12 +200,12 @@ def train_points(
     resume: bool = False,
     progress: Callable[[Progress], None] | None = None,
 ) -> dict[str, float]:
-    """Train a point encoder on what a retriever is trained on, in place, and freeze it.
+    """Train a point encoder on what a model is trained on, in place, and freeze it.
 
     Args:
-        encoder: of the retriever.
+        encoder: of a retriever or a fine stage.
         sources: their training cells to learn from, their validation cells to choose by.
-        config: seed and device.
+        config: how to optimise.
         run_dir: see `run_training`.
         resume: see `run_training`.
         progress: see `run_training`.
@@ -137,15 +223,7 @@ def train_points(
     asked = [CellFeatures.of(source.gallery.cells, np.array(source.gallery.labels)) for source in sources]
     validation = PointExamples.of(asked, labels, CHOSEN_BY_CELLS, config.seed)
     model = _Classifier(encoder.requires_grad_(True), len(labels))
-    loop = LoopConfig(
-        seed=config.seed,
-        steps=STEPS,
-        batch_size=BATCH,
-        learning_rate=LEARNING_RATE,
-        validate_every=VALIDATE_EVERY,
-        amp="none",
-        device=config.device,
-    )
-    history = run_training(_PointTask(model, training, validation), loop, run_dir, resume, progress)
+    task = _PointTask(model, training, validation, config.batch_size)
+    history = run_training(task, config, run_dir, resume, progress)
     encoder.requires_grad_(False).eval()
     return next(row.figures for row in history.rows if row.step == history.best_step)

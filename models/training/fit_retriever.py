@@ -16,7 +16,7 @@ from models.retrieval.levels import Levels
 from models.retrieval.retriever import Retriever, RetrieverConfig
 from models.training.engine import distributed
 from models.training.engine.loop import History, Progress, run_training
-from models.training.fit_points import train_points
+from models.training.fit_points import look_at_points
 from models.training.retrieval_data import Batch, HintVocabulary
 from models.training.settings import TrainingConfig, settings_record
 from models.training.training_data import TrainingData
@@ -71,7 +71,7 @@ class RetrievalTask:
         return SourceBatch(turn, training.batch(training.draw(self.share, self.cluster, rng), rng))
 
     def loss(self, batch: SourceBatch) -> Tensor:
-        """See Task: the retriever's loss over all pairs of the whole batch, in float32."""
+        """See Task: the loss over all pairs of the whole batch, in float32, whatever comes before it is in."""
         device = next(self.model.parameters()).device
         training, examples = self.sources[batch.source].training, batch.examples
         training.to(device)
@@ -79,10 +79,9 @@ class RetrievalTask:
         text = self.model.describe(hints, examples.hint_mask.to(device))
         # Rows of one source, so a cell's row names it in all processes.
         cell = distributed.gather(examples.cell.to(device))
-        # Retrievers put instance features into a tensor of their input's float32, where half precision does not fit.
-        with torch.autocast(device.type, enabled=False):
-            cells = self.model.look(examples.cells.to(device), training.label_embeddings)
-            text, cells = (distributed.gather_levels(_in_float32(levels)) for levels in (text, cells))
+        cells = self.model.look(examples.cells.to(device), training.label_embeddings)
+        text, cells = (distributed.gather_levels(_in_float32(levels)) for levels in (text, cells))
+        with torch.autocast(device.type, enabled=False):  # a temperature of .05 would make half precision coarse
             return self.model.loss(text, cells, cell[:, None] == cell[None, :])
 
     def _hint_features(self, vocabulary: HintVocabulary, batch: Batch, device: torch.device) -> Tensor:
@@ -144,30 +143,13 @@ def train_retriever(
     sources = load(encoder, rng)
     retriever = method(encoder, model)
     task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)
-    points = _look_at_points(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
+    points = look_at_points(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
     record = settings_record(method.method, model, config) | {"sources": [source.facts for source in sources]}
     try:
         history = run_training(task, config, run_dir, resume, progress, rng, record)
         return distributed.from_first(lambda: _finish(task, out, config, history, rng, points))
     finally:
         encoder.to("cpu")  # it is shared with whatever this process does next
-
-
-def _look_at_points(
-    retriever: Retriever,
-    sources: Sequence[TrainingData],
-    config: TrainingConfig,
-    run_dir: Path | None,
-    resume: bool,
-    progress: Callable[[Progress], None] | None,
-) -> dict[str, float]:
-    """Train the point encoder, if there is one, and look once at all that the retriever is trained on; its figures."""
-    if retriever.points is None:
-        return {}
-    figures = train_points(retriever.points, sources, config, run_dir, resume, progress)
-    for source in sources:
-        source.training.features = retriever.seen(source.training.features)
-    return figures
 
 
 def _finish(

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, TypeVar, get_args, get_origin
 
-from pydantic import BaseModel, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic.fields import FieldInfo
 
 from models.errors import TrainingError
@@ -15,10 +15,18 @@ from models.retrieval.checkpoint import METHODS
 from models.training.engine.loop import LoopConfig
 from models.training.retrieval_data import Wording
 
+
+class PointsConfig(BaseModel):
+    """The point encoder has nothing to tell."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
 CONFIG_TYPES: dict[str, type[BaseModel]] = {
     **{name: method.config_type for name, method in METHODS.items()},
     **{name: method.config_type for name, method in FINE_METHODS.items()},
     PosteriorModel.method: PosteriorConfig,
+    "points": PointsConfig,
 }
 CONFIGS = Path(__file__).parent / "configs"
 C = TypeVar("C", bound=BaseModel)
@@ -34,12 +42,15 @@ class TrainingConfig(LoopConfig):
         wording: "varied" teaches any number of hints in many words; "published" those of the benchmark alone.
         pmc: of the fine stage: prototype-based map cloning (Text2Loc): half of the time the cell is not the best one
             but another that contains the position.
+        points: directory of a point encoder that `hereabouts train --method points` made, for models that take points;
+            None trains one first.
     """
 
     cluster: int = Field(default=4, ge=1)
     spacing_m: float = Field(default=4.0, gt=0)
     wording: Wording = "varied"
     pmc: bool = True
+    points: Path | None = None
 
 
 def settings_record(method: str, model: BaseModel, config: TrainingConfig) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 import hashlib
 import json
 import logging
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,19 +12,12 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file, save
 from torch import Tensor
 
-from models.files import replace_file
+from models.files import cache_directory, replace_file
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
 ENCODE_BATCH = 256  # sentences
 _FORMAT = 1  # of the files; counted up when what is in them changes
 _log = logging.getLogger(__name__)
-
-
-def cache_directory() -> Path:
-    """Where computed things are kept: HEREABOUTS_CACHE_DIR, else hereabouts in XDG_CACHE_HOME, else in ~/.cache."""
-    if own := os.environ.get("HEREABOUTS_CACHE_DIR"):
-        return Path(own)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "hereabouts"
 
 
 def frozen_features(encoder: TextEncoder, sentences: Sequence[str]) -> TokenFeatures:

@@ -1,7 +1,8 @@
 import pytest
 import torch
 
-from models.training.engine.feature_cache import cache_directory, frozen_features
+from models.files import cache_directory
+from models.training.engine.feature_cache import frozen_features
 
 SAID = ["I stand on a gray road.", "There is a park to my west.", "A wall."]
 

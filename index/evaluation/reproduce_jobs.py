@@ -1,0 +1,249 @@
+"""One training of `reproduce` with its measurements, in a directory of its own."""
+
+import hashlib
+import json
+import resource
+import shutil
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from index.artifact import fingerprint
+from index.evaluation.evaluation import evaluate
+from index.evaluation.figure_3 import draw_figure_3
+from index.ranking import RERANKED, Ranker
+from index.vector_localizer import VectorLocalizer
+from models.city.gallery import MapData
+from models.city.queries import Queries
+from models.city.source import CHOSEN_BY, open_source
+from models.files import replace_file
+from models.localization.checkpoint import FINE_METHODS, load_fine
+from models.localization.fine_model import FineModel
+from models.retrieval.checkpoint import METHODS, load_retriever
+from models.retrieval.retriever import Retriever
+from models.training.engine.run_dir import METRICS_FILE
+from models.training.experiments import POINTS, VARIANTS, Run, Scale, made_of
+from models.training.fit_fine import train_fine
+from models.training.fit_points import train_points
+from models.training.fit_retriever import train_retriever
+from models.training.paper_tables import GROWTH, MNCL
+from models.training.settings import load_settings
+from models.training.training_data import load_training
+
+RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
+TEST, VALIDATION = "test", "val"
+ALONE, LISTED, ALL = "global level alone", f"global, then all levels on {RERANKED}", "all levels on all cells"
+Z_SCORES = "all levels on all cells, by z-scores (the code)"
+GROWN = [made_of(run, variant) for run, _ in GROWTH.values() for variant in VARIANTS]
+RANKED = [made_of(MNCL, variant) for variant in VARIANTS]
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """What is trained on what, and where it goes.
+
+    Attributes:
+        run: what is trained.
+        seed: of all that is drawn.
+        data: a data set.
+        out: where all jobs go.
+        scale: how much is trained.
+        key: of everything that the result depends on.
+    """
+
+    run: Run
+    seed: int
+    data: Path
+    out: Path
+    scale: Scale
+    key: str
+
+    @classmethod
+    def of(cls, run: Run, seed: int, data: Path, out: Path, scale: Scale) -> "Job":
+        """A job in `out`."""
+        model, training = load_settings(run.method, _changes(run, seed, scale))
+        facts = [run.method, model.model_dump(mode="json"), training.model_dump(mode="json", exclude={"device"})]
+        if run.sees_points:
+            facts.append(Job.of(Run(POINTS), seed, data, out, scale).key)
+        key = hashlib.sha256(json.dumps([*facts, fingerprint(data), scale.growth_radii_m]).encode()).hexdigest()
+        return cls(run, seed, data, out, scale, key)
+
+    @property
+    def directory(self) -> Path:
+        """Its own."""
+        return self.out / "runs" / self.run.name / f"seed-{self.seed}"
+
+    @property
+    def points(self) -> "Job | None":
+        """The training of its point encoder, if it takes one."""
+        return Job.of(Run(POINTS), self.seed, self.data, self.out, self.scale) if self.run.sees_points else None
+
+    def settings(self) -> tuple[Any, Any]:
+        """As `load_settings`."""
+        given = _changes(self.run, self.seed, self.scale)
+        if self.points:
+            given = (*given, f"training.points={self.points.directory / WEIGHTS_DIR}")
+        return load_settings(self.run.method, given)
+
+    def result(self) -> dict[str, Any] | None:
+        """What was measured; None if that is still to do."""
+        return _kept(self.directory / RESULT_FILE, self.key)
+
+
+def _changes(run: Run, seed: int, scale: Scale) -> tuple[str, ...]:
+    of_method = scale.points if run.method == POINTS else scale.fine if run.method in FINE_METHODS else scale.retriever
+    return (*of_method, *run.settings, f"training.seed={seed}")
+
+
+def _kept(path: Path, key: str) -> dict[str, Any] | None:
+    found: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
+    return found if found.get("key") == key else None
+
+
+def train_and_measure(job: Job, gpu: int | None) -> None:
+    """Do a job; what an earlier call with other settings left is removed.
+
+    Args:
+        job: which.
+        gpu: number of the one to train on, if "auto" or "cuda" is asked for; None if there is none.
+    """
+    torch.set_num_threads(1)  # so that a run's weights do not depend on the machine's number of processors
+    if gpu is not None:
+        torch.cuda.set_device(gpu)
+    key = job.directory / "key"
+    if job.directory.is_dir() and not (key.is_file() and key.read_text() == job.key):
+        shutil.rmtree(job.directory)
+    job.directory.mkdir(parents=True, exist_ok=True)
+    key.write_text(job.key)
+    weights = job.directory / WEIGHTS_DIR
+    model, config = job.settings()
+    where: Any = job.directory / RUN_DIR, True
+
+    def load(encoder: Any, rng: np.random.Generator) -> list[Any]:
+        return [load_training(job.data, ("train", VALIDATION), encoder, config, rng)]
+
+    found: dict[str, Any]
+    if job.run.method == POINTS:
+        found = {"validation": train_points(load, weights, config, *where)}
+    elif job.run.method in FINE_METHODS:
+        train_fine(load, weights, job.run.method, model, config, *where)
+        found = {"validation": _record(weights)["sources"][0]["validation"]}
+    else:
+        train_retriever(load, weights, METHODS[job.run.method], model, config, *where)
+        found = _of_retriever(job, weights)
+    result = {"key": job.key, "seed": job.seed, "settings": _settings(model, config), "training": _costs(job), **found}
+    replace_file(job.directory / RESULT_FILE, (json.dumps(result, indent=2) + "\n").encode())
+
+
+def _settings(model: Any, config: Any) -> dict[str, Any]:
+    """What the head of the report repeats."""
+    told = {name: getattr(model, name) for name in ("text_encoder", "width") if hasattr(model, name)}
+    names = ("steps", "batch_size", "learning_rate", "schedule", "cluster", "wording", "patience")
+    return told | {name: getattr(config, name) for name in names}
+
+
+def _record(weights: Path) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads((weights / "config.json").read_text())["training"]
+    return found
+
+
+def _costs(job: Job) -> dict[str, float]:
+    """Throughput, time to the best epoch and in all, steps done, memory."""
+    rows = np.genfromtxt(job.directory / RUN_DIR / METRICS_FILE, delimiter=",", names=True, ndmin=1)
+    best = rows[rows[_criterion(job.run)].argmax()]
+    return {
+        "descriptions_per_second": float(np.median(rows["descriptions_per_second"])),
+        "seconds_to_best": float(best["seconds"]),
+        "seconds": float(rows["seconds"][-1]),
+        "best_step": int(best["step"]),
+        "steps": int(rows["step"][-1]),
+        "peak_memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+    }
+
+
+def _criterion(run: Run) -> str:
+    """The column of metrics.csv that the best weights have most of, as NumPy names it."""
+    return "label" if run.method == POINTS else "within_5m" if run.method in FINE_METHODS else "recall5"
+
+
+def _of_retriever(job: Job, weights: Path) -> dict[str, Any]:
+    """Retrieval on test scenes and on those it was chosen by; of MNCL each ranking; growth where the paper has it."""
+    retriever = load_retriever(weights)
+    data, queries = asked(job.data, TEST)
+    localizer = _localizer(data, retriever)
+    grown = job.run in GROWN
+    report = evaluate(data, queries, localizer, grow_m=job.scale.growth_radii_m if grown else ())
+    found = {
+        "retrieval": report["retrieval"],
+        "validation_retrieval": _record(weights)["sources"][0]["validation"]["retrieval"],
+        "calibration_error": report["calibration"]["expected_calibration_error"],
+        "bytes_a_cell": 4 * retriever.config.width + localizer.ranker.table.bytes_a_cell,
+        "parameters": sum(p.numel() for p in retriever.parameters()),
+    }
+    if grown:
+        found["growth"] = [
+            {name: row[name] for name in ("radius_m", "cells", "queries")} | {"R@1": row["retrieval"]["1"]}
+            for row in report["growth"]
+        ]
+    if job.run in RANKED:
+        found["rankings"] = _rankings(retriever, job.data)
+    return found
+
+
+def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
+    """Retrieval recall on the validation scenes, by how cells are ranked by one and the same trained model."""
+    given, queries = asked(data, VALIDATION)
+    fitted = retriever.config
+    found = {}
+    for name, depth in ((ALONE, 0), (LISTED, RERANKED), (ALL, len(given.cells)), (Z_SCORES, len(given.cells))):
+        retriever.config = fitted.model_copy(update={"level_weights": ()}) if name == Z_SCORES else fitted
+        found[name] = evaluate(given, queries, _localizer(given, retriever, depth))["retrieval"]
+    return found
+
+
+def localize(job: Job, fine_job: Job, draw: bool) -> None:
+    """Measure localization with a fine stage on the test and validation scenes, kept beside the retriever's result.
+
+    Args:
+        job: of the retriever, done.
+        fine_job: of the fine stage, done.
+        draw: whether to make figure 3 of it.
+    """
+    torch.set_num_threads(1)
+    retriever, refiner = load_retriever(job.directory / WEIGHTS_DIR), load_fine(fine_job.directory / WEIGHTS_DIR)
+    found = {}
+    for split in (TEST, VALIDATION):
+        data, queries = asked(job.data, split)
+        localizer = _localizer(data, retriever, refiner=refiner)
+        found[split] = evaluate(data, queries, localizer)["localization"]
+        if draw and split == TEST:
+            draw_figure_3(data, queries, localizer, job.directory / FIGURE_3)
+    record = {"key": job.key + fine_job.key, "localization": found}
+    replace_file(_localization_file(job, fine_job), json.dumps(record).encode())
+
+
+def localized(job: Job, fine_job: Job) -> dict[str, Any] | None:
+    """What `localize` kept, by split; None if that is still to do."""
+    found = _kept(_localization_file(job, fine_job), job.key + fine_job.key)
+    return found and found["localization"]
+
+
+def _localization_file(job: Job, fine_job: Job) -> Path:
+    return job.directory / f"localization-{fine_job.run.name}.json"
+
+
+def _localizer(
+    data: MapData, retriever: Retriever, depth: int = RERANKED, refiner: FineModel | None = None
+) -> VectorLocalizer:
+    ranker = Ranker.of(retriever, data.cells, data.gallery.labels, depth)
+    return VectorLocalizer.of_map(data, ranker, refiner)
+
+
+def asked(data: Path, split: str) -> tuple[MapData, Queries]:
+    """A split without the hints behind its sentences: exact matching is measured once, in `reproduce`."""
+    source = open_source(data, split)
+    queries = source.queries(CHOSEN_BY) if split == VALIDATION else source.queries()
+    return source.data, replace(queries, hints=None)
