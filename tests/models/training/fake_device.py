@@ -66,6 +66,8 @@ def _run(operation: Any, *args: Any, **kwargs: Any) -> Any:
     device = torch.device(kwargs.get("device") or (FAKE if away else "cpu"))
     if kwargs.get("device") is not None:
         kwargs["device"] = torch.device("cpu")
+    if operation.overloadpacket in PACKED and isinstance(args[1], Away):
+        raise RuntimeError(f"{operation} wants its lengths on the CPU")
     compute = LSTM.get(operation.overloadpacket, operation)
     found = compute(*_map(_held, args), **{name: _map(_held, x) for name, x in kwargs.items()})
     if operation.overloadpacket is aten._pack_padded_sequence:

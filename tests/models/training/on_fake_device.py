@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import torch
 from torch import nn
+from torch.nn.utils.rnn import pack_padded_sequence
 
 from models.city.source import open_source
 from models.language.text_encoder import load_text_encoder
@@ -23,6 +24,7 @@ from models.training import fit_fine, fit_points, fit_retriever, validation
 from models.training.engine import loop
 from models.training.engine.devices import lent_to
 from models.training.posterior import fit_posterior
+from models.training.posterior.fit_reader import ReadingSet
 from models.training.settings import TrainingConfig
 from models.training.training_data import TrainingData
 from tests.models.training.fake_device import FAKE, Away
@@ -62,12 +64,13 @@ def fine(sources: Any, method: str, out: Path) -> None:
 
 def posterior(sources: Any, out: Path) -> None:
     """The reader of hints and that of cues; the likelihood on the CPU."""
-    labelled = fit_posterior.labelled_texts()[:17]  # one of them alone in its batch
+    labelled = fit_posterior.labelled_texts()[:16]
     given = {"labelled_texts": lambda: labelled, "PosteriorModel": with_names, "open_sources": lambda *_: sources}
+    given["ReadingSet"] = reading_set
     for name, value in given.items():
         setattr(fit_posterior, name, value)
     fit_posterior.train_posterior([Path("town")], ("train", "val"), out, PosteriorConfig(width=32), CONFIG)
-    assert load_posterior(out).text_encoder.read([labelled[0].text], 1)[0].mask.device == CPU
+    assert load_posterior(out).reader.read(["A tree is north of me."])
 
 
 def with_names(encoder: Any, config: PosteriorConfig) -> PosteriorModel:
@@ -75,6 +78,12 @@ def with_names(encoder: Any, config: PosteriorConfig) -> PosteriorModel:
     model = PosteriorModel(encoder, config)
     model.matcher.load_state_dict(load_posterior().matcher.state_dict())
     return model
+
+
+def reading_set(*given: Any) -> ReadingSet:
+    made = ReadingSet(*given)
+    assert {values.device for values in made._values} == {CPU}
+    return made
 
 
 def device() -> None:
@@ -92,6 +101,7 @@ def device() -> None:
         lambda: torch.zeros(()).add_(there[0, 0]),
         lambda: nn.functional.embedding(row, there),
         there.numpy,
+        lambda: pack_padded_sequence(there[None], torch.tensor([3]).to(FAKE), batch_first=True),
     ]
     for n, mixed in enumerate(refused):
         try:
@@ -112,6 +122,10 @@ def lending() -> None:
             raise KeyboardInterrupt
     except KeyboardInterrupt:
         assert module.weight.device == CPU
+    encoder = load_text_encoder()
+    with lent_to(FAKE, encoder):
+        assert encoder.read(["A tree."], 1)[0].mask.device == FAKE
+    assert encoder.read(["A tree."], 1)[0].mask.device == CPU, "it remembers what it read last"
 
 
 def tried(run: Callable[[], None]) -> str:
