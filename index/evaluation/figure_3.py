@@ -7,13 +7,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from index.answers import Query
 from index.evaluation.report import DPI
 from index.vector_localizer import VectorLocalizer
 from models.city.gallery import MapData
-from models.city.points import Ints
 from models.city.queries import Queries
 
 SHOWN, LISTED = 4, 3  # queries, and retrieved cells of each
@@ -37,44 +35,46 @@ def draw_figure_3(data: MapData, queries: Queries, localizer: VectorLocalizer, p
     """
     rows = np.random.default_rng(SEED).choice(len(queries), min(SHOWN, len(queries)), replace=False)
     given = [Query(description=" ".join(queries.sentences[q]), top_k=LISTED) for q in rows]
-    figure = Figure(figsize=(3 * (LISTED + 1), 3.9 * len(rows)), layout="constrained", dpi=DPI)
-    grid = figure.subplots(len(rows), LISTED + 1, squeeze=False)
-    for q, axes, query, found in zip(rows, grid, given, localizer.find(given), strict=True):
-        truth = int(queries.truth[q])
+    figure = Figure(figsize=(2.6 * (LISTED + 1), 3.1 * len(rows)), layout="constrained", dpi=DPI)
+    parts = figure.subfigures(len(rows), 1, squeeze=False)[:, 0]
+    for q, part, query, found in zip(rows, parts, given, localizer.find(given), strict=True):
+        part.suptitle(textwrap.fill(query.description, 130), fontsize=8, x=0.01, ha="left", style="italic")
+        axes, truth = part.subplots(1, LISTED + 1), int(queries.truth[q])
         _draw_cell(axes[0], data, truth)
-        axes[0].plot(*queries.positions_m[q], marker="x", ms=9, mew=2, color="black")
+        _mark_truth(axes[0], queries.positions_m[q])
         axes[0].set_title("true cell", fontsize=8)
-        axes[0].text(0, -0.06, textwrap.fill(query.description, 160), fontsize=7, va="top", transform=axes[0].transAxes)
         assert found.located is not None  # nothing was left out of the gallery
-        listed: Ints = found.located.rows[:LISTED]
-        for rank, (ax, cell) in enumerate(zip(axes[1:], listed, strict=False)):
-            _draw_cell(ax, data, int(cell), RIGHT if cell == truth else WRONG)
+        for rank, (ax, cell) in enumerate(zip(axes[1:], found.located.rows[:LISTED].tolist(), strict=False)):
+            colour = RIGHT if cell == truth else WRONG
+            _draw_cell(ax, data, cell, colour)
             position = found.located.positions[rank]
             ax.plot(*position, marker="*", ms=12, color="#e63946", mec="white")
             _mark_truth(ax, queries.positions_m[q])
-            same = data.cells.scenes[int(cell)] == queries.scenes[q]
+            same = data.cells.scenes[cell] == queries.scenes[q]
             error = f"{np.linalg.norm(position - queries.positions_m[q]):.1f} m off" if same else "other scene"
-            ax.set_title(f"{rank + 1}: {error}", fontsize=8, color=RIGHT if cell == truth else WRONG)
+            ax.set_title(f"{rank + 1}: {error}", fontsize=8, color=colour)
     FigureCanvasAgg(figure).print_png(path)
 
 
 def _draw_cell(axes: Axes, data: MapData, cell: int, frame: str = "black") -> None:
-    """The instances of a cell as boxes of their colours, large ones with their names."""
+    """Points of a cell's instances from above, large instances with their names."""
     cells = data.cells
     parts, half = cells.parts, cells.size_m / 2
-    rows = np.arange(parts.starts[cell], parts.starts[cell + 1])
-    rows = rows[np.argsort(-np.prod(parts.high_m[rows, :2] - parts.low_m[rows, :2], axis=1))]  # small ones on top
-    for row in rows:
-        low, size = parts.low_m[row, :2], parts.high_m[row, :2] - parts.low_m[row, :2]
-        colour = np.nan_to_num(parts.rgb[row], nan=UNKNOWN_COLOUR)
-        axes.add_patch(Rectangle(tuple(low), *size, fc=(*colour, 0.6), ec=(*colour * 0.6, 1.0), lw=0.8))
-        if max(size) >= LABELLED_M:
-            label = data.gallery.labels[parts.instance[row]]
-            east, north = low + size / 2
-            axes.text(east, north, label, fontsize=5, ha="center", va="center", clip_on=True)
+    assert cells.sample is not None  # a data set has its points
+    samples = cells.sample(np.array([cell]))
+    for row, points in zip(range(parts.starts[cell], parts.starts[cell + 1]), samples, strict=True):
+        low, high = parts.low_m[row, :2], parts.high_m[row, :2]
+        reach = np.abs(points[:, :2]).max(axis=0)  # samples are in a scale of their own
+        place = (low + high) / 2 + points[:, :2] * (high - low) / 2 / np.maximum(reach, 1e-6)
+        colour = np.where(points[:, 3:] < 0, UNKNOWN_COLOUR, points[:, 3:])
+        axes.scatter(place[:, 0], place[:, 1], s=1.5, c=colour, linewidths=0)
+        if max(high - low) >= LABELLED_M:
+            east, north = np.clip((low + high) / 2, *(cells.center_m[cell, :2] + side * half for side in (-0.9, 0.9)))
+            axes.text(east, north, data.gallery.labels[parts.instance[row]], fontsize=5, ha="center", clip_on=True)
     east, north = cells.center_m[cell, :2]
     axes.set(xlim=(east - half, east + half), ylim=(north - half, north + half), xticks=[], yticks=[])
     axes.set_aspect("equal")
+    axes.set_facecolor("#f4f1ea")
     for spine in axes.spines.values():
         spine.set(color=frame, linewidth=2)
 

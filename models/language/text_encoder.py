@@ -38,6 +38,10 @@ class TokenFeatures:
     mask: Tensor
     ids: Tensor
 
+    def to(self, device: torch.device) -> "TokenFeatures":
+        """The same on a device."""
+        return TokenFeatures(self.values.to(device), self.mask.to(device), self.ids.to(device))
+
 
 class TextEncoder(nn.Module):
     """A frozen language model: MiniLM by default, T5 or Flan-T5 (encoder only) for the paper's setting.
@@ -58,7 +62,7 @@ class TextEncoder(nn.Module):
         self.fingerprint = fingerprint
         self.width = int(model.config.hidden_size)
         self._ranks: dict[str, int] | None = None
-        self._lately: dict[tuple[int, tuple[str, ...]], tuple[TokenFeatures, Tensor]] = {}
+        self._lately: dict[tuple[torch.device, int, tuple[str, ...]], tuple[TokenFeatures, Tensor]] = {}
 
     @torch.inference_mode()
     def forward(self, sentences: Sequence[str]) -> TokenFeatures:
@@ -81,7 +85,8 @@ class TextEncoder(nn.Module):
         Returns:
             Token features, and the characters that each token stands for, [S, T, 2] int64.
         """
-        key = depth, tuple(texts)
+        device = next(self.model.parameters()).device
+        key = device, depth, tuple(texts)
         if key in self._lately:
             return self._lately[key]
         tokens = self.tokenizer(
@@ -92,7 +97,6 @@ class TextEncoder(nn.Module):
             return_tensors="pt",
             return_offsets_mapping=True,
         )
-        device = next(self.model.parameters()).device
         ids, mask = tokens["input_ids"].to(device), tokens["attention_mask"].to(device).bool()
         with torch.no_grad():
             hidden = run_layers(self.layers(0, depth), self.model.embeddings(input_ids=ids), mask)

@@ -47,6 +47,15 @@ class Levels:
             return vectors
         return (vectors * self.mask[..., None]).sum(dim=1) / self.mask.sum(dim=1, keepdim=True)
 
+    def each(self) -> "list[Levels]":
+        """Each description or cell with B = 1 and without padding, on the CPU."""
+        whole, mask = self.whole.cpu(), self.mask.cpu()
+        others = [None if x is None else x.cpu() for x in (self.instance, self.relation)]
+        return [
+            Levels(whole[n : n + 1], real[real][None], *(None if x is None else x[n, real][None] for x in others))
+            for n, real in enumerate(mask)
+        ]
+
 
 def set_similarity(hints: Tensor, hint_mask: Tensor, instances: Tensor, instance_mask: Tensor) -> Tensor:
     """[Q, N] mean over real hints of the maximum over real instances of the cosine (MNCL, similarity of a level).

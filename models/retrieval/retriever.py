@@ -8,6 +8,7 @@ import numpy.typing as npt
 import torch
 from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor
+from torch.nn.utils.rnn import pad_sequence
 
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
@@ -16,7 +17,7 @@ from models.retrieval.levels import Level, Levels, sum_of_z_scores
 from models.retrieval.point_encoder import PointEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 20 MB at D = 256
-ENCODE_BATCH = 256  # cells
+ENCODE_BATCH = 256  # cells, or descriptions
 Vectors = np.ndarray[tuple[int, int], np.dtype[np.float32]]
 
 
@@ -160,6 +161,18 @@ class Retriever(OnTextEncoder):
         """Descriptions at all levels, each with B = 1; the text encoder runs once for all that is new to it."""
         self._hint_cache(hint for hints in descriptions for hint in hints)
         return [self.encode_description(hints) for hints in descriptions]
+
+    @torch.inference_mode()
+    def encode_together(self, descriptions: Sequence[Sequence[str]]) -> list[Levels]:
+        """As `encode_texts`, but padded, many at a time, and on the CPU: faster, and the same up to rounding."""
+        features = self._hint_cache(hint for hints in descriptions for hint in hints)
+        row, table = {hint: n for n, hint in enumerate(features)}, torch.stack(list(features.values()))
+        found: list[Levels] = []
+        for start in range(0, len(descriptions), ENCODE_BATCH):
+            said = [torch.tensor([row[hint] for hint in hints]) for hints in descriptions[start : start + ENCODE_BATCH]]
+            hints = pad_sequence(said, batch_first=True, padding_value=-1).to(table.device)
+            found += self.describe(table[hints], hints >= 0).each()
+        return found
 
     def encode_descriptions(self, descriptions: Sequence[Sequence[str]]) -> Vectors:
         """[Q, D] float32 unit vectors of descriptions, the global level."""

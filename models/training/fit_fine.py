@@ -13,7 +13,8 @@ from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.localization.checkpoint import FINE_METHODS, save_fine
 from models.localization.fine_model import FineConfig, FineModel, Truth
 from models.training.engine import distributed
-from models.training.engine.loop import History, Progress, run_training
+from models.training.engine.devices import lent_to
+from models.training.engine.loop import History, Progress, pick_device, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
 from models.training.fit_points import look_at_points
 from models.training.retrieval_data import HintVocabulary
@@ -63,7 +64,6 @@ class FineTask:
 
     def validate(self) -> dict[str, float]:
         """`FineValidation.figures`, the mean over the sources."""
-        self.model.text_encoder.to(self.model.device)
         return _mean([validation.figures(self.model) for validation in self.validations])
 
 
@@ -111,16 +111,14 @@ def train_fine(
     rng = np.random.default_rng(config.seed)
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
-    sources = load(encoder, rng)
-    fine = FINE_METHODS[method](encoder, model)
-    task = FineTask(fine, sources, config.batch_size, config.pmc)
-    points = look_at_points(fine, sources, config, run_dir and run_dir / "points", resume, progress)
-    record = settings_record(method, model, config) | {"sources": [source.facts for source in sources]}
-    try:
+    with lent_to(pick_device(config.device), encoder):
+        sources = load(encoder, rng)
+        fine = FINE_METHODS[method](encoder, model)
+        task = FineTask(fine, sources, config.batch_size, config.pmc)
+        points = look_at_points(fine, sources, config, run_dir and run_dir / "points", resume, progress)
+        record = settings_record(method, model, config) | {"sources": [source.facts for source in sources]}
         history = run_training(task, config, run_dir, resume, progress, rng, record)
         return distributed.from_first(lambda: _finish(task, out, config, history, points))
-    finally:
-        encoder.to("cpu")  # it is shared with whatever this process does next
 
 
 def _finish(

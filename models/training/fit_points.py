@@ -25,7 +25,7 @@ from models.retrieval.instance_encoder import GEOMETRY, CellFeatures
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
 from models.retrieval.retriever import Retriever
 from models.training.engine import distributed
-from models.training.engine.loop import LoopConfig, Progress, run_training
+from models.training.engine.loop import LoopConfig, Progress, pick_device, run_training
 from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingData
 
@@ -173,6 +173,7 @@ def look_at_points(
         figures = fit_points(model.points, sources, loop, run_dir, resume, progress)
     else:
         figures = _read_points(model.points, config.points)
+        model.points.to(pick_device(config.device))
     for source in sources:
         source.training.features = model.seen(source.training.features)
     return figures

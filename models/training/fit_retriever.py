@@ -15,7 +15,8 @@ from models.retrieval.checkpoint import save_retriever
 from models.retrieval.levels import Levels
 from models.retrieval.retriever import Retriever, RetrieverConfig
 from models.training.engine import distributed
-from models.training.engine.loop import History, Progress, run_training
+from models.training.engine.devices import lent_to
+from models.training.engine.loop import History, Progress, pick_device, run_training
 from models.training.fit_points import look_at_points
 from models.training.retrieval_data import Batch, HintVocabulary
 from models.training.settings import TrainingConfig, settings_record
@@ -97,7 +98,6 @@ class RetrievalTask:
 
     def validate(self) -> dict[str, float]:
         """See Task: recall@1, 3 and 5, the mean over the sources."""
-        self.model.text_encoder.to(next(self.model.parameters()).device)
         recalls = [validation.recall(self.model) for validation in self.validations]
         return {f"recall@{k}": recall for k, recall in mean_recall(recalls).items()}
 
@@ -140,16 +140,14 @@ def train_retriever(
     rng = np.random.default_rng(config.seed)
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
-    sources = load(encoder, rng)
-    retriever = method(encoder, model)
-    task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)
-    points = look_at_points(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
-    record = settings_record(method.method, model, config) | {"sources": [source.facts for source in sources]}
-    try:
+    with lent_to(pick_device(config.device), encoder):
+        sources = load(encoder, rng)
+        retriever = method(encoder, model)
+        task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)
+        points = look_at_points(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
+        record = settings_record(method.method, model, config) | {"sources": [source.facts for source in sources]}
         history = run_training(task, config, run_dir, resume, progress, rng, record)
         return distributed.from_first(lambda: _finish(task, out, config, history, rng, points))
-    finally:
-        encoder.to("cpu")  # it is shared with whatever this process does next
 
 
 def _finish(
@@ -171,8 +169,7 @@ def _finish(
         **history.facts,
         "point_encoder": points,
     }
-    retriever.cpu().text_encoder.cpu()
-    save_retriever(retriever, out, training)
+    save_retriever(retriever.cpu(), out, training)
     return mean_recall(recalls)
 
 

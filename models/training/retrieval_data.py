@@ -141,9 +141,8 @@ class TrainingSet:
 
     def to(self, device: torch.device) -> None:
         """Move what the model looks up while training to a device."""
-        if self.label_embeddings.device != device:
-            self.vocabulary.to(device)
-            self.label_embeddings = self.label_embeddings.to(device)
+        self.vocabulary.to(device)
+        self.label_embeddings = self.label_embeddings.to(device)
 
     def draw(self, size: int, cluster: int, rng: np.random.Generator) -> npt.NDArray[np.intp]:
         """Positions for a batch: groups of `cluster` near each other, whose cells are hard to tell apart."""

@@ -54,8 +54,8 @@ class Encoded:
 
     def level_scores(self, descriptions: Sequence[Sequence[str]]) -> dict[Level, npt.NDArray[np.float32]]:
         """[Q, N] similarities of descriptions with all cells, by level."""
-        texts = self.retriever.encode_texts(descriptions)
-        whole = np.concatenate([text.whole.cpu().numpy() for text in texts]) @ self.vectors.T
+        texts = self.retriever.encode_together(descriptions)
+        whole = np.concatenate([text.whole.numpy() for text in texts]) @ self.vectors.T
         return {**self.table.scores(texts, np.arange(len(self.vectors))), "global": whole}
 
 

@@ -87,7 +87,7 @@ class CueReader(nn.Module):
         for row, some in zip(mark, spans, strict=True):
             for first, end, form in some:
                 row[first], row[first + 1 : end] = 1 + 2 * form, 2 + 2 * form
-        x = self._run(self.dropout(tokens.values + self.mark(mark)), tokens.mask)
+        x = self._run(self.dropout(tokens.values + self.mark(mark.to(tokens.mask.device))), tokens.mask)
         pooled = [torch.cat([x[n, a:b].mean(dim=0), x[n, a]]) for n, some in enumerate(spans) for a, b, _ in some]
         found = self.head(self.dropout(torch.stack(pooled) if pooled else x.new_zeros(0, 2 * x.shape[2])))
         return torch.split(found, [len(ANGLES), len(RELATIONS), len(FLAGS)], dim=1)
@@ -149,7 +149,7 @@ class CueReader(nn.Module):
         return found
 
     def _run(self, x: Tensor, mask: Tensor) -> Tensor:
-        shut = torch.zeros(mask.shape).masked_fill(~mask, float("-inf"))[:, None, None]
+        shut = torch.zeros(mask.shape, device=mask.device).masked_fill(~mask, float("-inf"))[:, None, None]
         for layer, weights in zip(self._base[1], self._weights(), strict=True):
             x = functional_call(layer, weights, (x, shut))
         return x

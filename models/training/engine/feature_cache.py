@@ -27,11 +27,11 @@ def frozen_features(encoder: TextEncoder, sentences: Sequence[str]) -> TokenFeat
     written is done without.
 
     Args:
-        encoder: the frozen text encoder; its fingerprint is part of the file's name.
+        encoder: the frozen text encoder, on any device; its fingerprint is part of the file's name.
         sentences: S of them; so are they, in their order.
 
     Returns:
-        [S, T, W] float16 values, [S, T] mask, [S, T] ids.
+        [S, T, W] float16 values, [S, T] mask, [S, T] ids, on the CPU.
     """
     key = json.dumps([_FORMAT, encoder.fingerprint, list(sentences)])
     path = cache_directory() / "tokens" / f"{hashlib.sha256(key.encode()).hexdigest()}.safetensors"
@@ -60,13 +60,10 @@ def _write(path: Path, features: TokenFeatures) -> TokenFeatures:
 
 
 def _compute(encoder: TextEncoder, sentences: Sequence[str]) -> TokenFeatures:
-    parts = [encoder(sentences[i : i + ENCODE_BATCH]) for i in range(0, len(sentences), ENCODE_BATCH)]
-    longest = max(part.mask.shape[1] for part in parts)
-    return TokenFeatures(
-        torch.cat([_pad(part.values.half(), longest) for part in parts]).cpu(),
-        torch.cat([_pad(part.mask, longest) for part in parts]).cpu(),
-        torch.cat([_pad(part.ids, longest) for part in parts]).cpu(),
-    )
+    batches = (encoder(sentences[i : i + ENCODE_BATCH]) for i in range(0, len(sentences), ENCODE_BATCH))
+    parts = [(batch.values.half().cpu(), batch.mask.cpu(), batch.ids.cpu()) for batch in batches]
+    longest = max(mask.shape[1] for _, mask, _ in parts)
+    return TokenFeatures(*(torch.cat([_pad(x, longest) for x in column]) for column in zip(*parts, strict=True)))
 
 
 def _pad(x: Tensor, length: int) -> Tensor:

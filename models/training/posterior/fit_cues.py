@@ -1,6 +1,7 @@
 """Training the reader of cues on labelled texts (docs/method.md, how texts about places are read)."""
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -32,7 +33,7 @@ def fit_cues(
     """Train a reader of cues, in place.
 
     Args:
-        reader: as it was made.
+        reader: as it was made, on any device, with what it stands on.
         texts: labelled.
         epochs: over all texts.
         rng: draws their order, and what is changed in them.
@@ -88,15 +89,16 @@ def _loss(reader: CueReader, texts: Sequence[CueText]) -> Tensor:
     spans = [[(*span, item.form) for item, span in some if span is not None] for some in at]
     items = [item for some in at for item, span in some if span is not None]
     angle, relation, flags = reader(tokens, spans)
-    meant = torch.tensor([item.is_meant for item in items])
-    told = torch.tensor([[item.has_wind, item.is_meant] for item in items]).float()
+    tensor = partial(torch.tensor, device=flags.device)
+    meant = tensor([item.is_meant for item in items])
+    told = tensor([[item.has_wind, item.is_meant] for item in items]).float()
     if not items:
         none: Tensor = flags.sum()
         return none
     cross = nn.functional.cross_entropy
-    total: Tensor = cross(angle, torch.tensor([item.angle for item in items]), label_smoothing=SMOOTHING)
+    total: Tensor = cross(angle, tensor([item.angle for item in items]), label_smoothing=SMOOTHING)
     if bool(meant.any()):
-        rows = torch.tensor([item.relation for item in items])
+        rows = tensor([item.relation for item in items])
         total = total + RELATION_WEIGHT * cross(relation[meant], rows[meant], label_smoothing=SMOOTHING)
     flagged = nn.functional.binary_cross_entropy_with_logits(flags, told)
     loss: Tensor = total + FLAG_WEIGHT * flagged

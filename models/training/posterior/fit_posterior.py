@@ -16,7 +16,8 @@ from models.localization.located import TOLD
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
-from models.training.engine.loop import Progress, run_training
+from models.training.engine.devices import lent_to
+from models.training.engine.loop import Progress, pick_device, run_training
 from models.training.posterior.cue_texts import labelled_texts
 from models.training.posterior.fit_cues import EPOCHS, fit_cues
 from models.training.posterior.fit_likelihood import Texts, fit_likelihood
@@ -48,7 +49,7 @@ def train_posterior(
     resume: bool = False,
     progress: Callable[[Progress], None] | None = None,
 ) -> dict[str, float]:
-    """Train, calibrate on validation places, save.
+    """Train, calibrate on validation places, save; the readers on `config.device`, the likelihood on the CPU.
 
     Args:
         data: maps and data sets, see `open_sources`; nothing of them is needed to train the reader.
@@ -72,13 +73,14 @@ def train_posterior(
     model = model.model_copy(update={"grammar_sha256": load_grammar("train").sha256})
     trained = PosteriorModel(encoder, model)
     depth = model.frozen_layers
-    training = ReadingSet(encoder, depth, "train", TEXTS, config.seed)
-    validation = ReadingSet(encoder, depth, "val", VALIDATION_TEXTS, config.seed + 1)
-    task = ReadingTask(trained.reader, training, validation, config.batch_size)
-    record = settings_record(trained.method, model, config)
-    history = run_training(task, config, run_dir, resume, progress, record=record)
-    round_large(trained)  # as `refit_posterior` reads it
-    fit_cues(trained.cues, labelled_texts(), EPOCHS, np.random.default_rng(config.seed))
+    with lent_to(pick_device(config.device), encoder, trained):
+        training = ReadingSet(encoder, depth, "train", TEXTS, config.seed)
+        validation = ReadingSet(encoder, depth, "val", VALIDATION_TEXTS, config.seed + 1)
+        task = ReadingTask(trained.reader, training, validation, config.batch_size)
+        record = settings_record(trained.method, model, config)
+        history = run_training(task, config, run_dir, resume, progress, record=record)
+        round_large(trained)  # as `refit_posterior` reads it
+        fit_cues(trained.cues, labelled_texts(), EPOCHS, np.random.default_rng(config.seed))
     return fit_and_save(trained, validation, data, splits, out, config, history.best_step)
 
 

@@ -1,7 +1,7 @@
 """Training the reader of free language on texts from the paraphrase grammar."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -115,12 +115,16 @@ class ReadingBatch:
     colour: Tensor
     absent: Tensor
 
+    def to(self, device: torch.device) -> "ReadingBatch":
+        """The same on a device."""
+        return ReadingBatch(*(getattr(self, field.name).to(device) for field in fields(self)))
+
 
 class ReadingSet:
-    """Texts of a grammar with what the frozen layers make of them, encoded once.
+    """Texts of a grammar with what the frozen layers make of them, encoded once and kept on the CPU.
 
     Args:
-        encoder: the text encoder.
+        encoder: the text encoder, on any device.
         depth: its frozen layers.
         grammar: which wording.
         size: how many texts.
@@ -146,9 +150,10 @@ class ReadingSet:
         for start in range(0, size, ENCODED_AT_ONCE):
             rows = self.by_length[start : start + ENCODED_AT_ONCE]
             tokens, characters = encoder.read([self.said[n].text for n in rows], depth)
+            values, mask = tokens.values.cpu(), tokens.mask.cpu()
             for k, n in enumerate(rows.tolist()):
-                length = int(tokens.mask[k].sum())
-                self._values[n] = tokens.values[k, :length].half()
+                length = int(mask[k].sum())
+                self._values[n] = values[k, :length].half()
                 whole = torch.ones(length, dtype=torch.bool)
                 self._targets[n] = example_targets(self.said[n].mentions, characters[k, :length], whole)
             if progress:
@@ -220,7 +225,7 @@ class ReadingTask:
 
     def loss(self, batch: ReadingBatch) -> Tensor:
         """Cross-entropies of tags and attributes, added."""
-        examples = batch
+        examples = batch.to(next(self.model.parameters()).device)
         features = self.model(examples.tokens)
         tags = nn.functional.cross_entropy(self.model.tag(features).flatten(0, 1), examples.tags.flatten())
         relation, colour, absent = self.model.attributes(pooled(features, examples))
@@ -248,9 +253,9 @@ def reading_figures(model: Reader, texts: ReadingSet) -> dict[str, float]:
     "f1" weighs both: the harmonic mean of "hints" and of the share of the nouns found that are hints read right.
     """
     rows: dict[str, list[Any]] = {"noun": [], "relation": [], "colour": [], "absent": []}
-    extra = 0
+    extra, device = 0, next(model.parameters()).device
     for start in range(0, len(texts), 64):
-        batch = texts.batch(range(start, min(start + 64, len(texts))))
+        batch = texts.batch(range(start, min(start + 64, len(texts)))).to(device)
         features = model(batch.tokens)
         tags = model.tag(features).argmax(dim=-1)
         extra += int(((tags > 1) & (batch.tags == 0)).sum())

@@ -33,6 +33,7 @@ def train_places(
     """Train the reader of cues, fit and calibrate the kernels on maps with people's texts, save it all.
 
     The kernels are fitted to texts as a reader reads them that was not trained on these: of two, each on half of them.
+    All of it runs on the CPU.
 
     Args:
         maps: each an OpenStreetMap file, with files of texts about it (`load_told_texts`).

@@ -1,8 +1,11 @@
 import numpy as np
 import pytest
+import torch
 
 from models.city.source import CHOSEN_BY
-from models.training.validation import Validation, calibrate, most_likely
+from models.retrieval.checkpoint import METHODS
+from models.retrieval.retriever import Retriever
+from models.training.validation import Encoded, Validation, calibrate, most_likely
 
 
 @pytest.fixture(scope="module")
@@ -49,3 +52,19 @@ def test_the_global_level_has_a_temperature_of_its_own(model, region_queries, mo
 @pytest.fixture(scope="module")
 def region_queries(source, model):
     return Validation(source.data.gallery, source.queries(CHOSEN_BY, 40.0), model)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_many_texts_at_a_time_get_the_scores_of_each_alone(source, text_encoder, method, monkeypatch) -> None:
+    torch.manual_seed(0)
+    retriever = METHODS[method](text_encoder, METHODS[method].config_type(width=32)).eval()
+    asked = Validation(source.data.gallery, source.queries(CHOSEN_BY, 40.0), retriever)
+    rng = np.random.default_rng(0)
+    texts = [list(hints)[: int(rng.integers(1, 7))] for hints in asked.descriptions]
+    gallery, recall = Encoded(retriever, asked.features), asked.recall(retriever)
+    together = gallery.level_scores(texts)
+    monkeypatch.setattr(type(retriever), "encode_together", Retriever.encode_texts)
+    alone = gallery.level_scores(texts)
+    assert list(together) == list(alone)
+    assert all(np.abs(together[level] - alone[level]).max() < 1e-5 for level in alone)
+    assert recall == pytest.approx(asked.recall(retriever), abs=1e-5)

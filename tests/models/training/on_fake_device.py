@@ -1,0 +1,164 @@
+"""What test_devices.py runs in a process of its own: all that is trained, on a device that mixes with nothing else."""
+
+import json
+import sys
+import traceback
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from torch import nn
+from torch.nn.utils.rnn import pack_padded_sequence
+
+from models.city.source import open_source
+from models.language.text_encoder import load_text_encoder
+from models.localization.checkpoint import FINE_METHODS, load_fine
+from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
+from models.retrieval import point_encoder
+from models.retrieval.checkpoint import METHODS, load_retriever
+from models.training import fit_fine, fit_points, fit_retriever, validation
+from models.training.engine import loop
+from models.training.engine.devices import lent_to
+from models.training.posterior import fit_posterior
+from models.training.posterior.fit_reader import ReadingSet
+from models.training.settings import TrainingConfig
+from models.training.training_data import TrainingData
+from tests.models.training.fake_device import FAKE, Away
+
+CPU = torch.device("cpu")
+CONFIG = TrainingConfig(steps=1, batch_size=8, spacing_m=30.0)
+SMALL: dict[Any, dict[str, Any]] = {
+    fit_points: {"STEPS": 1, "CELLS_A_SOURCE": 10, "CHOSEN_BY_CELLS": 10},
+    point_encoder: {"_LEVELS": ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128)))},
+    validation: {"QUERIES": 20},
+    fit_posterior: {
+        "TEXTS": 33, "VALIDATION_TEXTS": 9, "FITTED_TEXTS": 2, "CALIBRATED_TEXTS": 2, "FIT_STEPS": 1,
+        "CALIBRATION_STEPS": 1, "EPOCHS": 1,
+    },
+}  # fmt: skip
+
+
+def load(sources: Any, encoder: Any, rng: np.random.Generator) -> list[TrainingData]:
+    assert next(encoder.parameters()).device == FAKE, "frozen features are computed on the device"
+    data = TrainingData.of(*sources, encoder, CONFIG, rng)
+    assert data.training.vocabulary.mask.device == CPU, "and kept on the CPU"
+    return [replace(data, queries=data.queries.take(np.arange(20)))]
+
+
+def retriever(sources: Any, method: str, points: str, out: Path) -> None:
+    config = METHODS[method].config_type(width=32, point_encoder=points)
+    fit_retriever.train_retriever(partial(load, sources), out, METHODS[method], config, CONFIG)
+    assert load_retriever(out).encode_descriptions([["A tree is north of me."]]).shape == (1, 32)
+
+
+def fine(sources: Any, method: str, out: Path) -> None:
+    config = FINE_METHODS[method].config_type(width=32)
+    for resume in (False, True):
+        fit_fine.train_fine(partial(load, sources), out, method, config, CONFIG, out / "run", resume)
+    assert load_fine(out).error_m
+
+
+def posterior(sources: Any, out: Path) -> None:
+    """The reader of hints and that of cues; the likelihood on the CPU."""
+    labelled = fit_posterior.labelled_texts()[:16]
+    given = {"labelled_texts": lambda: labelled, "PosteriorModel": with_names, "open_sources": lambda *_: sources}
+    given["ReadingSet"] = reading_set
+    for name, value in given.items():
+        setattr(fit_posterior, name, value)
+    fit_posterior.train_posterior([Path("town")], ("train", "val"), out, PosteriorConfig(width=32), CONFIG)
+    assert load_posterior(out).reader.read(["A tree is north of me."])
+
+
+def with_names(encoder: Any, config: PosteriorConfig) -> PosteriorModel:
+    """An untrained model with the vectors of names that ship, which take seconds to make."""
+    model = PosteriorModel(encoder, config)
+    model.matcher.load_state_dict(load_posterior().matcher.state_dict())
+    return model
+
+
+def reading_set(*given: Any) -> ReadingSet:
+    made = ReadingSet(*given)
+    assert {values.device for values in made._values} == {CPU}
+    return made
+
+
+def device() -> None:
+    """What a GPU refuses is refused, and what it takes is taken."""
+    here, there, row = torch.ones(3, 4), torch.ones(3, 4).to(FAKE), torch.tensor([0])
+    refused: list[Callable[[], Any]] = [
+        lambda: here + there,
+        lambda: there[0, 0] + here,
+        lambda: here[row.to(FAKE)],
+        lambda: torch.cat([here, there]),
+        lambda: torch.stack([here[0, 0], there[0, 0]]),
+        lambda: there.masked_fill(here > 0, 0.0),
+        lambda: there.index_add(0, row, there[:1]),
+        lambda: there.__setitem__(row, here[:1]),
+        lambda: torch.zeros(()).add_(there[0, 0]),
+        lambda: nn.functional.embedding(row, there),
+        there.numpy,
+        lambda: pack_padded_sequence(there[None], torch.tensor([3]).to(FAKE), batch_first=True),
+    ]
+    for n, mixed in enumerate(refused):
+        try:
+            mixed()
+        except RuntimeError:
+            continue
+        raise AssertionError(f"number {n} of what mixes devices passes")
+    there[row] = torch.tensor(2.0)
+    assert (there[row] * torch.tensor(3.0)).tolist() == [[6.0] * 4]
+
+
+def lending() -> None:
+    """What is lent comes back, whatever happens."""
+    module = nn.Linear(2, 2)
+    try:
+        with lent_to(FAKE, module):
+            assert module.weight.device == FAKE
+            raise KeyboardInterrupt
+    except KeyboardInterrupt:
+        assert module.weight.device == CPU
+    encoder = load_text_encoder()
+    with lent_to(FAKE, encoder):
+        assert encoder.read(["A tree."], 1)[0].mask.device == FAKE
+    assert encoder.read(["A tree."], 1)[0].mask.device == CPU, "it remembers what it read last"
+
+
+def tried(run: Callable[[], None]) -> str:
+    """What went wrong, if anything did."""
+    before, encoder = Away.made, load_text_encoder()
+    try:
+        run()
+        assert run in (device, lending) or Away.made > before + 1000, "it was trained on the CPU"
+        assert next(encoder.parameters()).device == CPU, "others in this process use the text encoder"
+    except Exception:
+        return traceback.format_exc()
+    finally:
+        encoder.to(CPU)
+    return ""
+
+
+def main(osm_file: Path, out: Path) -> None:
+    """Run everything; out/report.json says of each what went wrong."""
+    for module in (loop, fit_retriever, fit_fine, fit_posterior):
+        module.pick_device = lambda wanted: CPU if wanted == "cpu" else FAKE
+    for module, values in SMALL.items():
+        for name, value in values.items():
+            setattr(module, name, value)
+    sources = [open_source(osm_file, split) for split in ("train", "val")]
+    cases: dict[str, Callable[[], None]] = {"device": device, "lending": lending}
+    for method in METHODS:
+        for points in ("none", "pointnet"):
+            name = f"{method}-{points}"
+            cases[name] = partial(retriever, sources, method, points, out / name)
+    cases |= {method: partial(fine, sources, method, out / method) for method in FINE_METHODS}
+    cases["posterior"] = partial(posterior, sources, out / "posterior")
+    (out / "report.json").write_text(json.dumps({name: tried(run) for name, run in cases.items()}))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]))

@@ -1,0 +1,38 @@
+"""Everything that is trained, with no tensor left behind on the CPU; no GPU is needed to tell."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from torch.utils import backend_registration
+
+from models.localization.checkpoint import FINE_METHODS
+from models.retrieval.checkpoint import METHODS
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        not hasattr(backend_registration, "_setup_privateuseone_for_python_backend"),
+        reason="this torch cannot have a device written in Python",
+    ),
+]
+ROOT = Path(__file__).parents[3]
+RETRIEVERS = [f"{method}-{points}" for method in METHODS for points in ("none", "pointnet")]
+
+
+@pytest.fixture(scope="module")
+def report(made_once, osm_file):
+    """What went wrong of each; in a process of its own, which no other test shares the device with."""
+
+    def make(out: Path) -> None:
+        command = [sys.executable, "-m", "tests.models.training.on_fake_device", str(osm_file), str(out)]
+        subprocess.run(command, cwd=ROOT, check=True)
+
+    return json.loads((made_once("devices", make) / "report.json").read_text())
+
+
+@pytest.mark.parametrize("name", ["device", "lending", *RETRIEVERS, *FINE_METHODS, "posterior"])
+def test_all_of_it_is_on_one_device(report, name) -> None:
+    assert not report[name], report[name]
