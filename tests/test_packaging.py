@@ -26,4 +26,5 @@ def test_every_file_that_is_read_is_taken_along() -> None:
         for path in (ROOT / package.replace(".", "/")).glob(pattern)
     }
     read = {p for top in TOP for kind in ("toml", "xz", "safetensors", "pbf") for p in ROOT.glob(f"{top}/**/*.{kind}")}
-    assert read - taken == set()
+    of_reports = set((ROOT / "models" / "reports").rglob("*.toml"))  # nothing that runs reads them
+    assert read - taken - of_reports == set()

@@ -14,8 +14,9 @@ from rich.text import Text
 from typer.core import TyperGroup
 
 from app.cli import data as cli_data
+from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
-from app.cli import research as cli_research
+from app.cli import train as cli_train
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from index.answers import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from models.errors import HereaboutsError
@@ -162,9 +163,9 @@ for command in (
     cli_data.prepare,
     cli_data.convert,
     cli_data.synth,
-    cli_research.train,
-    cli_research.evaluate,
-    cli_research.benchmark,
+    cli_train.train,
+    cli_measure.evaluate,
+    cli_measure.benchmark,
     cli_reproduce.reproduce,
 ):
     app.command()(command)

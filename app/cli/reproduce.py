@@ -43,13 +43,16 @@ def reproduce(
     from app.threads import usable_cpus
     from index.evaluation.reproduce import chosen, figure_3_of, in_epochs
     from index.evaluation.reproduce import reproduce as run
+    from index.evaluation.reproduce_jobs import settings_of
     from index.evaluation.reproduce_report import write_reproduction
-    from models.training.experiments import SCALES
+    from models.training.experiments import POINTS, SCALES, Run, runs_of
 
     if steps and epochs:
         raise DataError("--steps and --epochs both say how long to train; give one of them")
     numbers, experiments = _numbers(seeds), chosen(tables)
     scale = _changed(SCALES["demo" if data == "demo" else "full"], config, steps, device)
+    for each in (*runs_of(experiments, every_seed=False), Run(POINTS)):
+        settings_of(each, numbers[0], scale)  # what cannot be trained with is said before any work
     with stage_bars() as show:
         store = _store(_towns(data, out, show) if data in MADE_UP else Path(data), out, show)
         scale = in_epochs(scale, store, epochs) if epochs else scale
@@ -84,6 +87,8 @@ def _read(config: Path) -> dict[str, tuple[str, ...]]:
         raise DataError(f"--config {config} cannot be read ({error}); it is a TOML file, see docs/use.md") from error
     if unknown := [part for part in tables if part not in PARTS]:
         raise DataError(f"--config {config}: there is no table '{unknown[0]}'; it has {', '.join(PARTS)}")
+    if flat := [part for part, of_part in tables.items() if not all(isinstance(f, dict) for f in of_part.values())]:
+        raise DataError(f"--config {config}: settings stand in {flat[0]}.model or {flat[0]}.training")
     return {
         part: tuple(
             f"{table}.{name}={','.join(map(str, value)) if isinstance(value, list) else value}"

@@ -17,7 +17,7 @@ from index.evaluation.scoring import score
 from index.finding import CellLocalizer
 from models.city.gallery import MapData
 from models.city.queries import Queries
-from models.city.types import Progress
+from models.city.types import Floats, Progress
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 
@@ -116,8 +116,8 @@ def grow(
 ) -> list[tuple[float, tuple[MapData, Queries], npt.NDArray[np.intp]]]:
     """The scalability protocol (MNCL, figure 5): the same queries, a gallery that grows around them.
 
-    The gallery is every cell within each radius of the middle of its scene; the queries are those whose position and
-    best cell lie within the least.
+    The gallery is every cell within each radius of the middle of its scene's queries; the queries are those whose best
+    cell lies within the least.
 
     Returns:
         For each radius, in ascending order: the radius, gallery and queries, and the gallery's rows in `data`.
@@ -130,19 +130,19 @@ def grow(
     radii = sorted(set(radii_m))
     if radii[0] <= 0:
         raise DataError(f"grow: {radii[0]:g} m is no radius; give metres above 0, such as 200,300,400,500")
-    cells = data.cells
-    names, scene = np.unique(cells.scenes, return_inverse=True)
-    middle = np.stack([cells.center_m[scene == n, :2].mean(axis=0) for n in range(len(names))])
-    distance = np.hypot(*(cells.center_m[:, :2] - middle[scene]).T)
-    known = np.flatnonzero(queries.truth >= 0)
-    truth = queries.truth[known]
-    away = np.hypot(*(queries.positions_m[known] - middle[scene[truth]]).T)
-    asked = known[np.maximum(away, distance[truth]) <= radii[0]]
+    cells, known = data.cells, np.flatnonzero(queries.truth >= 0)
+    away = np.full(len(cells), np.inf)
+    for scene in set(queries.scenes):
+        of_scene = known[[queries.scenes[q] == scene for q in known]]
+        here = np.array(cells.scenes) == scene
+        if len(of_scene):
+            away[here] = np.linalg.norm(cells.center_m[here, :2] - _middle(queries.positions_m[of_scene]), axis=1)
+    asked = known[away[queries.truth[known]] <= radii[0]]
     if not len(asked):
         raise DataError(f"grow: no query has its cell within {radii[0]:g} m; begin with a larger radius")
     steps = []
     for radius in radii:
-        rows = np.flatnonzero(distance <= radius)
+        rows = np.flatnonzero(away <= radius)
         position = np.full(len(cells), -1)
         position[rows] = np.arange(len(rows))
         gallery = replace(data.gallery, cells=cells.take(rows))
@@ -150,6 +150,12 @@ def grow(
         part = replace(asked_here, truth=position[asked_here.truth], hints=None)
         steps.append((radius, (replace(data, gallery=gallery), part), rows))
     return steps
+
+
+def _middle(positions_m: Floats) -> Floats:
+    """[2] the position that is nearest to the mean of some."""
+    middle: Floats = positions_m[np.linalg.norm(positions_m - positions_m.mean(axis=0), axis=1).argmin()]
+    return middle
 
 
 def save_run(report_dir: Path, predictions: Predictions, grown: Sequence[tuple[float, Predictions]] = ()) -> None:

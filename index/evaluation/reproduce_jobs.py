@@ -64,7 +64,7 @@ class Job:
     @classmethod
     def of(cls, run: Run, seed: int, data: Path, out: Path, scale: Scale) -> "Job":
         """A job in `out`."""
-        model, training = load_settings(run.method, _changes(run, seed, scale))
+        model, training = settings_of(run, seed, scale)
         facts = [run.method, model.model_dump(mode="json"), training.model_dump(mode="json", exclude={"device"})]
         if run.sees_points:
             facts.append(Job.of(Run(POINTS), seed, data, out, scale).key)
@@ -82,20 +82,23 @@ class Job:
         return Job.of(Run(POINTS), self.seed, self.data, self.out, self.scale) if self.run.sees_points else None
 
     def settings(self) -> tuple[Any, Any]:
-        """As `load_settings`."""
-        given = _changes(self.run, self.seed, self.scale)
-        if self.points:
-            given = (*given, f"training.points={self.points.directory / WEIGHTS_DIR}")
-        return load_settings(self.run.method, given)
+        """As `settings_of`, with where its point encoder is."""
+        points = (f"training.points={self.points.directory / WEIGHTS_DIR}",) if self.points else ()
+        return settings_of(self.run, self.seed, self.scale, points)
 
     def result(self) -> dict[str, Any] | None:
         """What was measured; None if that is still to do."""
         return _kept(self.directory / RESULT_FILE, self.key)
 
 
-def _changes(run: Run, seed: int, scale: Scale) -> tuple[str, ...]:
+def settings_of(run: Run, seed: int, scale: Scale, also: tuple[str, ...] = ()) -> tuple[Any, Any]:
+    """The settings of a run, as `load_settings`.
+
+    Raises:
+        TrainingError: it cannot be trained with them.
+    """
     of_method = scale.points if run.method == POINTS else scale.fine if run.method in FINE_METHODS else scale.retriever
-    return (*of_method, *run.settings, f"training.seed={seed}")
+    return load_settings(run.method, [*of_method, *run.settings, f"training.seed={seed}", *also])
 
 
 def _kept(path: Path, key: str) -> dict[str, Any] | None:

@@ -24,6 +24,9 @@ class Told:
     def __init__(self, cells, positions_m):
         self.cells, self.positions_m, self.asked = cells, positions_m, 0
 
+    def seen(self, cells):
+        return cells
+
     def predict(self, descriptions, cells, rows):
         assert len(cells) == len(self.cells)
         assert len(descriptions) == len(rows)

@@ -1,16 +1,24 @@
 import json
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 import torch
 
 from index.evaluation import reproduce as module
+from index.evaluation.reproduce import chosen, in_epochs
 from index.evaluation.reproduce_report import markdown, write_reproduction
-from models.training.experiments import EXPERIMENTS, FINE, MNCL, Run, Scale, runs_of
+from models.city.source import open_source
+from models.errors import DataError
+from models.training.experiments import POINTS, Experiment, Row, Run, Scale, made_of, pairs_of, runs_of
+from models.training.paper_tables import EXPERIMENTS, GROWTH, HEAD, MNCL, RET, TABLE_1, TABLE_2, TEXT2LOC, TEXT2POS
 
-TEXT2LOC, REGRESSOR = Run("text2loc"), Run("regressor")
+REGRESSOR = Run("regressor")
+ALL = tuple(EXPERIMENTS.values())
 _FEW = ("training.steps=2", "training.validate_every=1", "training.batch_size=4", "training.spacing_m=30")
-SCALE = Scale((*_FEW, "model.width=32"), (*_FEW, "model.width=32"), (60.0, 120.0))
+SCALE = Scale((*_FEW, "model.width=32"), (*_FEW, "model.width=32"), (60.0, 120.0), _FEW)
+ONE = (Experiment("one", "One row", (Row("Text2Loc", TEXT2LOC, fine=REGRESSOR),), "localization"),)
 
 
 def here(work, tasks, workers):
@@ -23,85 +31,160 @@ def here(work, tasks, workers):
 @pytest.fixture
 def small(monkeypatch):
     monkeypatch.setattr(module, "_all_done", here)
-    monkeypatch.setattr(module, "runs_of", lambda every_seed: (TEXT2LOC,) if every_seed else (TEXT2LOC, REGRESSOR))
-    monkeypatch.setattr(module, "FINE", {})
     threads = torch.get_num_threads()
     yield
     torch.set_num_threads(threads)
 
 
 def stamps(out: Path) -> dict[str, int]:
-    return {str(path): path.stat().st_mtime_ns for path in out.glob("runs/*/*/result.json")}
+    return {path.parts[-3]: path.stat().st_mtime_ns for path in out.glob("runs/*/*/result.json")}
 
 
 @pytest.mark.slow
 def test_what_is_done_is_kept_and_what_differs_is_made_again(small, osm_file, tmp_path) -> None:
-    found = module.reproduce(osm_file, tmp_path, SCALE, [0, 1], 1, lambda *_: None)
-    assert {name: len(results) for name, results in found["runs"].items()} == {"text2loc": 2, "regressor": 1}
+    def made(scale: Scale) -> dict:
+        return module.reproduce(osm_file, tmp_path, scale, [0], 1, lambda *_: None, ONE)
+
+    found = made(SCALE)
+    points = "inputs=points+colour+position+count"
+    names = {"text2loc", "regressor", f"text2loc-{points}", f"regressor-{points}", POINTS}
+    assert found["runs"].keys() == names
     result = found["runs"]["text2loc"][0]
     assert 0 <= result["retrieval"]["1"] <= result["retrieval"]["5"] <= 1
-    assert result["training"]["seconds_to_best"] > 0
+    assert result["training"]["seconds"] >= result["training"]["seconds_to_best"] > 0
     assert len(result["growth"]) == 2
+    assert set(result["localization"]["regressor"]) == {"test", "val"}
     first = stamps(tmp_path)
-    assert module.reproduce(osm_file, tmp_path, SCALE, [0, 1], 1, lambda *_: None) == found
+    assert made(SCALE) == found
     assert stamps(tmp_path) == first
-    longer = Scale(("training.steps=3", *SCALE.retriever[1:]), SCALE.fine, SCALE.growth_radii_m)
-    module.reproduce(osm_file, tmp_path, longer, [0], 1, lambda *_: None)
-    changed = {path for path, stamp in stamps(tmp_path).items() if stamp != first[path]}
-    assert changed == {str(tmp_path / "runs" / "text2loc" / "seed-0" / "result.json")}
+    made(replace(SCALE, retriever=("training.steps=3", *SCALE.retriever[1:])))
+    changed = {name for name, stamp in stamps(tmp_path).items() if stamp != first[name]}
+    assert changed == {"text2loc", f"text2loc-{points}"}
+    made(replace(SCALE, points=("training.steps=1", *_FEW[1:])))
+    changed = {name for name, stamp in stamps(tmp_path).items() if stamp != first[name]}
+    assert {POINTS, f"regressor-{points}"} <= changed, "what sees points depends on the point encoder"
 
 
 def test_further_seeds_make_the_tables_alone() -> None:
-    every, first = runs_of(every_seed=True), runs_of(every_seed=False)
+    every, first = runs_of(ALL, every_seed=True), runs_of(ALL, every_seed=False)
     assert set(every) < set(first)
-    figures = {row.run for experiment in EXPERIMENTS if not experiment.every_seed for row in experiment.rows}
+    figures = {made_of(row.run, v) for e in ALL if not e.every_seed for row, v in e.made()}
     assert set(first) - set(every) == figures - set(every)
-    assert set(FINE.values()) < set(every)
+    assert HEAD in every
+
+
+def test_variants_differ_in_their_inputs_alone() -> None:
+    runs = runs_of((TABLE_2,), every_seed=True)
+    assert {run.name for run in runs} == {
+        f"{method}{said}" for method in ("mncl", "ret", "text2loc", "text2pos")
+        for said in ("", "-inputs=points+colour+position+count")
+    }  # fmt: skip
+    assert sum(run.sees_points for run in runs) == 4
+    assert (MNCL, HEAD) in pairs_of((TABLE_1,))
+    assert all(coarse.sees_points == fine.sees_points for coarse, fine in pairs_of((TABLE_1,)))
+
+
+def test_every_order_of_the_papers_tables_is_asked() -> None:
+    orders = {(e.key, worse.name, better.name) for e in ALL for worse, better in e.orders()}
+    methods = ("Text2Pos", "RET", "Text2Loc", "MNCL")
+    for key in "12":
+        assert {o[1:] for o in orders if o[0] == key} == {
+            (worse, better) for n, better in enumerate(methods) for worse in methods[:n]
+        }
+    assert len([o for o in orders if o[0] == "3"]) == 5, "instance and relation alone are equal in the paper"
+    assert len([o for o in orders if o[0] == "4"]) == 1
+    assert {o[2] for o in orders if o[0] in ("4a", "4b")} == {"3 layers", "a = 2"}
+
+
+def test_epochs_are_as_many_steps_as_the_data_has_batches(osm_file) -> None:
+    batches = len(open_source(osm_file, "train").queries()) // 4
+    scale = in_epochs(SCALE, osm_file, 10)
+    assert scale.retriever[-3:] == (
+        f"training.steps={10 * batches}", f"training.validate_every={batches}", f"training.halve_every={5 * batches}",
+    )  # fmt: skip
+    assert scale.fine[-1] == scale.retriever[-1]
+
+
+def test_tables_are_chosen_by_name() -> None:
+    assert chosen("2, 4b") == (EXPERIMENTS["2"], EXPERIMENTS["4b"])
+    assert chosen(None) == ALL
+    with pytest.raises(DataError, match=r"--tables 9: .* 4a"):
+        chosen("9")
 
 
 def made_up(run: Run, seed: int) -> dict[str, object]:
     """Results whose figures can be told apart."""
     at_1 = 0.5 + 0.1 * seed if run == MNCL else 0.2
     recall = {"1": at_1, "3": 0.7, "5": 0.8}
-    facts = {"descriptions_per_second": 100.0, "seconds_to_best": 60.0, "peak_memory_mb": 900.0}
+    facts = {
+        "descriptions_per_second": 100.0, "seconds_to_best": 60.0, "seconds": 90.0, "best_step": 30, "steps": 40,
+        "peak_memory_mb": 900.0,
+    }  # fmt: skip
     grown = [
         {"radius_m": r, "cells": 10 * (n + 1), "queries": 5, "R@1": at_1 / (n + 1)} for n, r in enumerate((80, 200))
     ]
-    within = {"5": at_1, "10": 0.8, "15": 0.9}
-    fine = {f"{who}within_{m}m": 0.5 for who in ("", "neighbour_") for m in (5, 10)}
-    return {
-        "retrieval": recall, "training": facts, "growth": grown, "parameters": 10, "bytes_a_cell": 512,
-        "localization": dict.fromkeys(("1", "5", "10"), within), "rankings": {"global level alone": recall},
-        "validation": fine | {"cell_center": fine},
+    within = {k: {"5": at_1, "10": 0.8, "15": 0.9} for k in ("1", "5", "10")}
+    told = {
+        "steps": 40, "batch_size": 64, "learning_rate": 1e-3, "schedule": "one-cycle", "patience": None,
+        "wording": "published", "cluster": 1, "width": 32, "text_encoder": "minilm",
     }  # fmt: skip
+    result = {"training": facts, "settings": told, "seed": seed}
+    if run.method in ("matching", "regressor"):
+        fine = {f"{who}within_{m}m": 0.5 for who in ("", "neighbour_") for m in (5, 10)}
+        return result | {"validation": fine | {"cell_center": fine}}
+    if run.method == POINTS:
+        return result | {"validation": {"label": 0.8}}
+    stages = {fine.name: {"test": within, "val": within} for _, fine in pairs_of(ALL)}
+    measured = {"retrieval": recall, "validation_retrieval": recall, "parameters": 10, "bytes_a_cell": 512}
+    return result | measured | {"growth": grown, "localization": stages, "rankings": {"global level alone": recall}}
+
+
+def found_of(*seeds: int) -> dict[str, Any]:
+    runs = {run.name: [made_up(run, seeds[0])] for run in (*runs_of(ALL, every_seed=False), Run(POINTS))}
+    for seed in seeds[1:]:
+        for run in (*runs_of(ALL, every_seed=True), Run(POINTS)):
+            runs[run.name].append(made_up(run, seed))
+    data = {"cells": 10, "queries": 5, "exact_matching": {"1": 0.4}}
+    return {"seeds": list(seeds), "data": data, "experiments": list(EXPERIMENTS), "runs": runs}
 
 
 def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> None:
-    runs = {run.name: [made_up(run, 0)] for run in runs_of(every_seed=False)}
-    for run in runs_of(every_seed=True):
-        runs[run.name].append(made_up(run, 1))
-    data = {"cells": 10, "queries": 5, "exact_matching": {"1": 0.4}}
-    found = {"seeds": [0, 1], "data": data, "runs": runs}
-    write_reproduction(tmp_path, found, "nowhere")
+    (tmp_path / "picture.png").write_bytes(b"\x89PNG of a job")
+    write_reproduction(tmp_path, found_of(0, 1), "nowhere", tmp_path / "picture.png")
     text = (tmp_path / "report.md").read_text()
     assert text == markdown(json.loads((tmp_path / "results.json").read_text()), "nowhere")
-    for experiment in EXPERIMENTS:
+    for experiment in EXPERIMENTS.values():
         assert f"## {experiment.title}" in text
-    assert "| MNCL | 0.550 ± 0.071 |" in text
+    assert "| MNCL, our inputs | 0.550 ± 0.071 |" in text
+    assert "| MNCL, the paper's inputs | 0.200 ± 0.000 |" in text
     assert "| 3 layers | 0.500 |" in text, "figure 4 is of the first seed"
-    assert "| MNCL above Text2Loc | yes | 2 of 2 | 0.350 ± 0.071 |" in text
-    assert "| Text2Loc above Text2Pos | no | 0 of 2 | 0.000 ± 0.000 |" in text
+    assert "| Table 2 | MNCL above Text2Loc | our inputs | yes | 2 of 2 | 0.350 ± 0.071 |" in text
+    assert "| Table 2 | Text2Loc above RET | the paper's inputs | no | 0 of 2 | 0.000 ± 0.000 |" in text
+    assert "| Figure 4 | 3 layers above 5 layers | our inputs | yes | 1 of 1 | 0.300 |" in text
     assert "-50.0 %" in text
-    for name in ("figure4.png", "figure5.png"):
+    hours = sum(len(results) for results in found_of(0, 1)["runs"].values()) * 90 / 3600
+    assert f"{hours:.1f} hours of training" in text
+    assert "| 40, best of validation | 64 | 32 | 0.001, one-cycle | minilm | published |" in text
+    for name in ("figure3.png", "figure4.png", "figure5.png"):
         assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
+        assert f"({name})" in text
 
 
-def test_costs_are_those_of_a_typical_seed():
+def test_a_report_of_some_tables_has_no_others(tmp_path) -> None:
+    found = found_of(0) | {"experiments": ["2"]}
+    runs = {made_of(run, v).name for run in (MNCL, RET, TEXT2LOC, TEXT2POS) for v in TABLE_2.variants}
+    found["runs"] = {name: results for name, results in found["runs"].items() if name in runs}
+    write_reproduction(tmp_path, found, "nowhere")
+    text = (tmp_path / "report.md").read_text()
+    assert "Table 2" in text
+    assert not any(f"## {title}" in text for title in ("Table 1", "Figure 4", "Figure 3", "Fine stages"))
+    assert not (tmp_path / "figure4.png").exists()
+    assert {name for name in GROWTH if f"| {name}, our inputs | " in text} == set(GROWTH)
+
+
+def test_costs_are_those_of_a_typical_seed() -> None:
     """A run that was stopped for an hour does not spoil the table."""
-    costs = [
-        {"descriptions_per_second": s, "seconds_to_best": 100.0 / s, "peak_memory_mb": 900.0} for s in (2, 1, 0.01)
-    ]
-    runs = {run.name: [made_up(run, 0)] for run in runs_of(every_seed=False)}
-    runs["ret"] = [made_up(Run("ret"), seed) | {"training": cost} for seed, cost in enumerate(costs)]
-    data = {"cells": 10, "queries": 5, "exact_matching": {"1": 0.4}}
-    assert "| ret | 1 | 100 s | 900 MB |" in markdown({"seeds": [0, 1, 2], "data": data, "runs": runs}, "nowhere")
+    found = found_of(0, 1, 2)
+    for result, speed in zip(found["runs"]["ret"], (2, 1, 0.01), strict=True):
+        result["training"] |= {"descriptions_per_second": speed, "seconds_to_best": 100.0 / speed}
+    assert "| ret | 1 | 30 of 40 | 100 of 90 s | 900 MB |" in markdown(found | {"figure_3": False}, "nowhere")

@@ -67,7 +67,7 @@ class Told(FineModel):
 
     def __init__(self, truth):
         torch.nn.Module.__init__(self)
-        self.truth, self.config = truth, FineConfig()
+        self.truth, self.config, self.points = truth, FineConfig(), None
 
     def predict(self, descriptions, cells, rows):
         return self.truth
@@ -104,7 +104,7 @@ def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(eit
     total = len(queries)
     positions = either.positions_m[queries]
     told = Queries([("I am here.",)] * total, positions, training.best[queries], [""] * total, [""] * total)
-    asked = FineValidation.of(training.statements.gallery, told)
+    asked = FineValidation.of(training.statements.gallery, told, Told(None))
     assert set(asked.figures(Told(asked.offset)).values()) == {1.0}
     away = np.linalg.norm(positions - cells.center_m[training.best[queries], :2], axis=1)
     figures = asked.center_figures()

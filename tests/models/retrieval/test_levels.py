@@ -5,7 +5,7 @@ import torch
 
 from models.retrieval.levels import Levels, level_scores, set_similarity, sum_of_z_scores
 from models.retrieval.mncl import Mncl, MnclConfig
-from models.retrieval.scene_graph import CellEdges, HintEdges, SceneGraph
+from models.retrieval.scene_graph import CellEdges, ExternalSpaceAttention, HintEdges, SceneGraph
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def test_z_scores_make_levels_comparable() -> None:
 @pytest.mark.parametrize("aggregate", ["code", "gcn"])
 def test_scene_graph_against_a_loop(aggregate) -> None:
     torch.manual_seed(2)
-    graph = SceneGraph(4, 2, aggregate)
+    graph = SceneGraph(4, 2, aggregate, "edges", "edges")
     nodes, edges = torch.randn(1, 3, 4), torch.randn(1, 3, 3, 4)
     v, e = list(nodes[0]), [list(row) for row in edges[0]]
     with torch.no_grad():
@@ -56,11 +56,28 @@ def test_scene_graph_against_a_loop(aggregate) -> None:
             ]
         relations = []
         for i in range(3):
-            weights = torch.stack([graph.attention(e[i][j]) for j in range(3)]).softmax(dim=0)
+            weights = torch.stack([graph.attention.key(e[i][j]) for j in range(3)]).softmax(dim=0)
             relations.append(sum(weights[j] * e[i][j] for j in range(3)))
         found_nodes, found_relations = graph(nodes, edges, torch.ones(1, 3, dtype=torch.bool))
     assert torch.allclose(found_nodes[0], torch.stack(v), atol=1e-6)
     assert torch.allclose(found_relations[0], torch.stack(relations), atol=1e-6)
+
+
+@pytest.mark.parametrize("query", ["edges", "mixed"])
+@pytest.mark.parametrize("axis", ["edges", "channels"])
+def test_external_space_attention_against_equation_11(query, axis) -> None:
+    """Q = W E, M_E = softmax of Q M, R = sum of M_E * E, for each node over the edges that are real."""
+    torch.manual_seed(3)
+    attention = ExternalSpaceAttention(4, query, axis)
+    if query == "mixed":
+        attention.mix.data = torch.tensor([0.7, 1.3])
+    edges, real = torch.randn(1, 5, 5, 4), torch.arange(5) < 3
+    found = attention(edges, real[None, None, :, None])
+    for i in range(3):
+        e = edges[0, i, :3]
+        w = 0.7 * torch.eye(3) + 1.3 / 3 * torch.ones(3, 3) if query == "mixed" else torch.eye(3)
+        attended = attention.key(w @ e).softmax(dim=0 if axis == "edges" else 1) * e
+        assert torch.allclose(found[0, i], attended.sum(dim=0), atol=1e-6)
 
 
 def test_edges_are_of_pairs() -> None:

@@ -5,7 +5,7 @@ import math
 import pytest
 import torch
 
-from models.retrieval.losses import contrastive_loss, negative_contrastive_loss, negative_weights
+from models.retrieval.losses import contrastive_loss, log_improbable, negative_contrastive_loss, negative_weights
 
 TAU = 0.3
 
@@ -37,8 +37,9 @@ def test_contrastive_loss_against_a_loop(batch) -> None:
     assert contrastive_loss(texts @ cells.T, same, TAU).item() == pytest.approx(total / 12)
 
 
+@pytest.mark.parametrize("least", [0.0, 0.8])
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 4.0])
-def test_negative_contrastive_loss_against_a_loop(batch, exponent) -> None:
+def test_negative_contrastive_loss_against_a_loop(batch, exponent, least) -> None:
     texts, cells, same = batch
     scores = (texts @ cells.T).tolist()
     distance = [[math.dist(t, c) for c in cells.tolist()] for t in texts.tolist()]
@@ -47,12 +48,12 @@ def test_negative_contrastive_loss_against_a_loop(batch, exponent) -> None:
     for i in range(6):
         kept = [j for j in range(6) if j == i or not same[i, j]]
         for j in (j for j in range(6) if not same[i, j]):
-            weight = min(1.0, max(0.8, (1 - distance[i][j] / farthest) ** (1 / exponent)))
-            total -= weight * math.log(1 - softmax_of(scores[i], j, kept) + 1e-10)
+            weight = min(1.0, max(least, (1 - distance[i][j] / farthest) ** (1 / exponent)))
+            total -= weight * math.log(1 - softmax_of(scores[i], j, kept))
             column = [row[j] for row in scores]
             others = [k for k in range(6) if k == j or not same[k, j]]
-            total -= weight * math.log(1 - softmax_of(column, i, others) + 1e-10)
-    found = negative_contrastive_loss(texts @ cells.T, texts, cells, same, TAU, exponent)
+            total -= weight * math.log(1 - softmax_of(column, i, others))
+    found = negative_contrastive_loss(texts @ cells.T, texts, cells, same, TAU, exponent, least)
     assert found.item() == pytest.approx(total / 6)
 
 
@@ -60,21 +61,46 @@ def test_gradients_are_those_of_the_loss(batch) -> None:
     texts, cells, same = batch
     scores = (texts @ cells.T).requires_grad_()
     assert torch.autograd.gradcheck(lambda s: contrastive_loss(s, same, TAU), scores)
-    assert torch.autograd.gradcheck(lambda s: negative_contrastive_loss(s, texts, cells, same, TAU, 2.0), scores)
+    assert torch.autograd.gradcheck(lambda s: negative_contrastive_loss(s, texts, cells, same, TAU, 2.0, 0.0), scores)
 
 
 def test_weights_are_bounded_and_fall_with_distance(batch) -> None:
     texts, cells, _ = batch
-    weights, distance = negative_weights(texts, cells, 2.0), torch.cdist(texts, cells)
+    weights, distance = negative_weights(texts, cells, 2.0, 0.8), torch.cdist(texts, cells)
     assert 0.8 <= weights.min() < weights.max() <= 1
     order = distance.flatten().argsort()
     assert (weights.flatten()[order].diff() <= 1e-9).all()
+    of_paper = negative_weights(texts, cells, 2.0, 0.0)
+    assert of_paper.min() == 0, "what is farthest has no weight"
+    assert torch.equal(of_paper.clamp(min=0.8), weights)
 
 
 def test_certain_answers_stay_finite() -> None:
     scores = torch.tensor([[1.0, -1.0], [1.0, -1.0]], requires_grad=True)  # the second is certain, and wrong
     unit = torch.eye(2)
-    loss = negative_contrastive_loss(scores, unit, unit, torch.eye(2, dtype=torch.bool), 1e-3, 2.0)
+    loss = negative_contrastive_loss(scores, unit, unit, torch.eye(2, dtype=torch.bool), 1e-3, 2.0, 0.8)
     loss.backward()
     assert torch.isfinite(loss)
     assert torch.isfinite(scores.grad).all()
+
+
+@pytest.mark.parametrize("lead", [0.0, 5.0, 15.0, 18.0, 40.0])
+def test_gradients_near_certainty_are_those_of_double_precision(lead) -> None:
+    """1 - p is lost in float32 from 16 nats on; what is wrong and certain must be pushed back all the same."""
+
+    def gradient(dtype: torch.dtype) -> torch.Tensor:
+        logits = torch.tensor([[lead, 0.0, -1.0, 0.5]], dtype=dtype, requires_grad=True)
+        log_improbable(logits, dim=1)[0, 0].backward()
+        return logits.grad.double()
+
+    exact = gradient(torch.float64)
+    assert torch.allclose(gradient(torch.float32), exact, atol=1e-5)
+    assert exact.abs().max() <= 1
+
+
+def test_a_batch_of_one_cell_has_nothing_to_tell_apart() -> None:
+    scores, unit = torch.rand(3, 3, requires_grad=True), torch.eye(3)
+    loss = negative_contrastive_loss(scores, unit, unit, torch.ones(3, 3, dtype=torch.bool), 0.05, 2.0, 0.8)
+    loss.backward()
+    assert loss == 0
+    assert (scores.grad == 0).all()

@@ -6,7 +6,7 @@ import torch
 
 from models.city.point_sample import NUM_POINTS, sample_points
 from models.errors import WeightsError
-from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.instance_encoder import OURS, CellFeatures
 from models.retrieval.level_table import encode_gallery
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder, ball, farthest_points
@@ -89,7 +89,7 @@ def test_samples_belong_to_their_parts(city, cells) -> None:
 @pytest.mark.slow
 def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
     torch.manual_seed(0)
-    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), point_encoder="pointnet")).eval()
+    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), inputs=(*OURS, "points"))).eval()
     seen = model.seen(features)
     assert seen.shape.shape == (len(features.label), POINT_WIDTH)
     vectors = encode_gallery(model, seen)[0]
@@ -100,6 +100,6 @@ def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
 
 
 def test_without_points_the_message_says_what_to_do(features, text_encoder) -> None:
-    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), point_encoder="pointnet"))
-    with pytest.raises(WeightsError, match="point_encoder"):
+    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), inputs=(*OURS, "points")))
+    with pytest.raises(WeightsError, match="inputs"):
         model.seen(replace(features, sample=None))

@@ -4,7 +4,7 @@ import torch
 
 from models.errors import WeightsError
 from models.retrieval.checkpoint import load_retriever, save_retriever
-from models.retrieval.instance_encoder import NUM_GEOMETRY, CellFeatures
+from models.retrieval.instance_encoder import NUM_GEOMETRY, OURS, PAPERS, CellFeatures, InstanceEncoder, columns
 from models.retrieval.layers import masked_max
 from models.retrieval.level_table import encode_gallery
 from models.retrieval.levels import LEVELS
@@ -135,3 +135,26 @@ def test_broken_weights_are_refused(model, tmp_path, spoil, message) -> None:
 def test_config_is_strict() -> None:
     with pytest.raises(ValueError, match="extra"):
         MnclConfig(depth=3)
+
+
+@pytest.mark.parametrize("left_out", [*OURS])
+def test_an_input_left_out_is_not_looked_at(features, text_encoder, left_out) -> None:
+    inputs = tuple(name for name in OURS if name != left_out)
+    torch.manual_seed(0)
+    encoder = InstanceEncoder(text_encoder.width, 32, inputs)
+    geometry, label = torch.from_numpy(features.geometry[:50]), torch.randn(50, text_encoder.width)
+    before = encoder(geometry, label)
+    for name in OURS:
+        other_geometry, other_label = geometry.clone(), label
+        if name == "label":
+            other_label = label + 1
+        else:
+            other_geometry[:, columns([name])] += 1
+        same = torch.equal(encoder(other_geometry, other_label), before)
+        assert same == (name == left_out), name
+
+
+def test_columns_are_all_of_the_geometry() -> None:
+    assert columns(OURS) == list(range(NUM_GEOMETRY))
+    assert columns(PAPERS) == [0, 1, 2, 11, 12, 13, 14, 15]
+    assert columns(["label"]) == []

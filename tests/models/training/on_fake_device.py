@@ -20,6 +20,7 @@ from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
 from models.retrieval import point_encoder
 from models.retrieval.checkpoint import METHODS, load_retriever
+from models.retrieval.instance_encoder import OURS, PAPERS, Input
 from models.training import fit_fine, fit_points, fit_retriever, validation
 from models.training.engine import loop
 from models.training.engine.devices import lent_to
@@ -32,7 +33,7 @@ from tests.models.training.fake_device import FAKE, Away
 CPU = torch.device("cpu")
 CONFIG = TrainingConfig(steps=1, batch_size=8, spacing_m=30.0)
 SMALL: dict[Any, dict[str, Any]] = {
-    fit_points: {"STEPS": 1, "CELLS_A_SOURCE": 10, "CHOSEN_BY_CELLS": 10},
+    fit_points: {"load_settings": lambda *_: (None, CONFIG), "CELLS_A_SOURCE": 10, "CHOSEN_BY_CELLS": 10},
     point_encoder: {"_LEVELS": ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128)))},
     validation: {"QUERIES": 20},
     fit_posterior: {
@@ -49,14 +50,14 @@ def load(sources: Any, encoder: Any, rng: np.random.Generator) -> list[TrainingD
     return [replace(data, queries=data.queries.take(np.arange(20)))]
 
 
-def retriever(sources: Any, method: str, points: str, out: Path) -> None:
-    config = METHODS[method].config_type(width=32, point_encoder=points)
+def retriever(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> None:
+    config = METHODS[method].config_type(width=32, inputs=inputs)
     fit_retriever.train_retriever(partial(load, sources), out, METHODS[method], config, CONFIG)
     assert load_retriever(out).encode_descriptions([["A tree is north of me."]]).shape == (1, 32)
 
 
-def fine(sources: Any, method: str, out: Path) -> None:
-    config = FINE_METHODS[method].config_type(width=32)
+def fine(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> None:
+    config = FINE_METHODS[method].config_type(width=32, inputs=inputs)
     for resume in (False, True):
         fit_fine.train_fine(partial(load, sources), out, method, config, CONFIG, out / "run", resume)
     assert load_fine(out).error_m
@@ -151,11 +152,11 @@ def main(osm_file: Path, out: Path) -> None:
             setattr(module, name, value)
     sources = [open_source(osm_file, split) for split in ("train", "val")]
     cases: dict[str, Callable[[], None]] = {"device": device, "lending": lending}
-    for method in METHODS:
-        for points in ("none", "pointnet"):
-            name = f"{method}-{points}"
-            cases[name] = partial(retriever, sources, method, points, out / name)
-    cases |= {method: partial(fine, sources, method, out / method) for method in FINE_METHODS}
+    for train, methods in ((retriever, METHODS), (fine, FINE_METHODS)):
+        for method in methods:
+            for inputs in (OURS, PAPERS):
+                name = f"{method}-{inputs[0]}"
+                cases[name] = partial(train, sources, method, inputs, out / name)
     cases["posterior"] = partial(posterior, sources, out / "posterior")
     (out / "report.json").write_text(json.dumps({name: tried(run) for name, run in cases.items()}))
 

@@ -10,6 +10,7 @@ from torch.utils import backend_registration
 
 from models.localization.checkpoint import FINE_METHODS
 from models.retrieval.checkpoint import METHODS
+from models.retrieval.instance_encoder import OURS, PAPERS
 
 pytestmark = [
     pytest.mark.slow,
@@ -19,7 +20,7 @@ pytestmark = [
     ),
 ]
 ROOT = Path(__file__).parents[3]
-RETRIEVERS = [f"{method}-{points}" for method in METHODS for points in ("none", "pointnet")]
+MODELS = [f"{method}-{inputs[0]}" for method in (*METHODS, *FINE_METHODS) for inputs in (OURS, PAPERS)]
 
 
 @pytest.fixture(scope="module")
@@ -33,6 +34,6 @@ def report(made_once, osm_file):
     return json.loads((made_once("devices", make) / "report.json").read_text())
 
 
-@pytest.mark.parametrize("name", ["device", "lending", *RETRIEVERS, *FINE_METHODS, "posterior"])
+@pytest.mark.parametrize("name", ["device", "lending", *MODELS, "posterior"])
 def test_all_of_it_is_on_one_device(report, name) -> None:
     assert not report[name], report[name]

@@ -4,17 +4,23 @@ import json
 import numpy as np
 import pytest
 import torch
+from safetensors.torch import load_file
 
 from index.ranking import Ranker
 from models.city.hints import direction_index
 from models.city.types import DIRECTIONS
-from models.errors import DataError
+from models.errors import DataError, WeightsError
+from models.localization.checkpoint import load_fine
+from models.localization.matching import MatchingConfig
 from models.retrieval.checkpoint import METHODS, load_retriever
-from models.retrieval.instance_encoder import CellFeatures
+from models.retrieval.instance_encoder import PAPERS, CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
+from models.retrieval.text2loc import Text2Loc, Text2LocConfig
+from models.training.fit_fine import train_fine
+from models.training.fit_points import train_points
 from models.training.fit_retriever import RetrievalTask, train_retriever
 from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect
-from models.training.settings import TrainingConfig
+from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingData, load_training
 from tests.models.city.raw_scenes import TRAIN_STREETS, VAL_STREET
 
@@ -134,9 +140,10 @@ def test_a_run_directory_goes_on(regions, tmp_path) -> None:
 
 @pytest.mark.slow
 def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("models.training.fit_points.STEPS", 40)
-    monkeypatch.setattr("models.training.fit_points.VALIDATE_EVERY", 20)
-    monkeypatch.setattr("models.training.fit_points.BATCH", 32)
+    few = ("training.steps=40", "training.validate_every=20", "training.batch_size=32")
+    monkeypatch.setattr(
+        "models.training.fit_points.load_settings", lambda name, said: load_settings(name, [*few, *said])
+    )
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
@@ -146,7 +153,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, 
         if (at.step, at.steps) == (3, 4):
             raise KeyboardInterrupt
 
-    model = MnclConfig(width=32, levels=("global",), point_encoder="pointnet")
+    model = MnclConfig(width=32, levels=("global",), inputs=PAPERS)
     train_retriever(load, tmp_path / "a", Mncl, model, config)
     figures = json.loads((tmp_path / "a" / "config.json").read_text())["training"]["point_encoder"]
     labels = np.array([i.label for i in city.instances])
@@ -161,6 +168,47 @@ def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, 
     assert retriever.points is not None
     store = Ranker.of(retriever, cells, labels).store
     assert store.vectors(np.arange(len(cells))).shape == (len(cells), 32)
+
+
+@pytest.mark.slow
+def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(regions, tmp_path, monkeypatch) -> None:
+    config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
+
+    def load(encoder, rng):
+        return [TrainingData.of(*regions, encoder, config, rng)]
+
+    figures = train_points(load, tmp_path / "points", config)
+    monkeypatch.setattr("models.training.fit_points.fit_points", None)  # none is trained again
+    given = config.model_copy(update={"points": tmp_path / "points"})
+    train_retriever(load, tmp_path / "coarse", Text2Loc, Text2LocConfig(width=32, inputs=PAPERS), given)
+    train_fine(load, tmp_path / "fine", "matching", MatchingConfig(width=32, inputs=PAPERS, plain=False), given)
+    wanted = load_file(tmp_path / "points" / "model.safetensors")
+    for directory, loaded in (("coarse", load_retriever), ("fine", load_fine)):
+        found = loaded(tmp_path / directory).points.state_dict()
+        assert all(torch.allclose(found[name], tensor, atol=1e-3) for name, tensor in wanted.items())
+        record = json.loads((tmp_path / directory / "config.json").read_text())["training"]
+        assert record["point_encoder"] == figures
+    nowhere = config.model_copy(update={"points": tmp_path / "nowhere"})
+    with pytest.raises(WeightsError, match="--method points"):
+        train_retriever(load, tmp_path / "w", Text2Loc, Text2LocConfig(width=32, inputs=PAPERS), nowhere)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_half_precision_serves_all_but_the_loss(source, text_encoder, region, method) -> None:
+    """What a GPU computes in bfloat16, on the CPU: the loss is float32 and near that of full precision."""
+    torch.manual_seed(0)
+    still = {} if method == "text2pos" else {"dropout": 0.0}
+    model = METHODS[method](text_encoder, METHODS[method].config_type(width=32, **still))
+    data = TrainingData(region, source.data.gallery, source.queries(), {})
+    task = RetrievalTask(model.train(), [data], 16, 1)
+    batch = task.batch(np.random.default_rng(0))
+    full = task.loss(batch)
+    with torch.autocast("cpu", dtype=torch.bfloat16):
+        half = task.loss(batch)
+    half.backward()
+    assert half.dtype is torch.float32
+    assert half.item() == pytest.approx(full.item(), rel=0.05)
+    assert all(torch.isfinite(p.grad).all() for p in model.parameters() if p.grad is not None)
 
 
 @pytest.mark.slow

@@ -1,8 +1,6 @@
-"""Commands that train and measure. Heavy imports are inside the commands, so that --help is quick."""
+"""The command that trains. Heavy imports are inside, so that --help is quick."""
 # ruff: noqa: PLC0415
 
-import json
-import sys
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -10,17 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
-from rich.table import Table
 
-from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
-from index.answers import Refine
-from models.city.told_texts import SUFFIXES as TOLD_SUFFIXES
-from models.errors import DataError
+from app.cli.options import DATA_HELP
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from app.settings import Settings
     from models.training.engine.loop import Progress
 
 
@@ -195,126 +188,3 @@ def _training_bar(shown: bool) -> "Iterator[Callable[[Progress], None]]":
             bar.update(task, total=at.steps, completed=at.step, description=text)
 
         yield show
-
-
-def evaluate(
-    data: Annotated[
-        Path | None,
-        typer.Option(
-            help=f"{DATA_HELP}; or, asked of --index, a .json file with the queries of a POST /evaluate, "
-            "or people's texts as .jsonl: "
-            "text, goal [lat, lon] and perhaps start [lat, lon]"
-        ),
-    ] = None,
-    split: Split = None,
-    index_dir: IndexDir = INDEX_DIR,
-    report: Annotated[Path | None, typer.Option(help="directory for predictions, report.json, tables, plots")] = None,
-    grow: Annotated[str | None, typer.Option(help="radii in metres of a growing gallery: 200,300,400,500")] = None,
-    refine: Annotated[
-        Refine | None, typer.Option(help="how positions are found; posterior, or what a .json says, if left out")
-    ] = None,
-    hard: Annotated[
-        bool, typer.Option("--robustness", help="fewer, wrong and misspelt hints, free wording, an outdated map")
-    ] = False,
-    rescore: Annotated[Path | None, typer.Option(help="score the predictions of this report's directory again")] = None,
-) -> None:
-    """Recall on queries with known positions, beside chance, an oracle and exact matching of the hints."""
-    from app.cli.progress import stage_bars
-    from app.jobs.order import WEIGHTS_DIRS, Evaluation, read_evaluation
-    from app.settings import load_settings
-    from index.evaluation.evaluation import rescore as run_again
-
-    if (data is None) == (rescore is None):
-        raise DataError("name either --data, what to ask about, or --rescore, the directory of an earlier report")
-    if data is None or rescore is not None:
-        _print_report(run_again(Path(str(rescore))))
-        return
-    radii = _radii(grow)
-    settings = load_settings(index_dir=index_dir)
-    if data.name.endswith(TOLD_SUFFIXES):
-        _evaluate_told(data, settings, report)
-        return
-    if data.suffix == ".json":
-        asked = read_evaluation(data, settings, split, radii)
-    else:
-        weights = {name: getattr(settings, name) for name in WEIGHTS_DIRS}
-        asked = Evaluation(**weights, data=data, split=split, grow_m=radii, refine="posterior")
-    if refine:
-        asked = asked.model_copy(update={"refine": refine})
-    with stage_bars() as show:
-        found = asked.run_robustness(report, show) if hard else asked.run(report, show)
-    if hard:
-        _print_robustness(found)
-    else:
-        _print_report(found)
-
-
-def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> None:
-    """People's texts, asked of an index."""
-    from app.cli.progress import stage_bars
-    from index.evaluation.told import evaluate_told, told_tables
-    from index.localizer import Localizer
-    from models.city.told_texts import load_told_texts
-
-    texts = load_told_texts(data)
-    weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
-    with stage_bars() as show:
-        found = evaluate_told(Localizer.open(settings.index_dir, *weights), texts, report, show)
-    for head, rows in told_tables(found):
-        table = Table(*head)
-        for row in rows:
-            table.add_row(*row)
-        Console(width=150).print(table)
-
-
-def _print_robustness(found: dict[str, Any]) -> None:
-    from index.evaluation.robustness import robustness_tables
-
-    Console(width=140).print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
-    for head, rows in robustness_tables(found):
-        table = Table(*head)
-        for row in rows:
-            table.add_row(*row)
-        Console(width=140).print(table)
-
-
-def _radii(grow: str | None) -> list[float]:
-    try:
-        return [float(radius) for radius in grow.split(",")] if grow else []
-    except ValueError:
-        raise DataError(f"--grow {grow}: no list of metres; give it as 200,300,400,500") from None
-
-
-def _print_report(report: dict[str, Any]) -> None:
-    from index.evaluation.report import group_table, growth_table, main_table
-
-    console = Console(width=120)
-    console.print(f"{report['data']}, {report['split']}: {report['queries']} queries, {report['cells']} cells")
-    tables = [main_table(report)]
-    tables += [group_table(name, report[key]) for name, key in (("scene", "by_scene"), ("strategy", "by_strategy"))]
-    if "growth" in report:
-        tables.append(growth_table(report["growth"]))
-    for head, rows in tables:
-        if len(rows) > 1:
-            table = Table(*head)
-            for row in rows:
-                table.add_row(*row)
-            console.print(table)
-    low, high = report["intervals"]["retrieval"]["5"]
-    line = f"R@5 95 % interval {low:.3f}-{high:.3f}; calibration error of the probability: "
-    line += f"{report['calibration']['expected_calibration_error']:.3f}"
-    if "ambiguity" in report:
-        fits = report["ambiguity"]["median_cells_that_fit_as_well"]
-        line += f"; cells that fit a description as well as the true one (median): {fits:.0f}"
-    console.print(line)
-
-
-def benchmark(
-    map_path: Annotated[Path, typer.Option("--map", help="map to index")],
-    index_dir: IndexDir = INDEX_DIR,
-) -> None:
-    """Seconds, memory and latency on this machine."""
-    from app.benchmark import run_benchmark
-
-    json.dump(run_benchmark(map_path, index_dir), sys.stdout, indent=2)
-    sys.stdout.write("\n")

@@ -1,0 +1,65 @@
+"""reproduce, as far as it comes without training."""
+
+import pytest
+from typer.testing import CliRunner
+
+from app.cli.main import app
+from app.cli.reproduce import _changed
+from models.errors import DataError
+from models.training.experiments import SCALES
+from models.training.settings import load_settings
+
+SCALE = SCALES["demo"]
+
+
+def test_a_configuration_and_options_change_every_training(tmp_path) -> None:
+    config = tmp_path / "paper.toml"
+    config.write_text("""
+[retriever.model]
+text_encoder = "/models/flan-t5-large"
+inputs = ["points", "colour"]
+[retriever.training]
+steps = 5
+[points.training]
+steps = 6
+""")
+    scale = _changed(SCALE, config, None, "cpu")
+    model, training = load_settings("mncl", scale.retriever)
+    assert (model.text_encoder, model.inputs) == ("/models/flan-t5-large", ("points", "colour"))
+    assert (training.steps, training.device, training.batch_size) == (5, "cpu", 64)
+    assert load_settings("points", scale.points)[1].steps == 6
+    assert load_settings("regressor", scale.fine)[1].steps == load_settings("regressor", SCALE.fine)[1].steps
+    said = _changed(SCALE, config, 40, "auto")
+    assert load_settings("mncl", said.retriever)[1].steps == 40, "an option wins"
+    assert load_settings("mncl", said.retriever)[1].validate_every == 2
+    assert load_settings("points", said.points)[1].steps == 6
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[coarse.model]\nwidth = 3", "no table 'coarse'"),
+        ("width", "cannot be read"),
+        ("[retriever]\nwidth = 3", "retriever.model"),
+    ],
+)
+def test_a_configuration_that_is_none_is_refused(tmp_path, text, message) -> None:
+    (tmp_path / "c.toml").write_text(text)
+    with pytest.raises(DataError, match=message):
+        _changed(SCALE, tmp_path / "c.toml", None, "auto")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--steps", "3", "--epochs", "2"), "one of them"),
+        (("--tables", "7"), "--tables 7: there is none"),
+        (("--seeds", "one"), "--seeds one"),
+        (("--device", "tpu"), "device"),
+    ],
+)
+def test_what_cannot_be_made_is_said_in_one_line_before_any_work(tmp_path, options, message) -> None:
+    result = CliRunner().invoke(app, ["reproduce", "--out", str(tmp_path / "runs"), *options])
+    assert result.exit_code != 0
+    assert message in result.output
+    assert not (tmp_path / "runs").exists()

@@ -1,0 +1,50 @@
+"""What figures are of is named in models/reports/sets.toml, is what it was, and is not trained on."""
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from models.files import sha256
+
+ROOT = Path(__file__).parents[1]
+REPORTS = ROOT / "models" / "reports"
+SETS = tomllib.loads((REPORTS / "sets.toml").read_text())["set"]
+
+
+def texts_of(path: Path) -> list[dict[str, Any]]:
+    if path.suffix == ".json":
+        return list(json.loads(path.read_text())["queries"])
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+@pytest.mark.parametrize("said", SETS, ids=lambda said: said["file"])
+def test_a_set_is_what_its_manifest_says(said) -> None:
+    path = REPORTS / said["file"]
+    assert said["role"] in ("fitted", "validation", "test")
+    assert sha256(path) == said["sha256"], "a set that changed is another set: say so in sets.toml"
+    assert len(texts_of(path)) == said["texts"]
+
+
+def test_every_file_of_texts_is_in_the_manifest() -> None:
+    files = [*REPORTS.glob("people/*.jsonl"), *REPORTS.glob("towns/*.json")]
+    assert {str(path.relative_to(REPORTS)) for path in files} == {said["file"] for said in SETS}
+
+
+def test_nothing_is_trained_on_a_test_set() -> None:
+    recipe = (ROOT / "Makefile").read_text() + (ROOT / "models/weights/posterior/MODEL_CARD.md").read_text()
+    fitted = {said["file"] for said in SETS if Path(said["file"]).name in recipe}
+    assert fitted
+    assert {said["role"] for said in SETS if said["file"] in fitted} == {"fitted"}
+
+
+def test_sets_of_different_roles_share_no_text() -> None:
+    """A text that is fitted to, or chosen by, is in no test set."""
+    by_role: dict[str, set[str]] = {}
+    for said in SETS:
+        for text in texts_of(REPORTS / said["file"]):
+            words = text.get("description") or text.get("text") or " ".join(text["hints"])
+            by_role.setdefault(said["role"], set()).add(words)
+    assert not by_role["test"] & (by_role["fitted"] | by_role["validation"])
