@@ -132,8 +132,8 @@ def grow(
         raise DataError(f"grow: {radii[0]:g} m is no radius; give metres above 0, such as 200,300,400,500")
     cells, known = data.cells, np.flatnonzero(queries.truth >= 0)
     away = np.full(len(cells), np.inf)
-    for scene in set(queries.scenes):
-        of_scene = known[[queries.scenes[q] == scene for q in known]]
+    for scene in sorted(set(queries.scenes)):
+        of_scene = known[np.array(queries.scenes)[known] == scene]
         here = np.array(cells.scenes) == scene
         if len(of_scene):
             away[here] = np.linalg.norm(cells.center_m[here, :2] - _middle(queries.positions_m[of_scene]), axis=1)
