@@ -16,7 +16,9 @@ class Settings(BaseSettings):
 
     index_dir: Path = Field(Path("data/index"), description="directory that `hereabouts index` wrote")
     weights_dir: Path | None = Field(None, description="model weights; None: the ones shipped in the package")
-    fine_weights_dir: Path | None = Field(None, description="weights of the fine stage; None: the ones in the package")
+    fine_weights_dir: Path | None = Field(
+        None, description="weights of a fine stage, for its own refine; None: the ones in the package"
+    )
     posterior_weights_dir: Path | None = Field(
         None, description="weights of the hint posterior; None: the ones in the package"
     )

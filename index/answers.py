@@ -11,7 +11,7 @@ if TYPE_CHECKING:  # so that the command line starts without NumPy
 
 Crs = Literal["map", "wgs84"]
 Status = Literal["ok", "ambiguous", "no_match"]
-Refine = Literal["none", "regressor", "posterior"]
+Refine = Literal["none", "matching", "regressor", "posterior"]
 Method = Literal["cell_center", "regressor", "matching", "posterior"]
 DEFAULT_REFINE: Final[Refine] = "posterior"
 DEFAULT_TOP_K: Final = 5
@@ -140,7 +140,7 @@ class Candidate:
         float,
         Field(
             description="what cells are ranked by, before any prior; with posterior the logarithm of the likelihood "
-            "summed over the part of the map that the cell owns, comparable within one answer; with none and regressor "
+            "summed over the part of the map that the cell owns, comparable within one answer; with any other refine "
             "the similarity of text and cell (a cosine, or the weighted sum of one a level), comparable within one "
             "index"
         ),

@@ -46,7 +46,7 @@ def build_index(
         weights_dir: the retriever's weights; None for those that ship with the package.
         split: as `models.city.source.open_sources`.
         keep_current: build nothing if the default version is of this map and this model.
-        levels: keep the retriever's other levels too: `refine` none and regressor rank by them, the default does not.
+        levels: keep the retriever's other levels too: any `refine` but the default ranks by them.
         progress: called as the work goes on.
 
     Returns:

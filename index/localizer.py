@@ -20,8 +20,8 @@ from models.city.gallery import Gallery, MapData
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.types import Floats
 from models.language.text_encoder import load_text_encoder
-from models.localization.checkpoint import load_fine
-from models.localization.fine_model import FineModel
+from models.localization.checkpoint import load_refiner
+from models.localization.fine_model import FineMethod, FineModel
 from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.surroundings import Surroundings
 from models.retrieval.checkpoint import load_retriever
@@ -38,7 +38,7 @@ class Localizer:
         directory: a version of an index, checked.
         manifest: what it says of itself.
         retriever: the model that made its vectors.
-        load_refiner: reads a model of the fine stage.
+        load_refiner: reads the fine stage of a method.
         load_model: reads the hint posterior.
     """
 
@@ -47,11 +47,12 @@ class Localizer:
         directory: Path,
         manifest: Manifest,
         retriever: Retriever,
-        load_refiner: Callable[[], FineModel] = load_fine,
+        load_refiner: Callable[[FineMethod], FineModel] = load_refiner,
         load_model: Callable[[], PosteriorModel] = load_posterior,
     ) -> None:
         self.manifest, self.retriever = manifest, retriever
         self._directory, self._load_refiner, self._load_model = directory, load_refiner, load_model
+        self._refined: dict[str, VectorLocalizer] = {}
         self.gallery = Gallery.load(directory)
         self.ranker = Ranker.load(retriever.global_alone(), directory)
         self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
@@ -71,7 +72,7 @@ class Localizer:
         Args:
             index_dir: as it says.
             weights_dir: the retriever's; None for those that ship with the package.
-            fine_weights_dir: the same of the fine stage; read when the first query asks for it.
+            fine_weights_dir: the same of a fine stage, see `load_refiner`; read when the first query asks for it.
             posterior_weights_dir: the same of the hint posterior.
 
         Raises:
@@ -82,8 +83,8 @@ class Localizer:
         directory, manifest = open_version(index_dir)
         retriever = load_retriever(weights_dir)
         check_model(manifest, retriever.fingerprint)
-        load_refiner, load_model = partial(load_fine, fine_weights_dir), partial(load_posterior, posterior_weights_dir)
-        return cls(directory, manifest, retriever, load_refiner, load_model)
+        load_fine = partial(load_refiner, directory=fine_weights_dir)
+        return cls(directory, manifest, retriever, load_fine, partial(load_posterior, posterior_weights_dir))
 
     @property
     def facts(self) -> IndexFacts:
@@ -122,7 +123,12 @@ class Localizer:
 
     def by_vectors(self, refine: Refine) -> VectorLocalizer:
         """Vector search, with the fine stage if it is asked for."""
-        return self._vectors_refined if refine == "regressor" else self._vectors
+        if refine == "none" or refine == "posterior":  # noqa: PLR1714, which mypy does not see through
+            return self._vectors
+        if refine not in self._refined:
+            given = self._vectors.ranker, self.gallery, self.frame, self.manifest.grid_m
+            self._refined[refine] = VectorLocalizer(*given, self._load_refiner(refine), self.sentences)
+        return self._refined[refine]
 
     @cached_property
     def posterior(self) -> PosteriorLocalizer:
@@ -138,12 +144,6 @@ class Localizer:
         has_levels = STARTS_FILE in self.manifest.files
         ranker = Ranker.load(self.retriever, self._directory) if has_levels else self.ranker
         return VectorLocalizer(ranker, self.gallery, self.frame, self.manifest.grid_m, sentences=self.sentences)
-
-    @cached_property
-    def _vectors_refined(self) -> VectorLocalizer:
-        """The same with the fine stage."""
-        given = self._vectors.ranker, self.gallery, self.frame, self.manifest.grid_m
-        return VectorLocalizer(*given, self._load_refiner(), self.sentences)
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
         """Descriptions as the retriever knows them.

@@ -63,7 +63,7 @@ def index(
     ] = False,
     levels: Annotated[
         bool,
-        typer.Option("--levels", help="keep the retriever's other levels, for refine none and regressor: 6 kB a cell"),
+        typer.Option("--levels", help="keep the retriever's other levels, for any refine but posterior: 6 kB a cell"),
     ] = False,
 ) -> None:
     """Build an index of a map."""

@@ -107,10 +107,12 @@ class Evaluation(BaseModel):
     def _vectors(self, source: Source, progress: Progress) -> "VectorLocalizer":
         """Vector search of a data set: raw text, all levels."""
         from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
-        from models.localization.checkpoint import load_fine  # noqa: PLC0415
+        from models.localization.checkpoint import load_refiner  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
-        refiner = load_fine(self.fine_weights_dir) if self.refine == "regressor" else None
+        refiner = None
+        if self.refine == "matching" or self.refine == "regressor":  # noqa: PLR1714, which mypy does not see through
+            refiner = load_refiner(self.refine, self.fine_weights_dir)
         ranker = self._ranker(source, load_retriever(self.weights_dir), progress)
         return VectorLocalizer.of_map(source.data, ranker, refiner)
 

@@ -1,7 +1,9 @@
 """Saving and loading models of the fine stage."""
 
+from pathlib import Path
+
 from models.checkpoint import SHIPPED, Checkpoints
-from models.localization.fine_model import FineModel
+from models.localization.fine_model import FineMethod, FineModel
 from models.localization.matching import Matching
 from models.localization.regressor import Regressor
 
@@ -9,7 +11,17 @@ FINE_METHODS: dict[str, type[FineModel]] = {"regressor": Regressor, "matching": 
 FINE_STAGES = Checkpoints(
     "fine",
     FINE_METHODS,
-    SHIPPED / "regressor",
-    "train some with 'hereabouts train --method regressor', or leave the position at the cell's centre",
+    SHIPPED / "matching",
+    "train some with 'hereabouts train --method matching', or leave the position at the cell's centre",
 )
 save_fine, load_fine = FINE_STAGES.save, FINE_STAGES.load
+
+
+def load_refiner(method: FineMethod, directory: Path | None = None) -> FineModel:
+    """The fine stage of a method: from a directory of weights, if they are of that method, else the one that ships.
+
+    Raises:
+        WeightsError: the directory or the weights in it cannot be read.
+    """
+    given = load_fine(directory) if directory else None
+    return given if given and given.method == method else load_fine(SHIPPED / method)

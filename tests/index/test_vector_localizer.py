@@ -11,6 +11,7 @@ from index.localizer import Localizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.errors import WeightsError
+from models.localization.checkpoint import load_refiner, save_fine
 from models.localization.regressor import Regressor, RegressorConfig
 
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
@@ -77,7 +78,7 @@ def refining(localizer, load):
 
 
 def test_a_query_may_ask_for_positions_inside_the_cells(localizer, regressor) -> None:
-    fine = refining(localizer, lambda: regressor)
+    fine = refining(localizer, lambda _: regressor)
     plain, refined = fine.localize([Query(TEXT, 3, refine="none"), Query(TEXT, 3, refine="regressor")])
     [again] = localizer.localize([Query(TEXT, 3, refine="none")])
     assert plain == dataclasses.replace(again, timings_ms=plain.timings_ms)
@@ -99,11 +100,21 @@ def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
     told = Told(localizer.gallery.cells, center[:1] + 4)
     # One cell alone is surely the right one.
     sure = Query(TEXT, 1, within=Circle(tuple(center[0]), 1.0), refine="none")
-    plain, refined = refining(localizer, lambda: told).localize([sure, dataclasses.replace(sure, refine="regressor")])
+    plain, refined = refining(localizer, lambda _: told).localize([sure, dataclasses.replace(sure, refine="regressor")])
     assert refined.estimate.position == pytest.approx(tuple(center[0] + 4))
     assert np.diag(refined.estimate.covariance) == pytest.approx(told.error_m**2)
     assert np.diag(plain.estimate.covariance) == pytest.approx(localizer.manifest.grid_m**2 / 12)
     assert refined.estimate.radius_m.p90 < plain.estimate.radius_m.p90
+
+
+def test_each_refine_has_its_fine_stage(index_dir, weights_dir, regressor, tmp_path) -> None:
+    """Weights of one's own serve their own method; the others are those that ship."""
+    save_fine(regressor, tmp_path, {})
+    fine = Localizer.open(index_dir, weights_dir, tmp_path)
+    matched, own = fine.localize([Query(TEXT, refine="matching"), Query(TEXT, refine="regressor")])
+    assert (matched.estimate.method, own.estimate.method) == ("matching", "regressor")
+    assert own.model.sha256 == regressor.fingerprint
+    assert matched.model.sha256 == load_refiner("matching").fingerprint
 
 
 def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path) -> None:
@@ -111,5 +122,5 @@ def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path
     estimate = fine.localize([Query(TEXT, refine="none")])[0].estimate
     assert estimate is not None
     assert estimate.method == "cell_center"
-    with pytest.raises(WeightsError, match=r"no weights in .*regressor"):
+    with pytest.raises(WeightsError, match=r"no weights in .*--method"):
         fine.localize([Query(TEXT, refine="regressor")])
