@@ -38,6 +38,14 @@ LAT, LON = 60.0, 25.0
 LAT_M, LON_M = 1 / 111_412.0, 1 / 55_800.0  # degrees a metre, near enough at 60 degrees
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _own_cache(tmp_path_factory):
+    """What is made of sentences and points is cached here and not in the home directory."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
 def tiny_osm(seed: int = 0) -> str:
     """A made-up town of 300 x 300 m as OSM XML: streets every 60 m, a house a block, things along the streets."""
     rng = np.random.default_rng(seed)

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from models.errors import DataError
+from models.errors import DataError, TrainingError
 
 if TYPE_CHECKING:
-    from models.training.experiments import Scale
+    from collections.abc import Sequence
+
+    from models.training.experiments import Run, Scale
 
 MADE_UP = ("demo", "full")  # scales of `models.city.synthetic.towns.write_towns`
 TOWN_SEED = 0
@@ -28,22 +30,20 @@ def reproduce(
     ] = None,
     steps: Annotated[int | None, typer.Option(min=1, help="of each training")] = None,
     epochs: Annotated[
-        int | None, typer.Option(min=1, help="of each training; validates after each, rates halve every five")
+        int | None, typer.Option(min=1, help="of each training; validates after each, halves the rate every five")
     ] = None,
     config: Annotated[
         Path | None,
         typer.Option(help="TOML: tables retriever, fine, points, in each model and training, as --set of train"),
     ] = None,
-    workers: Annotated[int | None, typer.Option(min=1, help="trainings at once; else one a processor")] = None,
-    device: Annotated[str, typer.Option(help="auto, cpu or cuda; of several GPUs each takes its turn")] = "auto",
+    workers: Annotated[int | None, typer.Option(min=1, help="trainings at once; else one a GPU or processor")] = None,
+    device: Annotated[str | None, typer.Option(help="auto, cpu or cuda; of several GPUs each takes its turn")] = None,
     report: Annotated[Path | None, typer.Option(help="directory for the report; OUT if left out")] = None,
 ) -> None:
     """Make the tables 1-4 and figures 3-5 of MNCL: train what is missing, measure, print beside what is published."""
     from app.cli.progress import stage_bars
-    from app.threads import usable_cpus
     from index.evaluation.reproduce import chosen, figure_3_of, in_epochs
     from index.evaluation.reproduce import reproduce as run
-    from index.evaluation.reproduce_jobs import settings_of
     from index.evaluation.reproduce_report import write_reproduction
     from models.training.experiments import POINTS, SCALES, Run, runs_of
 
@@ -51,32 +51,43 @@ def reproduce(
         raise DataError("--steps and --epochs both say how long to train; give one of them")
     numbers, experiments = _numbers(seeds), chosen(tables)
     scale = _changed(SCALES["demo" if data == "demo" else "full"], config, steps, device)
-    for each in (*runs_of(experiments, every_seed=False), Run(POINTS)):
-        settings_of(each, numbers[0], scale)  # what cannot be trained with is said before any work
+    at_once = _checked(scale, (*runs_of(experiments, every_seed=False), Run(POINTS)), config)
     with stage_bars() as show:
         store = _store(_towns(data, out, show) if data in MADE_UP else Path(data), out, show)
         scale = in_epochs(scale, store, epochs) if epochs else scale
-        found = run(store, out, scale, numbers, workers or usable_cpus(), show, experiments)
+        found = run(store, out, scale, numbers, workers or at_once, show, experiments)
     name = f"the {data} towns" if data in MADE_UP else Path(data).resolve().name
     directory = report or out
-    write_reproduction(directory, found, name, figure_3_of(store, out, scale, numbers[0]))
+    write_reproduction(directory, found, name, figure_3_of(store, out, scale, numbers[0], experiments))
     typer.echo(f"the report is {directory / 'report.md'}")
 
 
-def _changed(scale: "Scale", config: Path | None, steps: int | None, device: str) -> "Scale":
+def _changed(scale: "Scale", config: Path | None, steps: int | None, device: str | None) -> "Scale":
     """A scale with what a configuration file and the options say, the latter last."""
     told = _read(config) if config else {}
     lasts = (f"training.steps={steps}", f"training.validate_every={max(1, steps // 20)}") if steps else ()
+    on = (f"training.device={device}",) if device else ()
     parts = {
-        part: (
-            *getattr(scale, part),
-            *told.get(part, ()),
-            *(() if part == "points" else lasts),
-            f"training.device={device}",
-        )
-        for part in PARTS
+        part: (*getattr(scale, part), *told.get(part, ()), *(() if part == "points" else lasts), *on) for part in PARTS
     }
     return replace(scale, **parts)
+
+
+def _checked(scale: "Scale", runs: "Sequence[Run]", config: Path | None) -> int:
+    """How many can be trained at once; what cannot be trained with is said before any work."""
+    import torch
+
+    from app.threads import usable_cpus
+    from index.evaluation.reproduce_jobs import settings_of
+    from models.training.engine.loop import pick_device
+
+    kinds = set()
+    for run in runs:
+        try:
+            kinds.add(pick_device(settings_of(run, 0, scale)[1].device).type)
+        except TrainingError as error:
+            raise TrainingError(f"{f'--config {config}, ' if config else ''}{run.method}: {error}") from error
+    return torch.cuda.device_count() if "cuda" in kinds else usable_cpus()
 
 
 def _read(config: Path) -> dict[str, tuple[str, ...]]:
@@ -87,8 +98,11 @@ def _read(config: Path) -> dict[str, tuple[str, ...]]:
         raise DataError(f"--config {config} cannot be read ({error}); it is a TOML file, see docs/use.md") from error
     if unknown := [part for part in tables if part not in PARTS]:
         raise DataError(f"--config {config}: there is no table '{unknown[0]}'; it has {', '.join(PARTS)}")
-    if flat := [part for part, of_part in tables.items() if not all(isinstance(f, dict) for f in of_part.values())]:
-        raise DataError(f"--config {config}: settings stand in {flat[0]}.model or {flat[0]}.training")
+    for part, of_part in tables.items():
+        if not isinstance(of_part, dict) or not all(isinstance(fields, dict) for fields in of_part.values()):
+            raise DataError(f"--config {config}: settings stand in {part}.model or {part}.training")
+        if "inputs" in of_part.get("model", {}):
+            raise DataError(f"--config {config}: inputs are what the tables compare; choose a table with --tables")
     return {
         part: tuple(
             f"{table}.{name}={','.join(map(str, value)) if isinstance(value, list) else value}"
@@ -111,7 +125,7 @@ def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path
     from models.city.kitti360.job import prepare_data
     from models.city.synthetic.towns import write_towns
 
-    raw, prepared = (out / "data" / name for name in ("raw", "prepared"))
+    raw, prepared = (out / "data" / scale / name for name in ("raw", "prepared"))
     if not raw.is_dir():
         write_towns(raw, scale, TOWN_SEED, lambda done, total: show("towns", done, total))
     prepare_data(raw, prepared, None, seed=TOWN_SEED, progress=show)

@@ -140,8 +140,8 @@ class Told(_Body):
 
 REFINE: Any = Field(
     DEFAULT_REFINE,
-    description="posterior: hints are matched with the map; matching: vector search, then a network matches hints with "
-    "a cell's instances; regressor: vector search, then one that needs no matches and is less exact; none: vector "
+    description="posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: "
+    "vector search, then a network that matches hints with a cell's instances, whose weights do not ship; none: vector "
     "search alone, cells' centres; these three rank by all of the retriever's levels only on an index that was built "
     "with --levels",
 )

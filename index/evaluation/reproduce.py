@@ -14,7 +14,7 @@ from index.evaluation.reproduce_jobs import FIGURE_3, TEST, Job, localize, local
 from models.city.source import open_source
 from models.city.types import Progress
 from models.errors import DataError
-from models.training.experiments import Experiment, Run, Scale, pairs_of, runs_of
+from models.training.experiments import Experiment, Scale, pairs_of, runs_of
 from models.training.paper_tables import EXPERIMENTS, HEAD, MNCL
 from models.training.settings import load_settings
 
@@ -33,7 +33,8 @@ def in_epochs(scale: Scale, data: Path, epochs: int) -> Scale:
         given = getattr(scale, part)
         _, training = load_settings(method, given)
         an_epoch = max(1, positions // training.batch_size)
-        lasts = {"steps": epochs * an_epoch, "validate_every": an_epoch, "halve_every": EPOCHS_A_HALVING * an_epoch}
+        lasts = {"schedule": "step", "halve_every": EPOCHS_A_HALVING * an_epoch}
+        lasts |= {"steps": epochs * an_epoch, "validate_every": an_epoch}
         parts[part] = (*given, *(f"training.{name}={value}" for name, value in lasts.items()))
     return replace(scale, **parts)
 
@@ -47,7 +48,7 @@ def chosen(keys: str | None) -> tuple[Experiment, ...]:
     wanted = list(EXPERIMENTS) if keys is None else [key.strip() for key in keys.split(",")]
     if unknown := [key for key in wanted if key not in EXPERIMENTS]:
         raise DataError(f"--tables {unknown[0]}: there is none; name some of {', '.join(EXPERIMENTS)}")
-    return tuple(EXPERIMENTS[key] for key in wanted)
+    return tuple(EXPERIMENTS[key] for key in dict.fromkeys(wanted))
 
 
 def reproduce(
@@ -76,16 +77,14 @@ def reproduce(
     Raises:
         DataError: the data cannot be read.
     """
-
-    def jobs_of(runs: Sequence[Run], seed: int) -> list[Job]:
-        return [Job.of(run, seed, data, out, scale) for run in runs]
-
-    jobs = [job for seed in seeds for job in jobs_of(runs_of(experiments, every_seed=seed != seeds[0]), seed)]
+    jobs = [
+        Job.of(run, seed, data, out, scale)
+        for seed in seeds
+        for run in runs_of(experiments, every_seed=seed != seeds[0])
+    ]
     backbones = list(dict.fromkeys(job.points for job in jobs if job.points))
-    for stage, some in (("point encoders", backbones), ("train and measure", jobs)):
-        missing = [job for job in some if job.result() is None]
-        for done in _all_done(train_and_measure, [(job, _gpu(n)) for n, job in enumerate(missing)], workers):
-            progress(stage, len(some) - len(missing) + done, len(some))
+    _train("point encoders", backbones, workers, progress)
+    _train("train and measure", jobs, workers, progress)
     found: dict[str, list[dict[str, Any]]] = {}
     for job in [*jobs, *backbones]:
         result = job.result()
@@ -96,13 +95,7 @@ def reproduce(
         for run, fine in pairs_of(experiments)
         for seed in seeds
     ]
-    missing_pairs = [
-        (job, fine_job, (job.seed, job.run, fine_job.run) == (seeds[0], MNCL, HEAD))
-        for job, fine_job in pairs
-        if localized(job, fine_job) is None
-    ]
-    for done in _all_done(localize, missing_pairs, workers):
-        progress("localize", done, len(missing_pairs))
+    _localize(pairs, seeds[0], workers, progress)
     for job, fine_job in pairs:
         by_fine = found[job.run.name][list(seeds).index(job.seed)].setdefault("localization", {})
         by_fine[fine_job.run.name] = localized(job, fine_job)
@@ -110,9 +103,28 @@ def reproduce(
     return {"seeds": list(seeds), "data": _facts(data), "experiments": keys, "runs": found}
 
 
-def figure_3_of(data: Path, out: Path, scale: Scale, seed: int) -> Path:
-    """Where the picture of MNCL's retrieved cells is, if localization was measured."""
-    return Job.of(MNCL, seed, data, out, scale).directory / FIGURE_3
+def _train(stage: str, jobs: Sequence[Job], workers: int, progress: Progress) -> None:
+    """Do the jobs that are not done."""
+    missing = [job for job in jobs if job.result() is None]
+    for done in _all_done(train_and_measure, [(job, _gpu(n)) for n, job in enumerate(missing)], workers):
+        progress(stage, len(jobs) - len(missing) + done, len(jobs))
+
+
+def _localize(pairs: Sequence[tuple[Job, Job]], first_seed: int, workers: int, progress: Progress) -> None:
+    """Measure localization where it is not measured; figure 3 is of the first seed."""
+    drawn = (first_seed, MNCL, HEAD)
+    missing = [(*pair, (pair[0].seed, pair[0].run, pair[1].run) == drawn) for pair in pairs if localized(*pair) is None]
+    for done in _all_done(localize, missing, workers):
+        progress("localize", done, len(missing))
+
+
+def figure_3_of(
+    data: Path, out: Path, scale: Scale, seed: int, experiments: tuple[Experiment, ...] = tuple(EXPERIMENTS.values())
+) -> Path | None:
+    """The picture of MNCL's retrieved cells; None if it is not of these experiments, or not made with this scale."""
+    job, fine_job = (Job.of(run, seed, data, out, scale) for run in (MNCL, HEAD))
+    made = (MNCL, HEAD) in pairs_of(experiments) and localized(job, fine_job) is not None
+    return job.directory / FIGURE_3 if made else None
 
 
 def _gpu(n: int) -> int | None:
@@ -124,9 +136,14 @@ def _all_done(work: Callable[..., None], tasks: Sequence[tuple[Any, ...]], worke
     """How many are done; each is done in a process of its own, so that its memory is its own."""
     spawn = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(workers, mp_context=spawn, max_tasks_per_child=1) as pool:
-        for done, future in enumerate(as_completed([pool.submit(work, *task) for task in tasks]), start=1):
-            future.result()
-            yield done
+        futures = [pool.submit(work, *task) for task in tasks]
+        try:
+            for done, future in enumerate(as_completed(futures), start=1):
+                future.result()
+                yield done
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)  # one that failed is told of before the others are done
+            raise
 
 
 def _facts(data: Path) -> dict[str, Any]:

@@ -24,6 +24,7 @@ from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineModel
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.retriever import Retriever
+from models.training.engine.loop import pick_device
 from models.training.engine.run_dir import METRICS_FILE
 from models.training.experiments import POINTS, VARIANTS, Run, Scale, made_of
 from models.training.fit_fine import train_fine
@@ -33,6 +34,7 @@ from models.training.paper_tables import GROWTH, MNCL
 from models.training.settings import load_settings
 from models.training.training_data import load_training
 
+_FORMAT = 1  # of results; counted up when what a training or a measurement does changes
 RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
 TEST, VALIDATION = "test", "val"
 ALONE, LISTED, ALL = "global level alone", f"global, then all levels on {RERANKED}", "all levels on all cells"
@@ -65,7 +67,8 @@ class Job:
     def of(cls, run: Run, seed: int, data: Path, out: Path, scale: Scale) -> "Job":
         """A job in `out`."""
         model, training = settings_of(run, seed, scale)
-        facts = [run.method, model.model_dump(mode="json"), training.model_dump(mode="json", exclude={"device"})]
+        settings = [model.model_dump(mode="json"), training.model_dump(mode="json", exclude={"device"})]
+        facts = [_FORMAT, run.method, *settings, pick_device(training.device).type]
         if run.sees_points:
             facts.append(Job.of(Run(POINTS), seed, data, out, scale).key)
         key = hashlib.sha256(json.dumps([*facts, fingerprint(data), scale.growth_radii_m]).encode()).hexdigest()

@@ -33,6 +33,8 @@ BRANCHES: dict[str, tuple[Input, ...]] = {
 OURS: tuple[Input, ...] = ("position", "closest", "size", "count", "colour", "label")
 PAPERS: tuple[Input, ...] = ("points", "colour", "position", "count")
 _log = logging.getLogger(__name__)
+_FORMAT = 1  # of what is kept of points; counted up when samples or what is made of them change
+KEYED_BY = 8  # cells whose points name what is kept
 SEEN_AT_ONCE = 512  # instances whose points are looked at together, about
 
 
@@ -95,11 +97,10 @@ class CellFeatures:
         """
         if encoder is None:
             return self
-        self.points(np.zeros(1, dtype=np.int64))  # that they are at hand
         path = cache_directory() / "points" / f"{self._key(encoder)}.npy"
         try:
             shape = np.load(path)
-        except (OSError, ValueError):
+        except (OSError, ValueError, EOFError):
             shape = self._look(encoder)
             try:
                 with replacing(path) as file:
@@ -118,9 +119,11 @@ class CellFeatures:
         return np.concatenate(parts)
 
     def _key(self, encoder: PointEncoder) -> str:
-        """sha256 of the encoder and of what is known of the instances beside their points, which tells them apart."""
-        digest = hashlib.sha256(fingerprint_of(encoder.state_dict()).encode())
-        for column in (self.starts, self.geometry, self.label):
+        """sha256 of the encoder, of points of some cells, and of what is known of all instances beside their points."""
+        shape = [(level.count, level.radius, level.neighbours) for level in encoder.levels]
+        digest = hashlib.sha256(f"{_FORMAT} {shape} {fingerprint_of(encoder.state_dict())}".encode())
+        some = self.points(np.linspace(0, len(self) - 1, KEYED_BY).astype(np.int64)).numpy()
+        for column in (self.starts, self.geometry, self.label, some):
             digest.update(np.ascontiguousarray(column).tobytes())
         return digest.hexdigest()
 

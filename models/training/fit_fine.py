@@ -117,6 +117,7 @@ def train_fine(
         task = FineTask(fine, sources, config.batch_size, config.pmc)
         points = look_at_points(fine, sources, config, run_dir and run_dir / "points", resume, progress)
         record = settings_record(method, model, config) | {"sources": [source.facts for source in sources]}
+        record |= {"point_encoder": points}
         history = run_training(task, config, run_dir, resume, progress, rng, record)
         return distributed.from_first(lambda: _finish(task, out, config, history, points))
 

@@ -17,7 +17,7 @@ from torch import Tensor, nn
 
 from models.checkpoint import CONFIG_FILE, WEIGHTS_FILE
 from models.city.colours import KITTI360_PALETTE
-from models.errors import WeightsError
+from models.errors import TrainingError, WeightsError
 from models.files import replace_file
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.localization.fine_model import FineModel
@@ -25,6 +25,7 @@ from models.retrieval.instance_encoder import GEOMETRY, CellFeatures
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
 from models.retrieval.retriever import Retriever
 from models.training.engine import distributed
+from models.training.engine.devices import lent_to
 from models.training.engine.loop import LoopConfig, Progress, pick_device, run_training
 from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingData
@@ -144,8 +145,9 @@ def train_points(
         WeightsError, TrainingError: see `fit_points`.
     """
     torch.manual_seed(config.seed)
-    sources = load(load_text_encoder(), np.random.default_rng(config.seed))
-    encoder = PointEncoder()
+    text_encoder, encoder = load_text_encoder(), PointEncoder()
+    with lent_to(pick_device(config.device), text_encoder):
+        sources = load(text_encoder, np.random.default_rng(config.seed))
     figures = fit_points(encoder, sources, config, run_dir, resume, progress)
     out.mkdir(parents=True, exist_ok=True)
     replace_file(out / WEIGHTS_FILE, save(encoder.cpu().state_dict()))
@@ -167,6 +169,8 @@ def look_at_points(
     The point encoder is read from `config.points`, or trained here; arguments, return and errors as `fit_points`.
     """
     if model.points is None:
+        if config.points:
+            raise TrainingError("training.points is for models that take points; have points among model.inputs")
         return {}
     if config.points is None:
         _, loop = load_settings("points", [f"training.seed={config.seed}", f"training.device={config.device}"])

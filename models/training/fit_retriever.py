@@ -146,6 +146,7 @@ def train_retriever(
         task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)
         points = look_at_points(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
         record = settings_record(method.method, model, config) | {"sources": [source.facts for source in sources]}
+        record |= {"point_encoder": points}
         history = run_training(task, config, run_dir, resume, progress, rng, record)
         return distributed.from_first(lambda: _finish(task, out, config, history, rng, points))
 

@@ -17,7 +17,7 @@ from models.training.retrieval_data import Wording
 
 
 class PointsConfig(BaseModel):
-    """The point encoder has nothing to tell."""
+    """The point encoder has no settings."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -54,8 +54,9 @@ class TrainingConfig(LoopConfig):
 
 
 def settings_record(method: str, model: BaseModel, config: TrainingConfig) -> dict[str, Any]:
-    """Settings as a run's config.json says them."""
-    return {"method": method, "model": model.model_dump(mode="json"), "training": config.model_dump(mode="json")}
+    """Settings as a run's config.json says them: what it depends on, wherever it is done and its files are."""
+    training = config.model_dump(mode="json", exclude={"device", "points"})
+    return {"method": method, "model": model.model_dump(mode="json"), "training": training}
 
 
 def load_settings(method: str, changes: Sequence[str] = ()) -> tuple[BaseModel, TrainingConfig]:
@@ -88,7 +89,7 @@ def _parse(change: str, types: dict[str, type[BaseModel]]) -> tuple[str, str, An
         raise TrainingError(f"--set {change}: give it as model.NAME=VALUE or training.NAME=VALUE, as in {EXAMPLE}")
     fields = types[part].model_fields
     if field not in fields:
-        raise TrainingError(f"--set {change}: {part} has no '{field}'; it has {', '.join(fields)}")
+        raise TrainingError(f"--set {change}: {part} has no '{field}'; it has {', '.join(fields) or 'no settings'}")
     return part, field, _value(text.strip(), fields[field])
 
 

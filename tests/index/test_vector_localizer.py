@@ -12,6 +12,7 @@ from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.errors import WeightsError
 from models.localization.checkpoint import load_refiner, save_fine
+from models.localization.matching import Matching, MatchingConfig
 from models.localization.regressor import Regressor, RegressorConfig
 
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
@@ -107,14 +108,17 @@ def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
     assert refined.estimate.radius_m.p90 < plain.estimate.radius_m.p90
 
 
-def test_each_refine_has_its_fine_stage(index_dir, weights_dir, regressor, tmp_path) -> None:
-    """Weights of one's own serve their own method; the others are those that ship."""
-    save_fine(regressor, tmp_path, {})
+def test_each_refine_has_its_fine_stage(index_dir, weights_dir, text_encoder, tmp_path) -> None:
+    """Weights of one's own serve their own method; others are those that ship."""
+    matching = Matching(text_encoder, MatchingConfig(width=32)).eval()
+    save_fine(matching, tmp_path, {})
     fine = Localizer.open(index_dir, weights_dir, tmp_path)
-    matched, own = fine.localize([Query(TEXT, refine="matching"), Query(TEXT, refine="regressor")])
-    assert (matched.estimate.method, own.estimate.method) == ("matching", "regressor")
-    assert own.model.sha256 == regressor.fingerprint
-    assert matched.model.sha256 == load_refiner("matching").fingerprint
+    own, shipped = fine.localize([Query(TEXT, refine="matching"), Query(TEXT, refine="regressor")])
+    assert (own.estimate.method, shipped.estimate.method) == ("matching", "regressor")
+    assert own.model.sha256 == matching.fingerprint
+    assert shipped.model.sha256 == load_refiner("regressor").fingerprint
+    with pytest.raises(WeightsError, match=r"no weights in .*matching.*HEREABOUTS_FINE_WEIGHTS_DIR"):
+        Localizer.open(index_dir, weights_dir).localize([Query(TEXT, refine="matching")])
 
 
 def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path) -> None:
@@ -122,5 +126,5 @@ def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path
     estimate = fine.localize([Query(TEXT, refine="none")])[0].estimate
     assert estimate is not None
     assert estimate.method == "cell_center"
-    with pytest.raises(WeightsError, match=r"no weights in .*--method"):
+    with pytest.raises(WeightsError, match=r"no weights in .*--method regressor"):
         fine.localize([Query(TEXT, refine="regressor")])

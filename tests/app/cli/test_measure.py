@@ -1,4 +1,4 @@
-"""train, evaluate, localize --picture and benchmark, on the tiny town."""
+"""evaluate, localize --picture and benchmark, on the tiny town."""
 
 import json
 
@@ -18,30 +18,7 @@ def run(monkeypatch, weights_dir):
 
 
 @pytest.mark.slow
-def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("models.training.validation.QUERIES", 20)
-    result = run("train", "--data", osm_file, "--out", tmp_path / "w", "--steps", "1")
-    assert result.exit_code == 0, result.output
-    assert "recall@1/3/5" in result.output
-    record = json.loads((tmp_path / "w" / "config.json").read_text())
-    assert record["training"]["config"]["steps"] == 1
-    assert record["training"]["sources"][0]["validation"]["queries"] > 0
-
-
 @pytest.mark.slow
-def test_a_fine_stage_is_trained_and_refines_what_is_evaluated(run, osm_file, tmp_path, monkeypatch) -> None:
-    small = ("--set", "model.width=16", "--set", "training.batch_size=8", "--set", "training.validate_every=1")
-    result = run("train", "--method", "regressor", "--data", osm_file, "--out", tmp_path / "w", "--steps", "2", *small)
-    assert result.exit_code == 0, result.output
-    assert "within_5m" in result.output
-    monkeypatch.setenv("HEREABOUTS_FINE_WEIGHTS_DIR", str(tmp_path / "w"))
-    args = ("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r", "--refine", "regressor")
-    assert run(*args).exit_code == 0
-    report = json.loads((tmp_path / "r" / "report.json").read_text())
-    assert report["method"] == "regressor"
-    assert report["localization"] != report["cell_center"]
-
-
 @pytest.mark.slow
 def test_evaluate_prints_what_it_writes(run, osm_file, tmp_path) -> None:
     results = [run("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r") for _ in range(2)]
@@ -99,10 +76,3 @@ def test_people_s_texts_are_asked_of_an_index(run, index_dir, tmp_path) -> None:
     file.write_text('{"text": "no goal"}\n')
     result = run("evaluate", "--index", index_dir, "--data", file)
     assert result.exit_code == 1
-
-
-def test_texts_go_with_the_method_places_and_each_with_a_map(run, osm_file, tmp_path) -> None:
-    texts = tmp_path / "texts.jsonl"
-    for method, given in (("posterior", ("--texts", texts)), ("places", ())):
-        result = run("train", "--method", method, "--data", osm_file, *given, "--out", tmp_path / "w")
-        assert result.exit_code == 1

@@ -103,3 +103,25 @@ def test_without_points_the_message_says_what_to_do(features, text_encoder) -> N
     model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), inputs=(*OURS, "points")))
     with pytest.raises(WeightsError, match="inputs"):
         model.seen(replace(features, sample=None))
+
+
+def test_what_is_made_of_points_is_kept_and_found_again(features, monkeypatch, tmp_path) -> None:
+    monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
+    some = replace(features, starts=features.starts[:5], **{
+        name: getattr(features, name)[: features.starts[4]] for name in ("geometry", "label", "shape")
+    })  # fmt: skip
+    encoder, looked = PointEncoder().eval(), CellFeatures._look
+    seen = some.seen(encoder).shape
+    monkeypatch.setattr(CellFeatures, "_look", None)
+    assert np.array_equal(some.seen(encoder).shape, seen), "read, not computed"
+    monkeypatch.setattr(CellFeatures, "_look", lambda *_: np.zeros((0, 0)))
+    assert not some.seen(PointEncoder().eval()).shape.size, "another encoder makes something else of them"
+    assert not replace(some, geometry=some.geometry + 1).seen(encoder).shape.size
+    assert not replace(some, sample=lambda cells: some.sample(cells) * 2).seen(encoder).shape.size
+    monkeypatch.setattr(CellFeatures, "_look", looked)
+    for path in (tmp_path / "points").iterdir():
+        path.write_bytes(b"junk")
+    assert np.array_equal(some.seen(encoder).shape, seen), "a broken file is made anew"
+    (tmp_path / "file").write_bytes(b"")
+    monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path / "file"))
+    assert np.array_equal(some.seen(encoder).shape, seen), "without a place to keep it too"

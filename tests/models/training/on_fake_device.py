@@ -63,6 +63,14 @@ def fine(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> Non
     assert load_fine(out).error_m
 
 
+def shared_points(sources: Any, out: Path) -> None:
+    """A point encoder that was made before."""
+    fit_points.train_points(partial(load, sources), out / "points", CONFIG)
+    given = CONFIG.model_copy(update={"points": out / "points"})
+    config = METHODS["text2loc"].config_type(width=32, inputs=PAPERS)
+    fit_retriever.train_retriever(partial(load, sources), out, METHODS["text2loc"], config, given)
+
+
 def posterior(sources: Any, out: Path) -> None:
     """The reader of hints and that of cues; the likelihood on the CPU."""
     labelled = fit_posterior.labelled_texts()[:16]
@@ -145,7 +153,7 @@ def tried(run: Callable[[], None]) -> str:
 
 def main(osm_file: Path, out: Path) -> None:
     """Run everything; out/report.json says of each what went wrong."""
-    for module in (loop, fit_retriever, fit_fine, fit_posterior):
+    for module in (loop, fit_retriever, fit_fine, fit_points, fit_posterior):
         module.pick_device = lambda wanted: CPU if wanted == "cpu" else FAKE
     for module, values in SMALL.items():
         for name, value in values.items():
@@ -157,6 +165,7 @@ def main(osm_file: Path, out: Path) -> None:
             for inputs in (OURS, PAPERS):
                 name = f"{method}-{inputs[0]}"
                 cases[name] = partial(train, sources, method, inputs, out / name)
+    cases["points"] = partial(shared_points, sources, out / "points")
     cases["posterior"] = partial(posterior, sources, out / "posterior")
     (out / "report.json").write_text(json.dumps({name: tried(run) for name, run in cases.items()}))
 

@@ -34,6 +34,6 @@ def report(made_once, osm_file):
     return json.loads((made_once("devices", make) / "report.json").read_text())
 
 
-@pytest.mark.parametrize("name", ["device", "lending", *MODELS, "posterior"])
+@pytest.mark.parametrize("name", ["device", "lending", *MODELS, "points", "posterior"])
 def test_all_of_it_is_on_one_device(report, name) -> None:
     assert not report[name], report[name]
