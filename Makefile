@@ -11,7 +11,8 @@ PYTEST := $(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist
 # What pip is asked for first; set it to choose another build of torch, for example TORCH=./torch-2.13.0+cu130.whl.
 TORCH ?= $(shell grep '^torch==' constraints.txt)
 HELSINKI := --data models/maps/helsinki.osm.pbf
-TRAINED_ON := --data data/towns-0 --data data/towns-own-1 $(HELSINKI)
+TRAINED_ON := --data data/towns-own-0 --data data/towns-own-1 $(HELSINKI)
+FITTED_TO := --data data/towns-0 --data data/towns-own-1 $(HELSINKI)
 # The shipped kernels of places are fitted to texts about midtown Manhattan too, whose map does not ship: give
 # MIDTOWN=midtown.osm.pbf RVS=midtown_dev.jsonl.gz (docs/use.md says what they are); without, to the maps here alone.
 PEOPLE := models/reports/people
@@ -57,8 +58,8 @@ format: install  ## let ruff format and fix
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-towns: install  ## the made-up towns that weights are trained on: one set with KITTI-360's numbers, one with their own
-	for towns in 0 own-1; do \
+towns: install  ## the made-up towns that weights are trained on, with KITTI-360's numbers and with their own
+	for towns in 0 own-0 own-1; do \
 		test -d data/raw-$$towns || $(BIN)/hereabouts synth --seed $${towns#own-} --out data/raw-$$towns \
 			--pieces $$(case $$towns in own-*) echo own;; *) echo official;; esac) && \
 		$(BIN)/hereabouts prepare --raw data/raw-$$towns --out data/towns-$$towns || exit 1; \
@@ -68,11 +69,11 @@ train: towns  ## make the shipped weights again (west of Helsinki, made-up towns
 	$(BIN)/hereabouts train --method mncl $(TRAINED_ON) --out models/weights/retriever \
 		--set model.width=128 --set training.batch_size=64 --set training.steps=2200
 	$(BIN)/hereabouts train --method regressor $(TRAINED_ON) --out models/weights/regressor
-	$(BIN)/hereabouts train --method posterior $(TRAINED_ON) --out models/weights/posterior
+	$(BIN)/hereabouts train --method posterior $(FITTED_TO) --out models/weights/posterior
 	$(BIN)/hereabouts train --method places --reader models/weights/posterior $(TOLD_OF) --out models/weights/posterior
 
 refit: towns  ## fit the shipped posterior's likelihood again, with the reader that it has
-	$(BIN)/hereabouts train --method posterior $(TRAINED_ON) --reader models/weights/posterior --out models/weights/posterior
+	$(BIN)/hereabouts train --method posterior $(FITTED_TO) --reader models/weights/posterior --out models/weights/posterior
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
 	for how in posterior regressor none; do \
