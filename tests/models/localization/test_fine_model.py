@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -6,6 +8,7 @@ from models.errors import WeightsError
 from models.localization.checkpoint import FINE_METHODS, load_fine, save_fine
 from models.localization.fine_model import CrossAttentionRound, Truth, nearest
 from models.localization.matching import MatchingConfig, sinkhorn
+from models.retrieval.instance_encoder import OURS, columns
 from models.training.fine_data import FineBatch
 
 TEXTS = [
@@ -186,3 +189,19 @@ def test_broken_weights_are_refused(fine_model, tmp_path, spoil, message) -> Non
     spoil(tmp_path)
     with pytest.raises(WeightsError, match=message):
         load_fine(tmp_path)
+
+
+@pytest.mark.parametrize("method", FINE_METHODS)
+def test_inputs_that_are_left_out_change_no_position(features, text_encoder, method) -> None:
+    torch.manual_seed(0)
+    inputs = ("position", "count", "colour")
+    sure = {"threshold": 0.0} if method == "matching" else {}
+    model = FINE_METHODS[method](text_encoder, FINE_METHODS[method].config_type(width=32, inputs=inputs, **sure)).eval()
+    before = model.predict(TEXTS, features, ROWS)
+    for name in OURS:
+        geometry, label = features.geometry.copy(), features.label
+        if name == "label":
+            label = (label + 1) % len(features.labels)
+        geometry[:, columns([name])] += 0.5
+        found = model.predict(TEXTS, replace(features, geometry=geometry, label=label), ROWS)
+        assert np.array_equal(found, before) == (name not in inputs), name

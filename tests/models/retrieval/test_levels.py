@@ -108,3 +108,20 @@ def test_every_row_of_the_ablation_trains(text_encoder, levels, loss) -> None:
     assert torch.isfinite(value)
     with pytest.raises(ValueError, match="no level"):
         text.of("relation" if "instance" in levels or levels == ("global",) else "instance")
+
+
+def test_the_losses_settings_reach_the_loss(text_encoder) -> None:
+    torch.manual_seed(0)
+    mask, same = torch.ones(4, 3, dtype=torch.bool), torch.eye(4, dtype=torch.bool)
+    unit = torch.nn.functional.normalize
+    text, cells = (
+        Levels(unit(torch.randn(4, 16), dim=-1), mask, *(unit(torch.randn(4, 3, 16), dim=-1) for _ in range(2)))
+        for _ in range(2)
+    )
+
+    def loss(**settings):
+        return Mncl(text_encoder, MnclConfig(width=16, **settings)).loss(text, cells, same).item()
+
+    assert loss() == loss(least_weight=0.8, exponent=2.0)
+    assert len({loss(), loss(least_weight=0.0), loss(least_weight=0.0, exponent=4.0), loss(exponent=0.0)}) == 4
+    assert loss(exponent=0.0) == loss(loss="contrastive")
