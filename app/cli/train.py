@@ -105,17 +105,23 @@ def _train_places(
     typer.echo(f"weights are in {out}; {', '.join(f'{name} {value:.3f}' for name, value in found.items())}")
 
 
+def _loader(data: list[Path], splits: tuple[str, str], config: Any) -> "Callable[..., Any]":
+    """Reads what to train on, given a text encoder and a generator."""
+    from models.training.training_data import load_training
+
+    return lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data]
+
+
 def _train_retriever(
     data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any
 ) -> str:
     """Train a retriever; its figures in words."""
     from models.retrieval.checkpoint import METHODS
     from models.training.fit_retriever import train_retriever
-    from models.training.training_data import load_training
 
     out, *rest = where
     recall = train_retriever(
-        lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data],
+        _loader(data, splits, config),
         out, METHODS[method], model, config, *rest,
     )  # fmt: skip
     return f"recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
@@ -124,11 +130,10 @@ def _train_retriever(
 def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
     """Train a model of the fine stage; its figures in words."""
     from models.training.fit_fine import train_fine
-    from models.training.training_data import load_training
 
     out, *rest = where
     figures = train_fine(
-        lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data],
+        _loader(data, splits, config),
         out, method, model, config, *rest,
     )  # fmt: skip
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
@@ -137,12 +142,9 @@ def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: A
 def _train_points(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
     """Train the point encoder; its figures in words."""
     from models.training.fit_points import train_points
-    from models.training.training_data import load_training
 
     out, *rest = where
-    figures = train_points(
-        lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data], out, config, *rest
-    )
+    figures = train_points(_loader(data, splits, config), out, config, *rest)
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 
