@@ -7,8 +7,6 @@ from typing import Literal
 import torch
 from torch import Tensor
 
-from models.retrieval.layers import masked_max
-
 Level = Literal["global", "instance", "relation"]
 LEVELS: tuple[Level, ...] = ("global", "instance", "relation")
 
@@ -69,9 +67,9 @@ def set_similarity(hints: Tensor, hint_mask: Tensor, instances: Tensor, instance
     q, h, d = hints.shape
     n, i, _ = instances.shape
     cosine = (hints.reshape(q * h, d) @ instances.reshape(n * i, d).T).reshape(q, h, n, i)
-    best = masked_max(cosine.permute(0, 2, 1, 3)[..., None], instance_mask[None, :, None, :]).squeeze(-1)  # [Q, N, H]
+    best = cosine.masked_fill(~instance_mask, float("-inf")).amax(dim=-1)  # [Q, H, N]
     share = hint_mask / hint_mask.sum(dim=1, keepdim=True)
-    return (best * share[:, None, :]).sum(dim=-1)
+    return (best * share[:, :, None]).sum(dim=1)
 
 
 def level_scores(text: Levels, cells: Levels, levels: Sequence[Level]) -> dict[Level, Tensor]:

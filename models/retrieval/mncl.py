@@ -113,8 +113,8 @@ class Mncl(Retriever):
         """Nodes and relations [B, I, D]: cells of like size together, as the edges grow with its square."""
         nodes, relations = (torch.zeros_like(features, dtype=torch.float32) for _ in range(2))
         for rows, longest in groups_by_size(mask):
-            edges = self.cell_edges(centers[rows, :longest])
-            found = self.cell_graph(features[rows, :longest], edges, mask[rows, :longest])
+            ends = self.cell_edges(centers[rows, :longest])
+            found = self.cell_graph(features[rows, :longest], ends, mask[rows, :longest])
             nodes[rows, :longest], relations[rows, :longest] = (part.float() for part in found)
         return nodes, relations
 

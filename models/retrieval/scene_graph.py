@@ -1,6 +1,6 @@
 """The relation level: a graph over the instances of a cell or the hints of a description (MNCL, scene graphs)."""
 
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import torch
 from torch import Tensor, nn
@@ -10,6 +10,22 @@ Axis = Literal["edges", "channels"]
 Aggregate = Literal["code", "gcn"]
 
 
+class Ends(NamedTuple):
+    """Edges E_ij = first_i + second_j, as they are before the graph mixes them: K vectors of each kind, not K x K.
+
+    Attributes:
+        first: [B, K, D] of the node that an edge leaves.
+        second: [B, K, D] of the node that it leads to.
+    """
+
+    first: Tensor
+    second: Tensor
+
+    def edges(self) -> Tensor:
+        """[B, K, K, D]."""
+        return self.first[:, :, None] + self.second[:, None]
+
+
 class CellEdges(nn.Module):
     """E_ij = linear(c_i - c_j) of instance centres."""
 
@@ -17,23 +33,21 @@ class CellEdges(nn.Module):
         super().__init__()
         self.linear = nn.Linear(3, width)
 
-    def forward(self, centers: Tensor) -> Tensor:
-        """[B, K, K, D] from centres [B, K, 3]."""
-        edges: Tensor = self.linear(centers[:, :, None] - centers[:, None])
-        return edges
+    def forward(self, centers: Tensor) -> Ends:
+        """Edges from centres [B, K, 3]."""
+        return Ends(self.linear(centers), -nn.functional.linear(centers, self.linear.weight))
 
 
 class HintEdges(nn.Module):
-    """E_ij = linear([h_i; h_j]) of hint features; the linear map is split, so that nothing of size 2D is made."""
+    """E_ij = linear([h_i; h_j]) of hint features."""
 
     def __init__(self, width: int) -> None:
         super().__init__()
         self.of_first, self.of_second = nn.Linear(width, width), nn.Linear(width, width, bias=False)
 
-    def forward(self, hints: Tensor) -> Tensor:
-        """[B, K, K, D] from features [B, K, D]."""
-        edges: Tensor = self.of_first(hints)[:, :, None] + self.of_second(hints)[:, None]
-        return edges
+    def forward(self, hints: Tensor) -> Ends:
+        """Edges from features [B, K, D]."""
+        return Ends(self.of_first(hints), self.of_second(hints))
 
 
 class ExternalSpaceAttention(nn.Module):
@@ -92,21 +106,25 @@ class SceneGraph(nn.Module):
         self.from_edge = nn.Linear(width, width, bias=False)
         self.attention = ExternalSpaceAttention(width, query, axis)
 
-    def forward(self, nodes: Tensor, edges: Tensor, mask: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(self, nodes: Tensor, ends: Ends, mask: Tensor) -> tuple[Tensor, Tensor]:
         """Run the graph.
 
         Args:
             nodes: [B, K, D].
-            edges: [B, K, K, D]; edges[b, i, j] leads from node i to node j.
+            ends: edges; edge ij leads from node i to node j.
             mask: [B, K] bool, True where a node is real.
 
         Returns:
             node states and relation features, both [B, K, D]; what stands at padding means nothing.
         """
         real = mask[:, None, :, None]  # by the node that an edge leads to
-        for _ in range(self.num_layers):
-            gathered = _mean(edges, real) if self.aggregate == "gcn" else 0.0
+        edges = ends.edges() if self.aggregate == "gcn" or not self.num_layers else None
+        for layer in range(self.num_layers):
+            gathered = _mean(edges, real) if self.aggregate == "gcn" and edges is not None else 0.0
             nodes = torch.tanh(self.node(nodes) + gathered)
-            ends = self.from_first(nodes)[:, :, None] + self.from_second(nodes)[:, None]
-            edges = torch.tanh(ends + self.from_edge(edges))
+            mapped = Ends(self.from_first(nodes), self.from_second(nodes))
+            if layer == 0:  # W_3 of a sum is the sum of what W_3 makes of each: nodes are mapped, not edges
+                edges = torch.tanh(Ends(*(a + self.from_edge(b) for a, b in zip(mapped, ends, strict=True))).edges())
+            else:
+                edges = torch.tanh(mapped.edges() + self.from_edge(edges))
         return nodes, self.attention(edges, real)

@@ -5,7 +5,7 @@ import torch
 
 from models.retrieval.levels import Levels, level_scores, set_similarity, sum_of_z_scores
 from models.retrieval.mncl import Mncl, MnclConfig
-from models.retrieval.scene_graph import CellEdges, ExternalSpaceAttention, HintEdges, SceneGraph
+from models.retrieval.scene_graph import CellEdges, Ends, ExternalSpaceAttention, HintEdges, SceneGraph
 
 
 @pytest.fixture
@@ -41,8 +41,8 @@ def test_z_scores_make_levels_comparable() -> None:
 def test_scene_graph_against_a_loop(aggregate) -> None:
     torch.manual_seed(2)
     graph = SceneGraph(4, 2, aggregate, "edges", "edges")
-    nodes, edges = torch.randn(1, 3, 4), torch.randn(1, 3, 3, 4)
-    v, e = list(nodes[0]), [list(row) for row in edges[0]]
+    nodes, ends = torch.randn(1, 3, 4), Ends(torch.randn(1, 3, 4), torch.randn(1, 3, 4))
+    v, e = list(nodes[0]), [[ends.first[0, i] + ends.second[0, j] for j in range(3)] for i in range(3)]
     with torch.no_grad():
         for _ in range(2):
             gathered = [sum(e[i]) / 3 if aggregate == "gcn" else 0 for i in range(3)]
@@ -58,7 +58,7 @@ def test_scene_graph_against_a_loop(aggregate) -> None:
         for i in range(3):
             weights = torch.stack([graph.attention.key(e[i][j]) for j in range(3)]).softmax(dim=0)
             relations.append(sum(weights[j] * e[i][j] for j in range(3)))
-        found_nodes, found_relations = graph(nodes, edges, torch.ones(1, 3, dtype=torch.bool))
+        found_nodes, found_relations = graph(nodes, ends, torch.ones(1, 3, dtype=torch.bool))
     assert torch.allclose(found_nodes[0], torch.stack(v), atol=1e-6)
     assert torch.allclose(found_relations[0], torch.stack(relations), atol=1e-6)
 
@@ -86,10 +86,11 @@ def test_edges_are_of_pairs() -> None:
     weight = torch.cat([hint_edges.of_first.weight, hint_edges.of_second.weight], dim=1)
     for i in range(3):
         for j in range(3):
-            assert torch.allclose(cell_edges(centers)[0, i, j], cell_edges.linear(centers[0, i] - centers[0, j]))
+            between = cell_edges.linear(centers[0, i] - centers[0, j])
+            assert torch.allclose(cell_edges(centers).edges()[0, i, j], between, atol=1e-6)
             pair = torch.cat([hints[0, i], hints[0, j]])
             expected = torch.nn.functional.linear(pair, weight, hint_edges.of_first.bias)
-            assert torch.allclose(hint_edges(hints)[0, i, j], expected, atol=1e-6)
+            assert torch.allclose(hint_edges(hints).edges()[0, i, j], expected, atol=1e-6)
 
 
 @pytest.mark.parametrize("levels", [("global",), ("global", "instance"), ("global", "relation")])
