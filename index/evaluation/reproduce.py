@@ -83,8 +83,8 @@ def reproduce(
         for run in runs_of(experiments, every_seed=seed != seeds[0])
     ]
     backbones = list(dict.fromkeys(job.points for job in jobs if job.points))
-    _train("point encoders", backbones, workers, progress)
-    _train("train and measure", jobs, workers, progress)
+    _train("train and measure", [*backbones, *(job for job in jobs if not job.points)], workers, progress)
+    _train("with points", [job for job in jobs if job.points], workers, progress)
     found: dict[str, list[dict[str, Any]]] = {}
     for job in [*jobs, *backbones]:
         result = job.result()

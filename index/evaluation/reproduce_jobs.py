@@ -36,6 +36,7 @@ from models.training.training_data import load_training
 
 _FORMAT = 1  # of results; counted up when what a training or a measurement does changes
 RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
+POINTS_SEED = 0
 TEST, VALIDATION = "test", "val"
 ALONE, LISTED, ALL = "global level alone", f"global, then all levels on {RERANKED}", "all levels on all cells"
 Z_SCORES = "all levels on all cells, by z-scores (the code)"
@@ -70,7 +71,7 @@ class Job:
         settings = [model.model_dump(mode="json"), training.model_dump(mode="json", exclude={"device"})]
         facts = [_FORMAT, run.method, *settings, pick_device(training.device).type]
         if run.sees_points:
-            facts.append(Job.of(Run(POINTS), seed, data, out, scale).key)
+            facts.append(Job.of(Run(POINTS), POINTS_SEED, data, out, scale).key)
         key = hashlib.sha256(json.dumps([*facts, fingerprint(data), scale.growth_radii_m]).encode()).hexdigest()
         return cls(run, seed, data, out, scale, key)
 
@@ -81,8 +82,8 @@ class Job:
 
     @property
     def points(self) -> "Job | None":
-        """The training of its point encoder, if it takes one."""
-        return Job.of(Run(POINTS), self.seed, self.data, self.out, self.scale) if self.run.sees_points else None
+        """The training of its point encoder, if it takes one: one for all seeds, as the papers have one backbone."""
+        return Job.of(Run(POINTS), POINTS_SEED, self.data, self.out, self.scale) if self.run.sees_points else None
 
     def settings(self) -> tuple[Any, Any]:
         """As `settings_of`, with where its point encoder is."""
