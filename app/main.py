@@ -14,7 +14,7 @@ from app.http.middleware import AccessLog, StrictBody, is_sane_request_id
 from app.http.openapi import describe, error_table
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
-from app.http.routes import cells, evaluate, health
+from app.http.routes import cells, evaluate, health, maps
 from app.http.routes.localize import build_router
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
@@ -60,7 +60,7 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
     app.state.queue = queue
     app.state.jobs = jobs
     add_error_handlers(app)
-    for router in (build_router(settings), evaluate.build_router(settings), cells.router, health.router):
+    for router in (build_router(settings), evaluate.build_router(settings), cells.router, maps.router, health.router):
         app.include_router(router)
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
     app.add_middleware(AccessLog)

@@ -263,6 +263,7 @@ class IndexFacts:
         model: what made its vectors.
         num_cells, num_instances: of the map.
         dim: width of the vectors.
+        scenery_parts: in how many parts what the map looks like is kept.
     """
 
     version: str
@@ -273,3 +274,4 @@ class IndexFacts:
     num_cells: int
     num_instances: int
     dim: int
+    scenery_parts: int

@@ -9,6 +9,7 @@
 <root>/<version>/surroundings.safetensors      what lies around every position
 <root>/<version>/gazetteer.safetensors, gazetteer.json   what a passer-by could name
 <root>/<version>/meanings.faiss, meanings.json a vector a name or noun of it, to find it by its meaning
+<root>/<version>/scenery.<n>.safetensors.gz    what the map looks like
 """
 
 import hashlib
@@ -26,7 +27,7 @@ from models.files import FileRecord, replace_file, sha256
 
 MANIFEST = "manifest.json"
 ALIASES = "aliases.json"
-FORMAT = 5
+FORMAT = 6
 ADVICE = "build it with 'hereabouts index --map MAP --out DIR'"
 
 

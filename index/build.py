@@ -15,6 +15,7 @@ from index.artifact import (
 from index.hint_features import save_hint_features, template_hints
 from index.meaning import Meanings
 from index.ranking import Ranker
+from index.scenery import save_scenery
 from models.city.gallery import MapData
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.source import open_source
@@ -79,6 +80,7 @@ def build_index(
         surroundings.save(directory)
         gazetteer.save(directory)
         meanings.save(directory)
+        save_scenery(directory, source.scenery(gazetteer))
         manifest = Manifest(
             **origin, **_describe(data), model=retriever.name, dim=ranker.store.dim, files=file_records(directory)
         )

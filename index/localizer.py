@@ -13,6 +13,7 @@ from index.hint_features import load_hint_features
 from index.meaning import Meanings
 from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
+from index.scenery import SceneryPart, file_name, is_scenery
 from index.vector_localizer import VectorLocalizer, raw_sentences
 from models.city.colours import PALETTES
 from models.city.frame import Frame
@@ -99,6 +100,7 @@ class Localizer:
             num_cells=said.cells,
             num_instances=said.instances,
             dim=said.dim,
+            scenery_parts=sum(is_scenery(name) for name in said.files),
         )
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
@@ -167,6 +169,12 @@ class Localizer:
             grid_m=self.manifest.grid_m,
             attribution=self.manifest.attribution,
         )
+
+    def scenery(self, number: int) -> SceneryPart | None:
+        """A part of what the map looks like; None if there is no such part."""
+        name = file_name(number)
+        record = self.manifest.files.get(name)
+        return SceneryPart(self._directory / name, record.sha256) if record else None
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""

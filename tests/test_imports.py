@@ -29,6 +29,7 @@ MAY_IMPORT = {
     "models.city": ("models",),
     "models.city.kinds": ("models",),
     "models.city.gazetteer": CITY,
+    "models.city.scenery": CITY,
     "models.city.osm": (*CITY, *NAMES),
     "models.city.kitti360pose": CITY,
     "models.city.kitti360": (*CITY, "models.city.kitti360pose"),
@@ -68,6 +69,7 @@ EXCEPT = {
     "models/city/source.py": (
         *SOURCES,
         "models.city.gazetteer",
+        "models.city.scenery",
     ),  # the one door to data; the rest of models/city knows no source
     "app/benchmark.py": ("index.evaluation",),
 }

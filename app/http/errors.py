@@ -28,6 +28,12 @@ class Code(Enum):
     INVALID_JSON = (400, "The body is not JSON", "Send one JSON object in UTF-8.", None)
     NOT_FOUND = (404, "No such path", "See /docs for the paths there are.", None)
     CELL_NOT_FOUND = (404, "No such cell", "Take a cell_id from an answer of the index that is served now.", None)
+    MAP_NOT_FOUND = (
+        404,
+        "No such map, or no such part of it",
+        "/info names the map and its number of parts.",
+        None,
+    )
     JOB_NOT_FOUND = (404, "No such job", "Finished jobs are kept for a while only; start another.", None)
     METHOD_NOT_ALLOWED = (405, "The path does not take this method", "See the Allow header.", None)
     NOT_ACCEPTABLE = (406, "No such format", "Accept application/json or application/geo+json.", None)

@@ -1,5 +1,6 @@
 """Which of the formats we have a client would rather read (RFC 9110, 12.5.1)."""
 
+import hashlib
 import re
 from collections.abc import Sequence
 
@@ -45,6 +46,17 @@ def negotiate(request: Request, frame: Frame) -> str:
 def respond(body: BaseModel, media_type: str, headers: dict[str, str] | None = None) -> Response:
     """A negotiated answer."""
     return Response(body.model_dump_json(), media_type=media_type, headers={"Vary": "Accept", **(headers or {})})
+
+
+def etag(*parts: str) -> str:
+    """A strong validator of what these parts name."""
+    return f'"{hashlib.sha256(repr(parts).encode()).hexdigest()[:32]}"'
+
+
+def has_already(request: Request, tag: str) -> bool:
+    """Whether the client has what an ETag names (If-None-Match)."""
+    known = {each.strip().removeprefix("W/") for each in request.headers.get("if-none-match", "").split(",")}
+    return tag in known or "*" in known
 
 
 def _parse_range(text: str) -> tuple[str, float] | None:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from index.answers import Answer, CellDetail, IndexFacts, Query
+from index.scenery import SceneryPart
 from models.city.frame import Frame
 
 
@@ -16,6 +17,10 @@ class LocalizerLike(Protocol):
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell of the map; None if there is none of that name. Called from any thread."""
+        ...
+
+    def scenery(self, number: int) -> SceneryPart | None:
+        """A part of what the map looks like; None if there is no such part. Called from any thread."""
         ...
 
     @property

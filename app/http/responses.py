@@ -233,6 +233,7 @@ class IndexInfo(_Out):
     num_cells: int
     num_instances: int
     dim: int
+    scenery_parts: int = Field(description="of GET /maps/{map}/points")
     created: str
     crs: CrsOut
     provenance: Provenance
@@ -245,6 +246,7 @@ class IndexInfo(_Out):
             num_cells=facts.num_cells,
             num_instances=facts.num_instances,
             dim=facts.dim,
+            scenery_parts=facts.scenery_parts,
             created=facts.created,
             crs=CrsOut.of(localizer.frame),
             provenance=Provenance.of(localizer),

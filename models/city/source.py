@@ -4,7 +4,7 @@ Indexing, training and measuring come through here, so that they see the same ce
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,8 @@ from models.city.osm.map import load_osm
 from models.city.points import Ints, PointTable
 from models.city.queries import Queries, Statements
 from models.city.regions import SPLITS, split_regions
+from models.city.scenery.cloud import encode_cloud
+from models.city.scenery.shapes import Place, encode_shapes
 from models.city.store.files import load_data
 from models.city.store.pose_store import PoseStore
 from models.city.types import CityMap, CutRules, Floats, Progress
@@ -73,6 +75,10 @@ class Source(ABC):
     @abstractmethod
     def gazetteer(self) -> Gazetteer:
         """What a passer-by could name there; empty where nothing has a name."""
+
+    @abstractmethod
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[bytes]:
+        """What it looks like, in parts, as `models.city.scenery` encodes it, with the names of a gazetteer."""
 
 
 class MapSource(Source):
@@ -155,6 +161,12 @@ class MapSource(Source):
         """See Source; of the whole file, whatever the split."""
         return load_gazetteer(self._path, self.data.frame)
 
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[bytes]:
+        """See Source; of the whole file, whatever the split."""
+        named = gazetteer.named.tolist()
+        places = [(gazetteer.middles_m[n].tolist(), gazetteer.words[n]) for n in named]
+        yield encode_shapes(self._map.shapes, [Place((x, y), w.names[0], w.kinds[0]) for (x, y), w in places])
+
 
 class StoreSource(Source):
     """Scenes of a data set.
@@ -208,9 +220,7 @@ class StoreSource(Source):
         xyz = []
         for rows in groups:
             seen = np.concatenate([store.instance_points(int(r))[0] * cells.size_m + corner[r] for r in rows])
-            voxel = np.floor(seen / VOXEL_M).astype(np.int64) & 0x1FFFFF
-            key = (voxel[:, 0] << 42) | (voxel[:, 1] << 21) | voxel[:, 2]
-            xyz.append(seen[np.unique(key, return_index=True)[1]].astype(np.float32))
+            xyz.append(_one_a_voxel(seen).astype(np.float32))
         labels = np.array(store.labels)[[rows[0] for rows in groups]]
         starts = np.concatenate([[0], np.cumsum([len(points) for points in xyz])])
         is_thing, rules = ~np.isin(labels, STUFF), CutRules()
@@ -221,6 +231,25 @@ class StoreSource(Source):
     def gazetteer(self) -> Gazetteer:
         """See Source; scans have no names."""
         return NOTHING_NAMED
+
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[bytes]:
+        """See Source; one point a cube of VOXEL_M."""
+        del gazetteer
+        cells, cube = self.data.cells, self.data.cells.parts.cube
+        corner = cells.center_m[cube] - cells.size_m / 2
+        seen: list[Floats] = [np.zeros((0, 6))]
+        for row in range(len(cube)):
+            points, rgb = self._store.instance_points(row)
+            seen.append(_one_a_voxel(np.concatenate([points * cells.size_m + corner[row], rgb], axis=1)))
+        coloured = _one_a_voxel(np.concatenate(seen))  # cells overlap
+        yield from encode_cloud(coloured[:, :3], np.rint(255 * coloured[:, 3:]).astype(np.uint8))
+
+
+def _one_a_voxel(rows: Floats) -> Floats:
+    """Rows [n, ...], of whose first three columns one a cube of VOXEL_M is kept."""
+    voxel = np.floor(rows[:, :3] / VOXEL_M).astype(np.int64) & 0x1FFFFF
+    key = (voxel[:, 0] << 42) | (voxel[:, 1] << 21) | voxel[:, 2]
+    return rows[np.unique(key, return_index=True)[1]]
 
 
 def open_source(path: Path, split: str | None = None, progress: Progress | None = None) -> Source:

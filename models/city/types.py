@@ -1,4 +1,4 @@
-"""The nouns of the project: Instance, CityMap, Pose, Hint, Description.
+"""The nouns of the project: Instance, MapShape, CityMap, Pose, Hint, Description.
 
 Coordinates are metres in the map's frame (east, north, up) unless a name says `offset`, which is a
 position inside a cell in 0..1.
@@ -6,13 +6,16 @@ position inside a cell in 0..1.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from models.city.colours import KITTI360_PALETTE, Palette
 from models.city.frame import Frame
+
+if TYPE_CHECKING:
+    import shapely
 
 Floats = npt.NDArray[np.floating[Any]]
 Progress = Callable[[str, int, int], None]  # stage, done, to do (0 if that is not known)
@@ -37,6 +40,28 @@ class Instance:
     label: str
     points_m: Floats
     rgb: Floats | None = None
+    name: str | None = None
+    source_id: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MapShape:
+    """An object as it is drawn.
+
+    Attributes:
+        label: its class.
+        geometry: a point, lines or areas, metres, map frame.
+        base_m, top_m: heights above the ground.
+        width_m: of lines that stand for a strip of ground, else 0.
+        name: what people call it.
+        source_id: where it comes from ("way/1234").
+    """
+
+    label: str
+    geometry: "shapely.Geometry"
+    base_m: float = 0.0
+    top_m: float = 0.0
+    width_m: float = 0.0
     name: str | None = None
     source_id: str | None = None
 
@@ -79,6 +104,7 @@ class CityMap:
         palette: the colour words used for this map.
         rules: how to cut it; the least size of a part depends on how dense the points are.
         attribution: what the data's licence asks to show.
+        shapes: how it is drawn, what lies on top first; none where it is points.
     """
 
     name: str
@@ -89,6 +115,7 @@ class CityMap:
     palette: Palette = KITTI360_PALETTE
     rules: CutRules = CutRules()
     attribution: str = ""
+    shapes: tuple[MapShape, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

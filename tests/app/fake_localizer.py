@@ -23,10 +23,11 @@ class FakeLocalizer:
     """Answers with two cells. Words in the description steer it: "bad", "nan" and "nowhere"."""
 
     facts = IndexFacts(
-        "v1", "2026-01-01T00:00:00+00:00", "fakeville", "© nobody", ModelName("fake", "ab" * 32), 2, 3, 8
+        "v1", "2026-01-01T00:00:00+00:00", "fakeville", "© nobody", ModelName("fake", "ab" * 32), 2, 3, 8, 1
     )
 
-    def __init__(self, frame=TRUE_FRAME):
+    def __init__(self, frame=TRUE_FRAME, parts=()):
+        self.parts = parts
         self.frame = frame
         self.batches = []  # queries of each call, in order
         self.threads = set()
@@ -49,6 +50,9 @@ class FakeLocalizer:
             return None
         tree = CellInstance("tree", None, "node/1", "green", 12, (1.0, 2.0, 3.0), (2.0, 2.0, 6.0), (0.5, 1.0, 0.0))
         return CellDetail(cell_id, "fakeville", (0.0, 0.0, 1.0), (-15.0, -15.0, 15.0, 15.0), self._wgs84(), (tree,))
+
+    def scenery(self, number):
+        return self.parts[number] if number < len(self.parts) else None
 
     def _answer(self, query):
         timings = {"encode": 1.0, "search": 1.0, "estimate": 1.0}

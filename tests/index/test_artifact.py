@@ -30,7 +30,7 @@ def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
     assert manifest.model_fingerprint == model.fingerprint
     assert set(manifest.files) == {
         *("vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "surroundings.safetensors"),
-        *("gazetteer.safetensors", "gazetteer.json", "meanings.faiss", "meanings.json"),
+        *("gazetteer.safetensors", "gazetteer.json", "meanings.faiss", "meanings.json", "scenery.0.safetensors.gz"),
     }
     assert not list(index_dir.glob(".*"))
 

@@ -1,14 +1,12 @@
 """The cells of the map."""
 
-import hashlib
-
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from app.http.dependencies import Localizer
 from app.http.errors import Code, Problem
 from app.http.geojson import cell_collection
-from app.http.negotiation import GEOJSON, negotiate, respond
+from app.http.negotiation import GEOJSON, etag, has_already, negotiate, respond
 from app.http.openapi import geojson_content, problems
 from app.http.responses import CellResponse
 
@@ -30,17 +28,8 @@ def cell(cell_id: str, request: Request, localizer: Localizer) -> Response:
     detail = localizer.cell(cell_id)
     if detail is None:
         raise Problem(Code.CELL_NOT_FOUND)
-    headers = {"ETag": _etag(localizer.facts.version, cell_id, media_type), "Cache-Control": "no-cache"}
-    if _is_known(request.headers.get("if-none-match", ""), headers["ETag"]):
+    headers = {"ETag": etag(localizer.facts.version, cell_id, media_type), "Cache-Control": "no-cache"}
+    if has_already(request, headers["ETag"]):
         return Response(status_code=304, headers={"Vary": "Accept", **headers})
     body = CellResponse.of(detail, localizer)
     return respond(cell_collection(body, localizer.frame) if media_type == GEOJSON else body, media_type, headers)
-
-
-def _etag(*parts: str) -> str:
-    return f'"{hashlib.sha256(repr(parts).encode()).hexdigest()[:32]}"'
-
-
-def _is_known(if_none_match: str, etag: str) -> bool:
-    known = {tag.strip().removeprefix("W/") for tag in if_none_match.split(",")}
-    return etag in known or "*" in known

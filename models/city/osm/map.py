@@ -6,7 +6,7 @@ mapped, and points are put on them as `classes.toml` says. Colours come from col
 
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal
@@ -22,7 +22,7 @@ from models.city.colours import BASIC_PALETTE, material_colour, parse_colour
 from models.city.frame import Frame
 from models.city.osm.sampling import GROUND_SPACING_M, Feature, sample_features
 from models.city.points import thin
-from models.city.types import CityMap, CutRules, Floats, Instance
+from models.city.types import CityMap, CutRules, Floats, Instance, MapShape
 from models.errors import MapError
 
 Shape = Literal["outline", "wall", "ground", "column", "crown", "box"]
@@ -96,7 +96,8 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
         geometries = shapely.clip_by_rect(geometries, *corners[0], *corners[1])
     features = _merge([_feature(e, g) for e, g in zip(elements, geometries, strict=True) if not shapely.is_empty(g)])
     points, starts = sample_features(features, path)
-    return _city_map(name or path.name.split(".")[0], features, points, starts, frame)
+    city_map = _city_map(name or path.name.split(".")[0], features, points, starts, frame)
+    return replace(city_map, shapes=tuple(_shape(feature) for feature in features))
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,8 +189,9 @@ def _feature(element: _Element, geometry: shapely.Geometry) -> Feature:
     row, tags = element.osm_class, element.tags
     colours = (parse_colour(tags[key]) for key in COLOUR_KEYS if key in tags)
     materials = (material_colour(tags[key]) for key in MATERIAL_KEYS if key in tags)
+    axis, width = None, 0.0
     if row.shape == "ground" and shapely.get_dimensions(geometry) < 2:
-        width = _metres(tags.get("width", "")) or row.width_m
+        axis, width = geometry, _metres(tags.get("width", "")) or row.width_m
         geometry = shapely.buffer(
             geometry, width / 2, quad_segs=4, cap_style="flat" if row.label != "crossing" else "round"
         )
@@ -204,6 +206,8 @@ def _feature(element: _Element, geometry: shapely.Geometry) -> Feature:
         rgb=next((rgb for rgb in (*colours, *materials) if rgb), None),
         name=tags.get("name:en") or tags.get("name"),
         source_id=element.source_id,
+        axis=axis,
+        width_m=width,
     )
 
 
@@ -249,6 +253,13 @@ def _merge(features: list[Feature]) -> list[Feature]:
     first = np.unique(groups, return_index=True)[1]
     kept = is_upright & (first[groups] != np.arange(len(features)))  # carried by another upright thing
     return [f.in_group(int(g)) for f, g, drop in zip(features, groups, kept, strict=True) if not drop]
+
+
+def _shape(feature: Feature) -> MapShape:
+    top_m = feature.base_m + feature.height_m if feature.shape != "outline" else feature.height_m
+    drawn = feature.geometry if feature.axis is None else feature.axis
+    heights = feature.base_m, 0.0 if feature.shape == "ground" else max(top_m, feature.base_m)
+    return MapShape(feature.label, drawn, *heights, feature.width_m, feature.name, feature.source_id)
 
 
 def _city_map(

@@ -20,7 +20,10 @@ MAX_POINTS = 150_000_000  # 1.8 GB of coordinates
 
 @dataclass(frozen=True, slots=True)
 class Feature:
-    """A map element on its way to an instance; `geometry` is in metres, `group` numbers the instance."""
+    """A map element on its way to an instance; `geometry` is in metres, `group` numbers the instance.
+
+    Of a line that stands for a strip of ground `geometry` is the strip, `axis` the line, `width_m` how wide it is.
+    """
 
     label: str
     shape: str
@@ -33,6 +36,8 @@ class Feature:
     name: str | None
     source_id: str
     group: int = -1
+    axis: shapely.Geometry | None = None
+    width_m: float = 0.0
 
     def in_group(self, group: int) -> "Feature":
         """The same feature as part of an instance."""

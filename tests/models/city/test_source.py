@@ -2,9 +2,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from safetensors.numpy import load
 
 from models.city.kitti360.job import prepare_data
-from models.city.source import CHOSEN_BY, MapSource, open_source, open_sources
+from models.city.source import CHOSEN_BY, VOXEL_M, MapSource, open_source, open_sources
 from models.city.store.files import convert
 from models.errors import DataError, MapError
 from tests.models.city.raw_scenes import write_town
@@ -56,6 +57,16 @@ def test_a_data_set_and_its_store_are_one(prepared, tmp_path) -> None:
     assert (said.positions_m[:, :2] == other.positions_m).all()
     assert (said.best == other.truth).all()
     assert rng.random() == np.random.default_rng(0).random(), "nothing is drawn"
+
+
+def test_a_scan_looks_like_its_points(prepared) -> None:
+    source = open_source(prepared)
+    (part,) = (load(part) for part in source.scenery(source.gazetteer()))
+    xyz = part["steps"].cumsum(axis=0) / 10
+    bodies = source.bodies().xyz
+    assert 0.5 * len(bodies) < len(xyz) <= len(bodies) + 1, "one point a cube, whatever cells it is in"
+    assert np.abs(xyz.min(axis=0) - bodies.min(axis=0)).max() < VOXEL_M
+    assert part["rgb"].std() > 0
 
 
 def test_scenes_without_poses_can_be_indexed_but_not_asked(prepared, tmp_path) -> None:

@@ -1,0 +1,119 @@
+"""A map as outlines, lines and places with heights and names, in as few bytes as drawing needs."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+import shapely
+from safetensors.numpy import save
+
+from models.city.types import Floats, MapShape
+
+UNITS_A_METRE: Final = 10  # what is sent is in decimetres
+SIMPLER_M: Final = 0.3  # how far an outline may be from the one that is mapped
+KINDS: Final = ("node", "way", "relation")
+MAX_HEIGHT: Final = 65535
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """What has a name and is found at one point: a shop, a museum.
+
+    Attributes:
+        at_m: x, y, map frame.
+        name: the one to show.
+        kind: what it is, in a word.
+    """
+
+    at_m: tuple[float, float]
+    name: str
+    kind: str
+
+
+def encode_shapes(shapes: Sequence[MapShape], places: Sequence[Place] = ()) -> bytes:
+    """A safetensors file of O objects of R paths of V vertices; numbers are decimetres.
+
+    Objects stand by label, within a label by where they are. Tensors of O: "label" (number in metadata "labels"),
+    "form" (0 point, 1 line, 2 area), "base", "top", "width", "paths" (how many), "source" (OpenStreetMap's number times
+    4, and 0 node, 1 way, 2 relation; -1 for none). Of R: "size" (vertices), "hole" (of an area). "steps" [V, 2]: each
+    vertex from the one before it, the first from the origin. Metadata, as JSON: "labels", "names" {object: name},
+    "places" [[x, y, name, kind]].
+
+    Args:
+        shapes: what there is, those that lie on top of others first; labels keep this order.
+        places: what has a name.
+    """
+    order = list(dict.fromkeys(shape.label for shape in shapes))
+    geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLER_M)
+    drawn = ~(shapely.is_missing(geometry) | shapely.is_empty(geometry))
+    number = {label: n for n, label in enumerate(order)}
+    label = np.array([number[shape.label] for shape in shapes], dtype=np.uint16)
+    sorted_by = np.lexsort((_morton(geometry), label))
+    chosen = sorted_by[drawn[sorted_by]]
+    shapes, geometry = [shapes[n] for n in chosen], geometry[chosen]
+    form = shapely.get_dimensions(geometry).astype(np.uint8) if shapes else np.zeros(0, np.uint8)
+    path, owner, hole = _paths(geometry, form)
+    xy, of_path = shapely.get_coordinates(path, return_index=True)
+    whole = np.rint(xy * UNITS_A_METRE).astype(np.int32)
+    tensors = {
+        "label": label[chosen],
+        "form": form,
+        "base": _heights([shape.base_m for shape in shapes]),
+        "top": _heights([shape.top_m for shape in shapes]),
+        "width": _heights([shape.width_m for shape in shapes]),
+        "paths": np.bincount(owner, minlength=len(shapes)).astype(np.uint32),
+        "source": np.array([_number_of(shape.source_id) for shape in shapes], dtype=np.float64),
+        "size": np.bincount(of_path, minlength=len(path)).astype(np.uint32),
+        "hole": hole.astype(np.uint8),
+        "steps": np.diff(whole, axis=0, prepend=np.zeros((1, 2), np.int32)).astype(np.int32),
+    }
+    return save(tensors, {"kind": "shapes", **_words(shapes, order, places)})
+
+
+def _words(shapes: Sequence[MapShape], order: Sequence[str], places: Sequence[Place]) -> dict[str, str]:
+    told: dict[str, Any] = {
+        "labels": list(order),
+        "names": {n: shape.name for n, shape in enumerate(shapes) if shape.name},
+        "places": [[*(round(v * UNITS_A_METRE) for v in place.at_m), place.name, place.kind] for place in places],
+    }
+    return {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in told.items()}
+
+
+def _paths(geometry: Any, form: npt.NDArray[np.uint8]) -> tuple[Any, npt.NDArray[np.intp], npt.NDArray[np.bool_]]:
+    """Points, lines and rings, with the object of each, in order of objects, and whether it is a hole."""
+    parts, owner = shapely.get_parts(geometry, return_index=True)
+    kept = shapely.get_dimensions(parts) == form[owner]  # a collection also holds what a clip left over
+    parts, owner = parts[kept], owner[kept]
+    is_area = shapely.get_dimensions(parts) == 2
+    rings, polygon = shapely.get_rings(parts[is_area], return_index=True)
+    is_hole = np.diff(polygon, prepend=-1) == 0
+    others = ~is_area
+    path = np.concatenate([rings, parts[others]])
+    of_object = np.concatenate([owner[is_area][polygon], owner[others]])
+    hole = np.concatenate([is_hole, np.zeros(int(others.sum()), dtype=bool)])
+    order = np.argsort(of_object, kind="stable")
+    return path[order], of_object[order], hole[order]
+
+
+def _heights(values_m: Sequence[float]) -> npt.NDArray[np.uint16]:
+    rounded = np.rint(np.array(values_m, dtype=np.float64) * UNITS_A_METRE)
+    return rounded.clip(0, MAX_HEIGHT).astype(np.uint16)
+
+
+def _number_of(source_id: str | None) -> float:
+    kind, _, number = (source_id or "").partition("/")
+    return float(int(number) * 4 + KINDS.index(kind)) if kind in KINDS and number.isdigit() else -1.0
+
+
+def _morton(geometry: Any) -> npt.NDArray[np.int64]:
+    """[O] where objects are, so that what is near has near numbers."""
+    bounds: Floats = np.nan_to_num(shapely.bounds(geometry))
+    low = bounds[:, :2] - bounds[:, :2].min(axis=0, initial=0.0)
+    cell = np.minimum(low / 4, 0xFFFFF).astype(np.int64)
+    found = np.zeros(len(cell), dtype=np.int64)
+    for bit in range(20):
+        found |= ((cell[:, 0] >> bit & 1) << 2 * bit) | ((cell[:, 1] >> bit & 1) << 2 * bit + 1)
+    return found

@@ -1,0 +1,87 @@
+import json
+import struct
+
+import numpy as np
+import pytest
+import shapely
+from safetensors.numpy import load
+
+from models.city.osm.map import load_osm
+from models.city.scenery.shapes import Place, encode_shapes
+from models.city.types import MapShape
+
+HOUSE = shapely.Polygon([(0, 0), (20, 0), (20, 10), (0, 10)], [[(5, 2), (8, 2), (8, 5), (5, 5)]])
+
+
+def decoded(blob):
+    (size,) = struct.unpack("<Q", blob[:8])
+    told = json.loads(blob[8 : 8 + size])["__metadata__"]
+    tensors = load(blob)
+    xy = tensors["steps"].cumsum(axis=0) / 10
+    paths = np.split(xy, tensors["size"].cumsum()[:-1])
+    owner = np.repeat(np.arange(len(tensors["label"])), tensors["paths"])
+    objects = [[p for p, o in zip(paths, owner, strict=True) if o == n] for n in range(len(tensors["label"]))]
+    return {key: json.loads(value) if key != "kind" else value for key, value in told.items()}, tensors, objects
+
+
+def test_shapes_are_what_was_encoded() -> None:
+    blob = encode_shapes(
+        [
+            MapShape("tree", shapely.Point(-3.21, 4), top_m=8.06, source_id="node/7"),
+            MapShape("building", HOUSE, 3, 21.5, name="Kauppahalli", source_id="relation/9"),
+            MapShape("road", shapely.MultiLineString([[(0, 0), (100, 1)], [(200, 5), (300, 5)]]), width_m=6.5),
+            MapShape("tree", shapely.Point(), source_id="node/8"),
+        ],
+        [Place((1.04, -2.0), "Café Ö", "amenity/cafe")],
+    )
+    told, tensors, objects = decoded(blob)
+    assert told["labels"] == ["tree", "building", "road"]
+    assert [told["labels"][n] for n in tensors["label"]] == ["tree", "building", "road"], (
+        "what has no place is left out"
+    )
+    assert tensors["form"].tolist() == [0, 2, 1]
+    assert tensors["top"].tolist() == [81, 215, 0]
+    assert tensors["base"].tolist() == [0, 30, 0]
+    assert tensors["width"].tolist() == [0, 0, 65]
+    assert tensors["source"].tolist() == [28, 9 * 4 + 2, -1]
+    assert objects[0][0].tolist() == [[-3.2, 4]]
+    rings = objects[1]
+    assert tensors["hole"].tolist() == [0, 0, 1, 0, 0]
+    assert shapely.Polygon(rings[0], [rings[1]]).equals(HOUSE)
+    assert [line.tolist() for line in objects[2]] == [[[0, 0], [100, 1]], [[200, 5], [300, 5]]]
+    assert told["names"] == {"1": "Kauppahalli"}
+    assert told["places"] == [[10, -20, "Café Ö", "amenity/cafe"]]
+
+
+def test_what_a_clip_leaves_over_is_not_drawn() -> None:
+    left_over = shapely.GeometryCollection([HOUSE, shapely.Point(50, 50), shapely.LineString([(0, 0), (9, 9)])])
+    _, tensors, objects = decoded(encode_shapes([MapShape("building", left_over)]))
+    assert tensors["paths"].tolist() == [2]
+    assert shapely.Polygon(objects[0][0]).area == 200
+
+
+def test_neighbours_stand_together() -> None:
+    rng = np.random.default_rng(0)
+    trees = [MapShape("tree", shapely.Point(*rng.uniform(-900, 900, 2))) for _ in range(500)]
+    _, tensors, _ = decoded(encode_shapes(trees))
+    apart = np.hypot(*tensors["steps"][1:].T / 10)
+    assert np.median(apart) < 100, "in the order in which they came it is 900 m"
+
+
+def test_nothing_is_a_map_too() -> None:
+    told, tensors, _ = decoded(encode_shapes([]))
+    assert told["labels"] == []
+    assert len(tensors["steps"]) == 0
+
+
+@pytest.mark.parametrize(("label", "form"), [("building", 2), ("road", 1), ("tree", 0)])
+def test_a_map_from_openstreetmap_has_its_geometry(osm_file, label, form) -> None:
+    city_map = load_osm(osm_file)
+    shapes = [shape for shape in city_map.shapes if shape.label == label]
+    assert {int(shapely.get_dimensions(shape.geometry)) for shape in shapes} == {form}
+    ids = {instance.source_id for instance in city_map.instances if instance.label == label}
+    assert ids <= {shape.source_id for shape in shapes}
+    if label == "road":
+        assert all(shape.width_m > 0 and shape.top_m == 0 for shape in shapes)
+    else:
+        assert all(shape.top_m > 0 for shape in shapes)
