@@ -159,6 +159,10 @@ class Evidence:
     """How one hint was understood, and what on the map explains it."""
 
     text: Annotated[str, Field(description="the words for the thing")]
+    span: Annotated[
+        tuple[int, int] | None,
+        Field(description="the characters of the description in which they stand, from the first to before the last"),
+    ]
     label: Annotated[str | None, Field(description="the map's class that fits them best")]
     colour: str | None
     relation: Annotated[
@@ -175,6 +179,7 @@ class Evidence:
     name: str | None = None
     source_id: str | None = None
     away_m: Annotated[float | None, Field(description="from its closest point to the estimate")] = None
+    at: Annotated[tuple[float, float] | None, Field(description="that point: x, y in metres, map frame")] = None
     bearing_deg: Annotated[
         float | None, Field(description="of places: from the estimate to it, clockwise from north")
     ] = None

@@ -95,9 +95,9 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
     p50, p90 = located.radii_m(0.5, 0.9)
     covariance = located.covariance_m2()
     estimate = Estimate(
-        position=_pair(located.positions[0]),
+        position=pair(located.positions[0]),
         method=localizer.method,
-        covariance=(_pair(covariance[0]), _pair(covariance[1])),
+        covariance=(pair(covariance[0]), pair(covariance[1])),
         radius_m=Radius(p50, p90),
         probability=float(located.probability[0]),
         wgs84=LatLon.of(located.positions[0], frame),
@@ -121,7 +121,7 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
 
 def _candidate(located: Located, n: int, cells: CellTable, frame: Frame) -> Candidate:
     row = int(located.rows[n])
-    x, y = _pair(cells.center_m[row])
+    x, y = pair(cells.center_m[row])
     half = cells.size_m / 2
     return Candidate(
         rank=n + 1,
@@ -130,7 +130,7 @@ def _candidate(located: Located, n: int, cells: CellTable, frame: Frame) -> Cand
         probability=float(located.probability[n]),
         center=(x, y),
         bbox=(x - half, y - half, x + half, y + half),
-        position=_pair(located.positions[n]),
+        position=pair(located.positions[n]),
         wgs84=LatLon.of(located.positions[n], frame),
     )
 
@@ -141,5 +141,6 @@ def _heat_map(located: Located) -> HeatMap:
     return HeatMap(located.spacing_m, tuple((round(x, 2), round(y, 2), p) for x, y, p in rows.tolist()))
 
 
-def _pair(values: Floats) -> tuple[float, float]:
+def pair(values: Floats) -> tuple[float, float]:
+    """The first two numbers."""
     return float(values[0]), float(values[1])

@@ -8,6 +8,7 @@ import numpy as np
 import torch
 
 from index.answers import Evidence, Heading
+from index.finding import pair
 from index.meaning import Meanings
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
@@ -97,14 +98,15 @@ class PlaceReader:
         found = []
         for mention in mentions:
             row = next((n for n, other in enumerate(known) if other is mention), None)
-            found.append(_unexplained(mention) if row is None else self._explained(mention, explained[row]))
+            found.append(_unexplained(mention) if row is None else self._explained(mention, explained[row], position))
         return tuple(found)
 
-    def _explained(self, mention: Mention, by: Explained) -> Evidence:
+    def _explained(self, mention: Mention, by: Explained, position: Floats) -> Evidence:
         found = _unexplained(mention)
         if by.item < 0:
             return found
         shown: dict[str, Any] = {"away_m": round(float(np.hypot(*by.way_m)), 1)}
+        shown["at"] = pair(np.round(position + by.way_m, 2))
         shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*by.way_m))) % 360, 1)
         if by.item < len(mention.objects):
             words = self.gazetteer.words[int(mention.objects[by.item])]
@@ -223,6 +225,7 @@ def _tells(hint: ParsedHint, trust: float) -> bool:
 def _unexplained(mention: Mention) -> Evidence:
     return Evidence(
         text=mention.text,
+        span=(mention.start, mention.end),
         label=mention.kinds[0] if mention.kinds else None,
         colour=None,
         relation=_relation(mention),

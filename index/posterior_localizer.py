@@ -10,7 +10,7 @@ import numpy as np
 
 from index.answers import Evidence, Method, ModelName, Query
 from index.filters import inside, log_prior, position_m
-from index.finding import Finding
+from index.finding import Finding, pair
 from index.meaning import Meanings
 from index.place_reader import PlaceReader, may_be_near, near_hints
 from index.place_text import place_text
@@ -26,7 +26,7 @@ from models.language.places.languages import ENGLISH, NAMES, language_of
 from models.language.places.mentions import Mention
 from models.language.places.reader import is_meeting, listener_wind
 from models.language.reader import COLOURS
-from models.language.sentences import reader_texts
+from models.language.sentences import reader_texts, spans_in
 from models.localization.located import Located
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading
@@ -143,6 +143,7 @@ class PosteriorLocalizer:
             return Finding(None, NOWHERE, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
         finding = self._told_of(located, hints, reading, mentions, told)
+        finding = replace(finding, evidence=_in_the_text(query.description, finding.evidence))
         timings["estimate"] = _since(start)
         fits = any(hint.explained >= EXPLAINED for hint in finding.evidence) or not finding.evidence
         return replace(finding, refusal=None if fits else NOTHING_FITS, timings_ms=timings, warnings=warnings)
@@ -171,7 +172,7 @@ class PosteriorLocalizer:
         if self.places is None:
             return hints, [], None
         listener_m = None if query.prior is None else position_m(query.prior.position, query, self.frame)
-        text = " ".join(reader_texts(query.description, LONGEST)) or query.description  # what the hints' places are of
+        text = _as_read(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
         mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)
         hints = [] if mentions and _is_elsewhere(query) else may_be_near(hints, mentions)
@@ -240,9 +241,9 @@ class PosteriorLocalizer:
         """How each hint was understood, and what explains it at the best position."""
         node = int(located.points[((located.points_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
         found = self.nodes.explain(reading, node)
-        return tuple(self._explained(*row) for row in zip(hints, reading.label, found, strict=True))
+        return tuple(self._explained(node, *row) for row in zip(hints, reading.label, found, strict=True))
 
-    def _explained(self, hint: ParsedHint, label: Any, found: tuple[int, float]) -> Evidence:
+    def _explained(self, node: int, hint: ParsedHint, label: Any, found: tuple[int, float]) -> Evidence:
         row, explained = found
         colour = int(hint.colour.argmax())
         shown: dict[str, Any] = {}
@@ -251,6 +252,7 @@ class PosteriorLocalizer:
             instance = int(gallery.cells.parts.instance[s.part[row]])
             way = s.way[row].astype(np.float64) * STEP_M
             shown = {
+                "at": pair(s.nodes_m[node] - way),
                 "instance": gallery.labels[instance],
                 "name": gallery.names[instance],
                 "source_id": gallery.sources[instance],
@@ -259,6 +261,7 @@ class PosteriorLocalizer:
         fits = float(label.max()) >= EXPLAINED / 2
         return Evidence(
             text=hint.noun,
+            span=(hint.start, hint.end),
             label=str(self.labels[int(label.argmax())]) if fits else None,
             colour=COLOURS[colour] if colour < len(COLOURS) else None,
             relation=RELATIONS[int(hint.relation.argmax())],
@@ -267,6 +270,17 @@ class PosteriorLocalizer:
             explained=explained,
             **shown,
         )
+
+
+def _as_read(description: str) -> str:
+    """The text that the places of hints and mentions are of."""
+    return " ".join(reader_texts(description, LONGEST)) or description
+
+
+def _in_the_text(description: str, evidence: Sequence[Evidence]) -> tuple[Evidence, ...]:
+    """Evidence with its places in the description, not in what was made of it for the reader."""
+    spans = spans_in(description, _as_read(description), [hint.span or (0, 0) for hint in evidence])
+    return tuple(replace(hint, span=span) for hint, span in zip(evidence, spans, strict=True))
 
 
 def _shifted(pieces: Sequence[str], read: Mapping[str, Sequence[ParsedHint]]) -> Iterator[ParsedHint]:

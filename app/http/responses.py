@@ -49,6 +49,7 @@ EXAMPLE: JsonValue = {
     "evidence": [
         {
             "text": "building",
+            "span": [16, 24],
             "label": "building",
             "colour": "gray",
             "relation": "north",
@@ -59,11 +60,13 @@ EXAMPLE: JsonValue = {
             "name": "Stockmann",
             "source_id": "way/1234",
             "away_m": 6.2,
+            "at": [105.0, -41.2],
             "bearing_deg": None,
             "exact": None,
         },
         {
             "text": "Ateneum",
+            "span": [45, 52],
             "label": "tourism/museum",
             "colour": None,
             "relation": "right",
@@ -74,6 +77,7 @@ EXAMPLE: JsonValue = {
             "name": "Ateneum",
             "source_id": "way/5678",
             "away_m": 14.0,
+            "at": [105.5, -21.0],
             "bearing_deg": 2.0,
             "exact": True,
         },

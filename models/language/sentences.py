@@ -1,6 +1,7 @@
 """Descriptions as people type them: their sentences, and as texts that the reader takes."""
 
 import re
+from collections.abc import Sequence
 
 from models.errors import DescriptionError
 
@@ -28,6 +29,25 @@ def split_hints(description: str) -> tuple[str, ...]:
             "the description has no words; say what is around you, for example 'I am north of a gray building.'"
         )
     return hints
+
+
+def spans_in(description: str, text: str, spans: Sequence[tuple[int, int]]) -> list[tuple[int, int] | None]:
+    """Where parts of what the reader took stand in the description itself; None for what does not stand there.
+
+    Args:
+        description: any text.
+        text: `reader_texts` of it, joined by blanks: the same words, a few marks and blanks away.
+        spans: characters start..end of `text`.
+    """
+    found: list[tuple[int, int] | None] = [None] * len(spans)
+    drift = 0
+    for n in sorted(range(len(spans)), key=lambda n: spans[n]):
+        start, end = spans[n]
+        places = [match.start() for match in re.finditer(re.escape(text[start:end]), description)]
+        if places and start < end:
+            at = min(places, key=lambda place: abs(place - start - drift))
+            found[n], drift = (at, at + end - start), at - start
+    return found
 
 
 def reader_texts(description: str, longest: int) -> list[str]:

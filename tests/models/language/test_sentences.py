@@ -1,9 +1,11 @@
+import re
+
 import pytest
 
 from models.city.templates import ON_TOP_TEMPLATES, TEMPLATES, render_hint
 from models.city.types import DIRECTIONS, Hint
 from models.errors import DescriptionError
-from models.language.sentences import split_hints
+from models.language.sentences import reader_texts, spans_in, split_hints
 
 
 @pytest.mark.parametrize(
@@ -54,3 +56,25 @@ def test_every_template_renders() -> None:
     texts = {render_hint(Hint(d, "wall", "red"), t) for d in DIRECTIONS for t in range(len(TEMPLATES))}
     assert len(texts) == len(DIRECTIONS) * len(TEMPLATES)
     assert all("red wall" in t and "{" not in t for t in texts)
+
+
+@pytest.mark.parametrize(
+    "description",
+    [
+        "I am north of a building. A building is east.",
+        "  - I am north of a building\n  - A building is east",
+        "1) I am north of a building;\n\n2) A building is east, ",
+        "a building?! I see it all. I am north of a building. A building is east",
+    ],
+)
+def test_parts_of_what_is_read_are_found_in_the_text(description) -> None:
+    text = " ".join(reader_texts(description, 800))
+    spans = [match.span() for match in re.finditer(r"[Aa] building|north|east", text)]
+    found = spans_in(description, text, spans[::-1])[::-1]
+    assert [description[slice(*span)] for span in found] == [text[slice(*span)] for span in spans]
+    assert found == sorted(found)
+    assert len(set(found)) == len(spans), "a second building is not the first one again"
+
+
+def test_what_does_not_stand_in_the_text_has_no_place() -> None:
+    assert spans_in("a tree", "a tree.", [(2, 6), (2, 7), (3, 3)]) == [(2, 6), None, None]
