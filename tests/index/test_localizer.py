@@ -1,8 +1,11 @@
 import dataclasses
+import gzip
 import json
+from hashlib import sha256
 
 import numpy as np
 import pytest
+from safetensors.numpy import load
 
 from index.answers import Box, Circle, Prior, Query
 from index.localizer import Localizer
@@ -194,3 +197,11 @@ def test_a_cell_in_detail(localizer, cells, city) -> None:
     assert {i.colour for i in detail.instances if i.label == "tree"} <= {None}
     assert all(i.source_id for i in detail.instances)
     assert localizer.cell("tinytown_99999") is None
+
+
+def test_an_index_knows_what_its_map_looks_like(localizer) -> None:
+    part = localizer.scenery(0)
+    assert sha256(part.path.read_bytes()).hexdigest() == part.sha256
+    assert len(load(gzip.decompress(part.path.read_bytes()))["steps"]) > 0
+    assert localizer.scenery(1) is None
+    assert localizer.facts.scenery_parts == 1

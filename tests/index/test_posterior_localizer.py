@@ -87,6 +87,10 @@ def test_an_answer_is_whole_and_says_why(answer, query, asked, surest):
     shown = [hint for hint in answer.evidence if hint.instance]
     assert shown
     assert all(hint.away_m <= 15.1 for hint in shown)
+    for hint in shown:  # away from the node nearest to the estimate
+        assert np.hypot(*np.subtract(hint.at, answer.estimate.position)) == pytest.approx(hint.away_m, abs=1.1)
+    text = query.description
+    assert [text[slice(*hint.span)] for hint in answer.evidence] == [hint.text for hint in answer.evidence]
     points = np.array(answer.heat_map.points)
     assert (np.diff(points[:, 2]) <= 0).all()
     assert points[:, 2].sum() <= 1.0 + 1e-9

@@ -70,7 +70,7 @@ def test_every_template_renders() -> None:
 def test_parts_of_what_is_read_are_found_in_the_text(description) -> None:
     text = " ".join(reader_texts(description, 800))
     spans = [match.span() for match in re.finditer(r"[Aa] building|north|east", text)]
-    found = spans_in(description, text, spans[::-1])[::-1]
+    found = [span for span in spans_in(description, text, spans[::-1])[::-1] if span]
     assert [description[slice(*span)] for span in found] == [text[slice(*span)] for span in spans]
     assert found == sorted(found)
     assert len(set(found)) == len(spans), "a second building is not the first one again"
