@@ -1,0 +1,83 @@
+// The map on the page: the picture of it, and over that a flat canvas with names and whatever the answer adds.
+
+import { Camera } from "./camera";
+import { control, type Picked } from "./controls";
+import { DARK, LIGHT, type Look } from "./look";
+import { Map2d } from "./map2d";
+import { Map3d, type MapPicture } from "./map3d";
+import { Names, type Room } from "./names";
+import type { Box, Scenery } from "./scenery";
+
+/** Draws over the map; rooms that it takes are kept free of names. */
+export type Overlay = (pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]) => void;
+
+export class View {
+  readonly camera: Camera;
+  overlay: Overlay = () => {};
+  private readonly picture: MapPicture;
+  private readonly over = document.createElement("canvas");
+  private sceneries: Scenery[] = [];
+  private names: Names[] = [];
+  private due = false;
+
+  constructor(private readonly stage: HTMLElement, picked: Picked) {
+    this.camera = new Camera(() => this.draw());
+    this.picture = pictureOf(this.camera);
+    this.over.className = "over";
+    this.over.tabIndex = 0;
+    this.over.setAttribute("role", "img");
+    this.over.setAttribute("aria-label", "Map. Arrow keys move it, plus and minus zoom, shift and arrow keys turn it.");
+    stage.append(this.picture.canvas, this.over);
+    control(this.over, this.camera, picked);
+    new ResizeObserver(() => this.fit()).observe(stage);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.show(this.sceneries));
+    this.fit();
+  }
+
+  get look(): Look {
+    return matchMedia("(prefers-color-scheme: dark)").matches ? DARK : LIGHT;
+  }
+
+  get box(): Box | null {
+    return this.sceneries[0]?.box ?? null;
+  }
+
+  /** The first shows all of the map, further ones have more points. */
+  show(sceneries: Scenery[]): void {
+    this.sceneries = sceneries;
+    this.names = sceneries.flatMap((scenery) => (scenery.kind === "shapes" ? [new Names(scenery)] : []));
+    this.picture.show(sceneries, this.look);
+    this.draw();
+  }
+
+  draw(): void {
+    if (this.due) return;
+    this.due = true;
+    requestAnimationFrame(() => {
+      this.due = false;
+      this.picture.draw();
+      const pen = this.over.getContext("2d")!;
+      const ratio = Math.min(2, devicePixelRatio);
+      pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+      pen.clearRect(0, 0, this.camera.width, this.camera.height);
+      const taken: Room[] = [];
+      this.overlay(pen, this.camera, this.look, taken);
+      for (const names of this.names) names.draw(pen, this.camera, this.look, taken);
+    });
+  }
+
+  private fit(): void {
+    const ratio = Math.min(2, devicePixelRatio);
+    [this.camera.width, this.camera.height] = [Math.max(1, this.stage.clientWidth), Math.max(1, this.stage.clientHeight)];
+    [this.over.width, this.over.height] = [this.camera.width * ratio, this.camera.height * ratio];
+    this.draw();
+  }
+}
+
+function pictureOf(camera: Camera): MapPicture {
+  try {
+    return new Map3d(camera);
+  } catch {
+    return new Map2d(camera); // no WebGL
+  }
+}
