@@ -40,13 +40,14 @@ def spans_in(description: str, text: str, spans: Sequence[tuple[int, int]]) -> l
         spans: characters start..end of `text`.
     """
     found: list[tuple[int, int] | None] = [None] * len(spans)
-    drift = 0
+    drift, last, last_at = 0, -1, -1
     for n in sorted(range(len(spans)), key=lambda n: spans[n]):
         start, end = spans[n]
         places = [match.start() for match in re.finditer(re.escape(text[start:end]), description)]
+        places = [place for place in places if place > last_at or start == last]
         if places and start < end:
             at = min(places, key=lambda place: abs(place - start - drift))
-            found[n], drift = (at, at + end - start), at - start
+            found[n], drift, last, last_at = (at, at + end - start), at - start, start, at
     return found
 
 

@@ -79,6 +79,17 @@ def test_evidence_names_what_explains_and_warns_of_what_is_not_there(localizer) 
     )
 
 
+def test_evidence_says_where_what_explains_it_is(localizer) -> None:
+    text = "I'm at the corner of East Street 2 and North Path 3, a post box on my left, a cafe across the street"
+    found = answer(localizer, text)
+    away = [hint for hint in found.evidence if hint.at and hint.bearing_deg is not None and hint.away_m > 1.0]
+    assert away
+    for hint in away:
+        east, north = np.subtract(hint.at, found.estimate.position)
+        assert np.hypot(east, north) == pytest.approx(hint.away_m, abs=0.1)
+        assert np.degrees(np.arctan2(east, north)) % 360 == pytest.approx(hint.bearing_deg, abs=3)
+
+
 def test_another_language_is_answered_by_names_with_a_warning(localizer) -> None:
     found = answer(localizer, "Ich stehe an der Ecke East Street 2 und North Path 3, links von mir ist ein Briefkasten")
     assert any("German" in warning for warning in found.warnings)

@@ -78,3 +78,10 @@ def test_parts_of_what_is_read_are_found_in_the_text(description) -> None:
 
 def test_what_does_not_stand_in_the_text_has_no_place() -> None:
     assert spans_in("a tree", "a tree.", [(2, 6), (2, 7), (3, 3)]) == [(2, 6), None, None]
+
+
+def test_a_list_with_wide_bullets_does_not_lose_its_place() -> None:
+    description = "\n".join("        -        a tree" for _ in range(12))
+    text = " ".join(reader_texts(description, 800))
+    found = spans_in(description, text, [match.span() for match in re.finditer("tree", text)])
+    assert found == [match.span() for match in re.finditer("tree", description)]
