@@ -15,9 +15,9 @@ from index.artifact import (
 from index.hint_features import save_hint_features, template_hints
 from index.meaning import Meanings
 from index.ranking import Ranker
-from index.scenery import save_scenery
 from models.city.gallery import MapData
 from models.city.kinds.vocabulary import load_vocabulary
+from models.city.scenery.files import save_scenery
 from models.city.source import open_source
 from models.city.types import Progress
 from models.errors import IndexUnusable

@@ -13,12 +13,12 @@ from index.hint_features import load_hint_features
 from index.meaning import Meanings
 from index.posterior_localizer import PosteriorLocalizer
 from index.ranking import Ranker
-from index.scenery import SceneryPart, file_name, is_scenery
 from index.vector_localizer import VectorLocalizer, raw_sentences
 from models.city.colours import PALETTES
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData
 from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.scenery.files import SceneryPart, file_name, is_scenery
 from models.city.types import Floats
 from models.language.text_encoder import load_text_encoder
 from models.localization.checkpoint import load_refiner

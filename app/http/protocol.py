@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from index.answers import Answer, CellDetail, IndexFacts, Query
-from index.scenery import SceneryPart
 from models.city.frame import Frame
+from models.city.scenery.files import SceneryPart
 
 
 class LocalizerLike(Protocol):

@@ -1,4 +1,4 @@
-"""What a map looks like, for whoever draws it: `shapes` of geometry, `cloud` of points. A blob each, ready to be sent.
+"""What a map looks like, for whoever draws it: `shapes` of geometry, `cloud` of points, a blob each, and their `files`.
 
 May import what models.city may.
 """

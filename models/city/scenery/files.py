@@ -1,4 +1,4 @@
-"""What an index knows of how its map looks: parts of `models.city.scenery`, each compressed as it is sent."""
+"""Scenery on disk: parts in files of their own, each compressed as it is sent."""
 
 import gzip
 from collections.abc import Iterable
