@@ -1,4 +1,5 @@
 // Bundles the page into ../page, which is what the service sends; the same input gives the same bytes.
+import { copyFile } from "node:fs/promises";
 import { build } from "esbuild";
 
 await build({
@@ -11,3 +12,4 @@ await build({
   legalComments: "linked",
   logLevel: "warning",
 });
+for (const file of ["index.html", "icon.svg"]) await copyFile(file, `../page/${file}`);

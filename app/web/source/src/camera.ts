@@ -47,6 +47,11 @@ export class Camera {
     };
   }
 
+  /** Where on the screen what is looked at stands. */
+  get middle(): [number, number] {
+    return [(this.width + this.inset.left) / 2, (this.height - this.inset.bottom) / 2];
+  }
+
   /** At the point that is looked at. */
   get metresAPixel(): number {
     return (2 * this.pose.distance * HALF) / this.height;
@@ -137,7 +142,7 @@ export class Camera {
   }
 
   /** Zooms, and leaves the ground under a pixel where it is. */
-  zoom(factor: number, px = this.width / 2, py = this.height / 2): void {
+  zoom(factor: number, px = this.middle[0], py = this.middle[1]): void {
     const before = this.ground(px, py);
     this.set({ distance: this.pose.distance * factor });
     const after = this.ground(px, py);

@@ -4,7 +4,15 @@ import type { Camera } from "./camera";
 
 const CLICK = 4; // pixels that a click may slip
 
+/** What follows a finger or a mouse instead of the map. */
+export interface Drag {
+  move(px: number, py: number): void;
+  end(): void;
+}
+
 export interface Picked {
+  /** Takes a drag that begins here; null leaves it to the map. */
+  grab(px: number, py: number): Drag | null;
   click(px: number, py: number): void;
   hover(px: number, py: number): void;
   leave(): void;
@@ -13,6 +21,7 @@ export interface Picked {
 export function control(surface: HTMLElement, camera: Camera, picked: Picked): void {
   const fingers = new Map<number, [number, number]>();
   let [moved, turning] = [0, false];
+  let drag: Drag | null = null;
 
   const spread = () => {
     const [a, b] = [...fingers.values()];
@@ -21,7 +30,10 @@ export function control(surface: HTMLElement, camera: Camera, picked: Picked): v
 
   surface.addEventListener("pointerdown", (event) => {
     surface.setPointerCapture(event.pointerId);
-    if (!fingers.size) [moved, turning] = [0, event.button === 2 || event.ctrlKey || event.shiftKey];
+    if (!fingers.size) {
+      [moved, turning] = [0, event.button === 2 || event.ctrlKey || event.shiftKey];
+      drag = turning ? null : picked.grab(...at(surface, event));
+    }
     fingers.set(event.pointerId, at(surface, event));
   });
   surface.addEventListener("pointermove", (event) => {
@@ -40,13 +52,17 @@ export function control(surface: HTMLElement, camera: Camera, picked: Picked): v
       return;
     }
     fingers.set(event.pointerId, [px, py]);
+    if (drag) return drag.move(px, py);
     if (turning) camera.set({ bearing: camera.pose.bearing + dx / 200, pitch: camera.pose.pitch + dy / 200 });
     else camera.pan(dx, dy);
   });
   const up = (event: PointerEvent) => {
     const was = fingers.size;
     fingers.delete(event.pointerId);
-    if (event.type === "pointerup" && was === 1 && moved < CLICK) picked.click(...at(surface, event));
+    if (drag && was === 1) {
+      drag.end();
+      drag = null;
+    } else if (event.type === "pointerup" && was === 1 && moved < CLICK) picked.click(...at(surface, event));
   };
   surface.addEventListener("pointerup", up);
   surface.addEventListener("pointercancel", up);
@@ -57,6 +73,7 @@ export function control(surface: HTMLElement, camera: Camera, picked: Picked): v
     camera.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY)) / 250), ...at(surface, event));
   }, { passive: false });
   surface.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") return picked.click(...camera.middle);
     const action = keys(camera)[event.key];
     if (!action || event.altKey || event.metaKey || event.ctrlKey) return;
     event.preventDefault();

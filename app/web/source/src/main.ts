@@ -1,9 +1,286 @@
-import { readScenery } from "./scenery";
-import { View } from "./view";
+// The page: what was asked, what was answered, and the map, kept together.
 
-const view = new View(document.getElementById("map")!, { click() {}, hover() {}, leave() {} });
-const info = await (await fetch("info")).json();
-const name: string = info.index.provenance.map;
-const scenery = readScenery(await (await fetch(`maps/${encodeURIComponent(name)}/points`)).arrayBuffer());
-view.show([scenery]);
-view.camera.frame(scenery.box, true);
+import { fitOf, showAnswer, showProblem, showWaiting, type Acts } from "./answer";
+import * as api from "./api";
+import type { Drag } from "./controls";
+import { byId } from "./dom";
+import { examples } from "./examples";
+import { Measure } from "./measure";
+import { paint, type Shown } from "./overlay";
+import { Panel } from "./panel";
+import { placesOf } from "./places";
+import { readScenery, type Box, type Scenery, type Shape } from "./scenery";
+import { read, write, type State } from "./state";
+import { draw, type Tool } from "./tools";
+import { View } from "./view";
+import { legend } from "./legend";
+
+const CLOSE = 14; // pixels from the pointer to what it means
+
+class Page implements Acts {
+  private state: State = read(location.hash);
+  private readonly shown: Shown = { answer: null, places: [], chosen: 0, mention: null, pin: null, measured: [] };
+  private readonly objects = new Map<string, Shape>();
+  private readonly view = new View(byId("map"), this.picked());
+  private readonly measure = new Measure((measured) => this.redraw({ measured }), (report) => report.split === "index");
+  private readonly panel = new Panel(this.wishes(), this.measure.element);
+  private info: api.Info | null = null;
+  private sceneries: Scenery[] = [];
+  private parts = 1;
+  private tool: Tool | null = null;
+  private asking = new AbortController();
+  private kept = 0;
+
+  async start(): Promise<void> {
+    this.panel.set(this.state, null);
+    this.panel.offer([]);
+    this.view.overlay = (pen, camera, look, taken) => paint(pen, camera, look, taken, this.shown, this.state, this.objects);
+    legend(this.view, () => this.info);
+    this.fit();
+    addEventListener("resize", () => this.fit());
+    addEventListener("hashchange", () => this.goTo(read(location.hash)));
+    new ResizeObserver(() => this.fit()).observe(byId("panel"));
+    await this.load();
+  }
+
+  async ask(): Promise<void> {
+    if (!this.sceneries.length) return this.load();
+    this.asking.abort();
+    const asking = (this.asking = new AbortController());
+    const { said, prior, within, answers, topK } = this.state;
+    if (!said.trim()) return this.panel.said.focus();
+    showWaiting(this.panel.answer, said);
+    this.panel.wait(true);
+    try {
+      const asked = { description: said, top_k: topK, heat_map: true, ...(prior && { prior }), ...(within && { within }), ...(answers.length && { answers }) };
+      const answer = await api.localize(asked as api.Asked, asking.signal);
+      this.redraw({ answer, places: placesOf(answer), chosen: 0, mention: null });
+      this.showAnswer();
+      this.lookAt();
+    } catch (error) {
+      if (!asking.signal.aborted) this.fail(error);
+    } finally {
+      if (this.asking === asking) this.panel.wait(false);
+    }
+  }
+
+  choose(place: number): void {
+    this.redraw({ chosen: place });
+    this.showAnswer();
+    const [x, y] = this.shown.places[place].at;
+    this.view.camera.fly({ x, y, distance: Math.min(this.view.camera.pose.distance, 350) });
+  }
+
+  light(mention: number | null): void {
+    if (mention === this.shown.mention) return;
+    for (const lit of document.querySelectorAll(".lit")) lit.classList.remove("lit");
+    if (mention !== null) for (const words of document.querySelectorAll(`[data-mention="${mention}"], [data-evidence="${mention}"]`)) words.classList.add("lit");
+    this.redraw({ mention });
+  }
+
+  reply(question: string, choice: string): void {
+    this.change({ answers: [...this.state.answers.filter((answer) => answer.question !== question), { question, choice }] });
+    void this.ask();
+  }
+
+  forget(question: string): void {
+    this.change({ answers: this.state.answers.filter((answer) => answer.question !== question) });
+    void this.ask();
+  }
+
+  async unlock(key: string): Promise<void> {
+    api.setKey(key);
+    await this.load();
+  }
+
+  /** What the service has, and then what the page was opened with. */
+  private async load(): Promise<void> {
+    this.panel.wait(true);
+    try {
+      this.info = await api.info();
+      const index = this.info.index;
+      if (!index) throw new api.Problem("The map is still loading", "Try again in a moment.", "not_ready", null, 2);
+      this.measure.offer(this.info.data_sets);
+      if (!this.sceneries.length) await this.loadMap(index.provenance.map, 0);
+      this.parts = index.scenery_parts;
+      this.panel.offerPoints(this.sceneries.length < this.parts);
+    } catch (error) {
+      return this.fail(error);
+    } finally {
+      this.panel.wait(false);
+    }
+    if (this.state.said) await this.ask();
+    else this.panel.answer.replaceChildren();
+    this.panel.offer(await examples(this.sceneries[0], 2));
+  }
+
+  private async loadMap(name: string, part: number): Promise<void> {
+    const scenery = readScenery(await api.points(name, part));
+    this.sceneries.push(scenery);
+    if (scenery.kind === "shapes") for (const shape of scenery.shapes) if (shape.source) this.objects.set(shape.source, shape);
+    if (part === 0) {
+      this.view.camera.frame(scenery.box, true);
+      if (this.state.pose) this.view.camera.set(this.state.pose);
+    }
+    this.view.show(this.sceneries);
+  }
+
+  private wishes() {
+    return {
+      ask: (said: string) => {
+        this.change({ said, answers: [] });
+        this.redraw({ pin: this.shown.pin && said === this.panel.said.value ? this.shown.pin : null });
+        this.panel.said.value = said;
+        void this.ask();
+      },
+      surprise: () => void this.surprise(),
+      take: (tool: Tool | null) => this.take(tool),
+      change: (change: Partial<State>) => {
+        this.change(change);
+        if (("prior" in change || "within" in change || "topK" in change) && this.state.said) void this.ask();
+      },
+      morePoints: () => void this.morePoints(),
+    };
+  }
+
+  private async morePoints(): Promise<void> {
+    try {
+      await this.loadMap(this.info!.index!.provenance.map, this.sceneries.length);
+      this.panel.offerPoints(this.sceneries.length < this.parts);
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  private async surprise(): Promise<void> {
+    const [example] = await examples(this.sceneries[0], 1);
+    if (example) this.wishes().ask(example.description);
+    else this.fail(new api.Problem("No place could be described", "Type what you see, or try again.", "none"));
+  }
+
+  private async describe(position: [number, number]): Promise<void> {
+    this.redraw({ pin: position });
+    this.panel.wait(true);
+    try {
+      const described = await api.describe(position);
+      this.panel.said.value = described.description;
+      this.panel.said.focus();
+    } catch (error) {
+      this.fail(error);
+    } finally {
+      this.panel.wait(false);
+    }
+  }
+
+  private take(tool: Tool | null): void {
+    this.tool = tool;
+    byId("map").classList.toggle("aims", tool !== null);
+    this.panel.set(this.state, tool);
+  }
+
+  private picked() {
+    return {
+      grab: (px: number, py: number): Drag | null => {
+        const tool = this.tool;
+        if (!tool || tool === "describe") return null;
+        return draw(tool, this.view.camera, px, py, (area, done) => {
+          if (done) {
+            this.take(null);
+            this.wishes().change(area);
+          } else {
+            this.state = { ...this.state, ...area };
+            this.view.draw();
+          }
+        });
+      },
+      click: (px: number, py: number) => {
+        const at = this.view.camera.ground(px, py);
+        if (!at) return;
+        if (this.tool === "describe") {
+          this.take(null);
+          void this.describe(at);
+        } else if (this.tool) draw(this.tool, this.view.camera, px, py, (area) => (this.take(null), this.wishes().change(area)))?.end();
+        else this.pick(px, py);
+      },
+      hover: (px: number, py: number) => this.light(this.mentionAt(px, py)),
+      leave: () => this.light(null),
+    };
+  }
+
+  private pick(px: number, py: number): void {
+    const near = this.shown.places.findIndex(({ at }) => isNear(this.view.camera.project(...at), px, py));
+    if (near >= 0 && this.shown.answer?.status === "ambiguous") this.choose(near);
+  }
+
+  private mentionAt(px: number, py: number): number | null {
+    const evidence = this.shown.answer?.evidence ?? [];
+    const near = evidence.findIndex((each) => each.at && fitOf(each) !== "none" && isNear(this.view.camera.project(...each.at), px, py));
+    return near < 0 ? null : near;
+  }
+
+  private goTo(state: State): void {
+    if (write({ ...state, pose: null }) === write({ ...this.state, pose: null })) return;
+    this.state = state;
+    this.panel.said.value = state.said;
+    this.panel.set(state, this.tool);
+    void this.ask();
+  }
+
+  private change(change: Partial<State>): void {
+    this.state = { ...this.state, ...change };
+    this.panel.set(this.state, this.tool);
+    this.keep();
+    this.view.draw();
+  }
+
+  /** The URL says what is seen, a moment after it stands still. */
+  private keep(): void {
+    clearTimeout(this.kept);
+    this.kept = window.setTimeout(() => history.replaceState(null, "", write(this.state) || location.pathname + location.search), 200);
+  }
+
+  private redraw(change: Partial<Shown>): void {
+    Object.assign(this.shown, change);
+    this.view.draw();
+  }
+
+  private showAnswer(): void {
+    const { answer, places, chosen } = this.shown;
+    if (answer) showAnswer(this.panel.answer, this.state.said, answer, places, chosen, this.state.answers, this);
+  }
+
+  /** Flies to what was found: the answer with its ring, or all places that fit. */
+  private lookAt(): void {
+    const { answer, places } = this.shown;
+    if (!answer?.estimate) return;
+    const fitting = answer.status === "ambiguous" ? places.filter((place) => place.fits).map((place) => place.at) : [answer.estimate.position];
+    const reach = answer.status === "ambiguous" ? 60 : Math.max(70, 1.6 * answer.estimate.radius_m.p90);
+    const box: Box = {
+      west: Math.min(...fitting.map(([x]) => x)) - reach,
+      east: Math.max(...fitting.map(([x]) => x)) + reach,
+      south: Math.min(...fitting.map(([, y]) => y)) - reach,
+      north: Math.max(...fitting.map(([, y]) => y)) + reach,
+    };
+    this.view.camera.frame(box);
+  }
+
+  private fail(error: unknown): void {
+    const known = error instanceof api.Problem ? error : new api.Problem("The page has a fault", String((error as Error)?.message ?? error), "page");
+    this.redraw({ answer: null, places: [], mention: null });
+    showProblem(this.panel.answer, known, this);
+  }
+
+  /** The panel covers a part of the map; what is looked at stands in the rest. */
+  private fit(): void {
+    const panel = byId("panel").getBoundingClientRect();
+    const below = panel.width > 0.9 * innerWidth;
+    this.view.camera.inset = below ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 };
+    this.view.draw();
+  }
+}
+
+function isNear(at: [number, number] | null, px: number, py: number): boolean {
+  return at !== null && Math.hypot(at[0] - px, at[1] - py) <= CLOSE;
+}
+
+void new Page().start();

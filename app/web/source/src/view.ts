@@ -14,6 +14,7 @@ export type Overlay = (pen: CanvasRenderingContext2D, camera: Camera, look: Look
 export class View {
   readonly camera: Camera;
   overlay: Overlay = () => {};
+  drawn: () => void = () => {};
   private readonly picture: MapPicture;
   private readonly over = document.createElement("canvas");
   private sceneries: Scenery[] = [];
@@ -63,6 +64,7 @@ export class View {
       const taken: Room[] = [];
       this.overlay(pen, this.camera, this.look, taken);
       for (const names of this.names) names.draw(pen, this.camera, this.look, taken);
+      this.drawn();
     });
   }
 

@@ -1,0 +1,141 @@
+// The panel beside the map: the box, its chips, and what waits until it is wanted.
+
+import { byId, fill, h } from "./dom";
+import type { Described } from "./api";
+import type { State } from "./state";
+import { HINTS, type Tool } from "./tools";
+import { metres, sentence } from "./words";
+
+export interface Wishes {
+  ask(said: string): void;
+  surprise(): void;
+  take(tool: Tool | null): void;
+  change(change: Partial<State>): void;
+  morePoints(): void;
+}
+
+const STEPS = ["low", "half", "high"] as const; // heights of the sheet on a phone
+
+export class Panel {
+  readonly said = byId<HTMLTextAreaElement>("said");
+  readonly answer = byId("answer");
+  private readonly bar = byId("bar");
+  private readonly chips = byId("chips");
+  private readonly describe = byId<HTMLButtonElement>("describe");
+  private readonly where = h("div", {});
+  private readonly heat = h("input", { type: "checkbox" });
+  private readonly cells = h("input", { type: "checkbox" });
+  private readonly many = h("select", { id: "many" }, ...[5, 10, 40].map((k) => h("option", { value: String(k) }, String(k))));
+  private readonly points = h("button", { type: "button", hidden: true }, "More points");
+  private tool: Tool | null = null;
+  private waiting = 0;
+
+  constructor(private readonly wishes: Wishes, measure: Element) {
+    const form = byId<HTMLFormElement>("ask");
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      wishes.ask(this.said.value);
+    });
+    this.said.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" || event.shiftKey || event.isComposing) return;
+      event.preventDefault();
+      form.requestSubmit();
+    });
+    this.describe.addEventListener("click", () => wishes.take(this.tool === "describe" ? null : "describe"));
+    this.heat.addEventListener("change", () => wishes.change({ heat: this.heat.checked }));
+    this.cells.addEventListener("change", () => wishes.change({ cells: this.cells.checked }));
+    this.many.addEventListener("change", () => wishes.change({ topK: Number(this.many.value) }));
+    this.points.addEventListener("click", () => wishes.morePoints());
+    const shown = h(
+      "details",
+      {},
+      h("summary", {}, "Show more on the map"),
+      h("label", { className: "check" }, this.heat, "Heat: where it might be"),
+      h("label", { className: "check" }, this.cells, "Cells that were found, by rank"),
+      h("div", { className: "row" }, h("label", { for: "many" }, "Candidates"), this.many, this.points),
+    );
+    byId("more").append(h("details", { id: "look" }, h("summary", {}, "Say where to look"), this.where), shown, measure);
+    this.sheet();
+  }
+
+  /** What was asked, as the page knows it. */
+  set(state: State, tool: Tool | null): void {
+    this.tool = tool;
+    if (this.said.value !== state.said && document.activeElement !== this.said) this.said.value = state.said;
+    this.describe.setAttribute("aria-pressed", String(tool === "describe"));
+    [this.heat.checked, this.cells.checked] = [state.heat, state.cells];
+    if (![...this.many.options].some((option) => option.value === String(state.topK))) this.many.append(h("option", { value: String(state.topK) }, String(state.topK)));
+    this.many.value = String(state.topK);
+    const { prior, within } = state;
+    if (prior || within) byId<HTMLDetailsElement>("look").open = true;
+    fill(
+      this.where,
+      h("div", { className: "row" }, ...this.areas()),
+      prior && this.given(`Near a place, give or take ${metres(prior.sigma_m)}`, { prior: null }),
+      within && this.given("circle" in within ? `Only inside a circle of ${metres(within.circle.radius_m)}` : `Only inside a box, ${metres(within.bbox[2] - within.bbox[0])} by ${metres(within.bbox[3] - within.bbox[1])}`, { within: null }),
+    );
+    byId("tip").textContent = tool ? HINTS[tool] : "";
+    byId("tip").hidden = !tool;
+  }
+
+  /** Three ways to begin; the first stands in the box in grey as well. */
+  offer(examples: Described[]): void {
+    if (examples.length) this.said.placeholder = examples[0].description;
+    const chips = examples.slice(0, 2).map((example) => h("button", { type: "button", className: "chip", title: example.description, onclick: () => this.wishes.ask(example.description) }, short(example)));
+    fill(this.chips, ...chips, h("button", { type: "button", className: "chip", onclick: () => this.wishes.surprise() }, "Surprise me"));
+  }
+
+  offerPoints(more: boolean): void {
+    this.points.hidden = !more;
+  }
+
+  /** A thin bar, from 300 ms on. */
+  wait(waits: boolean): void {
+    clearTimeout(this.waiting);
+    if (waits) this.waiting = window.setTimeout(() => (this.bar.hidden = false), 300);
+    else this.bar.hidden = true;
+    this.answer.setAttribute("aria-busy", String(waits));
+  }
+
+  private areas(): Element[] {
+    const words: [Tool, string][] = [["near", "I am near …"], ["circle", "Inside a circle"], ["box", "Inside a box"]];
+    return words.map(([tool, text]) => h("button", { type: "button", "aria-pressed": this.tool === tool, onclick: () => this.wishes.take(this.tool === tool ? null : tool) }, text));
+  }
+
+  private given(text: string, without: Partial<State>): Element {
+    return h("p", { className: "row small" }, text, h("button", { type: "button", className: "chip", onclick: () => this.wishes.change(without) }, "Remove"));
+  }
+
+  /** On a phone the panel is a sheet of three heights. */
+  private sheet(): void {
+    const [grip, panel] = [byId("grip"), byId("panel")];
+    const set = (step: number) => {
+      panel.dataset.height = STEPS[Math.max(0, Math.min(STEPS.length - 1, step))];
+      grip.setAttribute("aria-label", `Height of this sheet: ${panel.dataset.height}`);
+    };
+    const now = () => STEPS.indexOf(panel.dataset.height as (typeof STEPS)[number]);
+    let from = 0;
+    let moved = false;
+    grip.addEventListener("pointerdown", (event) => {
+      [from, moved] = [event.clientY, false];
+      grip.setPointerCapture(event.pointerId);
+    });
+    grip.addEventListener("pointermove", (event) => {
+      if (!grip.hasPointerCapture(event.pointerId) || Math.abs(event.clientY - from) < 60) return;
+      set(now() + (event.clientY < from ? 1 : -1));
+      [from, moved] = [event.clientY, true];
+    });
+    grip.addEventListener("click", () => moved || set((now() + 1) % STEPS.length));
+    grip.addEventListener("keydown", (event) => {
+      if (event.key === "ArrowUp") set(now() + 1);
+      if (event.key === "ArrowDown") set(now() - 1);
+    });
+    set(1);
+  }
+}
+
+/** A chip's few words for an example. */
+function short(example: Described): string {
+  const text = sentence(example.place ?? example.description).split(/[,.]/)[0];
+  return text.length > 32 ? `${text.slice(0, 30)}…` : text;
+}

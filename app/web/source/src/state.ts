@@ -1,0 +1,62 @@
+// What the page was asked, in the URL's fragment: it can be shared, and no server ever gets it.
+
+import type { Pose } from "./camera";
+
+export type Within = { circle: { center: [number, number]; radius_m: number } } | { bbox: [number, number, number, number] };
+
+export interface State {
+  said: string;
+  prior: { position: [number, number]; sigma_m: number } | null;
+  within: Within | null;
+  answers: { question: string; choice: string }[];
+  topK: number;
+  heat: boolean;
+  cells: boolean;
+  pose: Pose | null;
+}
+
+export const NOTHING: State = { said: "", prior: null, within: null, answers: [], topK: 5, heat: false, cells: false, pose: null };
+
+export function read(fragment: string): State {
+  const given = new URLSearchParams(fragment.replace(/^#/, ""));
+  const numbers = (name: string, amount: number): number[] | null => {
+    const values = (given.get(name) ?? "").split(",").map(Number);
+    return given.has(name) && values.length === amount && values.every(Number.isFinite) ? values : null;
+  };
+  const [prior, circle, box, at] = [numbers("near", 3), numbers("circle", 3), numbers("box", 4), numbers("at", 5)];
+  return {
+    said: (given.get("q") ?? "").slice(0, 4000),
+    prior: prior && { position: [prior[0], prior[1]], sigma_m: prior[2] },
+    within: circle
+      ? { circle: { center: [circle[0], circle[1]], radius_m: circle[2] } }
+      : box && { bbox: box as [number, number, number, number] },
+    answers: given.getAll("a").flatMap((answer) => {
+      const cut = answer.lastIndexOf("=");
+      return cut > 0 ? [{ question: answer.slice(0, cut), choice: answer.slice(cut + 1) }] : [];
+    }),
+    topK: Math.min(40, Math.max(1, Math.round(Number(given.get("k")) || NOTHING.topK))),
+    heat: given.has("heat"),
+    cells: given.has("cells"),
+    pose: at && { x: at[0], y: at[1], distance: at[2], pitch: at[3], bearing: at[4] },
+  };
+}
+
+export function write(state: State): string {
+  const given = new URLSearchParams();
+  if (state.said) given.set("q", state.said);
+  if (state.prior) given.set("near", [...state.prior.position, state.prior.sigma_m].map(short).join());
+  if (state.within && "circle" in state.within) given.set("circle", [...state.within.circle.center, state.within.circle.radius_m].map(short).join());
+  if (state.within && "bbox" in state.within) given.set("box", state.within.bbox.map(short).join());
+  for (const { question, choice } of state.answers) given.append("a", `${question}=${choice}`);
+  if (state.topK !== NOTHING.topK) given.set("k", String(state.topK));
+  if (state.heat) given.set("heat", "1");
+  if (state.cells) given.set("cells", "1");
+  const pose = state.pose;
+  if (pose) given.set("at", [short(pose.x), short(pose.y), short(pose.distance), pose.pitch.toFixed(3), pose.bearing.toFixed(3)].join());
+  const text = given.toString();
+  return text && `#${text}`;
+}
+
+function short(metres: number): string {
+  return String(Math.round(10 * metres) / 10);
+}
