@@ -196,7 +196,7 @@ class Evidence:
 class HeatMap:
     """The distribution behind an answer."""
 
-    spacing_m: Annotated[float, Field(description="edge of the square that each point stands for")]
+    spacing_m: Annotated[float, Field(description="edge of the square round each point; as fine as a few squares can be that hold the distribution")]
     points: Annotated[
         tuple[tuple[float, float, float], ...], Field(description="x, y, probability, likeliest first, map frame")
     ]

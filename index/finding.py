@@ -25,7 +25,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.localization.located import Located
 
-HEAT_POINTS = 500
+HEAT_POINTS, HEAT_HELD = 500, 0.95  # squares of a heat map, and what they hold of the distribution at least
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -136,9 +136,16 @@ def _candidate(located: Located, n: int, cells: CellTable, frame: Frame) -> Cand
 
 
 def _heat_map(located: Located) -> HeatMap:
-    order = np.argsort(-located.weight, kind="stable")[:HEAT_POINTS]
-    rows = np.column_stack([located.points_m[order], located.weight[order]])
-    return HeatMap(located.spacing_m, tuple((round(x, 2), round(y, 2), p) for x, y, p in rows.tolist()))
+    """Squares as fine as they can be for a few of them to hold what is known of the distribution."""
+    spacing_m, points_m, weight = located.spacing_m, located.points_m, located.weight
+    order = np.argsort(-weight, kind="stable")[:HEAT_POINTS]
+    while weight[order].sum() < HEAT_HELD * weight.sum():
+        spacing_m *= 2
+        squares, square = np.unique(np.floor(located.points_m / spacing_m), axis=0, return_inverse=True)
+        points_m, weight = (squares + 0.5) * spacing_m, np.bincount(square.ravel(), located.weight)
+        order = np.argsort(-weight, kind="stable")[:HEAT_POINTS]
+    rows = np.column_stack([points_m[order], weight[order]])
+    return HeatMap(spacing_m, tuple((round(x, 2), round(y, 2), p) for x, y, p in rows.tolist()))
 
 
 def pair(values: Floats) -> tuple[float, float]:

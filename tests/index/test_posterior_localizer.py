@@ -99,6 +99,14 @@ def test_an_answer_is_whole_and_says_why(answer, query, asked, surest, city):
     assert points[:, 2].sum() <= 1.0 + 1e-9
 
 
+def test_a_heat_map_holds_what_is_known_however_vague_the_text(answer, posterior, asked):
+    vague = Query(asked[1].sentences[0][0], heat_map=True)
+    heat, located = answer(vague).heat_map, posterior.find([vague])[0].located
+    assert heat.spacing_m > located.spacing_m
+    assert len(heat.points) <= 500
+    assert sum(p for _, _, p in heat.points) >= 0.95 * located.weight.sum()
+
+
 def test_a_filter_holds_for_every_position(answer, query, city):
     whole = answer(query)
     x, y = whole.estimate.position

@@ -80,11 +80,13 @@ function headline(answer: Answer, places: Place[], acts: Acts): Element {
     const few = fitting > 1 ? `${count(fitting)} places fit.` : "Many places fit.";
     return h("div", {}, h("h2", {}, answer.question ? `${few} Which is it?` : few), question(answer, acts), !answer.question && h("p", { className: "quiet" }, "Add one more thing you see."));
   }
+  const [street, ...beside] = (estimate.place ?? "here").split(", ");
   const spot = estimate.wgs84 ? `${estimate.wgs84.lat.toFixed(6)}, ${estimate.wgs84.lon.toFixed(6)}` : `${estimate.position[0].toFixed(1)}, ${estimate.position[1].toFixed(1)} m`;
   return h(
     "div",
     {},
-    h("h2", {}, estimate.place ? sentence(estimate.place) : "Here", estimate.place ? copy(estimate.place, "Copy the place") : null),
+    h("h2", {}, sentence(street), estimate.place ? copy(estimate.place, "Copy the place") : null),
+    beside.length > 0 && h("p", {}, beside.join(", ")),
     h("p", {}, `within ${metres(estimate.radius_m.p90)}, nine times out of ten`),
     h("p", { className: "quiet" }, `${percent(estimate.probability)}: ${likely(estimate.probability)}`, estimate.heading ? ` · you look ${wind(estimate.heading.mean_deg)}` : null),
     h("p", { className: "spot" }, spot, copy(spot, "Copy the coordinates")),
@@ -196,7 +198,8 @@ function others(answer: Answer, places: Place[], chosen: number, acts: Acts): El
       ),
     ),
   );
-  const rest = answer.other_probability > 0.005 ? h("li", { className: "small" }, `Elsewhere: ${percent(answer.other_probability)}`) : null;
+  const elsewhere = 1 - places.reduce((sum, place) => sum + place.probability, 0);
+  const rest = elsewhere > 0.005 ? h("li", { className: "small" }, `Elsewhere: ${percent(elsewhere)}`) : null;
   const list = h("ol", { className: "places" }, ...rows, rest);
   const amount = places.length === 2 ? "One other place" : `${count(places.length - 1)} other places`;
   return h("details", { className: "others", open: answer.status === "ambiguous" }, h("summary", {}, amount), list);

@@ -101,7 +101,7 @@ export class Camera {
   frame(box: Box, instantly = false, least = 60): void {
     const [wide, high] = [box.east - box.west, box.north - box.south];
     const free = { width: Math.max(80, this.width - this.inset.left), height: Math.max(80, this.height - this.inset.bottom) };
-    const metres = Math.max(least / free.height, (1.15 * wide) / free.width, (1.15 * high) / free.height);
+    const metres = Math.max(least / free.height, (1.1 * wide) / free.width, (1.1 * high * Math.sin(this.pose.pitch)) / free.height);
     this.farthest = Math.max(this.farthest, 1.5 * metres * this.height);
     const distance = (metres * this.height) / (2 * HALF);
     this.fly({ x: (box.west + box.east) / 2, y: (box.south + box.north) / 2, distance }, instantly);

@@ -7,7 +7,7 @@ import { byId } from "./dom";
 import { examples } from "./examples";
 import { Measure } from "./measure";
 import { paint, type Shown } from "./overlay";
-import { Panel } from "./panel";
+import { isSheet, Panel } from "./panel";
 import { placesOf } from "./places";
 import { readScenery, type Box, type Scenery, type Shape } from "./scenery";
 import { read, write, type State } from "./state";
@@ -56,6 +56,7 @@ class Page implements Acts {
       const answer = await api.localize(asked as api.Asked, asking.signal);
       this.redraw({ answer, places: placesOf(answer), chosen: 0, mention: null });
       this.showAnswer();
+      this.panel.reveal();
       this.lookAt();
     } catch (error) {
       if (!asking.signal.aborted) this.fail(error);
@@ -273,8 +274,7 @@ class Page implements Acts {
   /** The panel covers a part of the map; what is looked at stands in the rest. */
   private fit(): void {
     const panel = byId("panel").getBoundingClientRect();
-    const below = panel.width > 0.9 * innerWidth;
-    this.view.camera.inset = below ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 };
+    this.view.camera.inset = isSheet() ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 };
     this.view.draw();
   }
 }

@@ -97,6 +97,11 @@ export class Panel {
     this.answer.setAttribute("aria-busy", String(waits));
   }
 
+  /** On a phone the answer takes the place of the form, which is a finger's move away. */
+  reveal(): void {
+    if (isSheet()) this.answer.scrollIntoView({ block: "start" });
+  }
+
   private areas(): Element[] {
     const words: [Tool, string][] = [["near", "I am near …"], ["circle", "Inside a circle"], ["box", "Inside a box"]];
     return words.map(([tool, text]) => h("button", { type: "button", "aria-pressed": this.tool === tool, onclick: () => this.wishes.take(this.tool === tool ? null : tool) }, text));
@@ -132,6 +137,10 @@ export class Panel {
     });
     set(1);
   }
+}
+
+export function isSheet(): boolean {
+  return matchMedia("(max-width: 640px)").matches;
 }
 
 /** A chip's few words for an example. */

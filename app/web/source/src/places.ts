@@ -26,6 +26,7 @@ export function placesOf(answer: Answer): Place[] {
       places.push({ letter: "", at: [x, y], probability: candidate.probability, candidates: [candidate], fits: false });
     }
   }
+  share(answer, places);
   const [first, ...others] = places;
   others.sort((a, b) => b.probability - a.probability);
   const sorted = first ? [first, ...others] : [];
@@ -35,4 +36,16 @@ export function placesOf(answer: Answer): Place[] {
     place.fits = place.probability >= FITS * most;
   });
   return sorted;
+}
+
+/** Gives places what the heat map has round them: it knows of more cells than are listed. */
+function share(answer: Answer, places: Place[]): void {
+  const heat = answer.heat_map;
+  if (!heat || heat.spacing_m > SAME || !places.length) return;
+  for (const place of places) place.probability = 0;
+  for (const [x, y, probability] of heat.points) {
+    const away = places.map(({ at }) => Math.hypot(at[0] - x, at[1] - y));
+    const nearest = away.indexOf(Math.min(...away));
+    if (away[nearest] <= SAME) places[nearest].probability += probability;
+  }
 }
