@@ -75,9 +75,10 @@ function headline(answer: Answer, places: Place[], acts: Acts): Element {
   const { estimate, status } = answer;
   if (!estimate) return h("div", {}, h("h2", {}, "No place fits"), h("p", {}, answer.evidence.length ? "What was said is not on this map. Add one thing you see: a street, a shop, a colour." : "Name things around you, a street or a shop."));
   if (status === "no_match") return h("div", {}, h("h2", {}, "Nothing of it was found on this map"), h("p", {}, "Is it the right map? Add one thing you see: a street's name, a shop, a colour."));
-  const fitting = places.filter((place) => place.fits).length;
   if (status === "ambiguous") {
-    const few = fitting > 1 ? `${count(fitting)} places fit.` : "Many places fit.";
+    const fitting = places.filter((place) => place.fits).length;
+    const held = places.reduce((sum, place) => sum + place.probability, 0);
+    const few = fitting > 1 && held > 0.5 ? `${count(fitting)} places fit.` : "Many places fit.";
     return h("div", {}, h("h2", {}, answer.question ? `${few} Which is it?` : few), question(answer, acts), !answer.question && h("p", { className: "quiet" }, "Add one more thing you see."));
   }
   const [street, ...beside] = (estimate.place ?? "here").split(", ");
@@ -176,7 +177,7 @@ function evidenceList(said: string, answer: Answer, acts: Acts): Element | null 
 function missed(said: string, answer: Answer): Element[] {
   const spans = answer.evidence.flatMap((evidence) => (evidence.span ? [evidence.span] : []));
   const empty = sentences(said).filter(({ start, end }) => !spans.some(([from, to]) => from < end && to > start));
-  return empty.map(({ text }) => h("li", { className: "none" }, h("span", { className: "sign", "aria-hidden": "true" }, "?"), h("span", {}, h("b", {}, text), " not understood")));
+  return empty.map(({ text }) => h("li", { className: "none" }, h("span", { className: "sign", "aria-hidden": "true" }, "?"), h("span", {}, h("b", {}, `“${text}”`), " was not understood")));
 }
 
 function repliesList(replies: { question: string; choice: string }[], acts: Acts): Element {
@@ -193,12 +194,12 @@ function others(answer: Answer, places: Place[], chosen: number, acts: Acts): El
         "button",
         { type: "button", className: "place", "aria-pressed": n === chosen, onclick: () => acts.choose(n) },
         h("span", { className: "letter", "aria-hidden": "true" }, place.letter),
-        h("span", {}, n === 0 && answer.status === "ok" ? "The answer" : `Place ${place.letter}`),
+        h("span", {}, place.street ?? (n === 0 && answer.status === "ok" ? "The answer" : `Place ${place.letter}`)),
         h("span", { className: "share" }, percent(place.probability)),
       ),
     ),
   );
-  const elsewhere = 1 - places.reduce((sum, place) => sum + place.probability, 0);
+  const elsewhere = 1 - places.reduce((sum, place) => sum + place.probability, 0); // the heat map may hold a little less
   const rest = elsewhere > 0.005 ? h("li", { className: "small" }, `Elsewhere: ${percent(elsewhere)}`) : null;
   const list = h("ol", { className: "places" }, ...rows, rest);
   const amount = places.length === 2 ? "One other place" : `${count(places.length - 1)} other places`;

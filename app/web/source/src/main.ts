@@ -8,7 +8,7 @@ import { examples } from "./examples";
 import { Measure } from "./measure";
 import { paint, type Shown } from "./overlay";
 import { isSheet, Panel } from "./panel";
-import { placesOf } from "./places";
+import { placesOf, streetAt } from "./places";
 import { readScenery, type Box, type Scenery, type Shape } from "./scenery";
 import { read, write, type State } from "./state";
 import { draw, type Tool } from "./tools";
@@ -54,7 +54,7 @@ class Page implements Acts {
     try {
       const asked = { description: said, top_k: topK, heat_map: true, ...(prior && { prior }), ...(within && { within }), ...(answers.length && { answers }) };
       const answer = await api.localize(asked as api.Asked, asking.signal);
-      this.redraw({ answer, places: placesOf(answer), chosen: 0, mention: null });
+      this.redraw({ answer, places: placesOf(answer, (at) => streetAt(this.sceneries, at)), chosen: 0, mention: null });
       this.showAnswer();
       this.panel.reveal();
       this.lookAt();
@@ -273,7 +273,8 @@ class Page implements Acts {
 
   /** The panel covers a part of the map; what is looked at stands in the rest. */
   private fit(): void {
-    const panel = byId("panel").getBoundingClientRect();
+    const [panel, foot] = [byId("panel"), byId("legend")].map((element) => element.getBoundingClientRect());
+    this.view.covered = [panel, foot].map(({ left, top, right, bottom }) => [left, top, right, bottom]);
     this.view.camera.inset = isSheet() ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 };
     this.view.draw();
   }

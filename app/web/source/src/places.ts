@@ -1,20 +1,23 @@
 // Candidates are cells, and neighbouring cells are one place to people.
 
 import type { Answer, Candidate } from "./api";
+import { LINE, type Scenery } from "./scenery";
 
 const SAME = 30; // metres
+const NEAR = 40; // metres: no street is farther from what is on it
 const FITS = 0.25; // of the likeliest place's probability: from here on a place fits as well
 
 export interface Place {
   letter: string;
+  street: string | null;
   at: [number, number];
   probability: number;
   candidates: Candidate[];
   fits: boolean;
 }
 
-/** The candidates of an answer by place, likeliest first. */
-export function placesOf(answer: Answer): Place[] {
+/** The candidates of an answer by place: the estimate's, then the others by probability. */
+export function placesOf(answer: Answer, street: (at: [number, number]) => string | null): Place[] {
   const places: Place[] = [];
   for (const candidate of answer.candidates) {
     const [x, y] = candidate.position;
@@ -23,7 +26,7 @@ export function placesOf(answer: Answer): Place[] {
       same.candidates.push(candidate);
       same.probability += candidate.probability;
     } else {
-      places.push({ letter: "", at: [x, y], probability: candidate.probability, candidates: [candidate], fits: false });
+      places.push({ letter: "", street: street([x, y]), at: [x, y], probability: candidate.probability, candidates: [candidate], fits: false });
     }
   }
   share(answer, places);
@@ -48,4 +51,28 @@ function share(answer: Answer, places: Place[]): void {
     const nearest = away.indexOf(Math.min(...away));
     if (away[nearest] <= SAME) places[nearest].probability += probability;
   }
+}
+
+/** The name of the nearest street. */
+export function streetAt(sceneries: Scenery[], [x, y]: [number, number]): string | null {
+  let [nearest, name]: [number, string | null] = [NEAR, null];
+  for (const scenery of sceneries) {
+    if (scenery.kind !== "shapes") continue;
+    for (const shape of scenery.shapes) {
+      if (shape.form !== LINE || !shape.name) continue;
+      for (const path of shape.paths) {
+        for (let n = 0; n + 3 < path.length; n += 2) {
+          const away = fromLine(x - path[n], y - path[n + 1], path[n + 2] - path[n], path[n + 3] - path[n + 1]);
+          if (away < nearest) [nearest, name] = [away, shape.name];
+        }
+      }
+    }
+  }
+  return name;
+}
+
+/** From (x, y) to the line from (0, 0) to (u, v). */
+function fromLine(x: number, y: number, u: number, v: number): number {
+  const share = Math.max(0, Math.min(1, (x * u + y * v) / (u * u + v * v || 1)));
+  return Math.hypot(x - share * u, y - share * v);
 }
