@@ -30,7 +30,8 @@ def score(predictions: Predictions) -> dict[str, Any]:
     Returns:
         What `Predictions.facts` says, then "cells", "queries", "retrieval" {k: recall}, "localization" {k: {metres:
         recall}}; the same of the centre of the retrieved cell, of the true best cell ("oracle") and of "chance"; 95 %
-        intervals (bootstrap over queries), breakdowns, error quantiles and calibration. Keys are strings, as in JSON.
+        intervals (bootstrap over queries), breakdowns, error quantiles and calibration; and "places": where each query
+        was said ("truth") and put ("estimate", null if nowhere in its scene). Keys are strings, as in JSON.
     """
     p = predictions
     errors, centers = p.errors_m(), p.center_errors_m(p.ranked[:, : p.predicted_m.shape[1]])
@@ -50,6 +51,13 @@ def score(predictions: Predictions) -> dict[str, Any]:
         "by_scene": _by(p.scenes, p, errors),
         "by_strategy": _by(p.strategies, p, errors),
         "calibration": calibration(p.probability, retrieval_hits(p.ranked, p.queried_cells)[1]),
+    }
+    report["places"] = {
+        "truth": p.positions_m[:, :2].round(2).tolist(),
+        "estimate": [
+            at if np.isfinite(error) else None
+            for at, error in zip(p.predicted_m[:, 0].round(2).tolist(), errors[:, 0], strict=True)
+        ],
     }
     if not np.isnan(p.radius_m).any():
         report["coverage"] = _coverage(p.radius_m, p.distances_m()[:, 0])

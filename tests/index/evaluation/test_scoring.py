@@ -66,3 +66,14 @@ def test_no_answer_to_a_query_without_a_cell_is_no_hit() -> None:
     )  # nothing was read, off the map
     assert score(unread)["calibration"]["expected_calibration_error"] == 0
     assert score(unread)["retrieval"]["1"] == 0
+
+
+def test_places_say_where_each_query_was_put_or_that_it_was_put_nowhere() -> None:
+    predictions = made_up(50, 0.5, np.random.default_rng(0))
+    places = score(predictions)["places"]
+    assert places["truth"] == predictions.positions_m.tolist()
+    other = predictions.cell_scenes[predictions.ranked[:, 0]] != predictions.scenes
+    assert 0 < other.sum() < 50
+    assert [at is None for at in places["estimate"]] == other.tolist()
+    error = [np.hypot(*np.subtract(a, b)) for a, b in zip(places["truth"], places["estimate"], strict=True) if b]
+    assert error == pytest.approx(predictions.errors_m()[~other, 0])
