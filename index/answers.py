@@ -196,7 +196,10 @@ class Evidence:
 class HeatMap:
     """The distribution behind an answer."""
 
-    spacing_m: Annotated[float, Field(description="edge of the square round each point; as fine as a few squares can be that hold the distribution")]
+    spacing_m: Annotated[
+        float,
+        Field(description="edge of the square round each point; as fine as a few that hold the distribution can be"),
+    ]
     points: Annotated[
         tuple[tuple[float, float, float], ...], Field(description="x, y, probability, likeliest first, map frame")
     ]
