@@ -4,17 +4,19 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from functools import partial
 from importlib.metadata import version
+from pathlib import Path
 
 from asgi_correlation_id import CorrelationIdMiddleware
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
 from app.http.errors import add_error_handlers
-from app.http.middleware import AccessLog, StrictBody, is_sane_request_id
+from app.http.keys import KeyCheck, open_routes
+from app.http.middleware import AccessLog, NoSniff, StrictBody, is_sane_request_id
 from app.http.openapi import describe, error_table
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
-from app.http.routes import cells, evaluate, health, maps
+from app.http.routes import cells, evaluate, health, maps, page
 from app.http.routes.localize import build_router
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
@@ -26,12 +28,15 @@ Errors are problem+json (RFC 9457); `code` is stable:
 """
 
 
-def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] | None = None) -> FastAPI:
+def create_app(
+    settings: Settings, open_localizer: Callable[[], LocalizerLike] | None = None, page_dir: Path = page.PAGE_DIR
+) -> FastAPI:
     """The application.
 
     Args:
         settings: limits, and where the index is.
         open_localizer: run once, on the inference thread, when the service starts; None opens settings.index_dir.
+        page_dir: what the page's build wrote.
     """
     opener = open_localizer or partial(_open_localizer, settings)
     queue = InferenceQueue(opener, settings.max_queue, settings.max_batch)
@@ -60,13 +65,23 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
     app.state.queue = queue
     app.state.jobs = jobs
     add_error_handlers(app)
-    for router in (build_router(settings), evaluate.build_router(settings), cells.router, maps.router, health.router):
+    _add_routes(app, settings, page_dir)
+    app.openapi = partial(describe, app, needs_key=settings.read_key is not None)  # type: ignore[method-assign]
+    return app
+
+
+def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
+    """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
+    served = (build_router(settings), evaluate.build_router(settings), cells.router, maps.router, health.router)
+    routers = (*served, page.build_router(page_dir))
+    for router in routers:
         app.include_router(router)
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
+    if settings.read_key is not None:
+        app.add_middleware(KeyCheck, key=settings.read_key, open_routes=open_routes(routers))
     app.add_middleware(AccessLog)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
-    app.openapi = partial(describe, app)  # type: ignore[method-assign]
-    return app
+    app.add_middleware(NoSniff)
 
 
 def _open_localizer(settings: Settings) -> LocalizerLike:

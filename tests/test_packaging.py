@@ -4,6 +4,8 @@ import tomllib
 from fnmatch import fnmatch
 from pathlib import Path
 
+from app.http.routes.page import PAGE_DIR
+
 ROOT = Path(__file__).parent.parent
 SETUPTOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
 TOP = ("app", "index", "models")
@@ -25,6 +27,8 @@ def test_every_file_that_is_read_is_taken_along() -> None:
         for pattern in patterns
         for path in (ROOT / package.replace(".", "/")).glob(pattern)
     }
+    page = PAGE_DIR / "index.html"  # there once it is built
+    assert any(page.match(f"app/{pattern}") for pattern in SETUPTOOLS["package-data"]["app"])
     read = {p for top in TOP for kind in ("toml", "xz", "safetensors", "pbf") for p in ROOT.glob(f"{top}/**/*.{kind}")}
     of_reports = set((ROOT / "models" / "reports").rglob("*.toml"))  # nothing that runs reads them
     assert read - taken - of_reports == set()

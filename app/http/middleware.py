@@ -1,4 +1,4 @@
-"""What happens before a route: one log line a request, no fault unanswered, no body that is not plain JSON."""
+"""What happens around a route: one log line a request, no fault unanswered, no body that is not plain JSON."""
 
 import asyncio
 import json
@@ -11,6 +11,7 @@ from typing import Any
 import structlog
 from asgi_correlation_id import correlation_id
 from starlette.datastructures import Headers as RequestHeaders
+from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
@@ -63,6 +64,23 @@ class AccessLog:
                 ms=round((time.monotonic() - started_s) * 1000, 1),
                 request_id=correlation_id.get(),
             )
+
+
+class NoSniff:
+    """Has browsers take every answer for what its Content-Type says."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one request."""
+
+        async def send_marked(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                MutableHeaders(scope=message)["X-Content-Type-Options"] = "nosniff"
+            await send(message)
+
+        await self.app(scope, receive, send_marked)
 
 
 class StrictBody:

@@ -1,4 +1,4 @@
-"""Which of the formats we have a client would rather read (RFC 9110, 12.5.1)."""
+"""Which of the formats we have a client would rather read (RFC 9110, 12.5), and whether it has it already."""
 
 import hashlib
 import re
@@ -43,6 +43,16 @@ def negotiate(request: Request, frame: Frame) -> str:
     return media_type
 
 
+def takes_gzip(request: Request) -> bool:
+    """Whether a client can read what gzip compressed."""
+    takes = {}
+    for part in ",".join(request.headers.getlist("accept-encoding")).lower().split(","):
+        coding, *parameters = (each.strip() for each in part.split(";"))
+        quality = _parse_quality(parameters)
+        takes[coding] = quality is not None and quality > 0
+    return takes.get("gzip", takes.get("*", False))
+
+
 def respond(body: BaseModel, media_type: str, headers: dict[str, str] | None = None) -> Response:
     """A negotiated answer."""
     return Response(body.model_dump_json(), media_type=media_type, headers={"Vary": "Accept", **(headers or {})})
@@ -65,8 +75,13 @@ def _parse_range(text: str) -> tuple[str, float] | None:
     main, slash, sub = media_range.partition("/")
     if not (main and slash and sub) or (main == "*" and sub != "*"):
         return None
+    return None if (quality := _parse_quality(parameters)) is None else (media_range, quality)
+
+
+def _parse_quality(parameters: Sequence[str]) -> float | None:
+    """The quality that stands in parameters, 1 if none does; None if it is not well formed."""
     quality = next((value for name, _, value in (p.partition("=") for p in parameters) if name == "q"), "1")
-    return (media_range, float(quality)) if _QUALITY.fullmatch(quality) else None
+    return float(quality) if _QUALITY.fullmatch(quality) else None
 
 
 def _quality(offer: str, ranges: Sequence[tuple[str, float]]) -> float:

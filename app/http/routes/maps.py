@@ -8,7 +8,7 @@ from starlette.responses import FileResponse, Response
 
 from app.http.dependencies import Localizer
 from app.http.errors import Code, Problem
-from app.http.negotiation import etag, has_already
+from app.http.negotiation import etag, has_already, takes_gzip
 from app.http.openapi import problems
 
 router = APIRouter(tags=["map"])
@@ -38,7 +38,7 @@ def points(
     found = localizer.scenery(part) if name == localizer.facts.map_name else None
     if found is None:
         raise Problem(Code.MAP_NOT_FOUND)
-    zipped = "gzip" in request.headers.get("accept-encoding", "")
+    zipped = takes_gzip(request)
     headers = {
         "ETag": etag(found.sha256, str(zipped)),
         "Cache-Control": "no-cache",

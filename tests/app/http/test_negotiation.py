@@ -1,6 +1,7 @@
 import pytest
+from fastapi import Request
 
-from app.http.negotiation import choose
+from app.http.negotiation import choose, takes_gzip
 
 JSON, GEO = "application/json", "application/geo+json"
 
@@ -29,3 +30,23 @@ JSON, GEO = "application/json", "application/geo+json"
 )
 def test_choice(accept, chosen):
     assert choose(accept, (JSON, GEO)) == chosen
+
+
+@pytest.mark.parametrize(
+    ("accepts", "takes"),
+    [
+        ([], False),
+        ([""], False),
+        (["gzip"], True),
+        (["br, GZIP;q=0.5"], True),
+        (["br", "gzip"], True),
+        (["*"], True),
+        (["*, gzip;q=0"], False),
+        (["gzip;q=0.000"], False),
+        (["gzip;q=high"], False),
+        (["identity, x-gzipped"], False),
+    ],
+)
+def test_gzip_is_taken_by_who_says_so(accepts, takes):
+    headers = [(b"accept-encoding", each.encode()) for each in accepts]
+    assert takes_gzip(Request({"type": "http", "headers": headers})) == takes
