@@ -21,7 +21,7 @@ TOLD_OF := $(if $(MIDTOWN),--data $(MIDTOWN) --texts $(PEOPLE)/manhattan_dev.jso
 	$(HELSINKI) --texts $(PEOPLE)/helsinki_west.jsonl \
 	--data models/maps/alexanderplatz.osm.pbf --texts $(PEOPLE)/alexanderplatz_dev.jsonl
 
-.PHONY: help install run test test-fast check format towns train refit index serve evaluate benchmark web wheels image clean
+.PHONY: help install run test test-fast check format towns train refit index serve evaluate benchmark web page wheels image clean
 
 help:  ## what can be made
 	@sed -n 's/^\([a-z-]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
@@ -86,7 +86,13 @@ benchmark: index  ## seconds, memory and latency on this machine
 	$(BIN)/hereabouts benchmark --map $(MAP) --index $(INDEX)
 
 web:  ## open the page of the running service
-	$(PYTHON) -m webbrowser http://127.0.0.1:$(PORT)/docs
+	$(PYTHON) -m webbrowser http://127.0.0.1:$(PORT)/
+
+page: install  ## build the page (app/web/page) from its sources, which takes Node.js
+	$(BIN)/python -c "import json; from app.main import create_app; from app.settings import Settings; \
+		print(json.dumps(create_app(Settings()).openapi()))" > app/web/source/schema.json
+	cd app/web/source && npm ci --silent --no-audit --no-fund && npm run --silent types && npm run --silent check \
+		&& npm run --silent build
 
 wheels: install  ## put this machine's build of torch where the image build finds it
 	$(BIN)/pip download --quiet --no-deps --dest docker/wheels $(TORCH)

@@ -1,85 +1,163 @@
-"""An answer as a picture: the map, the candidates, the estimate and how sure it is."""
+"""An answer as a picture, in the look of the page: the map, the estimate and how sure it is."""
 
 import textwrap
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any, Final
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle as CirclePatch
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Circle, PathPatch, Rectangle
+from matplotlib.path import Path as Line
+from matplotlib.patheffects import withStroke
 
-from index.answers import Answer
+from index.answers import Answer, Estimate
 from index.localizer import Localizer
+from models.city.scenery.reading import Drawn, Outline, look, read_scenery
 
-COLOURS = {
-    "building": "#b08968",
-    "road": "#8d99ae",
-    "driveway": "#8d99ae",
-    "sidewalk": "#c5cad3",
-    "footpath": "#c5cad3",
-    "square": "#d9cfc1",
-    "crossing": "#c5cad3",
-    "tram track": "#6c757d",
-    "railway track": "#6c757d",
-    "park": "#b5d6a7",
-    "grass": "#b5d6a7",
-    "bushes": "#8fbf7f",
-    "tree": "#5a9e4b",
-    "tree row": "#5a9e4b",
-    "water": "#8ecae6",
-}
-OTHER_COLOUR = "#e0a84f"
-DPI = 130
-LABEL_BOX = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8}
-LISTED = 10  # cells whose probabilities are written
+SIZE_IN: Final = (11.0, 6.2)
+DPI: Final = 130
+LEAST_REACH_M, REACH_RADII = 70.0, 1.6  # of what is shown round the estimate, as on the page
+NAMED = 60  # names that are tried, those of long streets first
+APART: Final = (0.16, 0.035)  # of the picture's sides: names nearer than this would overlap
+AREA, LINE = 2, 1
 
 
 def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> None:
-    """Write a PNG of an answer: the whole map at the left, the surroundings of the estimate at the right.
+    """Write a PNG of an answer: the surroundings of the estimate at the left, the whole map at the right.
 
     Args:
-        localizer: what answered; its index holds the points that are drawn.
+        localizer: what answered; its index holds what is drawn.
         text: the description.
         answer: with an estimate.
         path: file to write.
     """
     if answer.estimate is None:
         raise ValueError("an answer without an estimate cannot be drawn")
-    parts = localizer.gallery.cells.parts
-    xy = parts.closest_m[:, :2]
-    colours = np.array([COLOURS.get(label, OTHER_COLOUR) for label in localizer.gallery.labels])[parts.instance]
-    figure = Figure(figsize=(11, 6.2), layout="constrained")
-    figure.suptitle(textwrap.fill(text, 120), fontsize=10, x=0.01, ha="left", style="italic")
+    found = localizer.scenery(0)
+    if found is None:
+        raise ValueError("the index has no scenery; build it again")
+    drawn, colours = read_scenery(found.path), look()["light"]
+    figure = Figure(figsize=SIZE_IN, dpi=DPI, facecolor="white")
+    near = figure.add_axes((0.01, 0.05, 0.64, 0.8))
+    whole = figure.add_axes((0.665, 0.05, 0.325, 0.8))
     x, y = answer.estimate.position
-    for axes, reach in zip(figure.subplots(1, 2), (None, 90.0), strict=True):
-        axes.scatter(xy[:, 0], xy[:, 1], s=0.5 if reach is None else 7, c=colours, linewidths=0)
-        for candidate in reversed(answer.candidates):
-            west, south, east, north = candidate.bbox
-            axes.add_patch(
-                Rectangle((west, south), east - west, north - south, fill=False, lw=1.2, color="#1d3557", alpha=0.9)
-            )
-            if reach and abs(candidate.center[0] - x) < reach and abs(candidate.center[1] - y) < reach:
-                at = candidate.center[:2]
-                axes.annotate(str(candidate.rank), at, fontsize=8, ha="center", va="center", bbox=LABEL_BOX)
-        radius = answer.estimate.radius_m.p90
-        axes.add_patch(CirclePatch((x, y), radius, fill=False, ls="--", lw=1.2, color="#e63946"))
-        axes.plot(x, y, marker="*", ms=13, color="#e63946", mec="white")
-        axes.set_aspect("equal")
-        axes.set_xlabel("east (m)")
-        axes.set_ylabel("north (m)")
-        if reach:
-            shares = (f"{candidate.rank}: {candidate.probability:.0%}" for candidate in answer.candidates[:LISTED])
-            told = "cells by their middles\n" + "\n".join(shares)
-            axes.text(0.02, 0.98, told, transform=axes.transAxes, fontsize=8, va="top", bbox=LABEL_BOX)
-            axes.set(xlim=(x - reach, x + reach), ylim=(y - reach, y + reach))
-            axes.set_title(
-                f"best position, and the circle that holds the true one with 90 %: {radius:.0f} m", fontsize=9
-            )
-        else:
-            axes.set(xlim=(xy[:, 0].min(), xy[:, 0].max()), ylim=(xy[:, 1].min(), xy[:, 1].max()))
-            facts = localizer.facts
-            listed = len(answer.candidates)
-            axes.set_title(f"{facts.map_name}: {facts.num_cells} cells, the best {listed} framed", fontsize=9)
-    figure.text(0.995, 0.005, localizer.facts.attribution, fontsize=6, ha="right")
+    reach = max(LEAST_REACH_M, REACH_RADII * answer.estimate.radius_m.p90)
+    wide = reach * 0.64 * SIZE_IN[0] / (0.8 * SIZE_IN[1])
+    _draw_map(near, drawn, (x - wide, y - reach, x + wide, y + reach), colours)
+    _draw_names(near, drawn, colours)
+    _draw_estimate(near, answer.estimate, colours)
+    _draw_map(whole, drawn, _box(localizer), colours)
+    whole.add_patch(Rectangle((x - wide, y - reach), 2 * wide, 2 * reach, fill=False, lw=1.5, ec=colours["accent"]))
+    whole.plot(x, y, "o", ms=6, color=colours["accent"], mec="white", mew=1.2)
+    _tell(figure, localizer, text, answer)
     FigureCanvasAgg(figure).print_png(path)
+
+
+def _tell(figure: Figure, localizer: Localizer, text: str, answer: Answer) -> None:
+    """What was said, and the answer in words."""
+    assert answer.estimate is not None
+    said = textwrap.shorten(text, 150, placeholder=" …")
+    place = answer.estimate.place or "here"
+    sure = f"within {answer.estimate.radius_m.p90:.0f} m, nine times out of ten"
+    told = sure if answer.status == "ok" else f"several places fit; the likeliest is shown, {sure}"
+    figure.text(0.01, 0.955, f"“{said}”", fontsize=9, style="italic", color="#625c52")
+    figure.text(0.01, 0.905, place[0].upper() + place[1:], fontsize=13, weight="bold", color="#23211d")
+    figure.text(0.01, 0.868, told, fontsize=9, color="#23211d")
+    figure.text(0.99, 0.015, localizer.facts.attribution, fontsize=6, ha="right", color="#625c52")
+
+
+def _box(localizer: Localizer) -> tuple[float, float, float, float]:
+    """West, south, east, north of the map."""
+    centers, half = localizer.gallery.cells.center_m[:, :2], localizer.gallery.cells.size_m / 2
+    (west, south), (east, north) = centers.min(axis=0) - half, centers.max(axis=0) + half
+    return float(west), float(south), float(east), float(north)
+
+
+def _draw_map(axes: Axes, drawn: Drawn, box: tuple[float, float, float, float], colours: dict[str, Any]) -> None:
+    west, south, east, north = box
+    axes.set(xlim=(west, east), ylim=(south, north), xticks=[], yticks=[], facecolor=colours["ground"])
+    axes.set_aspect("equal")
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    if len(drawn.xyz_m):
+        axes.scatter(*drawn.xyz_m[:, :2].T, s=0.6, c=drawn.rgb / 255, linewidths=0)
+    points_a_metre = 72 * axes.get_position().height * SIZE_IN[1] / (north - south)
+    order = {"ground": 0, "walls": 1, "rising": 2}
+    for kind, level in order.items():
+        paints = look()[kind]
+        for outline in reversed(drawn.outlines):
+            if outline.label in paints and _is_seen(outline, box):
+                edge = colours["rail"] if kind == "rising" else "none"
+                _draw_outline(axes, outline, colours[paints[outline.label]], edge, points_a_metre, level)
+    trees = [outline.paths[0][0] for outline in drawn.outlines if outline.form == 0 and outline.label == "tree"]
+    if trees:
+        axes.scatter(*np.array(trees).T, s=max(2.0, (4 * points_a_metre) ** 2), c=colours["tree"], lw=0, zorder=3)
+
+
+def _is_seen(outline: Outline, box: tuple[float, float, float, float]) -> bool:
+    low, high = (
+        np.min([p.min(axis=0) for p in outline.paths], axis=0),
+        np.max([p.max(axis=0) for p in outline.paths], axis=0),
+    )
+    return bool(low[0] <= box[2] and low[1] <= box[3] and high[0] >= box[0] and high[1] >= box[1])
+
+
+def _draw_outline(axes: Axes, outline: Outline, colour: str, edge: str, points_a_metre: float, level: int) -> None:
+    if outline.form == AREA:
+        whole = Line.make_compound_path(*(Line(path, closed=True) for path in outline.paths))
+        axes.add_patch(PathPatch(whole, fc=colour, ec=edge, lw=0.6, zorder=level))
+    elif outline.form == LINE:
+        width = max(0.5, outline.width_m * points_a_metre)
+        for path in outline.paths:
+            axes.plot(*path.T, color=colour, lw=width, solid_capstyle="round", zorder=level)
+
+
+def _draw_estimate(axes: Axes, estimate: Estimate, colours: dict[str, Any]) -> None:
+    accent, at = colours["accent"], estimate.position
+    axes.add_patch(Circle(at, estimate.radius_m.p50, fc=accent, alpha=0.25, zorder=6))
+    axes.add_patch(Circle(at, estimate.radius_m.p90, fill=False, ec=accent, lw=1.6, zorder=6))
+    axes.plot(*at, "o", ms=10, color=accent, mec="white", mew=2, zorder=7)
+
+
+def _draw_names(axes: Axes, drawn: Drawn, colours: dict[str, Any]) -> None:
+    """Streets along their lines and places at their points, as many as have room."""
+    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
+    taken: list[tuple[float, float]] = []
+    for name, x, y, angle in list(_names(drawn, (west, south, east, north)))[:NAMED]:
+        at = ((x - west) / (east - west), (y - south) / (north - south))
+        if not (0.08 < at[0] < 0.92 and 0.03 < at[1] < 0.97):
+            continue
+        if any(abs(at[0] - a) < APART[0] and abs(at[1] - b) < APART[1] for a, b in taken):
+            continue
+        taken.append(at)
+        effects = [withStroke(linewidth=2.5, foreground=colours["halo"])]
+        style: dict[str, Any] = {"ha": "center", "va": "center", "color": colours["name"], "zorder": 5}
+        axes.text(x, y, name, fontsize=7.5, rotation=angle, path_effects=effects, **style)
+
+
+def _names(drawn: Drawn, box: tuple[float, float, float, float]) -> Iterator[tuple[str, float, float, float]]:
+    """Names with where they go and how they are turned, degrees; streets first, each once."""
+    west, south, east, north = box
+    lines: dict[str, np.ndarray[Any, Any]] = {}
+    for outline in drawn.outlines:
+        if outline.form != LINE or not outline.name:
+            continue
+        for path in outline.paths:
+            inside = path[(path[:, 0] > west) & (path[:, 0] < east) & (path[:, 1] > south) & (path[:, 1] < north)]
+            if len(inside) > 1 and _length(inside) > _length(lines.get(outline.name, inside[:1])):
+                lines[outline.name] = inside
+    for name, path in sorted(lines.items(), key=lambda item: -_length(item[1])):
+        middle = path[len(path) // 2 - 1 : len(path) // 2 + 1]
+        (dx, dy), (x, y) = middle[1] - middle[0], middle.mean(axis=0)
+        yield name, float(x), float(y), float((np.degrees(np.arctan2(dy, dx)) + 90) % 180 - 90)
+    for place in drawn.places:
+        x, y = place.at_m
+        if west < x < east and south < y < north:
+            yield place.name, x, y, 0.0
+
+
+def _length(path: Sequence[Any] | np.ndarray[Any, Any]) -> float:
+    return float(np.linalg.norm(np.diff(np.asarray(path), axis=0), axis=1).sum())

@@ -1,0 +1,158 @@
+"""The page in a real browser, against a real service with the weights that ship, on a tiny town with names."""
+
+import asyncio
+import shutil
+import threading
+from contextlib import contextmanager
+from html import escape
+from urllib.parse import urlsplit
+
+import httpx
+import pytest
+import uvicorn
+from playwright.sync_api import sync_playwright
+
+from app.main import create_app
+from app.settings import Settings
+from index.build import build_index
+from tests.app.conftest import wait_until
+from tests.conftest import LAT, LAT_M, LON, LON_M, tiny_osm
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+SOFTWARE = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+EVIL = "<img src=x onerror=\"document.title='broken'\">"
+PLACES = (  # metres east and north, name, tags
+    (37, 5, "Bakery Aurora", {"shop": "bakery"}),
+    (157, 117, "Café Sirius", {"amenity": "cafe"}),
+    (216, 187, "Museum of Salt", {"tourism": "museum"}),
+    (97, 247, "Vega Pharmacy", {"amenity": "pharmacy"}),
+    (262, 66, EVIL, {"shop": "books"}),
+)
+
+
+def named_town():
+    """The tiny town with a few places that have names, one of them with markup for a name."""
+    nodes = "".join(
+        f'<node id="{10_000_000 + n}" version="1" lat="{LAT + y * LAT_M:.7f}" lon="{LON + x * LON_M:.7f}">'
+        + "".join(f'<tag k="{k}" v="{escape(v)}"/>' for k, v in {**tags, "name": name}.items())
+        + "</node>"
+        for n, (x, y, name, tags) in enumerate(PLACES)
+    )
+    head, way, rest = tiny_osm().partition("<way ")  # nodes come before ways
+    return head + nodes + way + rest
+
+
+@pytest.fixture(scope="session")
+def town_index(made_once):
+    def make(out):
+        (out / "town.osm").write_text(named_town())
+        build_index(out / "town.osm", out / "index")
+
+    return made_once("named-town", make) / "index"
+
+
+@contextmanager
+def served(settings):
+    """The service, in a thread of its own; gives its address."""
+    app = create_app(settings)
+    server = uvicorn.Server(uvicorn.Config(app, port=0, log_level="warning"))
+    thread = threading.Thread(target=lambda: asyncio.run(server.serve()), daemon=True)
+    thread.start()
+    wait_until(lambda: server.started, 60)
+    url = f"http://127.0.0.1:{server.servers[0].sockets[0].getsockname()[1]}/"
+    wait_until(lambda: httpx.get(f"{url}readyz").status_code == 200, 60)
+    yield url
+    server.should_exit = True
+    thread.join(30)
+
+
+@pytest.fixture(scope="session")
+def service(town_index):
+    with served(Settings(index_dir=town_index)) as url:
+        yield url
+
+
+@pytest.fixture(scope="session")
+def playwright():
+    if CHROMIUM is None:
+        pytest.skip("no chromium here: apt-get install chromium")
+    with sync_playwright() as playwright:
+        yield playwright
+
+
+@pytest.fixture(scope="session")
+def browser(playwright):
+    browser = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE)
+    yield browser
+    browser.close()
+
+
+class Visitor:
+    """Somebody at the page, who notes what must never happen."""
+
+    def __init__(self, page, url):
+        self.page, self.url = page, url
+        self.wrong = []
+        self.asked = []
+        page.set_default_timeout(20_000)
+        page.on("request", self._note)
+        page.on("pageerror", lambda error: self.wrong.append(str(error)))
+        page.on("console", lambda message: message.type == "error" and self.wrong.append(message.text))
+        page.on("dialog", lambda dialog: (self.wrong.append("a dialog"), dialog.dismiss()))
+
+    def _note(self, request):
+        here, there = urlsplit(self.url), urlsplit(request.url)
+        if there.scheme not in ("data", "blob") and there.netloc != here.netloc:
+            self.wrong.append(f"left the origin: {request.url}")
+        if request.method == "POST":
+            self.asked.append((there.path, request.post_data_json))
+
+    def open(self, fragment=""):
+        """Open the page, and wait for its map and its chips."""
+        self.page.goto(self.url + fragment)
+        self.page.wait_for_function("document.querySelectorAll('#chips .chip').length > 2")
+        return self
+
+    def ask(self, text):
+        """Type, press Enter, and wait for the answer."""
+        self.page.fill("#said", text)
+        with self.page.expect_response("**/localize") as response:
+            self.page.keyboard.press("Enter")
+        self.page.wait_for_selector("#answer[aria-busy=false] h2")
+        return response.value.json()
+
+    def pixel(self, x, y):
+        """Red, green, blue and opacity of what lies over the map at a place of the window."""
+        self.page.wait_for_timeout(500)  # flights end
+        return self.page.evaluate(
+            """([x, y]) => {
+                const canvas = document.querySelector("#map .over"), ratio = canvas.width / canvas.clientWidth;
+                return [...canvas.getContext("2d").getImageData(x * ratio, y * ratio, 1, 1).data];
+            }""",
+            [x, y],
+        )
+
+    def middle(self):
+        """Where in the window the map's middle is."""
+        box, size = self.page.locator("#panel").bounding_box(), self.page.viewport_size
+        if size["width"] <= 640:
+            return size["width"] / 2, max(size["height"] / 2, box["y"]) / 2
+        return (box["x"] + box["width"] + size["width"]) / 2, size["height"] / 2
+
+
+@pytest.fixture
+def visit(browser, service):
+    """(url, expected errors, context options) -> a visitor; in the end nothing may have gone wrong."""
+    visitors = []
+
+    def visit(url=service, errors=(), **options):
+        context = browser.new_context(**{"viewport": {"width": 1200, "height": 760}, **options})
+        visitor = Visitor(context.new_page(), url)
+        visitors.append((visitor, context, tuple(errors)))
+        return visitor
+
+    yield visit
+    for visitor, context, errors in visitors:
+        context.close()
+        left = [wrong for wrong in visitor.wrong if not any(error in wrong for error in errors)]
+        assert left == []

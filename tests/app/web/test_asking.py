@@ -1,0 +1,159 @@
+import re
+
+import pytest
+
+from tests.app.web.conftest import EVIL, SOFTWARE, CHROMIUM, Visitor
+
+pytestmark = pytest.mark.slow
+
+SURE = "I am on East Street 2. Café Sirius is right beside me."
+ACCENT = (200, 16, 46)
+
+
+def is_like(pixel, colour):
+    return max(abs(a - b) for a, b in zip(pixel, colour, strict=False)) < 12
+
+
+def test_who_asks_sees_the_answer_in_words_and_on_the_map(visit):
+    visitor = visit().open()
+    answer = visitor.ask(SURE)
+    assert answer["status"] == "ok"
+    page = visitor.page
+    assert "East Street 2" in page.inner_text("#answer h2")
+    assert "nine times out of ten" in page.inner_text("#answer")
+    assert is_like(visitor.pixel(*visitor.middle()), ACCENT), "the first candidate stands in the middle of the map"
+
+
+def test_a_mention_lights_its_object_up_and_the_object_its_mention(visit):
+    visitor = visit().open()
+    answer = visitor.ask(SURE)
+    page = visitor.page
+    mention = page.locator(".mention", has_text="Café Sirius")
+    before = page.evaluate("document.querySelector('#map .over').toDataURL()")
+    mention.hover()
+    page.wait_for_timeout(200)
+    assert page.evaluate("document.querySelector('#map .over').toDataURL()") != before
+    assert "lit" in mention.get_attribute("class")
+    number = mention.get_attribute("data-mention")
+    assert "lit" in page.locator(f"[data-evidence='{number}']").get_attribute("class")
+    assert answer["evidence"][int(number)]["name"] == "Café Sirius"
+    page.mouse.move(600, 20)
+    assert page.locator(".lit").count() == 0
+    mention.focus()
+    assert page.locator(".lit").count() == 2, "for who has no mouse"
+    x, y = visitor.middle()
+    mention.evaluate("element => element.blur()")
+    found = False
+    for dx in range(-90, 91, 6):
+        for dy in range(-90, 91, 6):
+            page.mouse.move(x + dx, y + dy)
+            found = found or page.locator(f"[data-mention='{number}'].lit").count() > 0
+        if found:
+            break
+    assert found, "the object under the mouse lights its words up"
+
+
+def test_what_was_not_understood_and_not_found_says_so(visit):
+    visitor = visit().open()
+    visitor.ask("I am on East Street 2. Café Sirius is right beside me. There is a helicopter to my east. Blorb quux.")
+    text = visitor.page.inner_text("#answer")
+    assert "was not understood" in text
+    assert visitor.page.locator(".mention.none").count() >= 1
+    visitor.ask("Hello, how do you do?")
+    assert visitor.page.inner_text("#answer h2") in ("No place fits", "Nothing of it was found on this map")
+
+
+def test_markup_is_shown_as_text_in_what_is_typed_and_in_what_the_map_calls_things(visit):
+    visitor = visit().open()
+    typed = f"{EVIL} I am on East Street 1. <b>There</b> is a tree to my north."
+    visitor.ask(typed)
+    assert typed in visitor.page.inner_text("#answer .told")
+    answer = visitor.ask("I am on East Street 1 next to a book shop.")
+    assert any(hint["name"] == EVIL for hint in answer["evidence"]), "else this tests nothing"
+    assert EVIL in visitor.page.inner_text("#answer .evidence")
+    assert visitor.page.locator("#answer img, #answer b b").count() == 0
+    assert visitor.page.title() == "Hereabouts"
+
+
+def test_a_place_that_is_pinned_is_described_and_found_again(visit):
+    visitor = visit().open()
+    page = visitor.page
+    page.click("#describe")
+    assert page.get_attribute("#describe", "aria-pressed") == "true"
+    with page.expect_response("**/describe") as response:
+        page.mouse.click(*visitor.middle())
+    described = response.value.json()
+    page.wait_for_function("document.querySelector('#said').value.length > 20")
+    assert page.input_value("#said") == described["description"]
+    with page.expect_response("**/localize") as response:
+        page.keyboard.press("Enter")
+    estimate = response.value.json()["estimate"]["position"]
+    away = sum((a - b) ** 2 for a, b in zip(estimate, described["position"], strict=True)) ** 0.5
+    assert away < 20
+
+
+def test_a_surprise_is_a_place_that_the_map_describes(visit):
+    visitor = visit().open()
+    with visitor.page.expect_response("**/localize"):
+        visitor.page.click("text=Surprise me")
+    visitor.page.wait_for_selector("#answer h2")
+    described = [body for path, body in visitor.asked if path == "/localize"]
+    assert len(described[-1]["description"]) > 20
+
+
+def test_a_question_narrows_and_its_answer_can_be_taken_back(visit):
+    visitor = visit().open()
+    first = visitor.ask("There is a tree to my north. There is a bench to my east.")
+    assert first["status"] == "ambiguous"
+    asked = first["question"]
+    page = visitor.page
+    assert page.inner_text(".question p") == asked["text"]
+    choice = asked["choices"][0]
+    with page.expect_response("**/localize") as response:
+        page.click(f".question button >> text='{choice['text']}'")
+    second = response.value.json()
+    assert visitor.asked[-1][1]["answers"] == [{"question": asked["id"], "choice": choice["value"]}]
+    assert second["estimate"]["probability"] > first["estimate"]["probability"]
+    page.wait_for_selector("text=You answered")
+    with page.expect_response("**/localize") as response:
+        page.click("#answer .chip")
+    assert response.value.json()["question"]["id"] == asked["id"]
+
+
+def test_the_other_places_are_a_click_away(visit):
+    visitor = visit().open()
+    answer = visitor.ask("There is a tree to my north. There is a bench to my east.")
+    assert answer["status"] == "ambiguous"
+    places = visitor.page.locator(".place")
+    assert places.count() > 1
+    places.nth(1).click()
+    assert places.nth(1).get_attribute("aria-pressed") == "true"
+    assert is_like(visitor.pixel(visitor.middle()[0] - 9, visitor.middle()[1]), ACCENT), "beside the letter"
+
+
+def test_no_webgl_is_no_obstacle(playwright, service):
+    browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*SOFTWARE[:1], "--disable-3d-apis"])
+    visitor = Visitor(browser.new_page(viewport={"width": 1200, "height": 760}), service)
+    visitor.open().ask(SURE)
+    assert is_like(visitor.pixel(*visitor.middle()), ACCENT)
+    drawn = visitor.page.evaluate(
+        """() => {
+            const canvas = document.querySelector("#map canvas"), pen = canvas.getContext("2d");
+            const pixels = new Uint32Array(pen.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+            return new Set(pixels).size;
+        }"""
+    )
+    assert drawn > 4, "houses, streets and greens have colours"
+    assert [wrong for wrong in visitor.wrong if "WebGL" not in wrong] == []
+    browser.close()
+
+
+def test_coordinates_are_copied(visit):
+    visitor = visit(permissions=["clipboard-read", "clipboard-write"]).open()
+    answer = visitor.ask(SURE)
+    visitor.page.click(".spot .copy")
+    visitor.page.wait_for_selector("text=Copied")
+    lat, lon = map(float, visitor.page.evaluate("navigator.clipboard.readText()").split(","))
+    assert lat == pytest.approx(answer["estimate"]["wgs84"]["lat"], abs=1e-6)
+    assert lon == pytest.approx(answer["estimate"]["wgs84"]["lon"], abs=1e-6)
+    assert re.search(r"60\.\d{6}, 25\.\d{6}", visitor.page.inner_text(".spot"))
