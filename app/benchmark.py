@@ -182,10 +182,13 @@ def serving(index_dir: Path) -> Iterator[httpx.Client]:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
+    key = load_settings().read_key
+    headers = {} if key is None else {"Authorization": f"Bearer {key.get_secret_value()}"}
     command = [*_hereabouts(), "serve", "--index", str(index_dir), "--port", str(port)]
     server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
-        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=30, trust_env=False) as client:
+        url = f"http://127.0.0.1:{port}"
+        with httpx.Client(base_url=url, headers=headers, timeout=30, trust_env=False) as client:
             _wait_until_ready(client, server)
             yield client
     finally:

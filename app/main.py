@@ -11,6 +11,7 @@ from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
 from app.http.errors import add_error_handlers
+from app.http.keys import KeyCheck, open_routes
 from app.http.middleware import AccessLog, NoSniff, StrictBody, is_sane_request_id
 from app.http.openapi import describe, error_table
 from app.http.protocol import LocalizerLike
@@ -65,16 +66,19 @@ def create_app(
     app.state.jobs = jobs
     add_error_handlers(app)
     _add_routes(app, settings, page_dir)
-    app.openapi = partial(describe, app)  # type: ignore[method-assign]
+    app.openapi = partial(describe, app, needs_key=settings.read_key is not None)  # type: ignore[method-assign]
     return app
 
 
 def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
     served = (build_router(settings), evaluate.build_router(settings), cells.router, maps.router, health.router)
-    for router in (*served, page.build_router(page_dir)):
+    routers = (*served, page.build_router(page_dir))
+    for router in routers:
         app.include_router(router)
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
+    if settings.read_key is not None:
+        app.add_middleware(KeyCheck, key=settings.read_key, open_routes=open_routes(routers))
     app.add_middleware(AccessLog)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
     app.add_middleware(NoSniff)

@@ -1,18 +1,21 @@
 """What an operator can set, from the environment (HEREABOUTS_PORT=9000) or the command line."""
 
+import re
 from pathlib import Path
 from typing import Literal, Self
 
-from pydantic import Field, PositiveInt, ValidationError, model_validator
+from pydantic import Field, PositiveInt, SecretStr, ValidationError, field_validator, model_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from models.errors import HereaboutsError
+
+_KEY = re.compile(r"[!-~]{8,}")  # what every client and proxy can send in a header
 
 
 class Settings(BaseSettings):
     """Every knob of the service; limits that a client can run into are shown by /info."""
 
-    model_config = SettingsConfigDict(env_prefix="HEREABOUTS_")
+    model_config = SettingsConfigDict(env_prefix="HEREABOUTS_", hide_input_in_errors=True)  # one is a secret
 
     index_dir: Path = Field(Path("data/index"), description="directory that `hereabouts index` wrote")
     weights_dir: Path | None = Field(None, description="model weights; None: the ones shipped in the package")
@@ -24,6 +27,7 @@ class Settings(BaseSettings):
     )
     host: str = "127.0.0.1"
     port: int = Field(8000, ge=0, le=65535)
+    read_key: SecretStr | None = Field(None, description="what clients have to send to ask anything; None: nothing")
     data_dir: Path | None = Field(None, description="maps and data sets that POST /evaluate takes by name; None: none")
     max_bytes: PositiveInt = Field(262_144, description="of a request body")
     max_evaluate_bytes: PositiveInt = Field(16_777_216, description="of the body of POST /evaluate")
@@ -37,6 +41,16 @@ class Settings(BaseSettings):
     deadline_ms: PositiveInt = Field(10_000, description="of a request that names none")
     max_deadline_ms: PositiveInt = 60_000
     log_level: Literal["debug", "info", "warning", "error"] = "info"
+
+    @field_validator("read_key")
+    @classmethod
+    def _key_can_be_sent(cls, key: SecretStr | None) -> SecretStr | None:
+        if key is not None and not _KEY.fullmatch(key.get_secret_value()):
+            raise ValueError(
+                "takes 8 or more ASCII characters and no white space, such as `openssl rand -hex 16` prints; without "
+                "the setting the service is open"
+            )
+        return key
 
     @model_validator(mode="after")
     def _deadlines_agree(self) -> Self:

@@ -133,7 +133,7 @@ def trace_description(index_dir: Path, text: str) -> None:
     from app.settings import load_settings
 
     configure_logging("error")
-    with TestClient(create_app(load_settings(index_dir=index_dir))) as client:
+    with TestClient(create_app(load_settings(index_dir=index_dir, read_key=None))) as client:
         end_s = time.monotonic() + READY_S
         while (ready := client.get("/readyz")).status_code != 200:
             if ready.json().get("code") == "load_failed" or time.monotonic() > end_s:

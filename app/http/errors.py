@@ -26,6 +26,18 @@ class Code(Enum):
     """
 
     INVALID_JSON = (400, "The body is not JSON", "Send one JSON object in UTF-8.", None)
+    KEY_REQUIRED = (
+        401,
+        "A key is required",
+        "Send the service's read key as `Authorization: Bearer KEY` or `X-API-Key: KEY`; its operator has it.",
+        None,
+    )
+    KEY_WRONG = (
+        401,
+        "The key is wrong",
+        "Send the key that the service was started with (HEREABOUTS_READ_KEY), once; ask its operator.",
+        None,
+    )
     NOT_FOUND = (404, "No such path", "See /docs for the paths there are.", None)
     CELL_NOT_FOUND = (404, "No such cell", "Take a cell_id from an answer of the index that is served now.", None)
     MAP_NOT_FOUND = (

@@ -7,8 +7,10 @@ from fastapi.openapi.utils import get_openapi
 
 from app.http import geojson
 from app.http.errors import PROBLEM_JSON, Code, Problem, ProblemBody
+from app.http.keys import OPEN, SCHEMES
 from app.http.negotiation import GEOJSON, JSON
 
+PROBLEM_SCHEMA = {"$ref": f"#/components/schemas/{ProblemBody.__name__}"}
 Responses = dict[int | str, dict[str, Any]]
 
 
@@ -33,8 +35,13 @@ def geojson_content() -> dict[str, Any]:
     return {"content": {GEOJSON: {"schema": schema, "example": geojson.EXAMPLE}}}
 
 
-def describe(app: FastAPI) -> dict[str, Any]:
-    """The OpenAPI document, with errors as problem+json; made once."""
+def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
+    """The OpenAPI document, with errors as problem+json; made once.
+
+    Args:
+        app: what is described.
+        needs_key: whether all that is not open needs a key.
+    """
     if app.openapi_schema is None:
         document = get_openapi(
             title=app.title, version=app.version, description=app.description, routes=app.routes, tags=app.openapi_tags
@@ -46,6 +53,8 @@ def describe(app: FastAPI) -> dict[str, Any]:
                         _as_problem(response["content"])
         for unused in ("HTTPValidationError", "ValidationError"):
             document["components"]["schemas"].pop(unused, None)
+        if needs_key:
+            _ask_for_key(document)
         app.openapi_schema = document
     return app.openapi_schema
 
@@ -56,10 +65,22 @@ def error_table() -> str:
     return "\n".join(["| code | status | what and what to do |", "|---|---|---|", *rows])
 
 
+def _ask_for_key(document: dict[str, Any]) -> None:
+    """With a global requirement, /docs has a button for the key; open routes lift it for themselves."""
+    document["components"]["securitySchemes"] = SCHEMES
+    document["security"] = [{name: []} for name in SCHEMES]
+    [(status, refused)] = problems(Code.KEY_REQUIRED, Code.KEY_WRONG).items()
+    content = {PROBLEM_JSON: {**refused["content"][PROBLEM_JSON], "schema": PROBLEM_SCHEMA}}
+    for path in document["paths"].values():
+        for operation in path.values():
+            if operation.get("security") != OPEN["security"]:
+                operation["responses"][str(status)] = {"description": refused["description"], "content": content}
+
+
 def _as_problem(content: dict[str, Any]) -> None:
     """FastAPI says application/json, and its own model for a 422; ours is a problem and goes out as problem+json."""
     del content[JSON]
-    content.setdefault(PROBLEM_JSON, {})["schema"] = {"$ref": f"#/components/schemas/{ProblemBody.__name__}"}
+    content.setdefault(PROBLEM_JSON, {})["schema"] = PROBLEM_SCHEMA
 
 
 def _example(code: Code) -> dict[str, Any]:

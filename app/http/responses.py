@@ -262,6 +262,7 @@ class InfoResponse(_Out):
 
     service: str
     version: str
+    key_required: bool = Field(description="whether all but this, the page and the checks of health needs the read key")
     limits: Limits
     index: IndexInfo | None = Field(description="null until it is loaded")
     data_sets: list[str] = Field(description="names that POST /evaluate takes as data")

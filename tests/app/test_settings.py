@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from app.settings import load_settings
+from app.settings import Settings, load_settings
 from models.errors import HereaboutsError
 
 
@@ -19,9 +19,24 @@ def test_environment_then_what_is_given(monkeypatch):
         ({"max_batch": 0}, "max_batch"),
         ({"port": 70_000}, "port"),
         ({"log_level": "loud"}, "log_level"),
+        *(
+            ({"read_key": key}, "read_key: .*openssl")
+            for key in ("", " " * 9, "sevenof", "two words", "line\n12345", "schlüssel")
+        ),
         ({"deadline_ms": 9, "max_deadline_ms": 8}, "deadline_ms 9 is above max_deadline_ms 8"),
     ],
 )
 def test_value_that_cannot_be_used_is_named(given, named):
     with pytest.raises(HereaboutsError, match=named):
         load_settings(**given)
+
+
+def test_key_is_shown_by_no_error_and_no_settings(monkeypatch):
+    monkeypatch.setenv("HEREABOUTS_READ_KEY", "wh1te space")
+    with pytest.raises(HereaboutsError) as refused:
+        load_settings()
+    with pytest.raises(ValueError, match="read_key") as raised:
+        Settings()
+    assert "wh1te" not in str(refused.value) + str(raised.value)
+    monkeypatch.setenv("HEREABOUTS_READ_KEY", "wh1te-space")
+    assert "wh1te" not in repr(load_settings()) + load_settings().model_dump_json()

@@ -20,7 +20,12 @@ def trace(weights_dir, *arguments):
     found = subprocess.run(
         [sys.executable, "docs/trace.py", *map(str, arguments)],
         cwd=ROOT,
-        env={**os.environ, "HEREABOUTS_WEIGHTS_DIR": str(weights_dir), "OMP_NUM_THREADS": "1"},
+        env={
+            **os.environ,
+            "HEREABOUTS_WEIGHTS_DIR": str(weights_dir),
+            "HEREABOUTS_READ_KEY": "of-a-service",
+            "OMP_NUM_THREADS": "1",
+        },
         capture_output=True,
         text=True,
         check=False,

@@ -6,6 +6,7 @@ from fastapi import APIRouter
 
 from app.http.dependencies import Queue, SettingsNow
 from app.http.errors import Code, Problem
+from app.http.keys import OPEN
 from app.http.openapi import problems
 from app.http.responses import Health, IndexInfo, InfoResponse, Limits
 from app.jobs.order import data_sets
@@ -13,20 +14,20 @@ from app.jobs.order import data_sets
 router = APIRouter(tags=["service"])
 
 
-@router.get("/healthz")
+@router.get("/healthz", openapi_extra=OPEN)
 async def healthz() -> Health:
     """Whether the process runs; never waits for the model."""
     return Health(status="ok")
 
 
-@router.get("/readyz", responses=problems(Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED))
+@router.get("/readyz", responses=problems(Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED), openapi_extra=OPEN)
 async def readyz(queue: Queue) -> Health:
     """Whether a description would be answered now."""
     queue.check_accepting()
     return Health(status="ready")
 
 
-@router.get("/info")
+@router.get("/info", openapi_extra=OPEN)
 async def info(queue: Queue, settings: SettingsNow) -> InfoResponse:
     """The service's version and limits, and the index it serves."""
     try:
@@ -36,6 +37,7 @@ async def info(queue: Queue, settings: SettingsNow) -> InfoResponse:
     return InfoResponse(
         service="hereabouts",
         version=version("hereabouts"),
+        key_required=settings.read_key is not None,
         limits=Limits.model_validate(settings, from_attributes=True),
         index=index,
         data_sets=[path.name for path in data_sets(settings.data_dir)],

@@ -27,7 +27,7 @@ def build_router(settings: Settings) -> APIRouter:
     router = APIRouter(tags=["localize"])
     body_model = request_model(settings)
     never_here = {Code.NOT_FOUND, Code.CELL_NOT_FOUND, Code.METHOD_NOT_ALLOWED, Code.CONFLICT}
-    never_here |= {Code.JOB_NOT_FOUND, Code.JOBS_FULL, Code.MAP_NOT_FOUND}
+    never_here |= {Code.JOB_NOT_FOUND, Code.JOBS_FULL, Code.MAP_NOT_FOUND, Code.KEY_REQUIRED, Code.KEY_WRONG}
     errors = problems(*(code for code in Code if code not in never_here | {Code.CLIENT_CLOSED_REQUEST}))
 
     @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **errors})

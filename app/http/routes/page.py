@@ -10,6 +10,7 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from app.http.errors import Code, Problem
+from app.http.keys import OPEN
 from app.http.negotiation import etag, has_already, takes_gzip
 
 PAGE_DIR: Final = Path(__file__).parents[2] / "web" / "page"
@@ -87,12 +88,12 @@ def build_router(page_dir: Path) -> APIRouter:
     router = APIRouter(include_in_schema=False)
     methods = ["GET", "HEAD"]
     if not (page_dir / INDEX).is_file():
-        router.add_api_route("/", _say_how_to_build, methods=methods)
+        router.add_api_route("/", _say_how_to_build, methods=methods, openapi_extra=OPEN)
         return router
     for path in sorted(page_dir.iterdir()):
         if path.is_file() and path.suffix:  # what has no suffix is hidden, or could pass for a route
             route = "/" if path.name == INDEX else f"/{path.name}"
-            router.add_api_route(route, PageFile.load(path).send, methods=methods)
+            router.add_api_route(route, PageFile.load(path).send, methods=methods, openapi_extra=OPEN)
     return router
 
 

@@ -44,6 +44,7 @@ def test_localize_draws_a_picture(run, index_dir, tmp_path) -> None:
 @pytest.mark.slow
 def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypatch) -> None:
     monkeypatch.setattr(benchmark, "REQUESTS", 3)
+    monkeypatch.setenv("HEREABOUTS_READ_KEY", "of-a-service")
     result = run("benchmark", "--map", osm_file, "--index", index_dir)
     assert result.exit_code == 0, result.output
     figures = json.loads(result.output[result.output.index("{") :])
