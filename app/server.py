@@ -1,8 +1,10 @@
 """Running the service in one process, and ending it without dropping a request."""
 
+from ipaddress import IPv4Address, IPv6Address, ip_address
 from socket import socket
 from types import FrameType
 
+import structlog
 import uvicorn
 from fastapi import FastAPI
 
@@ -11,6 +13,8 @@ from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 
 CLOSING_S = 5
+
+log = structlog.get_logger()
 
 
 class DrainingServer(uvicorn.Server):
@@ -25,6 +29,13 @@ class DrainingServer(uvicorn.Server):
         self._queue = queue
         self._jobs = jobs
         self._is_ending = False
+
+    async def startup(self, sockets: list[socket] | None = None) -> None:
+        """Listen, and say where the page is."""
+        await super().startup(sockets)
+        if self.started:
+            port = self.servers[0].sockets[0].getsockname()[1]  # the one that was free, if the settings say 0
+            log.info("page", url=page_url(self.config.host, port))
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Drain; a second signal does not wait for that."""
@@ -47,6 +58,8 @@ class DrainingServer(uvicorn.Server):
 
 def serve(app: FastAPI, settings: Settings) -> None:
     """Serve an application until a signal ends it."""
+    if settings.read_key is None and not is_local(settings.host):
+        log.warning("no key", host=settings.host, remedy="whoever reaches this host can ask: set HEREABOUTS_READ_KEY")
     config = uvicorn.Config(
         app,
         host=settings.host,
@@ -57,3 +70,32 @@ def serve(app: FastAPI, settings: Settings) -> None:
         timeout_graceful_shutdown=settings.max_deadline_ms // 1000 + CLOSING_S,
     )
     DrainingServer(config, app.state.queue, app.state.jobs).run()
+
+
+def is_local(host: str) -> bool:
+    """Whether only this machine reaches what listens there."""
+    address = _address(host)
+    return host == "localhost" if address is None else address.is_loopback
+
+
+def page_url(host: str, port: int) -> str:
+    """Where a browser on this machine finds the page.
+
+    Args:
+        host: what the service listens on; all of a machine's addresses ("0.0.0.0") are none to go to.
+        port: of it.
+    """
+    address = _address(host)
+    if not host or (address and address.is_unspecified):
+        host = "localhost"
+    elif isinstance(address, IPv6Address):
+        host = f"[{host}]"
+    return f"http://{host}:{port}/"
+
+
+def _address(host: str) -> IPv4Address | IPv6Address | None:
+    """A host as an address; None if it is a name."""
+    try:
+        return ip_address(host)
+    except ValueError:
+        return None

@@ -12,11 +12,14 @@ from pathlib import Path
 import httpx
 import pytest
 import uvicorn
+from structlog.testing import capture_logs
 
 from app.http.errors import Code, Problem
 from app.http.queue import InferenceQueue
 from app.jobs.runner import EvaluationJobs
-from app.server import DrainingServer
+from app.main import create_app
+from app.server import DrainingServer, page_url, serve
+from app.settings import Settings
 
 SCRIPT = Path(__file__).parent / "serve_fake.py"
 
@@ -102,6 +105,7 @@ def test_sigterm_finishes_what_waits_and_exits_with_0(served, problem, until):
     requests = [line for line in lines if line["event"] == "request"]
     assert {line["route"] for line in requests} == {"/readyz", "/localize", "/waiting"}
     assert all(line["level"] == "info" and line["timestamp"] for line in requests)
+    assert [line["url"] for line in lines if line["event"] == "page"] == [f"{served.url}/"]
     assert not any(text in str(lines) for text in ("held", "queued", "refused"))
 
 
@@ -195,3 +199,33 @@ def test_a_signal_that_comes_before_the_queue_is_started_is_not_lost(fake):
         return refused.value.code
 
     assert asyncio.run(asyncio.wait_for(start_and_end(), 20)) is Code.DRAINING
+
+
+@pytest.mark.parametrize(
+    ("host", "url"),
+    [
+        ("127.0.0.1", "http://127.0.0.1:80/"),
+        ("::1", "http://[::1]:80/"),
+        ("town.example", "http://town.example:80/"),
+        *((host, "http://localhost:80/") for host in ("0.0.0.0", "::", "")),
+    ],
+)
+def test_page_has_an_address_that_one_can_go_to(host, url):
+    assert page_url(host, 80) == url
+
+
+@pytest.mark.parametrize(
+    ("host", "key", "warns"),
+    [
+        *((host, None, False) for host in ("127.0.0.1", "127.0.0.9", "::1", "localhost")),
+        *((host, None, True) for host in ("0.0.0.0", "::", "", "192.0.2.1", "town.example")),
+        ("0.0.0.0", "long-enough", False),
+    ],
+)
+def test_a_service_that_others_reach_without_a_key_warns_once(monkeypatch, host, key, warns):
+    monkeypatch.setattr(DrainingServer, "run", lambda self: None)
+    settings = Settings(host=host, read_key=key)
+    with capture_logs() as lines:
+        serve(create_app(settings), settings)
+    assert [line["event"] for line in lines if line["log_level"] == "warning"] == ["no key"] * warns
+    assert all("HEREABOUTS_READ_KEY" in line["remedy"] for line in lines)
