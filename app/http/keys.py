@@ -29,8 +29,8 @@ class KeyCheck:
     Args:
         app: what is served.
         key: the key.
-        open_routes: method and path of what needs no key; HEAD goes with GET. Paths are compared as they are, so one with
-            a parameter is never open.
+        open_routes: method and path of what needs no key; HEAD goes with GET. Paths are compared as they are, so one
+            with a parameter is never open.
     """
 
     def __init__(self, app: ASGIApp, key: SecretStr, open_routes: Collection[tuple[str, str]]) -> None:
