@@ -142,7 +142,7 @@ def _heat_map(located: Located) -> HeatMap:
     while weight[order].sum() < HEAT_HELD * weight.sum():
         spacing_m *= 2
         squares, square = np.unique(np.floor(located.points_m / spacing_m), axis=0, return_inverse=True)
-        points_m, weight = (squares + 0.5) * spacing_m, np.bincount(square.ravel(), located.weight)
+        points_m, weight = (squares + 0.5) * spacing_m, np.bincount(square.ravel(), located.weight).astype(np.float64)
         order = np.argsort(-weight, kind="stable")[:HEAT_POINTS]
     rows = np.column_stack([points_m[order], weight[order]])
     return HeatMap(spacing_m, tuple((round(x, 2), round(y, 2), p) for x, y, p in rows.tolist()))

@@ -50,8 +50,10 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
     _draw_names(near, drawn, colours)
     _draw_estimate(near, answer.estimate, colours)
     _draw_map(whole, drawn, _box(localizer), colours)
-    whole.add_patch(Rectangle((x - wide, y - reach), 2 * wide, 2 * reach, fill=False, lw=1.5, ec=colours["accent"]))
-    whole.plot(x, y, "o", ms=6, color=colours["accent"], mec="white", mew=1.2)
+    whole.add_patch(
+        Rectangle((x - wide, y - reach), 2 * wide, 2 * reach, fill=False, lw=1.5, ec=colours["accent"], zorder=8)
+    )
+    whole.plot(x, y, "o", ms=6, color=colours["accent"], mec="white", mew=1.2, zorder=8)
     _tell(figure, localizer, text, answer)
     FigureCanvasAgg(figure).print_png(path)
 
@@ -83,7 +85,7 @@ def _draw_map(axes: Axes, drawn: Drawn, box: tuple[float, float, float, float], 
     for spine in axes.spines.values():
         spine.set_visible(False)
     if len(drawn.xyz_m):
-        axes.scatter(*drawn.xyz_m[:, :2].T, s=0.6, c=drawn.rgb / 255, linewidths=0)
+        axes.scatter(drawn.xyz_m[:, 0], drawn.xyz_m[:, 1], s=0.6, c=drawn.rgb / 255, linewidths=0)
     points_a_metre = 72 * axes.get_position().height * SIZE_IN[1] / (north - south)
     order = {"ground": 0, "walls": 1, "rising": 2}
     for kind, level in order.items():
@@ -94,7 +96,8 @@ def _draw_map(axes: Axes, drawn: Drawn, box: tuple[float, float, float, float], 
                 _draw_outline(axes, outline, colours[paints[outline.label]], edge, points_a_metre, level)
     trees = [outline.paths[0][0] for outline in drawn.outlines if outline.form == 0 and outline.label == "tree"]
     if trees:
-        axes.scatter(*np.array(trees).T, s=max(2.0, (4 * points_a_metre) ** 2), c=colours["tree"], lw=0, zorder=3)
+        x, y = np.array(trees).T
+        axes.scatter(x, y, s=max(2.0, (4 * points_a_metre) ** 2), c=colours["tree"], lw=0, zorder=3)
 
 
 def _is_seen(outline: Outline, box: tuple[float, float, float, float]) -> bool:
@@ -112,7 +115,7 @@ def _draw_outline(axes: Axes, outline: Outline, colour: str, edge: str, points_a
     elif outline.form == LINE:
         width = max(0.5, outline.width_m * points_a_metre)
         for path in outline.paths:
-            axes.plot(*path.T, color=colour, lw=width, solid_capstyle="round", zorder=level)
+            axes.plot(*path.T, color=colour, lw=width, solid_capstyle="butt", zorder=level)
 
 
 def _draw_estimate(axes: Axes, estimate: Estimate, colours: dict[str, Any]) -> None:
@@ -134,7 +137,7 @@ def _draw_names(axes: Axes, drawn: Drawn, colours: dict[str, Any]) -> None:
             continue
         taken.append(at)
         effects = [withStroke(linewidth=2.5, foreground=colours["halo"])]
-        style: dict[str, Any] = {"ha": "center", "va": "center", "color": colours["name"], "zorder": 5}
+        style: dict[str, Any] = {"ha": "center", "va": "center", "color": colours["name"], "zorder": 5, "clip_on": True}
         axes.text(x, y, name, fontsize=7.5, rotation=angle, path_effects=effects, **style)
 
 
@@ -153,10 +156,12 @@ def _names(drawn: Drawn, box: tuple[float, float, float, float]) -> Iterator[tup
         middle = path[len(path) // 2 - 1 : len(path) // 2 + 1]
         (dx, dy), (x, y) = middle[1] - middle[0], middle.mean(axis=0)
         yield name, float(x), float(y), float((np.degrees(np.arctan2(dy, dx)) + 90) % 180 - 90)
-    for place in drawn.places:
-        x, y = place.at_m
-        if west < x < east and south < y < north:
-            yield place.name, x, y, 0.0
+    for place in {place.name: place for place in drawn.places if _is_in(place.at_m, box)}.values():
+        yield place.name, *place.at_m, 0.0
+
+
+def _is_in(at_m: tuple[float, float], box: tuple[float, float, float, float]) -> bool:
+    return box[0] < at_m[0] < box[2] and box[1] < at_m[1] < box[3]
 
 
 def _length(path: Sequence[Any] | np.ndarray[Any, Any]) -> float:

@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from tests.app.web.conftest import EVIL, SOFTWARE, CHROMIUM, Visitor
+from tests.app.web.conftest import CHROMIUM, EVIL, SOFTWARE, Visitor
 
 pytestmark = pytest.mark.slow
 

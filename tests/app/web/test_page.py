@@ -11,6 +11,26 @@ SURE = "I am on East Street 2. Café Sirius is right beside me."
 VAGUE = "There is a tree to my north."
 
 
+CONTRASTS = """() => {
+    const part = (value) => (value /= 255) <= .04045 ? value / 12.92 : ((value + .055) / 1.055) ** 2.4;
+    const light = (colour) => {
+        const [r, g, b] = colour.match(/[\\d.]+/g).map(Number).map(part);
+        return .2126 * r + .7152 * g + .0722 * b;
+    };
+    const ground = (element) => {
+        for (let e = element; e; e = e.parentElement) {
+            const colour = getComputedStyle(e).backgroundColor;
+            if (!colour.startsWith("rgba(") || !colour.endsWith(" 0)")) return colour;
+        }
+    };
+    const seen = [...document.querySelectorAll("#panel *")].filter((e) => e.innerText && e.checkVisibility());
+    return seen.map((e) => {
+        const [a, b] = [light(getComputedStyle(e).color), light(ground(e))];
+        return [(Math.max(a, b) + .05) / (Math.min(a, b) + .05), e.outerHTML.slice(0, 80)];
+    });
+}"""
+
+
 def drawn(visitor):
     visitor.page.wait_for_timeout(400)
     return visitor.page.evaluate("document.querySelector('#map .over').toDataURL()")
@@ -183,24 +203,7 @@ def test_on_a_phone_the_sheet_leaves_the_map_visible(visit):
 def test_text_is_legible_in_light_and_dark(visit, scheme):
     visitor = visit(color_scheme=scheme).open()
     visitor.ask("I am on East Street 2. Café Sirius is right beside me. There is a helicopter to my east.")
-    contrasts = visitor.page.evaluate(
-        """() => {
-            const light = (colour) => {
-                const [r, g, b] = colour.match(/[\\d.]+/g).map(Number).map((v) => (v /= 255) <= .04045 ? v / 12.92 : ((v + .055) / 1.055) ** 2.4);
-                return .2126 * r + .7152 * g + .0722 * b;
-            };
-            const ground = (element) => {
-                for (let e = element; e; e = e.parentElement) {
-                    const colour = getComputedStyle(e).backgroundColor;
-                    if (!colour.startsWith("rgba(") || !colour.endsWith(" 0)")) return colour;
-                }
-            };
-            return [...document.querySelectorAll("#panel *")].filter((e) => e.innerText && e.checkVisibility()).map((e) => {
-                const [a, b] = [light(getComputedStyle(e).color), light(ground(e))];
-                return [(Math.max(a, b) + .05) / (Math.min(a, b) + .05), e.outerHTML.slice(0, 80)];
-            });
-        }"""
-    )
+    contrasts = visitor.page.evaluate(CONTRASTS)
     assert len(contrasts) > 20
     assert [each for each in contrasts if each[0] < 4.5] == []
 
