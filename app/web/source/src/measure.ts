@@ -59,8 +59,8 @@ export class Measure {
     if (this.data.value) return { data: this.data.value, ...(this.split.value && { split: this.split.value }) } as api.Measured;
     if (!this.own.value.trim()) throw new Error("Choose a data set, or give descriptions of your own.");
     try {
-      const queries = JSON.parse(this.own.value);
-      return { queries: Array.isArray(queries) ? queries : [queries] } as api.Measured;
+      const own = JSON.parse(this.own.value);
+      return (Array.isArray(own) ? { queries: own } : own) as api.Measured; // or the whole of a request
     } catch {
       throw new Error("Your descriptions are not JSON; give a list as in the example.");
     }

@@ -1,0 +1,153 @@
+"""Draws the pictures of the page in docs/page/, and times it: `hereabouts serve`, then `python docs/draw_page.py`.
+
+Takes Chromium and Playwright. The pictures are of the shipped map of Helsinki; the times are printed as JSON.
+"""
+
+import argparse
+import json
+import shutil
+import sys
+from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
+
+from PIL import Image
+from playwright.sync_api import Browser, Page, sync_playwright
+
+OUT = Path(__file__).parent / "page"
+ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]  # no GPU is needed
+WIDE, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
+SURE = (
+    "I stand on a gray road. There is a park to my west, and I am east of a cycle path. A building and a wall are to "
+    "my east; a gray footpath is south of me."
+)
+STREET = "I'm on Bulevardi between Annankatu and Fredrikinkatu, a pharmacy on my right."
+VAGUE = "I can see a church and there is a tram stop near me."
+FRAMES = 40
+COLOURS = 192
+
+FIRST_PAINT = """() => new Promise((done) => {
+  const seen = () => document.querySelector("#attribution").textContent
+    ? requestAnimationFrame(() => done(performance.now())) : requestAnimationFrame(seen);
+  seen();
+})"""
+FRAME = """(frames) => new Promise((done) => {
+  const map = document.querySelector("#map .over"), times = [];
+  map.focus();
+  let last = performance.now();
+  const step = (now) => {
+    times.push(now - last);
+    last = now;
+    if (times.length > frames) return done(times.slice(1).sort((a, b) => a - b));
+    map.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", shiftKey: true, bubbles: true }));
+    requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+})"""
+
+
+def ask(page: Page, text: str) -> None:
+    """Type, press Enter, and wait until the map has flown to the answer."""
+    page.fill("#said", text)
+    page.keyboard.press("Enter")
+    page.wait_for_selector("#answer[aria-busy=false] h2")
+    page.evaluate("document.activeElement.blur()")
+    page.wait_for_timeout(1200)
+
+
+def sure(page: Page) -> None:
+    """An answer, one of its mentions lit up."""
+    ask(page, SURE)
+    page.hover(".mention >> nth=1")
+
+
+def ambiguous(page: Page) -> None:
+    """Places that fit, and the question which of them."""
+    ask(page, VAGUE)
+
+
+def heat(page: Page) -> None:
+    """Where it might be, near a place."""
+    ask(page, VAGUE)
+    page.click("text=Show more on the map")
+    page.click("text=Heat: where it might be")
+    page.evaluate("document.querySelector('#panel').scrollTop = 0")
+
+
+def report(page: Page) -> None:
+    """An evaluation."""
+    page.click("text=Measure how well it does")
+    texts = Path(__file__).parents[1] / "models/reports/people/helsinki_west.jsonl"
+    rows = [json.loads(line) for line in texts.read_text().splitlines()[:40]]
+    queries = [{"description": row["text"], "position": row["goal"][::-1]} for row in rows]
+    page.fill("#own", json.dumps({"queries": queries, "crs": "wgs84"}))
+    page.click("button >> text='Measure'")
+    page.wait_for_selector(".report table", timeout=120_000)
+    page.locator(".report").scroll_into_view_if_needed()
+
+
+STATES: dict[str, tuple[dict[str, int], str, Callable[[Page], None]]] = {
+    "start": (WIDE, "light", lambda page: None),
+    "answer": (WIDE, "light", sure),
+    "which": (WIDE, "light", ambiguous),
+    "heat": (WIDE, "dark", heat),
+    "phone": (PHONE, "light", lambda page: ask(page, STREET)),
+    "report": (WIDE, "light", report),
+}
+
+
+def open_page(browser: Browser, url: str, size: dict[str, int], scheme: str) -> Page:
+    """The page with its map and chips."""
+    context = browser.new_context(viewport=size, color_scheme=scheme, device_scale_factor=1)  # type: ignore[arg-type]
+    page = context.new_page()
+    page.goto(url)
+    page.wait_for_function("document.querySelectorAll('#chips .chip').length > 2", timeout=60_000)
+    page.wait_for_timeout(800)
+    return page
+
+
+def draw(browser: Browser, url: str) -> None:
+    """Write a picture a state."""
+    OUT.mkdir(exist_ok=True)
+    for name, (size, scheme, act) in STATES.items():
+        page = open_page(browser, url, size, scheme)
+        act(page)
+        page.wait_for_timeout(600)
+        shot = Image.open(BytesIO(page.screenshot())).convert("RGB")
+        shot.quantize(COLOURS, dither=Image.Dither.NONE).save(OUT / f"{name}.png", optimize=True)
+        page.context.close()
+
+
+def times(browser: Browser, url: str) -> dict[str, float]:
+    """Milliseconds to the first picture of the map, and of a frame while it turns: half of them, and 95 %."""
+    first = []
+    for _ in range(3):
+        page = browser.new_context(viewport=WIDE).new_page()
+        page.goto(url, wait_until="commit")
+        first.append(page.evaluate(FIRST_PAINT))
+        page.wait_for_timeout(1500)
+        frames = page.evaluate(FRAME, FRAMES)
+        page.context.close()
+    found = {"first_paint_ms": sorted(first)[1], "frame_p50_ms": frames[FRAMES // 2], "frame_p95_ms": frames[-2]}
+    return {name: round(value, 1) for name, value in found.items()}
+
+
+def main() -> None:
+    """Draw, or only time with --times."""
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("--url", default="http://127.0.0.1:8000/")
+    arguments.add_argument("--times", action="store_true", help="only time the page")
+    given = arguments.parse_args()
+    chromium = shutil.which("chromium")
+    if chromium is None:
+        sys.exit("there is no chromium here: apt-get install chromium")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS)
+        json.dump(times(browser, given.url), sys.stdout)
+        if not given.times:
+            draw(browser, given.url)
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()
