@@ -11,11 +11,11 @@ from fastapi_offline import FastAPIOffline
 
 from app.http.errors import add_error_handlers
 from app.http.middleware import AccessLog, StrictBody, is_sane_request_id
-from app.http.openapi import describe, error_table
+from app.http.openapi import describe as describe_app
+from app.http.openapi import error_table
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
-from app.http.routes import cells, evaluate, health, maps
-from app.http.routes.localize import build_router
+from app.http.routes import cells, describe, evaluate, health, localize, maps
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 
@@ -60,12 +60,14 @@ def create_app(settings: Settings, open_localizer: Callable[[], LocalizerLike] |
     app.state.queue = queue
     app.state.jobs = jobs
     add_error_handlers(app)
-    for router in (build_router(settings), evaluate.build_router(settings), cells.router, maps.router, health.router):
+    for routes in (localize, describe, evaluate):
+        app.include_router(routes.build_router(settings))
+    for router in (cells.router, maps.router, health.router):
         app.include_router(router)
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
     app.add_middleware(AccessLog)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
-    app.openapi = partial(describe, app)  # type: ignore[method-assign]
+    app.openapi = partial(describe_app, app)  # type: ignore[method-assign]
     return app
 
 

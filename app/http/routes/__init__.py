@@ -1,1 +1,4 @@
-"""The service's routes, one file a resource: localize, evaluate, cells, health. May import what app.http may."""
+"""The service's routes, one file a resource: localize, describe, evaluate, cells, maps, health.
+
+May import what app.http may.
+"""
