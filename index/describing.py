@@ -74,7 +74,7 @@ class Sight:
     def fact(self, text: str, position: Floats) -> Fact:
         """What a sentence tells of it, at a position [2]."""
         away_m = round(self.metres, 1)
-        bearing = round(float(np.degrees(np.arctan2(*self.way_m))) % 360, 1) if away_m else None
+        bearing = round(float(np.degrees(np.arctan2(*self.way_m))), 1) % 360 if away_m else None
         at = pair(np.round(position + self.way_m, 2))
         return Fact(text, self.instance, self.name, self.source_id, at, away_m, bearing)
 

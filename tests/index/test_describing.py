@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from index.answers import Query
-from index.describing import MOST_FACTS, SEEN_M, Describer, NamedSights, hint_text, named_text, street_facts
+from index.describing import MOST_FACTS, SEEN_M, Describer, NamedSights, Sight, hint_text, named_text, street_facts
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
 from models.city.types import Hint
 from models.language.places.cues import WIND_DEGREES
@@ -197,6 +197,11 @@ def test_rare_names_come_before_frequent_ones_and_things_before_the_park_they_ar
 )
 def test_hints_in_words(hint, is_ground, turn, text):
     assert hint_text(hint, 6.6, is_ground=is_ground, turn=turn) == text
+
+
+def test_what_is_just_west_of_north_has_no_bearing_of_360():
+    fact = Sight("tree", None, None, np.array([-0.001, 10.0])).fact("A tree.", np.zeros(2))
+    assert fact.bearing_deg == 0.0
 
 
 def test_names_in_words():
