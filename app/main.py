@@ -13,11 +13,11 @@ from fastapi_offline import FastAPIOffline
 from app.http.errors import add_error_handlers
 from app.http.keys import KeyCheck, open_routes
 from app.http.middleware import AccessLog, NoSniff, StrictBody, is_sane_request_id
-from app.http.openapi import describe, error_table
+from app.http.openapi import describe as describe_app
+from app.http.openapi import error_table
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
-from app.http.routes import cells, evaluate, health, maps, page
-from app.http.routes.localize import build_router
+from app.http.routes import cells, describe, evaluate, health, localize, maps, page
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 
@@ -66,14 +66,14 @@ def create_app(
     app.state.jobs = jobs
     add_error_handlers(app)
     _add_routes(app, settings, page_dir)
-    app.openapi = partial(describe, app, needs_key=settings.read_key is not None)  # type: ignore[method-assign]
+    app.openapi = partial(describe_app, app, needs_key=settings.read_key is not None)  # type: ignore[method-assign]
     return app
 
 
 def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
-    served = (build_router(settings), evaluate.build_router(settings), cells.router, maps.router, health.router)
-    routers = (*served, page.build_router(page_dir))
+    asked = [routes.build_router(settings) for routes in (localize, describe, evaluate)]
+    routers = (*asked, cells.router, maps.router, health.router, page.build_router(page_dir))
     for router in routers:
         app.include_router(router)
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})

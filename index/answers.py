@@ -260,6 +260,35 @@ class CellDetail:
 
 
 @dataclass(frozen=True, slots=True)
+class Fact:
+    """A sentence that is true at a position, and what on the map it tells of."""
+
+    text: Annotated[str, Field(description="the sentence")]
+    instance: Annotated[str, Field(description="class of what it tells of")]
+    name: Annotated[str | None, Field(description="null where it has none")]
+    source_id: str | None
+    at: Annotated[
+        tuple[float, float], Field(description="its point nearest to the position: x, y in metres, map frame")
+    ]
+    away_m: Annotated[float, Field(description="from the position to that point")]
+    bearing_deg: Annotated[
+        float | None, Field(description="from the position to that point, clockwise from north; null where it is there")
+    ]
+
+
+@dataclass(frozen=True, slots=True)
+class Described:
+    """What the map says at a position; metres, map frame."""
+
+    description: Annotated[str, Field(description="the sentences of `hints`; POST /localize finds the position by it")]
+    hints: tuple[Fact, ...]
+    place: Annotated[str | None, Field(description="the position in words; null on a map without names")]
+    position: Annotated[tuple[float, float], Field(description="x, y in metres, map frame")]
+    wgs84: Annotated[LatLon | None, Field(description="null if the map has no georeference")]
+    cell_id: Annotated[str, Field(description="the cell whose centre is nearest")]
+
+
+@dataclass(frozen=True, slots=True)
 class IndexFacts:
     """What an index says of itself.
 

@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from index.answers import Box, Circle, Query
+from index.answers import Box, Circle, Crs, Query
 from models.city.frame import Frame
 from models.city.types import Floats
 
@@ -12,7 +12,7 @@ def inside(query: Query, points_m: Floats, frame: Frame) -> npt.NDArray[np.bool_
     """[M] True where points [M, 2] of the map are inside `within`; everywhere without one."""
     within = query.within
     if isinstance(within, Circle):
-        offset = points_m - position_m(within.center, query, frame)
+        offset = points_m - position_m(within.center, query.crs, frame)
         return np.asarray(np.hypot(offset[:, 0], offset[:, 1]) <= within.radius_m)
     if isinstance(within, Box):
         x, y = points_m.T
@@ -26,11 +26,11 @@ def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:
     """[M] logarithm of the prior's density at points [M, 2], up to a constant; 0 without one."""
     if query.prior is None:
         return np.zeros(len(points_m))
-    offset = points_m - position_m(query.prior.position, query, frame)
+    offset = points_m - position_m(query.prior.position, query.crs, frame)
     density: Floats = -(offset**2).sum(axis=1) / (2 * query.prior.sigma_m**2)
     return density
 
 
-def position_m(position: tuple[float, float], query: Query, frame: Frame) -> Floats:
-    """[2] metres of a position in the query's coordinates."""
-    return np.asarray(position) if query.crs == "map" else frame.from_wgs84(position[1], position[0])
+def position_m(position: tuple[float, float], crs: Crs, frame: Frame) -> Floats:
+    """[2] metres of a position: (x, y), or (lon, lat) with crs wgs84."""
+    return np.asarray(position, dtype=np.float64) if crs == "map" else frame.from_wgs84(position[1], position[0])

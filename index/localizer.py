@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from index.answers import Answer, CellDetail, CellInstance, IndexFacts, LatLon, ModelName, Query, Refine
+from index.answers import Answer, CellDetail, CellInstance, Described, IndexFacts, LatLon, ModelName, Query, Refine
 from index.artifact import Manifest, check_model, open_version
+from index.describing import Describer
 from index.finding import CellLocalizer, to_answer
 from index.hint_features import load_hint_features
 from index.meaning import Meanings
@@ -31,7 +32,7 @@ from models.retrieval.retriever import Retriever
 
 
 class Localizer:
-    """Answers queries about one map. Not thread-safe: one thread owns it.
+    """Answers queries about one map. `localize` is not thread-safe: one thread owns it. The rest only reads.
 
     What only some queries need (posterior, fine stage, levels) is read when the first of them comes.
 
@@ -135,10 +136,22 @@ class Localizer:
     @cached_property
     def posterior(self) -> PosteriorLocalizer:
         """The hint posterior on this gallery."""
-        surroundings = Surroundings.load(self._directory)
-        given = self._load_model(), self.gallery, self.palette, self.frame, surroundings, self.ranker
+        given = self._load_model(), self.gallery, self.palette, self.frame, self._surroundings, self.ranker
         meanings = Meanings.load(self._directory, load_text_encoder().embed)
-        return PosteriorLocalizer(*given, Gazetteer.load(self._directory), self.manifest.grid_m, meanings)
+        return PosteriorLocalizer(*given, self._gazetteer, self.manifest.grid_m, meanings)
+
+    # The next three are read by `describe` too, on any thread: what two threads read at once is the same.
+    @cached_property
+    def _surroundings(self) -> Surroundings:
+        return Surroundings.load(self._directory)
+
+    @cached_property
+    def _gazetteer(self) -> Gazetteer:
+        return Gazetteer.load(self._directory)
+
+    @cached_property
+    def _describer(self) -> Describer:
+        return Describer(self.gallery, self.palette, self.frame, self._surroundings, self._gazetteer)
 
     @cached_property
     def _vectors(self) -> VectorLocalizer:
@@ -175,6 +188,10 @@ class Localizer:
         name = file_name(number)
         record = self.manifest.files.get(name)
         return SceneryPart(self._directory / name, record.sha256) if record else None
+
+    def describe(self, position_m: tuple[float, float]) -> Described | None:
+        """What the map says at a position (x, y), metres, map frame; None off the map, and where nothing is near."""
+        return self._describer.describe(np.array(position_m, dtype=np.float64))
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""

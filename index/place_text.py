@@ -18,16 +18,23 @@ LONGEST_BLOCK_M: Final = 400.0
 
 def place_text(gazetteer: Gazetteer, position: Floats) -> str | None:
     """What is at a position [2], in words; None where nothing has a name."""
-    parts = [part for part in (_street(gazetteer, position), _beside(gazetteer, position)) if part]
-    return ", ".join(parts) or None
+    found = nearest_street(gazetteer, position)
+    street = found and street_text(gazetteer, found[0], position)
+    return ", ".join(part for part in (street, _beside(gazetteer, position)) if part) or None
 
 
-def _street(gazetteer: Gazetteer, position: Floats) -> str | None:
+def nearest_street(gazetteer: Gazetteer, position: Floats) -> tuple[int, Floats] | None:
+    """The street that a position [2] is on, and the way [2] to its line; None where there is none."""
     streets = gazetteer.by_kind.get(STREET, np.zeros(0, np.int64))
-    ways = _ways(gazetteer, streets, position, ON_STREET_M)
+    ways = ways_from(gazetteer, streets, position, ON_STREET_M)
     if not len(ways.item):
         return None
-    street = int(streets[ways.item[ways.metres.argmin()]])
+    best = int(ways.metres.argmin())
+    return int(streets[ways.item[best]]), ways.way_m[best]
+
+
+def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
+    """Where on a street a position [2] is: at which corner, or between which."""
     name = gazetteer.words[street].names[0]
     rows = np.flatnonzero((gazetteer.corner_streets == street).any(axis=1))
     away = gazetteer.corners_m[rows].astype(np.float64) - position
@@ -51,19 +58,24 @@ def _street(gazetteer: Gazetteer, position: Floats) -> str | None:
 def _beside(gazetteer: Gazetteer, position: Floats) -> str | None:
     named = gazetteer.named
     near = named[np.hypot(*(gazetteer.middles_m[named] - position).T) - gazetteer.reach_m[named] <= NAMED_M]
-    ways = _ways(gazetteer, near, position, NAMED_M)
+    ways = ways_from(gazetteer, near, position, NAMED_M)
     if not len(ways.item):
         return None
     best = int(ways.metres.argmin())
     name, metres = gazetteer.words[int(near[ways.item[best]])].names[0], float(ways.metres[best])
     if metres < 1.0:
         return f"at {name}"
-    east, north = -ways.way_m[best]
-    wind = WINDS[round(float(np.degrees(np.arctan2(east, north))) / 45) % 8]
-    return f"{metres:.0f} m {wind} of {name}"
+    return f"{metres:.0f} m {wind_of(-ways.way_m[best])} of {name}"
 
 
-def _ways(gazetteer: Gazetteer, objects: Ints, position: Floats, reach_m: float) -> Ways:
+def wind_of(way_m: Floats) -> str:
+    """The wind in which a way [2] (east, north) leads."""
+    east, north = way_m
+    return WINDS[round(float(np.degrees(np.arctan2(east, north))) / 45) % 8]
+
+
+def ways_from(gazetteer: Gazetteer, objects: Ints, position: Floats, reach_m: float) -> Ways:
+    """The ways from a position [2] to some objects of a gazetteer."""
     return ways_to(Around.of(position[None], np.zeros(1, np.int64)), *cut(gazetteer, objects), reach_m)
 
 

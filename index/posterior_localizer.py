@@ -171,7 +171,7 @@ class PosteriorLocalizer:
         """The hints that tell of what is near, what the text names besides, and what that tells."""
         if self.places is None:
             return hints, [], None
-        listener_m = None if query.prior is None else position_m(query.prior.position, query, self.frame)
+        listener_m = None if query.prior is None else position_m(query.prior.position, query.crs, self.frame)
         text = _as_read(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
         mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Protocol
 
-from index.answers import Answer, CellDetail, IndexFacts, Query
+from index.answers import Answer, CellDetail, Described, IndexFacts, Query
 from models.city.frame import Frame
 from models.city.scenery.files import SceneryPart
 
@@ -13,6 +13,10 @@ class LocalizerLike(Protocol):
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
         """One answer a query, in order; blocks, and runs on the inference thread only."""
+        ...
+
+    def describe(self, position_m: tuple[float, float]) -> Described | None:
+        """What the map says at (x, y); None off the map, and where nothing is near. Called from any thread."""
         ...
 
     def cell(self, cell_id: str) -> CellDetail | None:

@@ -1,7 +1,7 @@
 """What the service is asked. Numbers are strict and finite, unknown fields are refused."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
@@ -30,6 +30,7 @@ EVALUATE_EXAMPLE: JsonValue = {
     ],
     "crs": "map",
 }
+DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
 MAX_RADII = 8
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
 # No map is wider than the Earth or finer than a millimetre, and the squares of these stay numbers.
@@ -70,6 +71,21 @@ def check_bbox(bbox: tuple[float, float, float, float]) -> tuple[float, float, f
     if south > north:
         raise _wrong("south is greater than north; give [west, south, east, north]")
     return bbox
+
+
+def check_degrees(crs: Crs, points: Iterable[tuple[str, Point]]) -> None:
+    """Refuse degrees that are nowhere on Earth.
+
+    Args:
+        crs: what the coordinates of the points mean.
+        points: (x, y) or (lon, lat), each with the name of its field.
+
+    Raises:
+        PydanticCustomError: which point is wrong.
+    """
+    for field, (lon, lat) in points if crs == "wgs84" else ():
+        if not (-180 <= lon <= 180 and -90 <= lat <= 90):
+            raise _wrong("is not [longitude -180..180, latitude -90..90]; or did you mean crs map?", field)
 
 
 def join_hints(hints: Sequence[str]) -> str:
@@ -163,10 +179,7 @@ class LocalizeRequest(Told):
 
     @model_validator(mode="after")
     def _is_on_earth(self) -> Self:
-        if self.crs == "wgs84":
-            for field, (lon, lat) in self.points():
-                if not (-180 <= lon <= 180 and -90 <= lat <= 90):
-                    raise _wrong("is not [longitude -180..180, latitude -90..90]; or did you mean crs map?", field)
+        check_degrees(self.crs, self.points())
         return self
 
     def query(self) -> Query:
@@ -192,6 +205,25 @@ class LocalizeRequest(Told):
         if self.prior:
             points.append(("prior.position", self.prior.position))
         return points
+
+
+class DescribeRequest(_Body):
+    """What to describe; `describe_model` adds the limits of a service."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBE_EXAMPLE]})
+
+    position: Point = Field(description="[x, y] in metres, or [lon, lat] with crs wgs84")
+    crs: Crs = Field("map", description="what the coordinates of position mean")
+    deadline_ms: int
+
+    @model_validator(mode="after")
+    def _is_on_earth(self) -> Self:
+        check_degrees(self.crs, self.points())
+        return self
+
+    def points(self) -> list[tuple[str, Point]]:
+        """The (x, y) or (lon, lat) of the request, with the name of its field."""
+        return [("position", self.position)]
 
 
 class EvaluateQuery(Told):
@@ -259,15 +291,30 @@ def told_fields(settings: Settings) -> dict[str, Any]:
 def request_model(settings: Settings) -> type[LocalizeRequest]:
     """LocalizeRequest with a service's limits in its fields, so that they are checked and in OpenAPI."""
     top_k = Annotated[int, Strict(), Field(ge=1, le=settings.max_top_k, description="candidates to list")]
-    deadline_ms = Annotated[int, Strict(), Field(ge=1, le=settings.max_deadline_ms)]
     return create_model(
         "LocalizeRequest",
         __base__=LocalizeRequest,
         __doc__="One description, or its sentences as hints, and where to look.",
         **told_fields(settings),
         top_k=(top_k, min(DEFAULT_TOP_K, settings.max_top_k)),
-        deadline_ms=(deadline_ms, Field(settings.deadline_ms, description="504 if there is no answer by then")),
+        deadline_ms=_deadline(settings),
     )
+
+
+def describe_model(settings: Settings) -> type[DescribeRequest]:
+    """DescribeRequest with a service's limits in its fields."""
+    return create_model(
+        "DescribeRequest",
+        __base__=DescribeRequest,
+        __doc__="A position to describe.",
+        deadline_ms=_deadline(settings),
+    )
+
+
+def _deadline(settings: Settings) -> tuple[Any, Any]:
+    """The field of a deadline, with a service's limit and default."""
+    deadline_ms = Annotated[int, Strict(), Field(ge=1, le=settings.max_deadline_ms)]
+    return deadline_ms, Field(settings.deadline_ms, description="504 if there is no answer by then")
 
 
 def evaluate_model(settings: Settings) -> type[EvaluateRequest]:

@@ -10,8 +10,10 @@ from index.answers import (
     Candidate,
     CellDetail,
     CellInstance,
+    Described,
     Estimate,
     Evidence,
+    Fact,
     HeatMap,
     LatLon,
     ModelName,
@@ -20,6 +22,21 @@ from index.answers import (
 from models.city.frame import Frame
 
 INDEX_NAME = "default"
+CRS_EXAMPLE: JsonValue = {
+    "frame_id": "map",
+    "epsg": None,
+    "origin": {"lat": 60.17, "lon": 24.94},
+    "units": "m",
+    "axes": "ENU",
+}
+PROVENANCE_EXAMPLE: JsonValue = {
+    "index": "default",
+    "index_version": "20260101T120000Z-1a2b3c4d",
+    "model": "posterior/minilm/192",
+    "model_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
+    "map": "helsinki",
+    "attribution": "© OpenStreetMap contributors",
+}
 EXAMPLE: JsonValue = {
     "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
     "status": "ok",
@@ -83,23 +100,51 @@ EXAMPLE: JsonValue = {
         },
     ],
     "heat_map": {"spacing_m": 1.5, "points": [[105.0, -35.0, 0.08]]},
-    "crs": {
-        "frame_id": "map",
-        "epsg": None,
-        "origin": {"lat": 60.17, "lon": 24.94},
-        "units": "m",
-        "axes": "ENU",
-    },
-    "provenance": {
-        "index": "default",
-        "index_version": "20260101T120000Z-1a2b3c4d",
-        "model": "posterior/minilm/192",
-        "model_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
-        "map": "helsinki",
-        "attribution": "© OpenStreetMap contributors",
-    },
+    "crs": CRS_EXAMPLE,
+    "provenance": PROVENANCE_EXAMPLE,
     "timings_ms": {"queue": 0.2, "encode": 9.1, "search": 0.4, "estimate": 0.1, "total": 10.3},
     "warnings": [],
+}
+DESCRIBE_EXAMPLE: JsonValue = {
+    "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
+    "description": "I am on Kaivokatu, between Keskuskatu and Mikonkatu. Ateneum is 14 m to my north. "
+    "A street lamp is 4 m to my west.",
+    "hints": [
+        {
+            "text": "I am on Kaivokatu, between Keskuskatu and Mikonkatu.",
+            "instance": "street",
+            "name": "Kaivokatu",
+            "source_id": "way/1234",
+            "at": [105.0, -41.2],
+            "away_m": 6.2,
+            "bearing_deg": 180.0,
+        },
+        {
+            "text": "Ateneum is 14 m to my north.",
+            "instance": "tourism/museum",
+            "name": "Ateneum",
+            "source_id": "way/5678",
+            "at": [105.5, -21.0],
+            "away_m": 14.0,
+            "bearing_deg": 2.0,
+        },
+        {
+            "text": "A street lamp is 4 m to my west.",
+            "instance": "street lamp",
+            "name": None,
+            "source_id": "node/9012",
+            "at": [101.5, -35.0],
+            "away_m": 3.5,
+            "bearing_deg": 270.0,
+        },
+    ],
+    "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
+    "position": [105.0, -35.0],
+    "wgs84": {"lat": 60.1699, "lon": 24.9384},
+    "cell_id": "helsinki_00042",
+    "crs": CRS_EXAMPLE,
+    "provenance": PROVENANCE_EXAMPLE,
+    "timings_ms": {"total": 8.4},
 }
 
 
@@ -188,6 +233,32 @@ class LocalizeResponse(_Out):
         found["timings_ms"] = {**answer.timings_ms, **timings_ms}
         crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer, answer.model)
         return cls(request_id=request_id, crs=crs, provenance=provenance, **found)
+
+
+class DescribeResponse(_Out):
+    """What the map says at a position; metres, map frame."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBE_EXAMPLE]})
+
+    request_id: str
+    description: str = Field(description="the sentences of `hints`; POST /localize finds the position by it")
+    hints: tuple[Fact, ...]
+    place: str | None = Field(description="the position in words; null on a map without names")
+    position: tuple[float, float]
+    wgs84: LatLon | None = Field(description="null if the map has no georeference")
+    cell_id: str = Field(description="the cell whose centre is nearest")
+    crs: CrsOut
+    provenance: Provenance
+    timings_ms: dict[str, float]
+
+    @classmethod
+    def of(
+        cls, described: Described, localizer: LocalizerLike, request_id: str, timings_ms: dict[str, float]
+    ) -> "DescribeResponse":
+        """Of what a localizer says of a position; the rest as `LocalizeResponse.of`."""
+        said = {f.name: getattr(described, f.name) for f in fields(described)}
+        crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer)
+        return cls(request_id=request_id, crs=crs, provenance=provenance, timings_ms=timings_ms, **said)
 
 
 class CellResponse(_Out):

@@ -7,7 +7,9 @@ from index.answers import (
     Candidate,
     CellDetail,
     CellInstance,
+    Described,
     Estimate,
+    Fact,
     IndexFacts,
     LatLon,
     ModelName,
@@ -31,7 +33,8 @@ class FakeLocalizer:
         self.frame = frame
         self.batches = []  # queries of each call, in order
         self.threads = set()
-        self.gate = threading.Event()  # cleared: localize blocks
+        self.positions = []  # that were to be described, in order
+        self.gate = threading.Event()  # cleared: localize and describe block
         self.gate.set()
         self.entered = threading.Semaphore(0)
 
@@ -44,6 +47,17 @@ class FakeLocalizer:
             if "bad" in query.description:
                 raise RuntimeError("secret: " + query.description)
         return [self._answer(query) for query in queries]
+
+    def describe(self, position_m):
+        self.positions.append(position_m)
+        self.threads.add(threading.current_thread().name)
+        assert self.gate.wait(10), "a test left the gate closed"
+        if max(map(abs, position_m)) > 1000:
+            return None
+        tree = Fact("A green tree is 3 m to my east.", "tree", None, "node/1", (3.0, 0.0), 3.0, 90.0)
+        road = Fact("I stand on the road.", "road", "Main Street", "way/2", position_m, 0.0, None)
+        text = f"{tree.text} {road.text}"
+        return Described(text, (tree, road), "on Main Street", position_m, self._wgs84(), "fakeville_00001")
 
     def cell(self, cell_id):
         if cell_id != "fakeville_00001":

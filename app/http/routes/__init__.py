@@ -1,4 +1,4 @@
-"""The service's routes, one file a resource: localize, evaluate, cells, maps, health, page.
+"""The service's routes, one file a resource: localize, describe, evaluate, cells, maps, health, page.
 
 May import what app.http may.
 """

@@ -16,7 +16,7 @@ from app.http.geojson import localize_collection
 from app.http.negotiation import GEOJSON, negotiate, respond
 from app.http.openapi import geojson_content, problems
 from app.http.queue import Served
-from app.http.requests import LocalizeRequest, request_model
+from app.http.requests import DescribeRequest, LocalizeRequest, request_model
 from app.http.responses import LocalizeResponse
 from app.settings import Settings
 from models.city.frame import Frame
@@ -54,7 +54,7 @@ def build_router(settings: Settings) -> APIRouter:
     return router
 
 
-def check_reach(asked: LocalizeRequest, frame: Frame) -> None:
+def check_reach(asked: LocalizeRequest | DescribeRequest, frame: Frame) -> None:
     """Refuse degrees that are no place in the map's frame.
 
     Raises:
@@ -63,7 +63,7 @@ def check_reach(asked: LocalizeRequest, frame: Frame) -> None:
     if asked.crs == "map":
         return
     if not frame.is_georeferenced:
-        raise Problem.of_field("crs", "this map has no georeference; give within and prior in metres, with crs map")
+        raise Problem.of_field("crs", "this map has no georeference; give metres, with crs map")
     for field, (lon, lat) in asked.points():
         # A box is compared in degrees; only single points are projected.
         if field != "within.bbox" and not np.isfinite(frame.from_wgs84(lat, lon)).all():

@@ -52,6 +52,22 @@ def test_any_place_that_passes_the_checks_is_answered(served, text, where):
     assert response.json()["status"] in {"ok", "ambiguous", "no_match"}
 
 
+def test_a_place_that_is_described_is_found_again(served):
+    said = served.post("/describe", json={"position": [64.0, -57.0]})
+    assert said.status_code == 200, said.text
+    body = said.json()
+    assert served.get(f"/cells/{body['cell_id']}").status_code == 200
+    found = served.post("/localize", json={"description": body["description"]}).json()["estimate"]
+    assert found["position"] == pytest.approx([64.0, -57.0], abs=10)
+    degrees = {"position": [body["wgs84"]["lon"], body["wgs84"]["lat"]], "crs": "wgs84"}
+    assert served.post("/describe", json=degrees).json()["description"] == body["description"]
+
+
+@pytest.mark.parametrize("position", [[-400, 0], [1e8, -1e8]])
+def test_a_place_off_the_map_is_not_described(served, problem, position):
+    problem(served.post("/describe", json={"position": position}), 422, "invalid_request", "position")
+
+
 def test_filter_off_the_map_is_no_match(served, text):
     response = served.post("/localize", json={"description": text, "within": {"bbox": [9e5, 9e5, 1e6, 1e6]}})
     assert (response.json()["status"], response.json()["estimate"]) == ("no_match", None)
