@@ -101,7 +101,7 @@ def open_page(browser: Browser, url: str, size: dict[str, int], scheme: str) -> 
     context = browser.new_context(viewport=size, color_scheme=scheme, device_scale_factor=1)  # type: ignore[arg-type]
     page = context.new_page()
     page.goto(url)
-    page.wait_for_function("document.querySelectorAll('#chips .chip').length > 2", timeout=60_000)
+    page.wait_for_selector("#chips .chip >> nth=2", timeout=60_000)
     page.wait_for_timeout(800)
     return page
 

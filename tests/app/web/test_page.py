@@ -3,11 +3,11 @@ import json
 import pytest
 
 from app.settings import Settings
-from tests.app.web.conftest import served
+from tests.app.web.conftest import CHIPS, served
 
 pytestmark = pytest.mark.slow
 
-SURE = "I am on East Street 2. Café Sirius is right beside me."
+SURE = "I am at Café Sirius on East Street 2."
 VAGUE = "There is a tree to my north."
 
 
@@ -52,7 +52,7 @@ def test_a_prior_is_put_on_the_map_and_taken_off(visit):
     assert 3 < prior["sigma_m"] < 500
     estimate = response.value.json()["estimate"]["position"]
     assert max(abs(a - b) for a, b in zip(estimate, prior["position"], strict=True)) < 3 * prior["sigma_m"]
-    assert "near=" in page.wait_for_function("location.hash").json_value()
+    page.wait_for_url("**#*near=*")
     with page.expect_response("**/localize"):
         page.click("text=Remove")
     assert "prior" not in visitor.asked[-1][1]
@@ -112,7 +112,7 @@ def test_the_address_says_all_and_is_enough_to_see_the_same(visit):
     page.click("text=Show more on the map")
     page.click("text=Heat: where it might be")
     page.click("text=Cells that were found")
-    page.wait_for_function("location.hash.includes('cells')")
+    page.wait_for_url("**#*cells=*")
     fragment = page.evaluate("location.hash")
     other = visit()
     with other.page.expect_response("**/localize"):
@@ -143,7 +143,7 @@ def test_a_service_that_went_away_is_told_of_and_asked_again(visit):
     page.wait_for_selector("[role=alert]")
     assert "does not answer" in page.inner_text("[role=alert]")
     page.unroute("**/localize")
-    page.click("text=Try again")
+    page.click("button >> text=Try again")
     page.wait_for_selector("text=nine times out of ten")
 
 
@@ -155,7 +155,7 @@ def test_a_full_queue_says_when_to_try_again_with_the_request_id(visit):
     page.route("**/localize", lambda route: route.fulfill(status=429, headers=headers, body=json.dumps(body)))
     page.fill("#said", SURE)
     page.keyboard.press("Enter")
-    again = page.wait_for_selector("text=Try again in")
+    again = page.wait_for_selector("button >> text=Try again in")
     assert again.is_disabled()
     assert "Too many requests wait" in page.inner_text("[role=alert]")
     assert "abc-1" in page.inner_text("#answer")
@@ -165,16 +165,16 @@ def test_a_full_queue_says_when_to_try_again_with_the_request_id(visit):
 
 
 def test_a_key_is_asked_for_once(visit, town_index):
-    with served(Settings(index_dir=town_index, read_key="open sesame")) as url:
+    with served(Settings(index_dir=town_index, read_key="opensesame")) as url:
         visitor = visit(url, errors=["401"])
         page = visitor.page
         page.goto(url)
-        page.fill("#key", "open barley")
+        page.fill("#key", "openbarley")
         page.click("text=Use it")
         page.wait_for_selector("text=wrong")
-        page.fill("#key", "open sesame")
+        page.fill("#key", "opensesame")
         page.click("text=Use it")
-        page.wait_for_function("document.querySelectorAll('#chips .chip').length > 2")
+        page.wait_for_selector(CHIPS)
         assert visitor.ask(SURE)["status"] == "ok"
         page.reload()
         page.wait_for_selector("text=nine times out of ten")
@@ -202,7 +202,7 @@ def test_on_a_phone_the_sheet_leaves_the_map_visible(visit):
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_text_is_legible_in_light_and_dark(visit, scheme):
     visitor = visit(color_scheme=scheme).open()
-    visitor.ask("I am on East Street 2. Café Sirius is right beside me. There is a helicopter to my east.")
+    visitor.ask("I am at Café Sirius on East Street 2. There is a helicopter to my east.")
     contrasts = visitor.page.evaluate(CONTRASTS)
     assert len(contrasts) > 20
     assert [each for each in contrasts if each[0] < 4.5] == []
@@ -213,7 +213,7 @@ def test_everything_has_a_name_for_who_hears_the_page(visit):
     visitor.ask(VAGUE)
     nameless = visitor.page.evaluate(
         """() => [...document.querySelectorAll("button, input, select, textarea, [role=img]")].filter((e) =>
-            !(e.innerText || e.getAttribute("aria-label") || e.labels?.length)).map((e) => e.outerHTML)"""
+            !(e.textContent || e.getAttribute("aria-label") || e.labels?.length)).map((e) => e.outerHTML)"""
     )
     assert nameless == []
     assert visitor.page.get_attribute("#answer", "aria-live") == "polite"

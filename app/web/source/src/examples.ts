@@ -1,9 +1,10 @@
 // Descriptions that work on the map that is loaded: random places of it, described by it.
 
 import { describe, type Described } from "./api";
-import { AREA, LINE, type Scenery } from "./scenery";
+import { LINE, type Scenery, type Shapes } from "./scenery";
 
-const TRIES = 6; // places, until one can be described
+const TRIES = 10; // places, until one can be described
+const EDGE = 0.1; // of the map: what lies there has half of its surroundings
 
 export async function examples(scenery: Scenery | undefined, amount: number): Promise<Described[]> {
   const found: Described[] = [];
@@ -16,18 +17,30 @@ export async function examples(scenery: Scenery | undefined, amount: number): Pr
   return found;
 }
 
-/** A random place where people stand: on a street, or among the points. */
+/** A random place where people stand, not at the edge: on a street, or among the points. */
 function somewhere(scenery: Scenery | undefined): [number, number] | null {
   if (!scenery) return null;
-  if (scenery.kind === "points") {
-    const n = 3 * Math.floor((Math.random() * scenery.xyz.length) / 3);
-    return [scenery.xyz[n], scenery.xyz[n + 1]];
+  const { west, south, east, north } = scenery.box;
+  const [wide, high] = [EDGE * (east - west), EDGE * (north - south)];
+  for (let n = 0; n < TRIES; n++) {
+    const place = scenery.kind === "points" ? anyOf(scenery.xyz, 3) : onStreet(scenery);
+    if (!place) return null;
+    const [x, y] = place;
+    if (x > west + wide && x < east - wide && y > south + high && y < north - high) return place;
   }
-  const streets = scenery.shapes.filter((shape) => shape.label === "road" && shape.form !== AREA && shape.name);
-  const among = streets.length ? streets : scenery.shapes.filter((shape) => shape.form === LINE);
-  if (!among.length) return null;
-  const path = among[Math.floor(Math.random() * among.length)].paths[0];
-  const n = 2 * Math.floor((Math.random() * path.length) / 2);
-  return [path[n], path[n + 1]];
+  return null;
 }
 
+function onStreet(scenery: Shapes): [number, number] | null {
+  const streets = scenery.shapes.filter((shape) => shape.label === "road" && shape.form === LINE);
+  const path = streets[Math.floor(Math.random() * streets.length)]?.paths[0];
+  if (!path) return null;
+  const n = 2 * Math.floor(Math.random() * (path.length / 2 - 1));
+  const share = Math.random();
+  return [path[n] + share * (path[n + 2] - path[n]), path[n + 1] + share * (path[n + 3] - path[n + 1])];
+}
+
+function anyOf(numbers: Float32Array, width: number): [number, number] {
+  const n = width * Math.floor(Math.random() * (numbers.length / width));
+  return [numbers[n], numbers[n + 1]];
+}
