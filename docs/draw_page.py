@@ -10,13 +10,14 @@ import sys
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
+from typing import Literal
 
 from PIL import Image
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, ViewportSize, sync_playwright
 
 OUT = Path(__file__).parent / "page"
 ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]  # no GPU is needed
-WIDE, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
+WIDE, PHONE = ViewportSize(width=1280, height=800), ViewportSize(width=390, height=844)
 SURE = (
     "I stand on a gray road. There is a park to my west, and I am east of a cycle path. A building and a wall are to "
     "my east; a gray footpath is south of me."
@@ -24,6 +25,7 @@ SURE = (
 STREET = "I'm on Bulevardi between Annankatu and Fredrikinkatu, a pharmacy on my right."
 VAGUE = "I can see a church and there is a tram stop near me."
 FRAMES = 40
+Scheme = Literal["light", "dark"]
 COLOURS = 192
 
 FIRST_PAINT = """() => new Promise((done) => {
@@ -86,7 +88,7 @@ def report(page: Page) -> None:
     page.locator(".report").scroll_into_view_if_needed()
 
 
-STATES: dict[str, tuple[dict[str, int], str, Callable[[Page], None]]] = {
+STATES: dict[str, tuple[ViewportSize, Scheme, Callable[[Page], None]]] = {
     "start": (WIDE, "light", lambda page: None),
     "answer": (WIDE, "light", sure),
     "which": (WIDE, "light", ambiguous),
@@ -96,9 +98,9 @@ STATES: dict[str, tuple[dict[str, int], str, Callable[[Page], None]]] = {
 }
 
 
-def open_page(browser: Browser, url: str, size: dict[str, int], scheme: str) -> Page:
+def open_page(browser: Browser, url: str, size: ViewportSize, scheme: Scheme) -> Page:
     """The page with its map and chips."""
-    context = browser.new_context(viewport=size, color_scheme=scheme, device_scale_factor=1)  # type: ignore[arg-type]
+    context = browser.new_context(viewport=size, color_scheme=scheme, device_scale_factor=1)
     page = context.new_page()
     page.goto(url)
     page.wait_for_selector("#chips .chip >> nth=2", timeout=60_000)
