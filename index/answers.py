@@ -44,6 +44,14 @@ class Prior:
 
 
 @dataclass(frozen=True, slots=True)
+class Reply:
+    """What a person answered to a question: the question's id, and the value of one of its choices."""
+
+    question: str
+    choice: str
+
+
+@dataclass(frozen=True, slots=True)
 class Query:
     """One description to localize.
 
@@ -56,6 +64,7 @@ class Query:
         refine: what finds positions inside the candidates; "none" leaves them at the centres; "posterior" ranks the
             candidates too, by the hint posterior.
         heat_map: whether the answer shall have the distribution behind it.
+        replies: answers to questions of earlier answers; the posterior alone heeds them.
     """
 
     description: str
@@ -65,6 +74,7 @@ class Query:
     crs: Crs = "map"
     refine: Refine = DEFAULT_REFINE
     heat_map: bool = False
+    replies: tuple[Reply, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,6 +216,23 @@ class HeatMap:
 
 
 @dataclass(frozen=True, slots=True)
+class Choice:
+    """An answer that a question can be given."""
+
+    value: Annotated[str, Field(description="what to send back")]
+    text: Annotated[str, Field(description="what to show")]
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """The one thing whose answer would narrow an ambiguous answer most."""
+
+    id: Annotated[str, Field(description="what to send back; it says all that the service needs to know")]
+    text: Annotated[str, Field(description="the question, in English")]
+    choices: Annotated[tuple[Choice, ...], Field(description='the last is "unknown", which changes nothing')]
+
+
+@dataclass(frozen=True, slots=True)
 class Answer:
     """What the localizer found for one query.
 
@@ -220,6 +247,8 @@ class Answer:
         timings_ms: "encode", "search", "estimate"; what a batch shares counts for each of it.
         evidence: one a hint; the posterior alone says.
         heat_map: if it was asked for; the posterior alone has one.
+        question: what to ask; None unless the status is "ambiguous" and something would narrow it; the posterior alone
+            has one.
     """
 
     status: Status
@@ -231,6 +260,7 @@ class Answer:
     timings_ms: dict[str, float] = field(default_factory=dict)
     evidence: tuple[Evidence, ...] = ()
     heat_map: HeatMap | None = None
+    question: Question | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from index.answers import (
     Method,
     ModelName,
     Query,
+    Question,
     Radius,
 )
 from models.city.cells import CellTable
@@ -40,6 +41,7 @@ class Finding:
         place: the position in words.
         heading: where the speaker looks.
         warnings: what the caller should know.
+        question: what to ask if that is ambiguous.
     """
 
     located: Located | None
@@ -49,6 +51,7 @@ class Finding:
     place: str | None = None
     heading: Heading | None = None
     warnings: tuple[str, ...] = ()
+    question: Question | None = None
 
 
 class CellLocalizer(Protocol):
@@ -107,7 +110,7 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
     listed = range(min(query.top_k, len(located.rows)))
     candidates = tuple(_candidate(located, n, cells, frame) for n in listed)
     return Answer(
-        status="ok" if p50 <= cells.size_m else "ambiguous",
+        status="ambiguous" if is_ambiguous(p50, cells) else "ok",
         model=localizer.model,
         estimate=estimate,
         candidates=candidates,
@@ -116,7 +119,13 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
         timings_ms=finding.timings_ms,
         evidence=finding.evidence,
         heat_map=_heat_map(located) if query.heat_map else None,
+        question=finding.question,
     )
+
+
+def is_ambiguous(p50: float, cells: CellTable) -> bool:
+    """Whether a text with this radius of 50 %, metres, fits several places."""
+    return p50 > cells.size_m
 
 
 def _candidate(located: Located, n: int, cells: CellTable, frame: Frame) -> Candidate:

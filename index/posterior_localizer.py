@@ -10,10 +10,11 @@ import numpy as np
 
 from index.answers import Evidence, Method, ModelName, Query
 from index.filters import inside, log_prior, position_m
-from index.finding import Finding, pair
+from index.finding import Finding, is_ambiguous, pair
 from index.meaning import Meanings
 from index.place_reader import PlaceReader, may_be_near, near_hints
 from index.place_text import place_text
+from index.questions import Heard, Questions
 from index.ranking import Ranker
 from models.city.colours import Palette
 from models.city.frame import Frame
@@ -34,6 +35,7 @@ from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.posterior.places.field import Told
 from models.posterior.posterior import CANDIDATES, HintPosterior
+from models.posterior.questions import Answered
 from models.posterior.surroundings import STEP_M, Surroundings
 
 LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
@@ -91,6 +93,7 @@ class PosteriorLocalizer:
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
             of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings
             self.places = PlaceReader(model.places, model.cues, *of_map)
+        self.questions = Questions(self.nodes.sights, self.labels.tolist(), palette, gazetteer, gallery.cells)
         self._read_lately: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
 
     @classmethod
@@ -126,6 +129,7 @@ class PosteriorLocalizer:
 
     def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> Finding:
         start = time.perf_counter()
+        answered = self.questions.answered(query.replies)
         language = language_of(query.description)
         hints = hints if language == ENGLISH else []
         warnings = _of_language(language)
@@ -137,13 +141,16 @@ class PosteriorLocalizer:
             return Finding(None, said, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
         reading = self.binding.reading(hints) if hints else None
-        located = self._located(query, hints, reading, told)
+        located = self._located(query, hints, reading, told, answered)
         timings["search"] = _since(start)
         if located is None:
             return Finding(None, NOWHERE, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
         finding = self._told_of(located, hints, reading, mentions, told)
         finding = replace(finding, evidence=_in_the_text(query.description, finding.evidence))
+        if is_ambiguous(located.radii_m(0.5)[0], self.gallery.cells) and not _is_elsewhere(query):
+            heard = Heard.of(reading, mentions, self.labels.tolist(), self._gazetteer)
+            finding = replace(finding, question=self.questions.ask(located, heard, query.replies))
         timings["estimate"] = _since(start)
         fits = any(hint.explained >= EXPLAINED for hint in finding.evidence) or not finding.evidence
         return replace(finding, refusal=None if fits else NOTHING_FITS, timings_ms=timings, warnings=warnings)
@@ -181,7 +188,12 @@ class PosteriorLocalizer:
         return [hints[n] for n in near], mentions, self.places.told(mentions, query.description, listener_m)
 
     def _located(
-        self, query: Query, hints: Sequence[ParsedHint], reading: Reading | None, told: Told | None
+        self,
+        query: Query,
+        hints: Sequence[ParsedHint],
+        reading: Reading | None,
+        told: Told | None,
+        answered: Answered | None,
     ) -> Located | None:
         located = locate(
             self.nodes,
@@ -191,6 +203,7 @@ class PosteriorLocalizer:
             PLACE_CANDIDATES if told is not None else CANDIDATES,
             also=None if reading is None else self.candidates(hints, reading),
             told=told,
+            answered=answered,
         )
         return located and self._honest(located, query, told)
 

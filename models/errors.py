@@ -4,6 +4,7 @@ HereaboutsError
 ├── MapError             a map that cannot be read or holds nothing usable
 ├── DataError            data set files that cannot be read; the message names file and field
 ├── DescriptionError     a text that cannot be used as a description
+├── ReplyError           an answer to a question that the service did not ask
 ├── WeightsError         weights that are missing, broken or of another model
 ├── TrainingError        settings that cannot be trained with, or a run directory of another run
 └── IndexUnusable         an index directory that cannot be served
@@ -26,6 +27,20 @@ class DataError(HereaboutsError):
 
 class DescriptionError(HereaboutsError):
     """A text that cannot be used as a description."""
+
+
+class ReplyError(HereaboutsError):
+    """An answer to a question that cannot have been asked about this map.
+
+    Attributes:
+        number: of the answer, among those of its query, from 0.
+        field: what of it is wrong, "question" or "choice".
+        advice: what to do.
+    """
+
+    def __init__(self, number: int, field: str, advice: str) -> None:
+        super().__init__(f"answers[{number}].{field}: {advice}")
+        self.number, self.field, self.advice = number, field, advice
 
 
 class WeightsError(HereaboutsError):

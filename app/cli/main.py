@@ -155,6 +155,9 @@ def _print_table(answer: "Answer") -> None:
             f"{answer.status}: at {x:.1f}, {y:.1f} m, within {radius.p50:.0f} m (p50) or {radius.p90:.0f} m (p90), "
             f"probability {answer.estimate.probability:.2f}"
         )
+    if answer.question:
+        choices = " / ".join(choice.text for choice in answer.question.choices)
+        console.print(Text(f"question: {answer.question.text} {choices}"))
     for warning in answer.warnings:
         console.print(Text(f"warning: {warning}", style="yellow"))
 
@@ -165,6 +168,7 @@ for command in (
     cli_data.synth,
     cli_train.train,
     cli_measure.evaluate,
+    cli_measure.questions,
     cli_measure.benchmark,
     cli_reproduce.reproduce,
 ):

@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
+from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Seed, Split
 from index.answers import Refine
 from models.city.told_texts import SUFFIXES as TOLD_SUFFIXES
 from models.errors import DataError
@@ -129,6 +129,37 @@ def _print_report(report: dict[str, Any]) -> None:
         fits = report["ambiguity"]["median_cells_that_fit_as_well"]
         line += f"; cells that fit a description as well as the true one (median): {fits:.0f}"
     console.print(line)
+
+
+def questions(
+    data: Annotated[Path, typer.Option(help=f"what tells the truth, which the index is of: {DATA_HELP}")],
+    split: Split = None,
+    index_dir: IndexDir = INDEX_DIR,
+    texts: Annotated[int, typer.Option(min=1, help="how many")] = 300,
+    seed: Seed = 0,
+    plain: Annotated[bool, typer.Option("--plain", help="hints name classes alone, without winds and colours")] = False,
+) -> None:
+    """How far the service's questions help made-up people who say two hints, and answer, sometimes wrongly."""
+    from app.cli.progress import stage_bars
+    from app.settings import load_settings
+    from index.evaluation.questions import evaluate_questions, questions_table
+    from index.localizer import Localizer
+    from models.city.source import open_source
+
+    settings = load_settings(index_dir=index_dir)
+    weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
+    localizer = Localizer.open(settings.index_dir, *weights)
+    with stage_bars() as show:
+        source = open_source(data, split, show)
+        found = evaluate_questions(localizer, source, texts, seed, show, is_plain=plain)
+    head, rows = questions_table(found)
+    table = Table(*head)
+    for row in rows:
+        table.add_row(*row)
+    console = Console(width=120)
+    console.print(f"{found['data']}: {found['texts']} texts, seed {seed}")
+    console.print(table)
+    console.print("asked: " + ", ".join(f"{count} {kind}" for kind, count in found["kinds"].items()))
 
 
 def benchmark(

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException as StarletteHTTPException
 from starlette.responses import JSONResponse, Response
 
-from models.errors import WeightsError
+from models.errors import ReplyError, WeightsError
 
 PROBLEM_JSON = "application/problem+json"
 MAX_LISTED_ERRORS = 20
@@ -147,6 +147,7 @@ def add_error_handlers(app: FastAPI) -> None:
     app.add_exception_handler(StarletteHTTPException, _on_http_exception)
     app.add_exception_handler(RequestValidationError, _on_validation_error)
     app.add_exception_handler(WeightsError, _on_weights_error)
+    app.add_exception_handler(ReplyError, _on_reply_error)
 
 
 async def _on_http_exception(_request: Request, error: Exception) -> Response:
@@ -178,6 +179,13 @@ async def _on_weights_error(_request: Request, _error: Exception) -> Response:
     return Problem.of_field("refine", "this service has no usable model for it; leave it out").response()
 
 
+async def _on_reply_error(_request: Request, error: Exception) -> Response:
+    """Only the map knows what can be asked about it, so this is found when the model answers."""
+    if not isinstance(error, ReplyError):
+        raise error
+    return Problem.of_field(f"answers[{error.number}].{error.field}", error.advice).response()
+
+
 def field_name(location: Sequence[str | int], context: Mapping[str, Any]) -> str:
     """Name of a field as a client would write it: "within.bbox[3]".
 
@@ -186,7 +194,8 @@ def field_name(location: Sequence[str | int], context: Mapping[str, Any]) -> str
         context: of the error; its "field", if any, is part of the path (checks of several fields give it).
     """
     name = ""
-    for step in (*location[1:], *context.get("field", "").split(".")):
+    within = (int(step) if step.isdecimal() else step for step in context.get("field", "").split("."))
+    for step in (*location[1:], *within):
         if isinstance(step, int):
             name += f"[{step}]"
         elif step:

@@ -18,7 +18,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
-from index.answers import DEFAULT_REFINE, DEFAULT_TOP_K, Box, Circle, Crs, Prior, Query, Refine
+from index.answers import DEFAULT_REFINE, DEFAULT_TOP_K, Box, Circle, Crs, Prior, Query, Refine, Reply
 from models.errors import DescriptionError
 from models.language.sentences import split_hints
 
@@ -32,6 +32,8 @@ EVALUATE_EXAMPLE: JsonValue = {
 }
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
 MAX_RADII = 8
+MAX_ANSWERS = 8
+MAX_ID = 1000  # characters; four names of streets are far shorter
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
 # No map is wider than the Earth or finer than a millimetre, and the squares of these stay numbers.
 MAX_METRES = 1e8
@@ -137,6 +139,15 @@ class PriorPosition(_Body):
         return Prior(self.position, self.sigma_m)
 
 
+class GivenAnswer(_Body):
+    """An answer to the `question` of an earlier answer to the same description."""
+
+    question: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID)] = Field(description="its id")
+    choice: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID)] = Field(
+        description="the value of one of its choices"
+    )
+
+
 class Told(_Body):
     """What somebody says; `told_fields` adds the limits of a service."""
 
@@ -174,12 +185,25 @@ class LocalizeRequest(Told):
     crs: Crs = Field("map", description="what the coordinates of within and prior mean")
     refine: Refine = REFINE
     heat_map: Annotated[bool, Strict()] = Field(False, description="the distribution behind the answer")
+    answers: Annotated[list[GivenAnswer], Field(max_length=MAX_ANSWERS)] = Field(
+        [], description="to questions of earlier answers, all of them each time: the service remembers none"
+    )
     deadline_ms: int
     index: Literal["default"] = "default"
 
     @model_validator(mode="after")
     def _is_on_earth(self) -> Self:
         check_degrees(self.crs, self.points())
+        return self
+
+    @model_validator(mode="after")
+    def _asks_once(self) -> Self:
+        if self.answers and self.refine != "posterior":
+            raise _wrong("goes with refine posterior; leave one of them out", "answers")
+        asked = [answer.question for answer in self.answers]
+        twice = next((n for n, one in enumerate(asked) if one in asked[:n]), None)
+        if twice is not None:
+            raise _wrong("is answered twice; send one answer to each question", f"answers.{twice}.question")
         return self
 
     def query(self) -> Query:
@@ -192,6 +216,7 @@ class LocalizeRequest(Told):
             crs=self.crs,
             refine=self.refine,
             heat_map=self.heat_map,
+            replies=tuple(Reply(answer.question, answer.choice) for answer in self.answers),
         )
 
     def points(self) -> list[tuple[str, tuple[float, float]]]:

@@ -17,6 +17,7 @@ from index.answers import (
     HeatMap,
     LatLon,
     ModelName,
+    Question,
     Status,
 )
 from models.city.frame import Frame
@@ -100,6 +101,7 @@ EXAMPLE: JsonValue = {
         },
     ],
     "heat_map": {"spacing_m": 1.5, "points": [[105.0, -35.0, 0.08]]},
+    "question": None,
     "crs": CRS_EXAMPLE,
     "provenance": PROVENANCE_EXAMPLE,
     "timings_ms": {"queue": 0.2, "encode": 9.1, "search": 0.4, "estimate": 0.1, "total": 10.3},
@@ -212,6 +214,10 @@ class LocalizeResponse(_Out):
     other_probability: float = Field(description="mass outside the listed candidates")
     evidence: tuple[Evidence, ...] = Field(description="one a hint; empty unless refine is posterior")
     heat_map: HeatMap | None = Field(description="if it was asked for")
+    question: Question | None = Field(
+        description="what to ask the speaker, whose answer would narrow this most: send it in `answers`; null unless "
+        "status is ambiguous"
+    )
     crs: CrsOut
     provenance: Provenance
     timings_ms: dict[str, float]

@@ -12,6 +12,7 @@ from models.localization.located import Located
 from models.posterior.likelihood import Reading
 from models.posterior.places.field import Told
 from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
+from models.posterior.questions import Answered
 from models.posterior.surroundings import SPACING_M
 
 HIT_M = 6.5  # positions are chosen to have most of the mass this near, softly
@@ -31,6 +32,7 @@ def locate(
     candidates: int = CANDIDATES,
     also: Ints | None = None,
     told: Told | None = None,
+    answered: Answered | None = None,
 ) -> Located | None:
     """Find where a description was said.
 
@@ -42,6 +44,7 @@ def locate(
         candidates: cells to look at, the best by the inverted list.
         also: [A] rows of further cells to look at, found in another way.
         told: the places that were named, if any.
+        answered: what answers to questions tell, if any.
 
     Returns:
         None if nothing is inside.
@@ -49,6 +52,8 @@ def locate(
     scores = _cell_scores(posterior, reading, log_prior, inside)
     if told is not None:
         scores = scores + told.cells
+    if answered is not None:
+        scores = scores + answered.cells
     possible = scores > -np.inf
     if not possible.any():
         return None
@@ -58,7 +63,7 @@ def locate(
     possible[more] = False
     chosen = np.concatenate([listed, more])
     left_out = np.flatnonzero(possible)
-    field = _field(posterior, reading, chosen, log_prior, inside, told)
+    field = _field(posterior, reading, chosen, log_prior, inside, told, answered)
     mass = _mass(field)
     rest = -np.inf
     if len(left_out):
@@ -99,6 +104,7 @@ def _field(
     log_prior: LogPrior | None,
     inside: Mask | None,
     told: Told | None,
+    answered: Answered | None,
 ) -> Field:
     """The posterior over the nodes of some cells; of those that are far behind on a coarser grid, that will do.
 
@@ -106,11 +112,11 @@ def _field(
     named.
     """
     if inside is not None or (log_prior is not None and told is None):
-        return posterior.field(reading, chosen, log_prior, inside, told)
-    rough = posterior.field(reading, chosen, log_prior, posterior.coarse, told)
+        return posterior.field(reading, chosen, log_prior, inside, told, answered)
+    rough = posterior.field(reading, chosen, log_prior, posterior.coarse, told, answered)
     mass = _mass(rough)
     near = np.flatnonzero((mass > mass.max() - BEHIND) | (mass == -np.inf))
-    fine = posterior.field(reading, chosen[near], log_prior, posterior.between, told)
+    fine = posterior.field(reading, chosen[near], log_prior, posterior.between, told, answered)
     starts = posterior.surroundings.cell_starts
     stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
     stands_for[near] = 1.0

@@ -18,6 +18,8 @@ from models.city.types import Floats
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, ranks_of, usual_statements, way_number
 from models.posterior.places.field import Told
+from models.posterior.questions import Answered
+from models.posterior.sights import Sights
 from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
@@ -79,6 +81,7 @@ class HintPosterior:
         self.nodes_m, self.extent_m = s.nodes_m.astype(np.float64), cells.extent_m
         self.coarse = (np.round(self.nodes_m / SPACING_M) % 2 == 0).all(axis=1)
         self.between = ~self.coarse
+        self.sights = Sights(s, label, self._words.numpy())
         self._scratch = np.zeros(len(label), np.int64)  # by part; what is in it is overwritten before it is read
 
     def _shares(self) -> Tensor:
@@ -136,6 +139,7 @@ class HintPosterior:
         log_prior: LogPrior | None = None,
         inside: Any = None,
         told: Told | None = None,
+        answered: Answered | None = None,
     ) -> Field:
         """The posterior over the nodes of some cells.
 
@@ -145,6 +149,7 @@ class HintPosterior:
             log_prior: log-density of positions [M, 2]; None for none.
             inside: [M of all] bool, False where it cannot be; None for everywhere.
             told: the places that were named, if any.
+            answered: what answers to questions tell, if any.
         """
         s = self.surroundings
         begin, end = s.cell_starts[cells], s.cell_starts[cells + 1]
@@ -155,6 +160,8 @@ class HintPosterior:
         log_p = np.zeros(len(nodes)) if reading is None else self._log_p(reading, nodes)
         if told is not None:
             log_p = log_p + told.at(self.nodes_m[nodes], cell)
+        if answered is not None:
+            log_p = log_p + answered.at(nodes)
         if log_prior is not None:
             log_p = log_p + log_prior(self.nodes_m[nodes])
         return Field(cells, nodes, cell, log_p)

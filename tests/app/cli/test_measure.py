@@ -35,6 +35,13 @@ def test_evaluate_refuses_an_unknown_split_in_one_line(run, osm_file) -> None:
     assert "no split of a map" in result.output
 
 
+def test_questions_prints_what_they_help(run, osm_file, index_dir) -> None:
+    result = run("questions", "--data", osm_file, "--index", index_dir, "--texts", "3", "--plain")
+    assert result.exit_code == 0, result.output
+    assert "3 texts, seed 0" in result.output
+    assert "within 10 m" in result.output
+
+
 def test_localize_draws_a_picture(run, index_dir, tmp_path) -> None:
     result = run("localize", "I am north of a red building.", "--index", index_dir, "--picture", tmp_path / "a.png")
     assert result.exit_code == 0, result.output

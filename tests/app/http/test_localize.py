@@ -1,6 +1,7 @@
 import re
 import threading
 import time
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -9,16 +10,18 @@ from fake_localizer import TRUE_FRAME, FakeLocalizer
 from app.http.requests import request_model
 from app.http.routes.localize import check_reach
 from app.settings import Settings
-from index.answers import Box, Circle, Prior, Query
+from index.answers import Box, Choice, Circle, Prior, Query, Question, Reply
 from models.city.frame import Frame
-from models.errors import WeightsError
+from models.errors import ReplyError, WeightsError
+
+TREE = {"question": "near:tree", "choice": "yes"}
 
 
 def test_answer_has_exactly_the_names_of_the_api(api, text):
     body = api.post("/localize", json={"description": text, "top_k": 2}).json()
     assert set(body) == {
         *("request_id", "status", "estimate", "candidates", "other_probability"),
-        *("crs", "provenance", "timings_ms", "warnings", "evidence", "heat_map"),
+        *("crs", "provenance", "timings_ms", "warnings", "evidence", "heat_map", "question"),
     }
     estimate = body["estimate"]
     assert estimate["position"] == [0, 0]
@@ -133,6 +136,15 @@ def test_model_runs_on_the_inference_thread_only(api, fake, text):
         ({"prior": {"position": [0, 0]}}, "prior.sigma_m"),
         ({"prior": {"position": [181, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
         ({"prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+        ({"answers": None}, "answers"),
+        ({"answers": [TREE] * 9}, "answers"),
+        ({"answers": [{"question": "near:tree"}]}, "answers[0].choice"),
+        ({"answers": [{**TREE, "sure": True}]}, "answers[0].sure"),
+        ({"answers": [TREE, {"question": 7, "choice": "yes"}]}, "answers[1].question"),
+        ({"answers": [{"question": "near:tree", "choice": True}]}, "answers[0].choice"),
+        ({"answers": [{"question": "n" * 1001, "choice": "yes"}]}, "answers[0].question"),
+        ({"answers": [TREE, {"question": "near:tree", "choice": "no"}]}, "answers[1].question"),
+        ({"answers": [TREE], "refine": "none"}, "answers"),
     ],
 )
 def test_wrong_field_is_named(refused, body, field):
@@ -315,3 +327,24 @@ def test_a_service_without_a_fine_stage_says_so(api, fake, text, monkeypatch):
     answer = api.post("/localize", json={"description": text, "refine": "regressor"})
     assert (answer.status_code, answer.json()["errors"][0]["field"]) == (422, "refine")
     assert "secret" not in answer.text
+
+
+def test_answers_reach_the_localizer_and_what_it_asks_comes_back(api, fake, text, monkeypatch):
+    question = Question("near:tree", "Is there a tree?", (Choice("yes", "Yes"), Choice("unknown", "I don't know")))
+    answer = fake._answer
+    monkeypatch.setattr(fake, "_answer", lambda query: replace(answer(query), question=question))
+    body = api.post("/localize", json={"description": text, "answers": [TREE]}).json()
+    assert fake.batches == [[Query(text, replies=(Reply("near:tree", "yes"),))]]
+    choices = [{"value": "yes", "text": "Yes"}, {"value": "unknown", "text": "I don't know"}]
+    assert body["question"] == {"id": "near:tree", "text": "Is there a tree?", "choices": choices}
+
+
+def test_an_answer_to_what_was_not_asked_is_named(api, fake, text, problem, monkeypatch):
+    def refuse(_queries):
+        raise ReplyError(1, "choice", "is no choice")
+
+    monkeypatch.setattr(fake, "localize", refuse)
+    answers = [TREE, {"question": "near:lamp", "choice": "maybe"}]
+    response = api.post("/localize", json={"description": text, "answers": answers})
+    body = problem(response, 422, "invalid_request", "answers[1].choice")
+    assert body["detail"] == "answers[1].choice: is no choice"

@@ -73,6 +73,37 @@ def test_filter_off_the_map_is_no_match(served, text):
     assert (response.json()["status"], response.json()["estimate"]) == ("no_match", None)
 
 
+def test_a_question_is_answered_and_another_is_asked(served):
+    told = {"description": "I am north of a tree.", "top_k": 40}
+    body = served.post("/localize", json=told).json()
+    assert body["status"] == "ambiguous"
+    question = body["question"]
+    answers = [{"question": question["id"], "choice": question["choices"][0]["value"]}]
+    after = served.post("/localize", json={**told, "answers": answers}).json()
+    assert after["candidates"] != body["candidates"]
+    assert after["question"] is None or after["question"]["id"] != question["id"]
+    geojson = served.post("/localize", json={**told, "answers": answers}, headers={"Accept": "application/geo+json"})
+    assert geojson.status_code == 200
+    unsure = served.post("/localize", json={**told, "answers": [answers[0] | {"choice": "unknown"}]}).json()
+    assert unsure["candidates"] == body["candidates"]
+    assert unsure["question"]["id"] != question["id"]
+
+
+@pytest.mark.parametrize(
+    ("question", "choice", "field"),
+    [
+        ("near:dragon", "yes", "answers[0].question"),
+        ("street:Elm Street|East Street 1", "Elm Street", "answers[0].question"),
+        ("near:tree", "perhaps", "answers[0].choice"),
+        ("street:East Street 1|East Street 2", "East Street 3", "answers[0].choice"),
+    ],
+)
+def test_an_answer_that_fits_no_question_is_refused(served, text, problem, question, choice, field):
+    answers = [{"question": question, "choice": choice}]
+    response = served.post("/localize", json={"description": text, "answers": answers})
+    problem(response, 422, "invalid_request", field)
+
+
 def test_geojson_is_where_the_estimate_is(served, text):
     ask = {"json": {"description": text}}
     place = served.post("/localize", **ask).json()["estimate"]["wgs84"]

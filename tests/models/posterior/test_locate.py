@@ -7,6 +7,7 @@ import torch
 
 from models.posterior.locate import locate
 from models.posterior.posterior import Field
+from models.posterior.questions import Answered
 
 NOTHING: Any = None
 
@@ -16,11 +17,14 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
     owner = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
     is_coarse = np.isin(np.arange(len(log_p)), np.arange(len(log_p)) if coarse is None else coarse)
 
-    def field(_reading, cells, log_prior=None, inside=None, told=None):
+    def field(_reading, cells, log_prior=None, inside=None, told=None, answered=None):
         assert told is None
         nodes = np.concatenate([np.flatnonzero((owner == c) & (inside is None or inside)) for c in cells])
         prior = 0.0 if log_prior is None else log_prior(nodes_m[nodes])
-        return Field(cells, nodes, np.searchsorted(cells, owner[nodes], sorter=np.argsort(cells)), log_p[nodes] + prior)
+        prior = prior if answered is None else prior + answered.at(nodes)
+        order = np.argsort(cells)
+        number = order[np.searchsorted(cells, owner[nodes], sorter=order)]
+        return Field(cells, nodes, number, log_p[nodes] + prior)
 
     center = [nodes_m[owner == c].mean(axis=0) if (owner == c).any() else (0, 0) for c in range(len(starts) - 1)]
     return SimpleNamespace(
@@ -62,3 +66,16 @@ def test_a_cell_without_a_coarse_node_is_looked_at_closely() -> None:
     assert dict(zip(found.rows.tolist(), found.score.tolist(), strict=True)) == pytest.approx(
         {0: np.log(2), 1: np.log(2), 2: 0.0}
     )
+
+
+def test_answers_bring_in_cells_that_were_not_listed() -> None:
+    nodes_m = np.array([[0.0, 0], [30, 0], [60, 0], [90, 0]])
+    posterior = posterior_of(nodes_m, np.zeros(4), [0, 1, 2, 3, 4])
+    before = locate(posterior, NOTHING, candidates=2)
+    told = np.array([-9.0, -9.0, -9.0, 0.0])
+    after = locate(posterior, NOTHING, candidates=2, answered=Answered(told, lambda nodes: told[nodes]))
+    assert before is not None
+    assert after is not None
+    assert 3 not in before.rows
+    assert after.rows[0] == 3
+    assert after.weight[after.points == 3] > 0.9

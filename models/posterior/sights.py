@@ -1,0 +1,136 @@
+"""What of the things around them people say when asked: whether one is near, in which wind, and what colour it has."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from models.city.points import Ints, ranges
+from models.city.types import Floats
+from models.posterior.surroundings import STEP_M, Surroundings
+
+NEAR_M, NEAR_SOFT_M = 10.0, 2.0  # what counts as near, and how far people's ideas of that differ
+FAR_M, FAR_SOFT_M = 15.0, 2.0  # beyond, a thing is none that is asked for; surroundings know no farther either
+APART_M = 2.0  # by which of two things one must be nearer to be the nearest to most people
+TURN: Final = 12.0  # degrees that people are off by, near the border between two winds
+QUARTERS: Final = ("north", "east", "south", "west")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Near:
+    """The things of one class around M nodes.
+
+    Attributes:
+        node: [R] node of each row.
+        metres: [R] to its closest point.
+        bearing: [R] degrees from the node to it, clockwise from north.
+        part: [R] row of the cells' parts.
+        nearest_m: [M] infinite where there is none.
+        weight: [R] that it is taken for the nearest; of each node they add up to 1.
+    """
+
+    node: Ints
+    metres: Floats
+    bearing: Floats
+    part: Ints
+    nearest_m: Floats
+    weight: Floats
+
+    def mean(self, values: Floats) -> Floats:
+        """[M, K] of values [R, K], that of what is taken for the nearest; 0 where there is none."""
+        nodes = len(self.nearest_m)
+        return np.stack([np.bincount(self.node, self.weight * column, nodes) for column in values.T], axis=1)
+
+
+class Sights:
+    """The things around the nodes of a map, as people are asked about them.
+
+    Args:
+        surroundings: of the gallery.
+        label: [P] number of the class of each of the cells' parts.
+        words: [P, W] chance of each colour word, likewise.
+    """
+
+    def __init__(self, surroundings: Surroundings, label: npt.NDArray[np.int64], words: Floats) -> None:
+        self.surroundings, self._label = surroundings, label
+        self._words = words / words.sum(axis=1, keepdims=True)
+
+    def seen(self, nodes: Ints, classes: Sequence[int]) -> "Seen":
+        """What is around some nodes [M] of some classes."""
+        s = self.surroundings
+        begin, end = s.starts[nodes], s.starts[nodes + 1]
+        rows, node = ranges(begin, end), np.repeat(np.arange(len(nodes)), end - begin)
+        label = self._label[s.part[rows]]
+        wanted = np.zeros(int(self._label.max(initial=-1)) + 1, np.bool_)
+        wanted[list(classes)] = True
+        kept = np.flatnonzero(wanted[label])
+        kept = kept[np.argsort(label[kept], kind="stable")]
+        starts = (
+            np.searchsorted(label[kept], np.asarray(classes)),
+            np.searchsorted(label[kept], np.asarray(classes), "right"),
+        )
+        near = {
+            c: self._near(rows[kept[low:high]], node[kept[low:high]], len(nodes))
+            for c, low, high in zip(classes, *starts, strict=True)
+        }
+        return Seen(near, self._words)
+
+    def _near(self, rows: Ints, node: Ints, nodes: int) -> Near:
+        s = self.surroundings
+        east, north = -s.way[rows].astype(np.float64).T * STEP_M
+        metres, nearest = np.hypot(east, north), np.full(nodes, np.inf)
+        np.minimum.at(nearest, node, metres)
+        weight = np.exp((nearest[node] - metres) / APART_M)
+        weight /= np.bincount(node, weight, nodes)[node]
+        return Near(node, metres, np.degrees(np.arctan2(east, north)) % 360, s.part[rows], nearest, weight)
+
+
+class Seen:
+    """What is around M nodes.
+
+    Args:
+        near: the things of each class.
+        words: [P, W] chance of each colour word, of the cells' parts.
+    """
+
+    def __init__(self, near: Mapping[int, Near], words: Floats) -> None:
+        self._near, self._words = near, words
+
+    def share(self, label: int, mass: Floats) -> float:
+        """How much of a mass [M] has a class around it."""
+        return float(mass[np.isfinite(self._near[label].nearest_m)].sum())
+
+    def is_near(self, label: int) -> Floats:
+        """[M, 2] chance that it is true that one of a class is near, and that none is."""
+        yes = _falls(self._near[label].nearest_m, NEAR_M, NEAR_SOFT_M)
+        return np.stack([yes, 1 - yes], axis=1)
+
+    def quarter(self, label: int) -> Floats:
+        """[M, 5] chance of each of QUARTERS that the nearest of a class is in; last, that there is none."""
+        near = self._near[label]
+        turned = (near.bearing[:, None] - np.arange(4) * 90.0 + 180) % 360 - 180
+        share = _falls(np.abs(turned), 45.0, TURN / 2)
+        share /= share.sum(axis=1, keepdims=True)
+        here = _falls(near.nearest_m, FAR_M, FAR_SOFT_M)[:, None]
+        return np.concatenate([near.mean(share) * here, 1 - here], axis=1)
+
+    def colour(self, label: int, words: Ints) -> Floats:
+        """[M, K + 1] chance of each of K colour words, and another, of the nearest of a class; alike where none is."""
+        near = self._near[label]
+        found = near.mean(self._words[near.part][:, words])
+        found = np.concatenate([found, 1 - found.sum(axis=1, keepdims=True)], axis=1)
+        return np.where(np.isfinite(near.nearest_m)[:, None], found, 1 / found.shape[1])
+
+    def colours(self, label: int, mass: Floats) -> Floats:
+        """[W] how much of a mass [M] has each colour word at the nearest of a class."""
+        near = self._near[label]
+        share: Floats = (near.weight * mass[near.node]) @ self._words[near.part]
+        return share
+
+
+def _falls(values: Floats, middle: float, soft: float) -> Floats:
+    """About 1 below the middle and 0 above."""
+    falls: Floats = 1 / (1 + np.exp(np.clip((values - middle) / soft, -50, 50)))
+    return falls

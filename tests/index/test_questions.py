@@ -1,0 +1,161 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from index.answers import Prior, Query, Reply
+from index.asked import Asked
+from index.questions import Heard
+from models.errors import ReplyError
+from models.posterior.questions import expected_entropy
+from tests.conftest import LAT, LAT_M, LON, LON_M
+
+VAGUE = Query("I am north of a tree.")
+
+
+def mass_of_cells(located):
+    """[N] probability of each cell that is listed."""
+    return dict(zip(located.rows.tolist(), located.probability.tolist(), strict=True))
+
+
+def entropy_of(located, cells):
+    """Bits over cells; those that are not listed share what is left."""
+    left = np.full(cells - len(located.rows), located.other / max(1, cells - len(located.rows)))
+    mass = np.concatenate([located.probability, left])
+    return -(mass * np.log2(mass.clip(1e-300))).sum()
+
+
+@pytest.fixture(scope="module")
+def posterior(localizer):
+    return localizer.posterior
+
+
+@pytest.fixture(scope="module")
+def asked(posterior):
+    [finding] = posterior.find([VAGUE])
+    return finding.question
+
+
+@pytest.mark.parametrize(
+    "one",
+    [
+        Asked("near", ("bench",)),
+        Asked("way", ("street lamp",)),
+        Asked("colour", ("building", "red", "white")),
+        Asked("street", ("East Street 1", "East Street 4")),
+    ],
+)
+def test_the_chances_of_all_answers_add_up_to_one_everywhere(posterior, one):
+    nodes = np.arange(len(posterior.surroundings.nodes_m))
+    told = [posterior.questions.answered([Reply(one.id, value)]) for value in one.values]
+    assert sum(np.exp(some.at(nodes)) for some in told) == pytest.approx(np.ones(len(nodes)))
+    assert sum(np.exp(some.cells) for some in told) == pytest.approx(np.ones(len(posterior.gallery.cells)))
+
+
+def test_an_answer_is_true_where_the_map_says_so(posterior):
+    nodes_m = posterior.surroundings.nodes_m
+    on_first = posterior.frame.from_wgs84(LAT + 60 * LAT_M, LON + 150 * LON_M)  # half way along it
+    nodes = np.flatnonzero(np.hypot(*(nodes_m - on_first).T) < 5.0)
+    one, other = (
+        posterior.questions.answered([Reply("street:East Street 1|East Street 2", f"East Street {n}")]) for n in (1, 2)
+    )
+    assert len(nodes) > 10
+    assert (one.at(nodes) > other.at(nodes) + 1).all()
+
+
+def test_several_answers_multiply(posterior):
+    replies = [Reply("near:bench", "yes"), Reply("way:tree", "north"), Reply("near:bollard", "unknown")]
+    nodes = np.arange(500)
+    apart = [posterior.questions.answered([reply]) for reply in replies]
+    together = posterior.questions.answered(replies)
+    assert together.at(nodes) == pytest.approx(apart[0].at(nodes) + apart[1].at(nodes))
+    assert apart[2] is None
+
+
+def test_the_question_leaves_the_least_entropy_of_all_that_could_be_asked(posterior):
+    """Against the posterior itself: every answer is given, and cells' masses are compared before and after."""
+    [finding] = posterior.find([VAGUE])
+    located, questions = finding.located, posterior.questions
+    cell_of = np.repeat(np.arange(len(posterior.gallery.cells)), np.diff(posterior.surroundings.cell_starts))
+
+    def left(one):
+        mass = np.array([located.weight[cell_of[located.points] == row].sum() for row in located.rows])
+        chance = np.array(
+            [
+                [
+                    (located.weight * np.exp(told.at(located.points)))[cell_of[located.points] == row].sum()
+                    for told in (questions.answered([Reply(one.id, value)]) for value in one.values)
+                ]
+                for row in located.rows
+            ]
+        )
+        return expected_entropy(mass / mass.sum(), (chance / mass[:, None].clip(1e-300))[None])[0]
+
+    others = [Asked("near", ("bench",)), Asked("near", ("bollard",)), Asked("near", ("post box",))]
+    best = Asked.parse(finding.question.id)
+    assert left(best) < min(left(one) for one in others)
+
+
+def test_what_the_text_says_is_not_asked(posterior, asked):
+    assert not asked.id.startswith(("near:tree", "way:tree"))
+    for text in ("I am on East Street 2.", "I am on East Street 2. There is a bench."):
+        [finding] = posterior.find([Query(text)])
+        assert finding.question is None or not finding.question.id.startswith("street:")
+    heard = Heard(labels=frozenset(["bench"]), has_winds=False)
+    [finding] = posterior.find([VAGUE])
+    found, before = [], []
+    while question := posterior.questions.ask(finding.located, heard, before):
+        found.append(question.id)
+        before.append(Reply(question.id, "unknown"))
+    assert len(found) == len(set(found)) > 3
+    assert "near:bench" not in found
+    assert not any(one.startswith("way:") for one in found)
+    assert sum(one.startswith("street:") for one in found) == 1
+
+
+def test_an_answer_narrows_and_a_wrong_one_is_survived(posterior, asked):
+    entropy = []
+    for choice in asked.choices:
+        [finding] = posterior.find([replace(VAGUE, replies=(Reply(asked.id, choice.value),))])
+        entropy.append(entropy_of(finding.located, len(posterior.gallery.cells)))
+    assert np.mean(entropy[:-1]) < entropy[-1] - 0.1  # the last is unknown
+    [plain] = posterior.find([VAGUE])
+    [wrong] = posterior.find([replace(VAGUE, replies=(Reply(asked.id, asked.choices[0].value),))])
+    before, after = mass_of_cells(plain.located), mass_of_cells(wrong.located)
+    shared = [row for row in before if row in after and before[row] > 1e-4]
+    assert min(after[row] / before[row] for row in shared) > 0.01  # nothing is ruled out
+
+
+def test_unknown_changes_nothing_but_the_question(posterior, asked):
+    [plain], [unsure] = (posterior.find([q]) for q in (VAGUE, replace(VAGUE, replies=(Reply(asked.id, "unknown"),))))
+    assert (plain.located.weight == unsure.located.weight).all()
+    assert unsure.question != plain.question
+
+
+@pytest.mark.parametrize(
+    ("reply", "field"),
+    [
+        (Reply("nonsense", "yes"), "question"),
+        (Reply("near:dragon", "yes"), "question"),
+        (Reply("name:Stockmann", "yes"), "question"),
+        (Reply("colour:building|mauve", "other"), "question"),
+        (Reply("near:bench", "maybe"), "choice"),
+    ],
+)
+def test_what_cannot_have_been_asked_is_refused(posterior, reply, field):
+    with pytest.raises(ReplyError, match=rf"^answers\[1\]\.{field}: ") as raised:
+        posterior.questions.answered([Reply("near:bench", "yes"), reply])
+    assert (raised.value.number, raised.value.field) == (1, field)
+
+
+def test_nothing_is_asked_of_a_sure_answer_or_of_a_place_to_meet_at(localizer):
+    sure = localizer.localize([VAGUE])[0].estimate.position
+    answers = localizer.localize(
+        [
+            Query("Meet me north of a tree."),
+            Query("I am north of a tree.", prior=Prior(sure, 3.0)),
+            Query("I am north of a tree.", refine="none"),
+        ]
+    )
+    assert [answer.question for answer in answers] == [None, None, None]
+    assert answers[1].status == "ok"
