@@ -26,7 +26,7 @@ STREET = "I'm on Bulevardi between Annankatu and Fredrikinkatu, a pharmacy on my
 VAGUE = "I can see a church and there is a tram stop near me."
 FRAMES = 40
 Scheme = Literal["light", "dark"]
-COLOURS = 192
+QUALITY = 88
 
 FIRST_PAINT = """() => new Promise((done) => {
   const seen = () => document.querySelector("#attribution").textContent
@@ -115,8 +115,7 @@ def draw(browser: Browser, url: str) -> None:
         page = open_page(browser, url, size, scheme)
         act(page)
         page.wait_for_timeout(600)
-        shot = Image.open(BytesIO(page.screenshot())).convert("RGB")
-        shot.quantize(COLOURS, dither=Image.Dither.NONE).save(OUT / f"{name}.png", optimize=True)
+        Image.open(BytesIO(page.screenshot())).save(OUT / f"{name}.webp", quality=QUALITY, method=6)
         page.context.close()
 
 

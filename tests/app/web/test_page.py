@@ -224,7 +224,7 @@ def test_an_evaluation_is_followed_and_its_errors_are_on_the_map(visit):
     page = visitor.page
     page.click("text=Measure how well it does")
     page.click("button >> text='Measure'")
-    assert "Choose a data set" in page.inner_text(".report")
+    assert "Give descriptions" in page.inner_text(".report")
     page.fill("#own", "no JSON")
     page.click("button >> text='Measure'")
     assert "not JSON" in page.inner_text(".report")

@@ -103,8 +103,22 @@ export class Camera {
     const free = { width: Math.max(80, this.width - this.inset.left), height: Math.max(80, this.height - this.inset.bottom) };
     const metres = Math.max(least / free.height, (1.1 * wide) / free.width, (1.1 * high * Math.sin(this.pose.pitch)) / free.height);
     this.farthest = Math.max(this.farthest, 1.5 * metres * this.height);
-    const distance = (metres * this.height) / (2 * HALF);
-    this.fly({ x: (box.west + box.east) / 2, y: (box.south + box.north) / 2, distance }, instantly);
+    const target = { x: (box.west + box.east) / 2, y: (box.south + box.north) / 2, distance: (metres * this.height) / (2 * HALF) };
+    while (target.distance < this.farthest && !this.holds(target, box)) target.distance *= 1.06;
+    this.fly(target, instantly);
+  }
+
+  /** Whether a box would be seen whole, what is near is larger. */
+  private holds(target: Partial<Pose>, box: Box): boolean {
+    const before = this.pose;
+    this.pose = this.allowed({ ...before, ...target });
+    const corners = [[box.west, box.south], [box.east, box.south], [box.west, box.north], [box.east, box.north]];
+    const whole = corners.every(([x, y]) => {
+      const at = this.project(x, y);
+      return at && at[0] >= this.inset.left && at[0] <= this.width && at[1] >= 0 && at[1] <= this.height - this.inset.bottom;
+    });
+    this.pose = before;
+    return whole;
   }
 
   fly(to: Partial<Pose>, instantly = false): void {

@@ -36,6 +36,10 @@ class Page implements Acts {
     this.panel.offer([]);
     this.view.overlay = (pen, camera, look, taken) => paint(pen, camera, look, taken, this.shown, this.state, this.objects);
     legend(this.view, () => this.info);
+    this.view.covered = () => [byId("panel"), byId("legend")].map((element) => {
+      const { left, top, right, bottom } = element.getBoundingClientRect();
+      return [left, top, right, bottom];
+    });
     this.fit();
     addEventListener("resize", () => this.fit());
     addEventListener("hashchange", () => this.goTo(read(location.hash)));
@@ -255,7 +259,7 @@ class Page implements Acts {
     const { answer, places } = this.shown;
     if (!answer?.estimate) return;
     const fitting = answer.status === "ambiguous" ? places.filter((place) => place.fits).map((place) => place.at) : [answer.estimate.position];
-    const reach = answer.status === "ambiguous" ? 60 : Math.max(70, 1.6 * answer.estimate.radius_m.p90);
+    const reach = answer.status === "ambiguous" ? 60 : Math.max(60, 1.2 * answer.estimate.radius_m.p90);
     const box: Box = {
       west: Math.min(...fitting.map(([x]) => x)) - reach,
       east: Math.max(...fitting.map(([x]) => x)) + reach,
@@ -273,8 +277,7 @@ class Page implements Acts {
 
   /** The panel covers a part of the map; what is looked at stands in the rest. */
   private fit(): void {
-    const [panel, foot] = [byId("panel"), byId("legend")].map((element) => element.getBoundingClientRect());
-    this.view.covered = [panel, foot].map(({ left, top, right, bottom }) => [left, top, right, bottom]);
+    const panel = byId("panel").getBoundingClientRect();
     this.view.camera.inset = isSheet() ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 };
     this.view.draw();
   }

@@ -6,11 +6,12 @@ import {
   Points, PointsMaterial, Scene, WebGLRenderer,
 } from "three";
 import { FIELD_OF_VIEW, type Camera } from "./camera";
-import { GROUND, RISING, WALLS, type Look, type Paint } from "./look";
+import { GROUND, RISING, WALLS, type Look } from "./look";
 import { Triangles, fill, raise, widen } from "./mesh";
 import { AREA, POINT, type Cloud, type Scenery, type Shape, type Shapes } from "./scenery";
 
 const CLOSE = 900; // metres from which small things are drawn
+const TILE = 500; // metres; what lies in tiles out of sight is not drawn
 
 export interface MapPicture {
   readonly canvas: HTMLCanvasElement;
@@ -23,10 +24,11 @@ export class Map3d implements MapPicture {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly eye = new PerspectiveCamera(FIELD_OF_VIEW);
-  private small: Object3D[] = [];
+  private small: Object3D[] = []; // drawn from near
+  private rough: Object3D[] = []; // drawn from afar
 
   constructor(private readonly camera: Camera) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !isSoftware(), powerPreference: "high-performance" });
     ColorManagement.enabled = false; // colours go to the screen as they are written
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
   }
@@ -38,7 +40,7 @@ export class Map3d implements MapPicture {
       for (const each of [material].flat()) each?.dispose();
     });
     this.scene.clear();
-    this.small = [];
+    [this.small, this.rough] = [[], []];
     this.scene.background = new Color(look.ground);
     for (const scenery of sceneries) {
       if (scenery.kind === "points") this.scene.add(cloud(scenery));
@@ -62,6 +64,7 @@ export class Map3d implements MapPicture {
     eye.lookAt(x, y, 0);
     eye.updateProjectionMatrix();
     for (const object of this.small) object.visible = camera.pose.distance < CLOSE;
+    for (const object of this.rough) object.visible = camera.pose.distance >= CLOSE;
     renderer.render(this.scene, eye);
   }
 
@@ -80,79 +83,119 @@ export class Map3d implements MapPicture {
   }
 
   private flat(shapes: Shape[], paint: string, order: number): void {
-    const out = new Triangles();
-    for (const shape of shapes) {
-      if (shape.form === AREA) fill(out, shape, 0);
-      else if (shape.form !== POINT) widen(out, shape, 0);
-    }
-    const mesh = new Mesh(geometry(out, new Color(paint)), new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, depthTest: false, depthWrite: false }));
-    mesh.renderOrder = order - 1000;
-    this.add(mesh);
-  }
-
-  private buildings(by: Map<string, Shape[]>, look: Look): void {
-    const edges: number[] = [];
-    for (const [label, paint] of Object.entries(RISING) as [string, Paint][]) {
+    const material = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, depthTest: false, depthWrite: false });
+    for (const tile of tiles(shapes)) {
       const out = new Triangles();
-      for (const shape of by.get(label) ?? []) {
-        if (shape.form !== AREA) continue;
-        const top = Math.max(shape.top, shape.base + 0.5);
-        raise(out, shape, shape.base, top);
-        fill(out, shape, top, 1);
-        for (const path of shape.paths) {
-          for (let n = 0; n + 3 < path.length; n += 2) edges.push(path[n], path[n + 1], top, path[n + 2], path[n + 3], top);
-        }
+      for (const shape of tile) {
+        if (shape.form === AREA) fill(out, shape, 0);
+        else if (shape.form !== POINT) widen(out, shape, 0);
       }
-      this.add(new Mesh(geometry(out, new Color(look[paint])), new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 })));
-    }
-    const lines = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(edges), 3));
-    this.add(new LineSegments(lines, new LineBasicMaterial({ color: new Color(look.building).multiplyScalar(0.72), transparent: true, opacity: 0.55 })));
-  }
-
-  private walls(by: Map<string, Shape[]>, look: Look): void {
-    for (const [label, paint] of Object.entries(WALLS) as [string, Paint][]) {
-      const out = new Triangles();
-      for (const shape of by.get(label) ?? []) raise(out, shape, shape.base, shape.top);
-      const mesh = new Mesh(geometry(out, new Color(look[paint])), new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
-      this.small.push(mesh);
+      const mesh = new Mesh(geometry(out, new Color(paint)), material);
+      mesh.renderOrder = order - 1000;
       this.add(mesh);
     }
   }
 
+  private buildings(by: Map<string, Shape[]>, look: Look): void {
+    const [material, edge] = [
+      new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }),
+      new LineBasicMaterial({ color: new Color(look.building).multiplyScalar(0.72), transparent: true, opacity: 0.55 }),
+    ];
+    for (const [label, paint] of Object.entries(RISING)) {
+      for (const tile of tiles((by.get(label) ?? []).filter((shape) => shape.form === AREA))) {
+        const [out, edges] = [new Triangles(), [] as number[]];
+        for (const shape of tile) {
+          const top = Math.max(shape.top, shape.base + 0.5);
+          raise(out, shape, shape.base, top);
+          fill(out, shape, top, 1);
+          for (const path of shape.paths) {
+            for (let n = 0; n + 3 < path.length; n += 2) edges.push(path[n], path[n + 1], top, path[n + 2], path[n + 3], top);
+          }
+        }
+        this.add(new Mesh(geometry(out, new Color(look[paint])), material));
+        const lines = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(edges), 3));
+        this.add(new LineSegments(lines, edge));
+      }
+    }
+  }
+
+  private walls(by: Map<string, Shape[]>, look: Look): void {
+    const material = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide });
+    for (const [label, paint] of Object.entries(WALLS)) {
+      for (const tile of tiles(by.get(label) ?? [])) {
+        const out = new Triangles();
+        for (const shape of tile) raise(out, shape, shape.base, shape.top);
+        this.add(new Mesh(geometry(out, new Color(look[paint])), material), this.small);
+      }
+    }
+  }
+
   private trees(trees: Shape[], look: Look): void {
-    const crown = new IcosahedronGeometry(1, 1);
-    const normals = crown.getAttribute("normal");
-    const shade = new Float32Array(normals.count * 3);
-    for (let n = 0; n < normals.count; n++) shade.fill(0.86 + 0.14 * normals.getZ(n), 3 * n, 3 * n + 3);
-    crown.setAttribute("color", new BufferAttribute(shade, 3));
-    const mesh = new InstancedMesh(crown, new MeshBasicMaterial({ vertexColors: true, color: look.tree }), trees.length);
-    const matrix = new Matrix4();
-    trees.forEach((tree, n) => {
-      const [x, y] = tree.paths[0];
-      const radius = Math.max(1.6, tree.top / 4);
-      mesh.setMatrixAt(n, matrix.makeScale(radius, radius, radius).setPosition(x, y, Math.max(radius, tree.top - radius)));
-    });
-    this.add(mesh);
+    const material = new MeshBasicMaterial({ vertexColors: true, color: look.tree });
+    for (const [detail, shown] of [[1, this.small], [0, this.rough]] as const) {
+      const shape = crown(detail);
+      this.copies(trees, shape, material, shown, (tree) => {
+        const radius = Math.max(1.6, tree.top / 4);
+        return [radius, radius, Math.max(radius, tree.top - radius)];
+      });
+    }
   }
 
   private things(things: Shape[], look: Look): void {
-    const mesh = new InstancedMesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ color: look.thing }), things.length);
-    const matrix = new Matrix4();
-    things.forEach((thing, n) => {
-      const [x, y] = thing.paths[0];
+    this.copies(things, new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ color: look.thing }), this.small, (thing) => {
       const high = Math.max(0.6, thing.top - thing.base);
-      const wide = high > 2.2 ? 0.3 : 0.8;
-      mesh.setMatrixAt(n, matrix.makeScale(wide, wide, high).setPosition(x, y, thing.base + high / 2));
+      return [high > 2.2 ? 0.3 : 0.8, high, thing.base + high / 2];
     });
-    this.small.push(mesh);
-    this.add(mesh);
   }
 
-  private add(object: Object3D): void {
+  /** One form at many points; `size` gives width, height and how high its middle is. */
+  private copies(points: Shape[], form: BufferGeometry, material: MeshBasicMaterial, shown: Object3D[], size: (point: Shape) => [number, number, number]): void {
+    const matrix = new Matrix4();
+    for (const tile of tiles(points)) {
+      const mesh = new InstancedMesh(form, material, tile.length);
+      tile.forEach((point, n) => {
+        const [wide, high, middle] = size(point);
+        mesh.setMatrixAt(n, matrix.makeScale(wide, wide, high).setPosition(point.paths[0][0], point.paths[0][1], middle));
+      });
+      this.add(mesh, shown);
+    }
+  }
+
+  /** `shown` are those that are drawn from near or from afar alone. */
+  private add(object: Object3D, shown?: Object3D[]): void {
     object.matrixAutoUpdate = false;
-    object.frustumCulled = false;
+    shown?.push(object);
     this.scene.add(object);
   }
+}
+
+/** Shapes by the tile that they begin in. */
+function tiles(shapes: Shape[]): Iterable<Shape[]> {
+  const found = new Map<string, Shape[]>();
+  for (const shape of shapes) {
+    const tile = `${Math.floor(shape.paths[0][0] / TILE)} ${Math.floor(shape.paths[0][1] / TILE)}`;
+    if (!found.has(tile)) found.set(tile, []);
+    found.get(tile)!.push(shape);
+  }
+  return found.values();
+}
+
+/** A tree's, lighter from above. */
+function crown(detail: number): BufferGeometry {
+  const shape = new IcosahedronGeometry(1, detail);
+  const normals = shape.getAttribute("normal");
+  const shade = new Float32Array(normals.count * 3);
+  for (let n = 0; n < normals.count; n++) shade.fill(0.86 + 0.14 * normals.getZ(n), 3 * n, 3 * n + 3);
+  return shape.setAttribute("color", new BufferAttribute(shade, 3));
+}
+
+/** Whether a CPU draws: smooth edges cost it twice the time. */
+function isSoftware(): boolean {
+  const probe = document.createElement("canvas").getContext("webgl2");
+  const told = probe?.getExtension("WEBGL_debug_renderer_info");
+  const name = told ? String(probe!.getParameter(told.UNMASKED_RENDERER_WEBGL)) : "";
+  probe?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
 }
 
 function geometry(out: Triangles, colour: Color): BufferGeometry {
@@ -172,6 +215,5 @@ function cloud(points: Cloud): Points {
     .setAttribute("position", new BufferAttribute(points.xyz, 3))
     .setAttribute("color", new BufferAttribute(points.rgb, 3, true));
   const made = new Points(shape, new PointsMaterial({ size: 0.35, vertexColors: true }));
-  made.frustumCulled = false;
   return made;
 }

@@ -8,7 +8,8 @@ export class Measure {
   readonly element = h("details", {});
   private readonly result = h("div", { className: "report", "aria-live": "polite" });
   private readonly data = h("select", { id: "data" });
-  private readonly split = h("input", { id: "split", placeholder: "all of it", size: 10 });
+  private readonly split = h("input", { id: "split", placeholder: "all of it", size: 8 });
+  private readonly named = h("div", { className: "row", hidden: true }, h("label", { for: "data" }, "Data"), this.data, h("label", { for: "split" }, "Split"), this.split);
   private readonly own = h("textarea", { id: "own", rows: 3, placeholder: '[{"description": "…", "position": [x, y]}]' });
   private readonly start = h("button", { type: "submit" }, "Measure");
   private running: AbortController | null = null;
@@ -18,8 +19,8 @@ export class Measure {
     const form = h(
       "form",
       { onsubmit: (event: Event) => (event.preventDefault(), void this.run()) },
-      h("div", { className: "row" }, h("label", { for: "data" }, "Data"), this.data, h("label", { for: "split" }, "Split"), this.split),
-      h("label", { for: "own", className: "small" }, "Or descriptions of your own, with where they were said"),
+      this.named,
+      h("label", { for: "own", className: "small" }, "Descriptions of your own, with where they were said"),
       this.own,
       h("div", { className: "row" }, this.start, h("label", { className: "button" }, "Open a saved report", file)),
     );
@@ -27,8 +28,8 @@ export class Measure {
   }
 
   offer(sets: string[]): void {
-    fill(this.data, h("option", { value: "" }, sets.length ? "choose …" : "none on this service"), ...sets.map((name) => h("option", { value: name }, name)));
-    this.data.disabled = this.split.disabled = !sets.length;
+    fill(this.data, h("option", { value: "" }, "choose …"), ...sets.map((name) => h("option", { value: name }, name)));
+    this.named.hidden = !sets.length;
   }
 
   private async run(): Promise<void> {
@@ -57,7 +58,7 @@ export class Measure {
 
   private asked(): api.Measured {
     if (this.data.value) return { data: this.data.value, ...(this.split.value && { split: this.split.value }) } as api.Measured;
-    if (!this.own.value.trim()) throw new Error("Choose a data set, or give descriptions of your own.");
+    if (!this.own.value.trim()) throw new Error(this.named.hidden ? "Give descriptions, with where they were said." : "Choose a data set, or give descriptions of your own.");
     try {
       const own = JSON.parse(this.own.value);
       return (Array.isArray(own) ? { queries: own } : own) as api.Measured; // or the whole of a request

@@ -7,11 +7,19 @@ import { LINE, type Shapes } from "./scenery";
 const STREET_FROM = 3000; // metres of distance from which names of streets are written, and of everything else
 const PLACE_FROM = 520;
 const GREEN_FROM = 2200;
+const HALO = 3; // pixels round a name
 const APART = 260; // metres between two writings of one street
 const FONT = '500 12px system-ui, -apple-system, "Segoe UI", sans-serif';
 const SMALL = '11px system-ui, -apple-system, "Segoe UI", sans-serif';
 const STREETS = new Set(["road", "footpath", "square", "driveway"]);
 const GREENS = new Set(["park", "water", "square", "market place"]);
+
+/** A name as it is drawn, made once: text with a halo is slow. */
+interface Sprite {
+  canvas: HTMLCanvasElement;
+  wide: number; // pixels of the page
+  high: number;
+}
 
 interface Name {
   text: string;
@@ -20,6 +28,7 @@ interface Name {
   angle: number | null; // of a street, in the plane
   length: number; // metres that a street has for it
   from: number;
+  sprite?: Sprite;
 }
 
 export type Room = [number, number, number, number]; // left, top, right, bottom
@@ -52,18 +61,12 @@ export class Names {
   }
 
   draw(pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]): void {
-    pen.textAlign = "center";
-    pen.textBaseline = "middle";
-    pen.lineJoin = "round";
-    pen.lineWidth = 3;
-    pen.strokeStyle = look.halo;
-    pen.fillStyle = look.name;
     for (const name of this.names) {
       if (camera.pose.distance > name.from) continue;
       const at = camera.project(name.x, name.y);
       if (!at || at[0] < 0 || at[1] < 0 || at[0] > camera.width || at[1] > camera.height) continue;
-      pen.font = name.angle === null && name.from === PLACE_FROM ? SMALL : FONT;
-      const width = pen.measureText(name.text).width;
+      const sprite = (name.sprite ??= spriteOf(name, look));
+      const width = sprite.wide - 2 * HALO;
       let turn = 0;
       if (name.angle !== null) {
         const ahead = camera.project(name.x + Math.cos(name.angle), name.y + Math.sin(name.angle));
@@ -80,13 +83,28 @@ export class Names {
       if (taken.some((other) => overlap(room, other))) continue;
       taken.push(room);
       pen.save();
-      pen.translate(...at);
+      if (turn) pen.translate(...at);
+      else pen.translate(Math.round(at[0] - sprite.wide / 2) + sprite.wide / 2, Math.round(at[1])); // sharp
       pen.rotate(turn);
-      pen.strokeText(name.text, 0, 0);
-      pen.fillText(name.text, 0, 0);
+      pen.drawImage(sprite.canvas, -sprite.wide / 2, -sprite.high / 2, sprite.wide, sprite.high);
       pen.restore();
     }
   }
+}
+
+function spriteOf(name: Name, look: Look): Sprite {
+  const canvas = document.createElement("canvas");
+  const pen = canvas.getContext("2d")!;
+  const ratio = Math.min(2, devicePixelRatio);
+  const font = name.angle === null && name.from === PLACE_FROM ? SMALL : FONT;
+  pen.font = font;
+  const [wide, high] = [Math.ceil(pen.measureText(name.text).width) + 2 * HALO, 18 + 2 * HALO];
+  [canvas.width, canvas.height] = [wide * ratio, high * ratio];
+  pen.scale(ratio, ratio);
+  Object.assign(pen, { font, textAlign: "center", textBaseline: "middle", lineJoin: "round", lineWidth: 3, strokeStyle: look.halo, fillStyle: look.name });
+  pen.strokeText(name.text, wide / 2, high / 2);
+  pen.fillText(name.text, wide / 2, high / 2);
+  return { canvas, wide, high };
 }
 
 function overlap(a: Room, b: Room): boolean {

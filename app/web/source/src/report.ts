@@ -25,7 +25,7 @@ export interface Report {
 
 const SVG = "http://www.w3.org/2000/svg";
 const LONGEST = 100; // metres, where the curve of errors ends
-const [WIDE, HIGH, LEFT, FOOT] = [320, 150, 34, 22];
+const [WIDE, HIGH, LEFT, FOOT] = [320, 150, 42, 22];
 
 /** A report that was saved, checked as far as the page needs it. */
 export function readReport(text: string): Report {

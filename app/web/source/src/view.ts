@@ -16,7 +16,7 @@ export class View {
   overlay: Overlay = () => {};
   drawn: () => void = () => {};
   /** What stands on the map, where names would be hidden. */
-  covered: Room[] = [];
+  covered: () => Room[] = () => [];
   private readonly picture: MapPicture;
   private readonly over = document.createElement("canvas");
   private sceneries: Scenery[] = [];
@@ -63,7 +63,7 @@ export class View {
       const ratio = Math.min(2, devicePixelRatio);
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
       pen.clearRect(0, 0, this.camera.width, this.camera.height);
-      const taken: Room[] = [...this.covered];
+      const taken: Room[] = this.covered();
       this.overlay(pen, this.camera, this.look, taken);
       for (const names of this.names) names.draw(pen, this.camera, this.look, taken);
       this.drawn();
