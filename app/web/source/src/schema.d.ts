@@ -24,6 +24,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/describe": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Describe
+         * @description What the map says at a position, in words by which POST /localize finds it again.
+         */
+        post: operations["describe_describe_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/evaluate": {
         parameters: {
             query?: never;
@@ -309,6 +329,22 @@ export interface components {
             provenance: components["schemas"]["Provenance"];
         };
         /**
+         * Choice
+         * @description An answer that a question can be given.
+         */
+        Choice: {
+            /**
+             * Value
+             * @description what to send back
+             */
+            value: string;
+            /**
+             * Text
+             * @description what to show
+             */
+            text: string;
+        };
+        /**
          * CrsOut
          * @description What the metres of an answer mean.
          */
@@ -329,6 +365,148 @@ export interface components {
              * @default ENU
              */
             axes: string;
+        };
+        /**
+         * DescribeRequest
+         * @description A position to describe.
+         * @example {
+         *       "position": [
+         *         105,
+         *         -35
+         *       ]
+         *     }
+         */
+        DescribeRequest: {
+            /**
+             * Position
+             * @description [x, y] in metres, or [lon, lat] with crs wgs84
+             */
+            position: [
+                number,
+                number
+            ];
+            /**
+             * Crs
+             * @description what the coordinates of position mean
+             * @default map
+             * @enum {string}
+             */
+            crs: "map" | "wgs84";
+            /**
+             * Deadline Ms
+             * @description 504 if there is no answer by then
+             * @default 10000
+             */
+            deadline_ms: number;
+        };
+        /**
+         * DescribeResponse
+         * @description What the map says at a position; metres, map frame.
+         * @example {
+         *       "cell_id": "helsinki_00042",
+         *       "crs": {
+         *         "axes": "ENU",
+         *         "frame_id": "map",
+         *         "origin": {
+         *           "lat": 60.17,
+         *           "lon": 24.94
+         *         },
+         *         "units": "m"
+         *       },
+         *       "description": "I am on Kaivokatu, between Keskuskatu and Mikonkatu. Ateneum is 14 m to my north. A street lamp is 4 m to my west.",
+         *       "hints": [
+         *         {
+         *           "at": [
+         *             105,
+         *             -41.2
+         *           ],
+         *           "away_m": 6.2,
+         *           "bearing_deg": 180,
+         *           "instance": "street",
+         *           "name": "Kaivokatu",
+         *           "source_id": "way/1234",
+         *           "text": "I am on Kaivokatu, between Keskuskatu and Mikonkatu."
+         *         },
+         *         {
+         *           "at": [
+         *             105.5,
+         *             -21
+         *           ],
+         *           "away_m": 14,
+         *           "bearing_deg": 2,
+         *           "instance": "tourism/museum",
+         *           "name": "Ateneum",
+         *           "source_id": "way/5678",
+         *           "text": "Ateneum is 14 m to my north."
+         *         },
+         *         {
+         *           "at": [
+         *             101.5,
+         *             -35
+         *           ],
+         *           "away_m": 3.5,
+         *           "bearing_deg": 270,
+         *           "instance": "street lamp",
+         *           "source_id": "node/9012",
+         *           "text": "A street lamp is 4 m to my west."
+         *         }
+         *       ],
+         *       "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
+         *       "position": [
+         *         105,
+         *         -35
+         *       ],
+         *       "provenance": {
+         *         "attribution": "© OpenStreetMap contributors",
+         *         "index": "default",
+         *         "index_version": "20260101T120000Z-1a2b3c4d",
+         *         "map": "helsinki",
+         *         "model": "posterior/minilm/192",
+         *         "model_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08"
+         *       },
+         *       "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
+         *       "timings_ms": {
+         *         "total": 8.4
+         *       },
+         *       "wgs84": {
+         *         "lat": 60.1699,
+         *         "lon": 24.9384
+         *       }
+         *     }
+         */
+        DescribeResponse: {
+            /** Request Id */
+            request_id: string;
+            /**
+             * Description
+             * @description the sentences of `hints`; POST /localize finds the position by it
+             */
+            description: string;
+            /** Hints */
+            hints: components["schemas"]["Fact"][];
+            /**
+             * Place
+             * @description the position in words; null on a map without names
+             */
+            place: string | null;
+            /** Position */
+            position: [
+                number,
+                number
+            ];
+            /** @description null if the map has no georeference */
+            wgs84: components["schemas"]["LatLon"] | null;
+            /**
+             * Cell Id
+             * @description the cell whose centre is nearest
+             */
+            cell_id: string;
+            crs: components["schemas"]["CrsOut"];
+            provenance: components["schemas"]["Provenance"];
+            /** Timings Ms */
+            timings_ms: {
+                [key: string]: number;
+            };
         };
         /**
          * Estimate
@@ -541,6 +719,47 @@ export interface components {
             exact?: boolean | null;
         };
         /**
+         * Fact
+         * @description A sentence that is true at a position, and what on the map it tells of.
+         */
+        Fact: {
+            /**
+             * Text
+             * @description the sentence
+             */
+            text: string;
+            /**
+             * Instance
+             * @description class of what it tells of
+             */
+            instance: string;
+            /**
+             * Name
+             * @description null where it has none
+             */
+            name: string | null;
+            /** Source Id */
+            source_id: string | null;
+            /**
+             * At
+             * @description its point nearest to the position: x, y in metres, map frame
+             */
+            at: [
+                number,
+                number
+            ];
+            /**
+             * Away M
+             * @description from the position to that point
+             */
+            away_m: number;
+            /**
+             * Bearing Deg
+             * @description from the position to that point, clockwise from north; null where it is there
+             */
+            bearing_deg: number | null;
+        };
+        /**
          * FieldError
          * @description One field that is wrong.
          */
@@ -552,6 +771,22 @@ export interface components {
             field: string;
             /** Message */
             message: string;
+        };
+        /**
+         * GivenAnswer
+         * @description An answer to the `question` of an earlier answer to the same description.
+         */
+        GivenAnswer: {
+            /**
+             * Question
+             * @description its id
+             */
+            question: string;
+            /**
+             * Choice
+             * @description the value of one of its choices; to an open question also a name that is not listed
+             */
+            choice: string;
         };
         /**
          * Heading
@@ -584,7 +819,7 @@ export interface components {
         HeatMap: {
             /**
              * Spacing M
-             * @description edge of the square that each point stands for
+             * @description edge of the square round each point; as fine as a few that hold the distribution can be
              */
             spacing_m: number;
             /**
@@ -627,6 +862,11 @@ export interface components {
             service: string;
             /** Version */
             version: string;
+            /**
+             * Key Required
+             * @description whether all but this, the page and the checks of health needs the read key
+             */
+            key_required: boolean;
             limits: components["schemas"]["Limits"];
             /** @description null until it is loaded */
             index: components["schemas"]["IndexInfo"] | null;
@@ -821,6 +1061,12 @@ export interface components {
              */
             heat_map: boolean;
             /**
+             * Answers
+             * @description to questions of earlier answers, all of them each time: the service remembers none
+             * @default []
+             */
+            answers: components["schemas"]["GivenAnswer"][];
+            /**
              * Deadline Ms
              * @description 504 if there is no answer by then
              * @default 10000
@@ -854,7 +1100,7 @@ export interface components {
          *             105,
          *             -35
          *           ],
-         *           "probability": 0.62,
+         *           "probability": 0.22,
          *           "rank": 1,
          *           "score": 0.81,
          *           "wgs84": {
@@ -875,12 +1121,12 @@ export interface components {
          *       "estimate": {
          *         "covariance": [
          *           [
-         *             144,
+         *             1444,
          *             0
          *           ],
          *           [
          *             0,
-         *             144
+         *             1444
          *           ]
          *         ],
          *         "heading": {
@@ -893,10 +1139,10 @@ export interface components {
          *           105,
          *           -35
          *         ],
-         *         "probability": 0.62,
+         *         "probability": 0.22,
          *         "radius_m": {
-         *           "p50": 14.1,
-         *           "p90": 25.8
+         *           "p50": 44.1,
+         *           "p90": 81.8
          *         },
          *         "wgs84": {
          *           "lat": 60.1699,
@@ -957,7 +1203,7 @@ export interface components {
          *         ],
          *         "spacing_m": 1.5
          *       },
-         *       "other_probability": 0.38,
+         *       "other_probability": 0.78,
          *       "provenance": {
          *         "attribution": "© OpenStreetMap contributors",
          *         "index": "default",
@@ -966,8 +1212,27 @@ export interface components {
          *         "model": "posterior/minilm/192",
          *         "model_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08"
          *       },
+         *       "question": {
+         *         "choices": [
+         *           {
+         *             "text": "Kaivokatu",
+         *             "value": "Kaivokatu"
+         *           },
+         *           {
+         *             "text": "Mikonkatu",
+         *             "value": "Mikonkatu"
+         *           },
+         *           {
+         *             "text": "I don't know",
+         *             "value": "unknown"
+         *           }
+         *         ],
+         *         "id": "street",
+         *         "is_open": true,
+         *         "text": "Which street are you on?"
+         *       },
          *       "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
-         *       "status": "ok",
+         *       "status": "ambiguous",
          *       "timings_ms": {
          *         "encode": 9.1,
          *         "estimate": 0.1,
@@ -1005,6 +1270,8 @@ export interface components {
             evidence: components["schemas"]["Evidence"][];
             /** @description if it was asked for */
             heat_map: components["schemas"]["HeatMap"] | null;
+            /** @description what to ask the speaker, whose answer would narrow this most: send it in `answers`; null unless status is ambiguous */
+            question: components["schemas"]["Question"] | null;
             crs: components["schemas"]["CrsOut"];
             provenance: components["schemas"]["Provenance"];
             /** Timings Ms */
@@ -1042,7 +1309,7 @@ export interface components {
             detail: string;
             /**
              * Code
-             * @description invalid_json (400); not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); conflict (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); load_failed (503); deadline_exceeded (504)
+             * @description invalid_json (400); key_required (401); key_wrong (401); not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); conflict (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); load_failed (503); deadline_exceeded (504)
              */
             code: string;
             /** Request Id */
@@ -1076,6 +1343,33 @@ export interface components {
             map: string;
             /** Attribution */
             attribution: string;
+        };
+        /**
+         * Question
+         * @description The one thing whose answer would narrow an ambiguous answer most.
+         */
+        Question: {
+            /**
+             * Id
+             * @description what to send back; it says all that the service needs to know
+             */
+            id: string;
+            /**
+             * Text
+             * @description the question, in English
+             */
+            text: string;
+            /**
+             * Choices
+             * @description the last is "unknown", which changes nothing
+             */
+            choices: components["schemas"]["Choice"][];
+            /**
+             * Is Open
+             * @description a name that is not listed may be sent as choice as well; it is compared without case and accents
+             * @default false
+             */
+            is_open: boolean;
         };
         /**
          * Radius
@@ -1216,6 +1510,93 @@ export interface operations {
             };
             /** @description Too many requests wait */
             429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description A fault in the service */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No answer before the deadline */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    describe_describe_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DescribeRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DescribeResponse"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is of another type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };
