@@ -45,7 +45,7 @@ class Prior:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """What a person answered to a question: the question's id, and the value of one of its choices."""
+    """What a person answered to a question: its id, and the value of one of its choices or, if it is open, a name."""
 
     question: str
     choice: str
@@ -230,6 +230,13 @@ class Question:
     id: Annotated[str, Field(description="what to send back; it says all that the service needs to know")]
     text: Annotated[str, Field(description="the question, in English")]
     choices: Annotated[tuple[Choice, ...], Field(description='the last is "unknown", which changes nothing')]
+    is_open: Annotated[
+        bool,
+        Field(
+            description="a name that is not listed may be sent as choice as well; it is compared without case and "
+            "accents"
+        ),
+    ] = False
 
 
 @dataclass(frozen=True, slots=True)

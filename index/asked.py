@@ -1,5 +1,6 @@
 """A question as its id says it, and in words."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal, cast, get_args
 
@@ -7,11 +8,18 @@ from index.answers import Choice, Question
 from models.language.lexicon.asked import load_asked
 from models.posterior.sights import NEAR_M, QUARTERS
 
-Kind = Literal["near", "way", "colour", "street", "name"]
+Kind = Literal["near", "way", "colour", "street", "name", "corner"]
+OPEN: Final[Mapping[Kind, str]] = {
+    "street": "Which street are you on?",
+    "name": "What is the name of a shop or another place that you see?",
+    "corner": "Which street crosses the street you are on nearest to you?",
+}
 UNKNOWN: Final = "unknown"
 OTHER: Final = "other"
-LISTED: Final = 4  # streets or colours to choose from
-_WORDS: Final = {"yes": "Yes", "no": "No", "none": "None is near", UNKNOWN: "I don't know"}
+LISTED: Final = 4  # colours to choose from, or names that are offered
+_WORDS: Final = {
+    "yes": "Yes", "no": "No", "none": "None is near", OTHER: "Another colour", UNKNOWN: "I don't know"
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,54 +27,55 @@ class Asked:
     """A question.
 
     Attributes:
-        kind: whether a thing is near, which way the nearest is, its colour, the street one is on, or a place's name.
-        names: the class or place it is about, and for colours what there is to choose from; of streets these alone.
+        kind: whether a thing is near, which way the nearest is, its colour; or for which name is asked: of the street
+            one is on, of a place that one sees, of the nearest street that crosses.
+        names: the class it is about, and for colours what there is to choose from; none where a name is asked for.
     """
 
     kind: Kind
-    names: tuple[str, ...]
+    names: tuple[str, ...] = ()
 
     @classmethod
     def parse(cls, text: str) -> "Asked | None":
         """The question of an id; None if it is of none. Whether the map has what it names is not looked at."""
-        kind, _, rest = text.partition(":")
-        if kind not in get_args(Kind):
+        kind, colon, rest = text.partition(":")
+        if kind not in get_args(Kind) or bool(colon) == (kind in OPEN):
             return None
-        names = tuple(rest.split("|")) if kind in {"street", "colour"} else (rest,)
-        listed = len(names) - (kind == "colour")
-        is_whole = all(names) and len(set(names)) == len(names) and listed + (kind in {"near", "way", "name"}) >= 1
-        return cls(cast("Kind", kind), names) if is_whole and listed <= LISTED else None
+        names = tuple(rest.split("|")) if kind == "colour" else (rest,) if colon else ()
+        is_whole = all(names) and len(set(names)) == len(names) and (kind != "colour" or 1 < len(names) <= LISTED + 1)
+        return cls(cast("Kind", kind), names) if is_whole else None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether any name of the map can be answered."""
+        return self.kind in OPEN
 
     @property
     def id(self) -> str:
         """As clients send it back."""
-        return f"{self.kind}:{'|'.join(self.names)}"
+        return ":".join([self.kind, "|".join(self.names)] if self.names else [self.kind])
 
     @property
     def values(self) -> tuple[str, ...]:
-        """[K] what can be answered, but for "unknown"."""
+        """[K] what can be answered, but for "unknown" and names."""
+        if self.is_open:
+            return ()
         if self.kind == "way":
             return (*QUARTERS, "none")
-        if self.kind in {"near", "name"}:
-            return ("yes", "no")
-        return (*(self.names if self.kind == "street" else self.names[1:]), OTHER)
+        return ("yes", "no") if self.kind == "near" else (*self.names[1:], OTHER)
 
-    def question(self) -> Question:
-        """In words."""
-        choices = tuple(Choice(value, self._choice(value)) for value in (*self.values, UNKNOWN))
-        return Question(self.id, self._text(), choices)
+    def question(self, listed: Sequence[str] = ()) -> Question:
+        """In words.
 
-    def _choice(self, value: str) -> str:
-        if value == OTHER:
-            return f"Another {self.kind}"
-        return value if self.kind == "street" and value in self.names else _WORDS.get(value, value.capitalize())
+        Args:
+            listed: the names that an open question offers.
+        """
+        closed = tuple(Choice(value, _WORDS.get(value, value.capitalize())) for value in (*self.values, UNKNOWN))
+        return Question(self.id, self._text(), (*(Choice(name, name) for name in listed), *closed), self.is_open)
 
     def _text(self) -> str:
-        if self.kind == "street":
-            *others, last = self.names
-            return f"Is the street you are on {', '.join(others)} or {last}?"
-        if self.kind == "name":
-            return f"Do you see {self.names[0]}?"
+        if self.is_open:
+            return OPEN[self.kind]
         noun = load_asked().things[self.names[0]]
         if self.kind == "near":
             article = "an" if noun[0] in "aeio" else "a"

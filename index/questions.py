@@ -1,14 +1,14 @@
 """The one question whose answer would narrow an ambiguous answer most, and what the answers to such questions tell."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from index.answers import Question, Reply
-from index.asked import LISTED, OTHER, UNKNOWN, Asked
+from index.asked import LISTED, OPEN, UNKNOWN, Asked
+from index.open_questions import OpenQuestions
 from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.gazetteer.gazetteer import Gazetteer
@@ -22,12 +22,11 @@ from models.posterior.binding import LIKELY, TRUSTED
 from models.posterior.likelihood import Reading
 from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
-from models.posterior.questions import Answered, entropy, expected_entropy, with_errors
+from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors
 from models.posterior.sights import Seen, Sights
 
 LEAST_GAIN: Final = 0.1  # bits; what narrows no more is not worth asking
 PLACES: Final = 256  # cells that a question is chosen by: the likeliest
-MOST_NAMES: Final = 60
 FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it has is not asked about
 
 
@@ -39,16 +38,18 @@ class Heard:
         labels: classes that the text names.
         winds: of these, those with a wind.
         colours: of these, those with a colour.
-        names: of places.
         is_on_street: whether a street is named.
+        is_at_corner: whether two streets are named that meet.
+        is_at_name: whether a place is named.
         has_winds: whether the speaker knows where north is, as far as the text tells.
     """
 
     labels: frozenset[str] = frozenset()
     winds: frozenset[str] = frozenset()
     colours: frozenset[str] = frozenset()
-    names: frozenset[str] = frozenset()
     is_on_street: bool = False
+    is_at_corner: bool = False
+    is_at_name: bool = False
     has_winds: bool = True
 
     @classmethod
@@ -73,15 +74,26 @@ class Heard:
                 with_wind |= {label} if relation[n] > LIKELY else set()
                 with_colour |= {label} if colour[n] > LIKELY else set()
         labelled |= {kind.rsplit("/")[-1].replace("_", " ") for mention in mentions for kind in mention.kinds}
-        named = (name for mention in mentions for n in mention.objects for name in gazetteer.words[int(n)].names[:1])
         return cls(
             labels=frozenset(labelled),
             winds=frozenset(with_wind),
             colours=frozenset(with_colour),
-            names=frozenset(named),
             is_on_street=any(mention.form in {"street", "address", "corner", "span"} for mention in mentions),
+            is_at_corner=any(mention.form in {"corner", "span"} for mention in mentions),
+            is_at_name=any(mention.form == "thing" and mention.is_exact for mention in mentions),
             has_winds=not len(gazetteer) or bool(with_wind) or any(m.cue.wind is not None for m in mentions),
         )
+
+    def open(self, replies: Sequence[Reply]) -> list[Asked]:
+        """The open questions that neither the text nor replies have answered."""
+        before = {reply.question: reply.choice for reply in replies}
+        is_on_street = self.is_on_street or before.get("street", UNKNOWN) != UNKNOWN
+        left = {
+            "street": not self.is_on_street,
+            "name": not self.is_at_name,
+            "corner": is_on_street and not self.is_at_corner,
+        }
+        return [asked for asked in map(Asked, OPEN) if left[asked.kind] and asked.kind not in before]
 
 
 class Questions:
@@ -100,7 +112,7 @@ class Questions:
     ) -> None:
         asked, centers_m = load_asked(), cells.center_m[:, :2].astype(np.float64)
         self._sights, self._words = sights, tuple(colour_words(palette))
-        self._landmarks = Landmarks(gazetteer, centers_m, asked.kinds) if len(gazetteer) else None
+        self._names = OpenQuestions(Landmarks(gazetteer, centers_m, asked.kinds))
         self._things = {label: n for n, label in enumerate(labels) if label in asked.things}
         starts = sights.surroundings.cell_starts
         self._cell = np.repeat(np.arange(len(starts) - 1), np.diff(starts))  # that owns each node
@@ -115,16 +127,20 @@ class Questions:
         Raises:
             ReplyError: an answer is not to a question about this map.
         """
-        told = [(asked, column) for asked, column in map(self._read, range(len(replies)), replies) if column >= 0]
-        if not told:
+        read = [self._read(number, reply) for number, reply in enumerate(replies)]
+        told = [(asked, column) for asked, column in read if column >= 0]
+        of_names = self._names.answered(replies)
+        if not told and of_names is None:
             return None
 
-        classes = sorted({self._things[asked.names[0]] for asked, _ in told if asked.names[0] in self._things})
+        classes = sorted({self._things[asked.names[0]] for asked, _ in told})
 
         def at(nodes: Ints) -> Floats:
             seen = self._sights.seen(nodes, classes)
-            chances = [with_errors(self._true(asked, nodes, seen))[:, column] for asked, column in told]
-            total: Floats = np.log(np.stack(chances)).sum(axis=0)
+            chances = [with_errors(self._true(asked, seen))[:, column] for asked, column in told]
+            total = np.zeros(len(nodes)) if of_names is None else of_names[self._cell[nodes]]
+            for chance in chances:
+                total = total + np.log(chance)
             return total
 
         cells = np.zeros(len(self._sights.surroundings.cell_starts) - 1)
@@ -136,20 +152,19 @@ class Questions:
         nodes, mass = self._places(located)
         seen = self._sights.seen(nodes, sorted(self._things.values()))
         before = [asked for reply in replies if (asked := Asked.parse(reply.question)) is not None]
-        possible = [
-            asked
-            for asked in (*self._of_names(nodes, mass, heard, replies), *self._of_things(mass, seen, heard))
-            if asked not in before
-        ]
-        if not possible:
-            return None
-        chance = np.zeros((len(possible), len(nodes), LISTED + 1))
-        for n, asked in enumerate(possible):
-            found = with_errors(self._true(asked, nodes, seen))
+        closed = [asked for asked in self._of_things(mass, seen, heard) if asked not in before]
+        chance = np.zeros((len(closed), len(nodes), LISTED + 1))
+        for n, asked in enumerate(closed):
+            found = with_errors(self._true(asked, seen))
             chance[n, :, : found.shape[1]] = found
-        gain = entropy(mass) - expected_entropy(mass, chance)
-        best = int(gain.argmax())
-        return possible[best].question() if gain[best] >= LEAST_GAIN else None
+        left = dict(zip(closed, expected_entropy(mass, chance).tolist(), strict=True))
+        named = [asked for asked in heard.open(replies) if self._names.has(asked.kind)]
+        rows = {asked: self._names.rows(asked, self._cell[nodes], replies) for asked in named}
+        left |= {asked: expected_entropy_of_names(mass, true, names) for asked, (true, names) in rows.items()}
+        best = min(left, key=lambda asked: left[asked], default=None)
+        if best is None or entropy(mass) - left[best] < LEAST_GAIN:
+            return None
+        return best.question(self._names.likeliest(best, mass @ rows[best][0]) if best.is_open else ())
 
     def _places(self, located: Located) -> tuple[Ints, Floats]:
         """[C] the heaviest node of each of the likeliest cells, and their probabilities, made to add up to 1."""
@@ -178,30 +193,8 @@ class Questions:
                     found.append(Asked("colour", (label, *colours)))
         return found
 
-    def _of_names(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> list[Asked]:
-        """Streets and named places that can be asked about."""
-        if self._landmarks is None:
-            return []
-        cells, found = self._cell[nodes], list[Asked]()
-        told = [reply for reply in replies if reply.question.startswith("street:")]
-        if not heard.is_on_street and all(reply.choice == OTHER for reply in told):
-            left_out = {name for reply in told for name in reply.question.removeprefix("street:").split("|")}
-            share = mass @ self._landmarks.on_street[cells]
-            streets = [(share[n], name) for name, n in self._landmarks.streets.items() if name not in left_out]
-            best = tuple(name for much, name in sorted(streets, reverse=True)[:LISTED] if much > 0 and "|" not in name)
-            if len(best) > 1:
-                found.append(Asked("street", best))
-        share, names = mass @ self._landmarks.seen[cells], list(self._landmarks.names)
-        some = np.argsort(-share, kind="stable")[:MOST_NAMES]
-        return found + [Asked("name", (names[n],)) for n in some if share[n] >= FAINT and names[n] not in heard.names]
-
-    def _true(self, asked: Asked, nodes: Ints, seen: Seen) -> Floats:
-        """[M, K] chance that each answer is the right one at some nodes."""
-        if asked.kind in ("street", "name"):
-            table, numbers = self._table(asked)
-            cells, which = np.unique(self._cell[nodes], return_inverse=True)
-            some: Floats = table[cells][:, [numbers[name] for name in asked.names]].toarray()[which]
-            return np.concatenate([some, 1 - some.sum(axis=1, keepdims=True)], axis=1).clip(0.0, 1.0)
+    def _true(self, asked: Asked, seen: Seen) -> Floats:
+        """[M, K] chance that each answer of a closed question is the right one at what was seen from some nodes."""
         number = self._things[asked.names[0]]
         if asked.kind == "near":
             return seen.is_near(number)
@@ -209,29 +202,18 @@ class Questions:
             return seen.quarter(number)
         return seen.colour(number, np.array([self._words.index(word) for word in asked.names[1:]]))
 
-    def _table(self, asked: Asked) -> tuple[csr_array, Mapping[str, int]]:
-        """[N, columns] chance of each street or name, and the columns of the names."""
-        assert self._landmarks is not None
-        landmarks = self._landmarks
-        return (landmarks.on_street, landmarks.streets) if asked.kind == "street" else (landmarks.seen, landmarks.names)
-
     def _read(self, number: int, reply: Reply) -> tuple[Asked, int]:
-        """The question of an answer, and which of its values was chosen; -1 for unknown."""
+        """The question of an answer, and which of its values was chosen; -1 for unknown, and for names."""
         asked = Asked.parse(reply.question)
         if asked is None or not self._knows(asked):
             raise ReplyError(number, "question", "is no question about this map; send back the id of an answer's")
-        if reply.choice == UNKNOWN:
+        if asked.is_open or reply.choice == UNKNOWN:
             return asked, -1
         if reply.choice not in asked.values:
             raise ReplyError(number, "choice", "is no choice of this question; send the value of one of its choices")
         return asked, asked.values.index(reply.choice)
 
     def _knows(self, asked: Asked) -> bool:
-        names = asked.names
-        if asked.kind in ("street", "name"):
-            if self._landmarks is None:
-                return False
-            return all(name in self._table(asked)[1] for name in names)
-        if names[0] not in self._things:
-            return False
-        return set(names[1:]) <= set(self._words)
+        if asked.is_open:
+            return self._names.has(asked.kind)
+        return asked.names[0] in self._things and set(asked.names[1:]) <= set(self._words)

@@ -157,7 +157,8 @@ def _print_table(answer: "Answer") -> None:
         )
     if answer.question:
         choices = " / ".join(choice.text for choice in answer.question.choices)
-        console.print(Text(f"question: {answer.question.text} {choices}"))
+        another = " / another name" if answer.question.is_open else ""
+        console.print(Text(f"question: {answer.question.text} {choices}{another}"))
     for warning in answer.warnings:
         console.print(Text(f"warning: {warning}", style="yellow"))
 

@@ -33,7 +33,7 @@ EVALUATE_EXAMPLE: JsonValue = {
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
 MAX_RADII = 8
 MAX_ANSWERS = 8
-MAX_ID = 1000  # characters; four names of streets are far shorter
+MAX_ID = 1000  # characters; a name, and a question with four colours, are far shorter
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
 # No map is wider than the Earth or finer than a millimetre, and the squares of these stay numbers.
 MAX_METRES = 1e8
@@ -144,7 +144,7 @@ class GivenAnswer(_Body):
 
     question: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID)] = Field(description="its id")
     choice: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID)] = Field(
-        description="the value of one of its choices"
+        description="the value of one of its choices; to an open question also a name that is not listed"
     )
 
 

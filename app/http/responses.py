@@ -40,13 +40,13 @@ PROVENANCE_EXAMPLE: JsonValue = {
 }
 EXAMPLE: JsonValue = {
     "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
-    "status": "ok",
+    "status": "ambiguous",
     "estimate": {
         "position": [105.0, -35.0],
         "method": "posterior",
-        "covariance": [[144.0, 0.0], [0.0, 144.0]],
-        "radius_m": {"p50": 14.1, "p90": 25.8},
-        "probability": 0.62,
+        "covariance": [[1444.0, 0.0], [0.0, 1444.0]],
+        "radius_m": {"p50": 44.1, "p90": 81.8},
+        "probability": 0.22,
         "wgs84": {"lat": 60.1699, "lon": 24.9384},
         "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
         "heading": {"mean_deg": 271.0, "spread_deg": 18.0},
@@ -56,14 +56,14 @@ EXAMPLE: JsonValue = {
             "rank": 1,
             "cell_id": "helsinki_00042",
             "score": 0.81,
-            "probability": 0.62,
+            "probability": 0.22,
             "center": [105.0, -35.0],
             "bbox": [90.0, -50.0, 120.0, -20.0],
             "position": [105.0, -35.0],
             "wgs84": {"lat": 60.1699, "lon": 24.9384},
         }
     ],
-    "other_probability": 0.38,
+    "other_probability": 0.78,
     "evidence": [
         {
             "text": "building",
@@ -101,7 +101,16 @@ EXAMPLE: JsonValue = {
         },
     ],
     "heat_map": {"spacing_m": 1.5, "points": [[105.0, -35.0, 0.08]]},
-    "question": None,
+    "question": {
+        "id": "street",
+        "text": "Which street are you on?",
+        "choices": [
+            {"value": "Kaivokatu", "text": "Kaivokatu"},
+            {"value": "Mikonkatu", "text": "Mikonkatu"},
+            {"value": "unknown", "text": "I don't know"},
+        ],
+        "is_open": True,
+    },
     "crs": CRS_EXAMPLE,
     "provenance": PROVENANCE_EXAMPLE,
     "timings_ms": {"queue": 0.2, "encode": 9.1, "search": 0.4, "estimate": 0.1, "total": 10.3},

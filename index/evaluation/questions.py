@@ -5,143 +5,20 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from index.answers import Answer, Query, Question, Reply
-from index.asked import OTHER, UNKNOWN, Asked
+from index.answers import Answer, Query
+from index.evaluation.person import Person, Truth
 from index.evaluation.report import Table
 from index.localizer import Localizer
-from models.city.colours import Palette
-from models.city.gallery import Bodies, Gallery
-from models.city.gazetteer.gazetteer import STREET, Gazetteer
-from models.city.gazetteer.ways import Around, cut, ways_to
 from models.city.queries import Queries
 from models.city.source import Source
 from models.city.templates import render_hint
 from models.city.types import Floats, Progress
 from models.errors import DataError
-from models.posterior.sights import QUARTERS
 
 QUESTIONS: Final = 3  # the most that are asked
 HINTS: Final = 2
 WITHIN_M: Final = 10.0
-WRONG, DO_NOT_KNOW = 0.1, 0.2  # of the answers; of those that are known, so many are wrong
-TEN_M, REACH_M, SIGN_M = 10.0, 15.0, 30.0  # what people take for near, for the nearest one, and read a sign at
-IDEAS: Final = 0.25  # how far people's ideas of these differ: log-normal
-TURN: Final = 10.0  # degrees that they are off by: normal
-STREET_M: Final = 40.0
-
-
-class Truth:
-    """What a map has at a position, by its geometry: of all points of its instances, and of its names.
-
-    Args:
-        bodies: what stands in the map.
-        gallery: its cells, for the classes and colours of these.
-        palette: its colour words.
-        gazetteer: its names.
-    """
-
-    def __init__(self, bodies: Bodies, gallery: Gallery, palette: Palette, gazetteer: Gazetteer) -> None:
-        self._bodies, self._palette, self._gazetteer = bodies, palette, gazetteer
-        parts = gallery.cells.parts
-        instance, first = np.unique(bodies.part_instance, return_index=True)
-        self._rgb = dict(zip(instance.tolist(), parts.rgb[first], strict=True))
-        label = {int(i): gallery.labels[parts.instance[row]] for i, row in zip(instance, first, strict=True)}
-        owners: dict[tuple[int, str], list[int]] = {}
-        for number, name in label.items():
-            owners.setdefault((int(bodies.scene[number]), name), []).append(number)
-        self._owners, self._trees = owners, dict[tuple[int, str], tuple[cKDTree, Any]]()
-
-    def nearest(self, scene: int, position: Floats, label: str) -> tuple[float, float, int] | None:
-        """Metres, degrees clockwise from north, and instance of the nearest of a class; None if the scene has none."""
-        key = scene, label
-        if key not in self._owners:
-            return None
-        if key not in self._trees:
-            some = self._owners[key]
-            spans = [slice(int(self._bodies.starts[n]), int(self._bodies.starts[n + 1])) for n in some]
-            points = np.concatenate([self._bodies.xyz[span, :2] for span in spans]).astype(np.float64)
-            owner = np.repeat(some, [span.stop - span.start for span in spans])
-            self._trees[key] = cKDTree(points), owner
-        tree, owner = self._trees[key]
-        metres, row = tree.query(position)
-        east, north = tree.data[row] - position
-        return float(metres), float(np.degrees(np.arctan2(east, north))), int(owner[row])
-
-    def colour(self, instance: int) -> str | None:
-        """The word for an instance's colour; None if the map does not know it."""
-        return self._palette.word(self._rgb[instance])
-
-    def streets(self, position: Floats) -> list[tuple[float, str]]:
-        """Metres and names of the streets near a position, nearest first."""
-        objects = self._gazetteer.by_kind.get(STREET, np.zeros(0, np.int64))
-        ways = ways_to(Around.of(position[None], np.zeros(1, np.int64)), *cut(self._gazetteer, objects), STREET_M)
-        items = objects[ways.item].tolist()
-        return sorted(zip(ways.metres.tolist(), (self._gazetteer.words[n].names[0] for n in items), strict=True))
-
-    def metres_to(self, position: Floats, name: str) -> float:
-        """How far the nearest place of a name is."""
-        objects = np.array([n for n in self._gazetteer.named if self._gazetteer.words[n].names[0] == name], np.int64)
-        ways = ways_to(Around.of(position[None], np.zeros(1, np.int64)), *cut(self._gazetteer, objects), 10 * SIGN_M)
-        return float(ways.metres.min(initial=np.inf))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Person:
-    """Somebody at a position.
-
-    Attributes:
-        truth: of the map.
-        scene: number of the scene.
-        position_m: [2].
-        rng: draws errors.
-    """
-
-    truth: Truth
-    scene: int
-    position_m: Floats
-    rng: np.random.Generator
-
-    def reply(self, question: Question) -> Reply:
-        """What they answer."""
-        values = [choice.value for choice in question.choices if choice.value != UNKNOWN]
-        right = self._right(question)
-        if self.rng.random() < DO_NOT_KNOW or right is None:
-            return Reply(question.id, UNKNOWN)
-        if self.rng.random() < WRONG:
-            right = str(self.rng.choice([value for value in values if value != right]))
-        return Reply(question.id, right if right in values else OTHER)
-
-    def _right(self, question: Question) -> str | None:
-        """What is true, as they see it; None if the map does not say."""
-        asked = Asked.parse(question.id)
-        assert asked is not None
-        if asked.kind == "street":
-            return self._street()
-        if asked.kind == "name":
-            return self._yes(self.truth.metres_to(self.position_m, asked.names[0]), SIGN_M)
-        found = self.truth.nearest(self.scene, self.position_m, asked.names[0])
-        if asked.kind == "near":
-            return self._yes(np.inf if found is None else found[0], TEN_M)
-        if asked.kind == "colour":
-            return None if found is None else self.truth.colour(found[2])
-        if found is None or found[0] > REACH_M * self._idea():
-            return "none"
-        return QUARTERS[round((found[1] + self.rng.normal(0, TURN)) / 90) % 4]
-
-    def _street(self) -> str:
-        near = self.truth.streets(self.position_m)
-        if not near:
-            return OTHER
-        alike = [name for metres, name in near if metres <= near[0][0] + 3.0]  # at a corner either is right
-        return alike[int(self.rng.integers(len(alike)))]
-
-    def _yes(self, metres: float, reach_m: float) -> str:
-        return "yes" if metres <= reach_m * self._idea() else "no"
-
-    def _idea(self) -> float:
-        return float(np.exp(self.rng.normal(0, IDEAS)))
 
 
 @dataclass(slots=True)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from scipy.sparse import csr_array, find
 
 from models.city.points import Ints
 from models.city.types import Floats
@@ -36,6 +37,19 @@ def with_errors(true: Floats) -> Floats:
     return chance
 
 
+def said_with_errors(true: Floats, names: int, said: int = 1) -> Floats:
+    """[...] chance that a name is said of which any other of a map may be said in error.
+
+    Args:
+        true: [...] chance that it is the right one.
+        names: K of the map.
+        said: how many of these it may mean, where a part of a name is said.
+    """
+    wrong = WRONG / max(1, names - 1)
+    chance: Floats = (1 - WRONG - wrong) * true + said * wrong
+    return chance
+
+
 def entropy(mass: Floats) -> float:
     """Bits of a distribution [C]."""
     some = mass[mass > 0]
@@ -57,3 +71,31 @@ def expected_entropy(mass: Floats, chance: Floats) -> Floats:
     share = joint / np.maximum(answer, 1e-300)
     left: Floats = -(joint * np.log2(np.maximum(share, 1e-300))).sum(axis=(1, 2))
     return left
+
+
+def expected_entropy_of_names(mass: Floats, true: csr_array, names: int) -> float:
+    """Bits that are left when a name is asked for; who has none to say says "I don't know", which leaves all.
+
+    Args:
+        mass: [C] probability of each place, adding up to 1.
+        true: [C, K] chance that each name is the right one; rows may add up to less than 1.
+        names: K of the map; columns of `true` may be fewer, the others are said in error alone.
+    """
+    place, name, chance = find(true)
+    wrong, before = float(said_with_errors(np.zeros(1), names)[0]), entropy(mass)
+    # A name that is right nowhere leaves all; only what the others leave needs to be added up. Of each, places where it
+    # is wrong have the joint probability m w, of which all logarithms together are known.
+    column = np.unique(name, return_inverse=True)[1]
+    right = mass[place] * said_with_errors(chance, names)
+    in_error = mass[place] * wrong
+    count = int(column.max(initial=-1)) + 1
+    answer = wrong + np.bincount(column, right - in_error, count)  # p(a)
+    some = _log(right) * right - _log(in_error) * in_error
+    log_joint = wrong * (np.log2(wrong) - before) + np.bincount(column, some, count)
+    nothing = 1 - answer.sum() - (names - count) * wrong
+    return float((answer * _log(answer) - log_joint).sum() + before * ((names - count) * wrong + nothing))
+
+
+def _log(values: Floats) -> Floats:
+    logs: Floats = np.log2(np.maximum(values, 1e-300))
+    return logs

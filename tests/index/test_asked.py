@@ -8,8 +8,9 @@ ALL = [
     Asked("near", ("tree",)),
     Asked("way", ("street lamp",)),
     Asked("colour", ("building", "red", "gray")),
-    Asked("street", ("Unioninkatu", "Liisankatu", "A: B")),
-    Asked("name", ("Stockmann | Argos: 2",)),
+    Asked("street"),
+    Asked("name"),
+    Asked("corner"),
 ]
 
 
@@ -20,7 +21,10 @@ def test_an_id_says_all(asked):
 
 @pytest.mark.parametrize(
     "wrong",
-    ["", "near", "near:", "far:tree", "street:", "street:A|A", "street:A|", "colour:building", "street:A|B|C|D|E"],
+    [
+        *("", "near", "near:", "far:tree", "street:", "street:A", "name:Stockmann", "corner:A|B"),
+        *("colour:building", "colour:building|", "colour:building|red|red", "colour:building|a|b|c|d|e"),
+    ],
 )
 def test_what_is_no_id(wrong):
     assert LISTED == 4
@@ -33,8 +37,9 @@ def test_questions_in_words():
         "Is there a tree within about 10 metres of you?",
         "Where is the nearest street lamp, seen from you?",
         "What colour is the nearest building?",
-        "Is the street you are on Unioninkatu, Liisankatu or A: B?",
-        "Do you see Stockmann | Argos: 2?",
+        "Which street are you on?",
+        "What is the name of a shop or another place that you see?",
+        "Which street crosses the street you are on nearest to you?",
     ]
 
 
@@ -44,7 +49,18 @@ def test_choices_are_the_values_and_unknown(asked):
     assert question.id == asked.id
     assert [choice.value for choice in question.choices] == [*asked.values, UNKNOWN]
     assert len({choice.text for choice in question.choices}) == len(question.choices)
-    assert (OTHER in asked.values) == (asked.kind in {"street", "colour"})
+    assert (OTHER in asked.values) == (asked.kind == "colour")
+    assert question.is_open == (asked.kind in {"street", "name", "corner"})
+
+
+def test_an_open_question_offers_names():
+    question = Asked("street").question(["Unioninkatu", "A: B | C"])
+    assert [(choice.value, choice.text) for choice in question.choices] == [
+        ("Unioninkatu", "Unioninkatu"),
+        ("A: B | C", "A: B | C"),
+        (UNKNOWN, "I don't know"),
+    ]
+    assert question.id == "street"
 
 
 def test_only_classes_of_maps_are_asked_about():

@@ -336,7 +336,7 @@ def test_answers_reach_the_localizer_and_what_it_asks_comes_back(api, fake, text
     body = api.post("/localize", json={"description": text, "answers": [TREE]}).json()
     assert fake.batches == [[Query(text, replies=(Reply("near:tree", "yes"),))]]
     choices = [{"value": "yes", "text": "Yes"}, {"value": "unknown", "text": "I don't know"}]
-    assert body["question"] == {"id": "near:tree", "text": "Is there a tree?", "choices": choices}
+    assert body["question"] == {"id": "near:tree", "text": "Is there a tree?", "choices": choices, "is_open": False}
 
 
 def test_an_answer_to_what_was_not_asked_is_named(api, fake, text, problem, monkeypatch):

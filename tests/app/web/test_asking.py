@@ -118,6 +118,26 @@ def test_a_question_narrows_and_its_answer_can_be_taken_back(visit):
     assert response.value.json()["question"]["id"] == asked["id"]
 
 
+def test_a_name_that_is_not_offered_is_typed_and_one_that_the_map_has_not_is_taken_back(visit):
+    visitor = visit().open()
+    page = visitor.page
+    first = visitor.ask("There is a tree to my north. There is a bench to my east.")
+    assert first["question"]["is_open"], "else this tests nothing"
+    for name in ("Elm = Street", "EAST street 3"):
+        page.fill(".question input", name)
+        with page.expect_response("**/localize") as response:
+            page.keyboard.press("Enter")
+        asked = visitor.asked[-1][1]["answers"]
+        assert asked == [{"question": first["question"]["id"], "choice": name}]
+        if "=" in name:
+            assert response.value.status == 422
+            assert "on this map" in page.inner_text("#answer [role=alert]")
+            with page.expect_response("**/localize"):
+                page.click("#answer .chip")
+            page.wait_for_selector(".question input")
+    assert response.value.json()["estimate"]["probability"] > first["estimate"]["probability"]
+
+
 def test_the_other_places_are_a_click_away(visit):
     visitor = visit().open()
     answer = visitor.ask("There is a tree to my north. There is a bench to my east.")

@@ -41,7 +41,7 @@ export function showWaiting(into: Element, said: string): void {
   fill(into, h("p", { className: "told" }, said), h("p", { className: "quiet", role: "status" }, "Looking …"));
 }
 
-export function showProblem(into: Element, problem: Problem, acts: Acts): void {
+export function showProblem(into: Element, problem: Problem, replies: { question: string; choice: string }[], acts: Acts): void {
   const needsKey = problem.code.startsWith("key_");
   const again = h("button", { type: "button", onclick: () => acts.ask() }, "Try again");
   if (problem.retryAfter && !needsKey) {
@@ -58,6 +58,7 @@ export function showProblem(into: Element, problem: Problem, acts: Acts): void {
     into,
     h("div", { role: "alert" }, h("h2", {}, problem.title), h("p", {}, problem.message)),
     needsKey ? keyForm(acts) : again,
+    replies.length > 0 && repliesList(replies, acts),
     problem.requestId && h("p", { className: "small" }, `Request ${problem.requestId}`),
   );
 }
@@ -112,7 +113,18 @@ function question(answer: Answer, acts: Acts): Element | null {
     { className: "question", role: "group", "aria-label": asked.text },
     h("p", {}, asked.text),
     h("div", { className: "row" }, ...asked.choices.map((choice) => h("button", { type: "button", onclick: () => acts.reply(asked.id, choice.value) }, choice.text))),
+    asked.is_open && nameForm(asked.id, acts),
   );
+}
+
+/** A name that is not among those that are offered. */
+function nameForm(id: string, acts: Acts): Element {
+  const field = h("input", { type: "text", autocomplete: "off", required: true, maxLength: 200, "aria-label": "Another name", placeholder: "Another name" });
+  const send = (event: Event) => {
+    event.preventDefault();
+    if (field.value.trim()) acts.reply(id, field.value.trim());
+  };
+  return h("form", { className: "row", onsubmit: send }, field, h("button", { type: "submit" }, "Send"));
 }
 
 /** The text, its mentions underlined by how well something explains them. */

@@ -272,7 +272,7 @@ class Page implements Acts {
   private fail(error: unknown): void {
     const known = error instanceof api.Problem ? error : new api.Problem("The page has a fault", String((error as Error)?.message ?? error), "page");
     this.redraw({ answer: null, places: [], mention: null });
-    showProblem(this.panel.answer, known, this);
+    showProblem(this.panel.answer, known, this.state.answers, this);
   }
 
   /** The panel covers a part of the map; what is looked at stands in the rest. */

@@ -784,7 +784,7 @@ export interface components {
             question: string;
             /**
              * Choice
-             * @description the value of one of its choices
+             * @description the value of one of its choices; to an open question also a name that is not listed
              */
             choice: string;
         };
@@ -1100,7 +1100,7 @@ export interface components {
          *             105,
          *             -35
          *           ],
-         *           "probability": 0.62,
+         *           "probability": 0.22,
          *           "rank": 1,
          *           "score": 0.81,
          *           "wgs84": {
@@ -1121,12 +1121,12 @@ export interface components {
          *       "estimate": {
          *         "covariance": [
          *           [
-         *             144,
+         *             1444,
          *             0
          *           ],
          *           [
          *             0,
-         *             144
+         *             1444
          *           ]
          *         ],
          *         "heading": {
@@ -1139,10 +1139,10 @@ export interface components {
          *           105,
          *           -35
          *         ],
-         *         "probability": 0.62,
+         *         "probability": 0.22,
          *         "radius_m": {
-         *           "p50": 14.1,
-         *           "p90": 25.8
+         *           "p50": 44.1,
+         *           "p90": 81.8
          *         },
          *         "wgs84": {
          *           "lat": 60.1699,
@@ -1203,7 +1203,7 @@ export interface components {
          *         ],
          *         "spacing_m": 1.5
          *       },
-         *       "other_probability": 0.38,
+         *       "other_probability": 0.78,
          *       "provenance": {
          *         "attribution": "© OpenStreetMap contributors",
          *         "index": "default",
@@ -1212,8 +1212,27 @@ export interface components {
          *         "model": "posterior/minilm/192",
          *         "model_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08"
          *       },
+         *       "question": {
+         *         "choices": [
+         *           {
+         *             "text": "Kaivokatu",
+         *             "value": "Kaivokatu"
+         *           },
+         *           {
+         *             "text": "Mikonkatu",
+         *             "value": "Mikonkatu"
+         *           },
+         *           {
+         *             "text": "I don't know",
+         *             "value": "unknown"
+         *           }
+         *         ],
+         *         "id": "street",
+         *         "is_open": true,
+         *         "text": "Which street are you on?"
+         *       },
          *       "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
-         *       "status": "ok",
+         *       "status": "ambiguous",
          *       "timings_ms": {
          *         "encode": 9.1,
          *         "estimate": 0.1,
@@ -1345,6 +1364,12 @@ export interface components {
              * @description the last is "unknown", which changes nothing
              */
             choices: components["schemas"]["Choice"][];
+            /**
+             * Is Open
+             * @description a name that is not listed may be sent as choice as well; it is compared without case and accents
+             * @default false
+             */
+            is_open: boolean;
         };
         /**
          * Radius

@@ -31,7 +31,7 @@ export function read(fragment: string): State {
       ? { circle: { center: [circle[0], circle[1]], radius_m: circle[2] } }
       : box && { bbox: box as [number, number, number, number] },
     answers: given.getAll("a").flatMap((answer) => {
-      const cut = answer.lastIndexOf("=");
+      const cut = answer.indexOf("="); // a name may have another
       return cut > 0 ? [{ question: answer.slice(0, cut), choice: answer.slice(cut + 1) }] : [];
     }),
     topK: Math.min(40, Math.max(1, Math.round(Number(given.get("k")) || NOTHING.topK))),

@@ -12,28 +12,55 @@ def landmarks():
     return Landmarks(made_gazetteer(), CENTERS, ("shop", "amenity"))
 
 
+def chance_of(table, names, name):
+    """[N] chance of a name in each cell."""
+    return table.of(names.find(name))
+
+
 def test_who_is_in_a_street_says_so(landmarks):
-    chance = landmarks.on_street.toarray()
-    streets = list(landmarks.streets)
-    assert [streets[n] for n in chance[[0, 3]].argmax(axis=1)] == ["West 25th Street"] * 2
+    chance = landmarks.on_street.rows.toarray()
+    assert [landmarks.streets.shown[n] for n in chance[[0, 3]].argmax(axis=1)] == ["West 25th Street"] * 2
     assert chance[0].max() > 0.99
-    east, avenue = landmarks.streets["West 25th Street"], landmarks.streets["10th Avenue"]
-    assert chance[2, [east, avenue]] == pytest.approx([0.5, 0.5])  # at the corner
-    assert chance[1, east] > chance[1, avenue] > 0.2
+    east, avenue = (chance_of(landmarks.on_street, landmarks.streets, name) for name in ("w 25TH st", "10th Avenue"))
+    assert (east[2], avenue[2]) == pytest.approx((0.5, 0.5))  # at the corner
+    assert east[1] > avenue[1] > 0.2
     assert chance[5].sum() == 0.0  # farther than ON_STREET_M from any
     assert ON_STREET_M < 90
     assert (chance.sum(axis=1) < 1 + 1e-9).all()
 
 
-def test_a_sign_is_read_from_near(landmarks):
-    seen = landmarks.seen.toarray()[:, landmarks.names["T-Optik"]]
-    assert seen[3] > 0.95  # at its door
-    assert 0.6 < seen[0] < 0.9
-    assert seen[4] == 0.0
-    assert "London Terrace Gardens" not in landmarks.names  # a building has no sign
+def test_a_sign_is_said_from_near_rather_than_from_far(landmarks):
+    chance = chance_of(landmarks.said, landmarks.names, "t optik")
+    assert chance[3] > 0.9  # at its door
+    assert 0.2 < chance[0] < 0.6  # two restaurants are farther, it is 24 m away
+    assert chance[4] == 0.0
+    assert (landmarks.said.rows.sum(axis=1) < 1 + 1e-9).all()
+    assert not len(landmarks.names.find("London Terrace Gardens"))  # a building has no sign
+
+
+def test_the_street_that_crosses_is_the_nearest(landmarks):
+    streets, none = landmarks.streets, np.zeros(0, np.int64)
+    tenth, west = streets.find("10th Avenue"), streets.find("West 25th Street")
+    on_west = landmarks.crossings.of(tenth, west)
+    assert on_west[[1, 2]].min() > 0.99
+    assert on_west[0] == pytest.approx(0.5)  # half way between two
+    assert landmarks.crossings.of(tenth, none)[2] == pytest.approx(0.5, abs=0.01)  # or on it, and 25th Street crosses
+    assert landmarks.crossings.of(tenth, streets.find("Harlem Road"))[3] == landmarks.crossings.of(tenth, none)[3]
+    assert landmarks.has_corners
+
+
+@pytest.mark.parametrize("said", [(), ("West 25th Street",), ("Harlem Road", "10th Avenue")])
+def test_rows_and_columns_of_crossings_agree(landmarks, said):
+    on = np.concatenate([np.zeros(0, np.int64), *(landmarks.streets.find(name) for name in said)])
+    rows = landmarks.crossings.rows(np.arange(len(CENTERS)), on).toarray()
+    for n in range(len(landmarks.streets)):
+        assert rows[:, n] == pytest.approx(landmarks.crossings.of(np.array([n]), on))
+    assert rows.sum(axis=1)[:4] == pytest.approx(np.ones(4))
 
 
 def test_cells_do_not_depend_on_which_others_there_are(landmarks):
     some = Landmarks(made_gazetteer(), CENTERS[[3, 1]], ("shop", "amenity"))
-    assert some.seen.toarray() == pytest.approx(landmarks.seen.toarray()[[3, 1]])
-    assert some.on_street.toarray() == pytest.approx(landmarks.on_street.toarray()[[3, 1]])
+    assert some.said.rows.toarray() == pytest.approx(landmarks.said.rows.toarray()[[3, 1]])
+    assert some.on_street.rows.toarray() == pytest.approx(landmarks.on_street.rows.toarray()[[3, 1]])
+    crossings = [one.crossings.pairs.rows.toarray() for one in (some, landmarks)]
+    assert crossings[0] == pytest.approx(crossings[1][[3, 1]])

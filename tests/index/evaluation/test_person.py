@@ -1,0 +1,97 @@
+import numpy as np
+import pytest
+
+from index.answers import Reply
+from index.asked import OPEN, Asked
+from index.evaluation import person as measured
+from index.evaluation.person import Person, Truth
+from tests.models.city.gazetteer.made_town import made_gazetteer
+
+LABELS = ("tree", "bench", "bollard", "building")
+
+
+@pytest.fixture(scope="module")
+def truth(source):
+    return Truth(source.bodies(), source.data.gallery, source.data.palette, source.gazetteer())
+
+
+@pytest.fixture
+def sure(truth, monkeypatch):
+    """(position) -> a person there who errs in nothing."""
+    for name in ("WRONG", "DO_NOT_KNOW", "IDEAS", "TURN"):
+        monkeypatch.setattr(measured, name, 0.0)
+    return lambda position: Person(truth, 0, position, np.random.default_rng(0))
+
+
+@pytest.mark.parametrize("label", LABELS)
+def test_the_truth_is_that_of_the_map(truth, city, asked, sure, label) -> None:
+    for position in asked[1].positions_m[:40:8]:
+        ways = [
+            (instance, instance.points_m[:, :2] - position) for instance in city.instances if instance.label == label
+        ]
+        away = [np.hypot(*way.T).min() for _, way in ways]
+        instance, way = ways[int(np.argmin(away))]
+        east, north = way[np.hypot(*way.T).argmin()]
+        metres, bearing, number = truth.nearest(0, position, label)
+        assert metres == pytest.approx(min(away), abs=0.01)
+        assert city.instances[number].source_id == instance.source_id
+        person = sure(position)
+        near = "yes" if metres <= 10 else "no"
+        assert person.reply(Asked("near", (label,)).question()).choice == near
+        wind = ("north" if north > 0 else "south") if abs(north) > abs(east) else ("east" if east > 0 else "west")
+        assert person.reply(Asked("way", (label,)).question()).choice == (wind if metres <= 15 else "none")
+        assert bearing == pytest.approx(np.degrees(np.arctan2(east, north)), abs=0.5)
+
+
+def test_people_name_the_street_they_are_on(truth, asked, sure) -> None:
+    near = [(truth.streets(position, 40.0), position) for position in asked[1].positions_m[:60]]
+    position, name = next((at, some[0][1]) for some, at in near if len(some) == 1 or some[1][0] > some[0][0] + 5)
+    assert sure(position).reply(Asked("street").question()).choice == name
+
+
+@pytest.fixture
+def in_town(source, monkeypatch):
+    """(x, y, seed) -> a person in the made-up town of names who errs in nothing."""
+    for name in ("WRONG", "DO_NOT_KNOW", "IDEAS"):
+        monkeypatch.setattr(measured, name, 0.0)
+    town = Truth(source.bodies(), source.data.gallery, source.data.palette, made_gazetteer())
+    return lambda x, y, seed=0: Person(town, 0, np.array([x, y]), np.random.default_rng(seed))
+
+
+def test_people_read_signs_that_are_near(in_town) -> None:
+    question = Asked("name").question()
+    said = [in_town(60.0, 90.0, seed).reply(question).choice for seed in range(300)]
+    assert set(said) == {"Кафе Пушкин", "北京饭店"}
+    assert np.mean([name == "Кафе Пушкин" for name in said]) == pytest.approx((1 / 7) / (1 / 7 + 1 / 27), abs=0.06)
+    assert in_town(60.0, 400.0).reply(question).choice == "unknown"
+
+
+def test_people_know_the_nearest_street_that_crosses(in_town) -> None:
+    question = Asked("corner").question()
+    assert in_town(60.0, 82.0).reply(question).choice == "11th Avenue"
+    assert in_town(120.0, 82.0).reply(question).choice == "10th Avenue"
+    assert in_town(198.0, 30.0).reply(question).choice == "West 24th Street"
+    either = {in_town(100.0, 80.0, seed).reply(question).choice for seed in range(20)}
+    assert either == {"11th Avenue", "10th Avenue"}
+    assert in_town(100.0, 420.0).reply(question).choice == "unknown"  # on a road that none crosses
+
+
+@pytest.mark.parametrize("kind", OPEN)
+def test_a_wrong_name_is_another_of_the_map(in_town, monkeypatch, kind) -> None:
+    monkeypatch.setattr(measured, "WRONG", 1.0)
+    names = {in_town(120.0, 90.0, seed).reply(Asked(kind).question()).choice for seed in range(200)}
+    right = {"street": {"West 25th Street"}, "name": {"T-Optik"}, "corner": {"10th Avenue"}}[kind]
+    assert not right & names
+    assert len(names) >= 5
+
+
+def test_people_err_as_often_as_is_said(truth, asked) -> None:
+    position = asked[1].positions_m[0]
+    person = Person(truth, 0, position, np.random.default_rng(0))
+    question = Asked("near", ("building",)).question()
+    metres = truth.nearest(0, position, "building")[0]
+    replies = [person.reply(question) for _ in range(600)]
+    assert np.mean([reply.choice == "unknown" for reply in replies]) == pytest.approx(0.2, abs=0.05)
+    assert all(isinstance(reply, Reply) and reply.question == question.id for reply in replies)
+    if metres > 30:
+        assert np.mean([reply.choice == "yes" for reply in replies]) == pytest.approx(0.08, abs=0.04)

@@ -1,0 +1,49 @@
+import pytest
+
+from models.posterior.places.spelt import Spelt
+
+STREETS = [("East 42nd Street",), ("West 42nd Street",), ("Fabianinkatu", "Fabiansgatan"), ("Broadway",)]
+PLACES = [("Café Zoë",), ("R-Kioski",), ("R-kioski", "Ärrä"), ("The Strand", "Strand Books"), ("Ärrä",), ("!!!",)]
+
+
+def found(names, text, *, are_streets):
+    spelt = Spelt(names, are_streets=are_streets)
+    return [spelt.shown[n] for n in spelt.find(text)]
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("fabianinkatu", ["Fabianinkatu"]),
+        ("FABIANSGATAN", ["Fabianinkatu"]),
+        ("E 42nd St", ["East 42nd Street"]),
+        ("forty-second street", ["East 42nd Street", "West 42nd Street"]),
+        ("Elm Street", []),
+        ("", []),
+    ],
+)
+def test_streets(text, names):
+    assert found(STREETS, text, are_streets=True) == names
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("cafe zoe", ["Café Zoë"]),
+        ("R kioski", ["R-Kioski"]),
+        ("strand", ["The Strand"]),
+        ("arra", ["R-Kioski", "Ärrä"]),
+        ("!!!", ["!!!"]),
+        ("???", []),
+        ("Zoë", []),
+    ],
+)
+def test_places(text, names):
+    assert found(PLACES, text, are_streets=False) == names
+
+
+def test_objects_of_one_name_share_a_column():
+    spelt = Spelt(PLACES, are_streets=False)
+    assert spelt.column.tolist() == [0, 1, 1, 2, 3, 4]
+    assert len(spelt) == len(spelt.shown) == 5
+    assert len(Spelt([], are_streets=True)) == 0
