@@ -214,6 +214,6 @@ function cloud(points: Cloud): Points {
   const shape = new BufferGeometry()
     .setAttribute("position", new BufferAttribute(points.xyz, 3))
     .setAttribute("color", new BufferAttribute(points.rgb, 3, true));
-  const made = new Points(shape, new PointsMaterial({ size: 0.35, vertexColors: true }));
+  const made = new Points(shape, new PointsMaterial({ size: 0.8, vertexColors: true }));
   return made;
 }

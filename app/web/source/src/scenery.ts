@@ -50,6 +50,7 @@ export interface Box {
 export type Scenery = Shapes | Cloud;
 
 const UNIT = 0.1;
+const GROUND = 0.15; // of a cloud's points are no higher than where one stands, about
 const KINDS = ["node", "way", "relation"];
 
 export function readScenery(buffer: ArrayBuffer): Scenery {
@@ -96,6 +97,9 @@ function readShapes(tensors: ReturnType<typeof readTensors>): Shapes {
 
 function readCloud(tensors: ReturnType<typeof readTensors>): Cloud {
   const { values, box } = walked(tensors.get("steps"), 3);
+  const heights = values.filter((_, n) => n % 3 === 2).sort();
+  const ground = heights[Math.floor(GROUND * heights.length)] ?? 0;
+  for (let n = 2; n < values.length; n += 3) values[n] -= ground; // answers are drawn at height 0
   return { kind: "points", xyz: values, rgb: tensors.get("rgb") as Uint8Array, box };
 }
 
