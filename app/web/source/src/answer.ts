@@ -82,6 +82,7 @@ function headline(answer: Answer, places: Place[], acts: Acts): Element {
     const few = fitting > 1 && held > 0.5 ? `${count(fitting)} places fit.` : "Many places fit.";
     return h("div", {}, h("h2", {}, answer.question ? `${few} Which is it?` : few), question(answer, acts), !answer.question && h("p", { className: "quiet" }, "Add one more thing you see."));
   }
+  const here = places[0]?.probability ?? estimate.probability; // of the place; the service's is of a cell of 10 m
   const [street, ...beside] = (estimate.place ?? "here").split(", ");
   const spot = estimate.wgs84 ? `${estimate.wgs84.lat.toFixed(6)}, ${estimate.wgs84.lon.toFixed(6)}` : `${estimate.position[0].toFixed(1)}, ${estimate.position[1].toFixed(1)} m`;
   return h(
@@ -90,7 +91,7 @@ function headline(answer: Answer, places: Place[], acts: Acts): Element {
     h("h2", {}, sentence(street), estimate.place ? copy(estimate.place, "Copy the place") : null),
     beside.length > 0 && h("p", {}, beside.join(", ")),
     h("p", {}, `within ${metres(estimate.radius_m.p90)}, nine times out of ten`),
-    h("p", { className: "quiet" }, `${percent(estimate.probability)}: ${likely(estimate.probability)}`, estimate.heading ? ` · you look ${wind(estimate.heading.mean_deg)}` : null),
+    h("p", { className: "quiet" }, `${percent(here)}: ${likely(here)}`, estimate.heading ? ` · you look ${wind(estimate.heading.mean_deg)}` : null),
     h("p", { className: "spot" }, spot, copy(spot, "Copy the coordinates")),
     question(answer, acts),
   );

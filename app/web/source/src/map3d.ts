@@ -16,7 +16,8 @@ const TILE = 500; // metres; what lies in tiles out of sight is not drawn
 export interface MapPicture {
   readonly canvas: HTMLCanvasElement;
   show(sceneries: Scenery[], look: Look): void;
-  draw(): void;
+  /** `hurried` leaves out what a slow machine can do without while the map moves. */
+  draw(hurried: boolean): void;
 }
 
 export class Map3d implements MapPicture {
@@ -26,9 +27,11 @@ export class Map3d implements MapPicture {
   private readonly eye = new PerspectiveCamera(FIELD_OF_VIEW);
   private small: Object3D[] = []; // drawn from near
   private rough: Object3D[] = []; // drawn from afar
+  private fine: Object3D[] = []; // drawn when there is time
+  private readonly slow = isSoftware();
 
   constructor(private readonly camera: Camera) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !isSoftware(), powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !this.slow, powerPreference: "high-performance" });
     ColorManagement.enabled = false; // colours go to the screen as they are written
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
   }
@@ -40,7 +43,7 @@ export class Map3d implements MapPicture {
       for (const each of [material].flat()) each?.dispose();
     });
     this.scene.clear();
-    [this.small, this.rough] = [[], []];
+    [this.small, this.rough, this.fine] = [[], [], []];
     this.scene.background = new Color(look.ground);
     for (const scenery of sceneries) {
       if (scenery.kind === "points") this.scene.add(cloud(scenery));
@@ -48,7 +51,7 @@ export class Map3d implements MapPicture {
     }
   }
 
-  draw(): void {
+  draw(hurried: boolean): void {
     const { camera, renderer, eye } = this;
     const ratio = Math.min(2, devicePixelRatio);
     const [wide, high] = [camera.width, camera.height].map((size) => Math.floor(size * ratio));
@@ -64,7 +67,8 @@ export class Map3d implements MapPicture {
     eye.lookAt(x, y, 0);
     eye.updateProjectionMatrix();
     for (const object of this.small) object.visible = camera.pose.distance < CLOSE;
-    for (const object of this.rough) object.visible = camera.pose.distance >= CLOSE;
+    for (const object of this.rough) object.visible = camera.pose.distance >= CLOSE && !(this.slow && hurried);
+    for (const object of this.fine) object.visible = !(this.slow && hurried);
     renderer.render(this.scene, eye);
   }
 
@@ -114,7 +118,7 @@ export class Map3d implements MapPicture {
         }
         this.add(new Mesh(geometry(out, new Color(look[paint])), material));
         const lines = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(edges), 3));
-        this.add(new LineSegments(lines, edge));
+        this.add(new LineSegments(lines, edge), this.fine);
       }
     }
   }

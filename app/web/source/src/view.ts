@@ -8,6 +8,8 @@ import { Map3d, type MapPicture } from "./map3d";
 import { Names, type Room } from "./names";
 import type { Box, Scenery } from "./scenery";
 
+const MOVING = 250; // milliseconds between two pictures of a map that moves, at most
+
 /** Draws over the map; rooms that it takes are kept free of names. */
 export type Overlay = (pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]) => void;
 
@@ -22,6 +24,8 @@ export class View {
   private sceneries: Scenery[] = [];
   private names: Names[] = [];
   private due = false;
+  private still = 0;
+  private last = 0;
 
   constructor(private readonly stage: HTMLElement, picked: Picked) {
     this.camera = new Camera(() => this.draw());
@@ -56,9 +60,12 @@ export class View {
   draw(): void {
     if (this.due) return;
     this.due = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now) => {
       this.due = false;
-      this.picture.draw();
+      this.picture.draw(now - this.last < MOVING);
+      this.last = now;
+      clearTimeout(this.still);
+      this.still = window.setTimeout(() => this.picture.draw(false), MOVING);
       const pen = this.over.getContext("2d")!;
       const ratio = Math.min(2, devicePixelRatio);
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
