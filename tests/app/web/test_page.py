@@ -176,6 +176,7 @@ def test_a_key_is_asked_for_once(visit, town_index):
         page.click("text=Use it")
         page.wait_for_selector(CHIPS)
         assert visitor.ask(SURE)["status"] == "ok"
+        page.wait_for_url("**#*q=*")
         page.reload()
         page.wait_for_selector("text=nine times out of ten")
 
