@@ -85,8 +85,8 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
 
 
 def _open_localizer(settings: Settings) -> LocalizerLike:
-    from index.answers import Query  # noqa: PLC0415
     from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
+    from index.query import Query  # noqa: PLC0415
 
     localizer = Localizer.open(
         settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir

@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from index.answers import Box, Circle, Crs, Query
+from index.query import Box, Circle, Crs, Query
 from models.city.frame import Frame
 from models.city.types import Floats
 

@@ -16,10 +16,10 @@ from index.answers import (
     LatLon,
     Method,
     ModelName,
-    Query,
     Question,
     Radius,
 )
+from index.query import Query
 from models.city.cells import CellTable
 from models.city.frame import Frame
 from models.city.points import Ints

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from index.answers import Answer, CellDetail, CellInstance, Described, IndexFacts, LatLon, ModelName, Query, Refine
+from index.answers import Answer, CellDetail, CellInstance, Described, IndexFacts, LatLon, ModelName
 from index.artifact import Manifest, check_model, open_version
 from index.describing import Describer
 from index.finding import CellLocalizer, to_answer
 from index.hint_features import load_hint_features
 from index.meaning import Meanings
 from index.posterior_localizer import PosteriorLocalizer
+from index.query import Query, Refine
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer, raw_sentences
 from models.city.colours import PALETTES

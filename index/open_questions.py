@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 from scipy.sparse import csr_array
 
-from index.answers import Reply
 from index.asked import LISTED, OPEN, UNKNOWN, Asked
+from index.query import Reply
 from models.city.points import Ints
 from models.city.types import Floats
 from models.errors import ReplyError

@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from index.answers import Evidence, Method, ModelName, Query
+from index.answers import Evidence, Method, ModelName
 from index.filters import inside, log_prior, position_m
 from index.finding import Finding, is_ambiguous, pair
 from index.meaning import Meanings
 from index.place_reader import PlaceReader, may_be_near, near_hints
 from index.place_text import place_text
+from index.query import Query
 from index.questions import Heard, Questions
 from index.ranking import Ranker
 from models.city.colours import Palette

@@ -6,9 +6,10 @@ from typing import Final
 
 import numpy as np
 
-from index.answers import Question, Reply
+from index.answers import Question
 from index.asked import LISTED, OPEN, UNKNOWN, Asked
 from index.open_questions import OpenQuestions
+from index.query import Reply
 from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.gazetteer.gazetteer import Gazetteer

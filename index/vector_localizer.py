@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import logsumexp
 
-from index.answers import Method, ModelName, Query
+from index.answers import Method, ModelName
 from index.filters import inside, log_prior
 from index.finding import Finding
+from index.query import Query
 from index.ranking import Ranker
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData

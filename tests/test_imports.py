@@ -85,7 +85,9 @@ WITHOUT_TORCH = [
     ROOT / "models/city",
     ROOT / "models/training/metrics.py",
     ROOT / "app/http/requests.py",
+    ROOT / "app/http/evaluate_requests.py",
     ROOT / "index/answers.py",
+    ROOT / "index/query.py",
 ]
 
 

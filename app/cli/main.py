@@ -18,7 +18,7 @@ from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
-from index.answers import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
+from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from models.errors import HereaboutsError
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def localize(
     """Say where the speaker of a description is."""
     from app.settings import load_settings
     from app.startup import no_collection
-    from index.answers import Query
+    from index.query import Query
     from models.language.sentences import split_hints
 
     split_hints(text)  # or DescriptionError, before anything is loaded

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Seed, Split
-from index.answers import Refine
+from index.query import Refine
 from models.city.told_texts import SUFFIXES as TOLD_SUFFIXES
 from models.errors import DataError
 

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from typing import Protocol
 
-from index.answers import Answer, CellDetail, Described, IndexFacts, Query
+from index.answers import Answer, CellDetail, Described, IndexFacts
+from index.query import Query
 from models.city.frame import Frame
 from models.city.scenery.files import SceneryPart
 

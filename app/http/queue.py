@@ -13,7 +13,8 @@ import structlog
 from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
 from app.startup import no_collection
-from index.answers import Answer, Query
+from index.answers import Answer
+from index.query import Query
 from models.errors import HereaboutsError
 
 log = structlog.get_logger()

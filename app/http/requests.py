@@ -18,20 +18,12 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
-from index.answers import DEFAULT_REFINE, DEFAULT_TOP_K, Box, Circle, Crs, Prior, Query, Refine, Reply
+from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, Box, Circle, Crs, Prior, Query, Refine, Reply
 from models.errors import DescriptionError
 from models.language.sentences import split_hints
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
-EVALUATE_EXAMPLE: JsonValue = {
-    "queries": [
-        {"description": "I am north of a gray building. A black pole is to my west.", "position": [105.0, -35.0]},
-        {"hints": ["I stand on a gray road.", "There is a park to my west."], "position": [340.0, 200.0]},
-    ],
-    "crs": "map",
-}
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
-MAX_RADII = 8
 MAX_ANSWERS = 8
 MAX_ID = 1000  # characters; a name, and a question with four colours, are far shorter
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
@@ -44,7 +36,8 @@ Length = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=MIN_METRES, le
 Point = tuple[Coordinate, Coordinate]
 
 
-def _wrong(message: str, field: str = "") -> PydanticCustomError:
+def wrong(message: str, field: str = "") -> PydanticCustomError:
+    """What is wrong with a value, as the client reads it; `field` if it is not the one that is looked at."""
     return PydanticCustomError("hereabouts", "{message}", {"message": message, "field": field})
 
 
@@ -55,9 +48,9 @@ def check_text(text: str) -> str:
         PydanticCustomError: what is wrong, without the text.
     """
     if _CONTROL.search(text):
-        raise _wrong("holds a control character; send plain text")
+        raise wrong("holds a control character; send plain text")
     if not any(character.isalnum() for character in text):
-        raise _wrong("has no words; say what is around you")
+        raise wrong("has no words; say what is around you")
     return text
 
 
@@ -69,9 +62,9 @@ def check_bbox(bbox: tuple[float, float, float, float]) -> tuple[float, float, f
     """
     west, south, east, north = bbox
     if west > east:
-        raise _wrong("west is greater than east; give [west, south, east, north]")
+        raise wrong("west is greater than east; give [west, south, east, north]")
     if south > north:
-        raise _wrong("south is greater than north; give [west, south, east, north]")
+        raise wrong("south is greater than north; give [west, south, east, north]")
     return bbox
 
 
@@ -87,7 +80,7 @@ def check_degrees(crs: Crs, points: Iterable[tuple[str, Point]]) -> None:
     """
     for field, (lon, lat) in points if crs == "wgs84" else ():
         if not (-180 <= lon <= 180 and -90 <= lat <= 90):
-            raise _wrong("is not [longitude -180..180, latitude -90..90]; or did you mean crs map?", field)
+            raise wrong("is not [longitude -180..180, latitude -90..90]; or did you mean crs map?", field)
 
 
 def join_hints(hints: Sequence[str]) -> str:
@@ -95,18 +88,20 @@ def join_hints(hints: Sequence[str]) -> str:
     return "\n".join(hints)
 
 
-class _Body(BaseModel):
+class Body(BaseModel):
+    """Of a request: fields that nobody knows are refused."""
+
     model_config = ConfigDict(extra="forbid")
 
 
-class WithinCircle(_Body):
+class WithinCircle(Body):
     """A circle; `center` is [x, y] in metres, or [lon, lat] with crs wgs84."""
 
     center: Point
     radius_m: Length
 
 
-class Within(_Body):
+class Within(Body):
     """A filter: nothing outside it is answered. Give `bbox` or `circle`."""
 
     bbox: Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], AfterValidator(check_bbox)] | None = Field(
@@ -117,7 +112,7 @@ class Within(_Body):
     @model_validator(mode="after")
     def _is_one(self) -> Self:
         if (self.bbox is None) == (self.circle is None):
-            raise _wrong("give either bbox or circle")
+            raise wrong("give either bbox or circle")
         return self
 
     def filter(self) -> Box | Circle:
@@ -128,7 +123,7 @@ class Within(_Body):
         return Box(*self.bbox)
 
 
-class PriorPosition(_Body):
+class PriorPosition(Body):
     """A bias, for example a poor GPS fix; `position` is [x, y] in metres, or [lon, lat] with crs wgs84."""
 
     position: Point
@@ -139,7 +134,7 @@ class PriorPosition(_Body):
         return Prior(self.position, self.sigma_m)
 
 
-class GivenAnswer(_Body):
+class GivenAnswer(Body):
     """An answer to the `question` of an earlier answer to the same description."""
 
     question: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID)] = Field(description="its id")
@@ -148,7 +143,7 @@ class GivenAnswer(_Body):
     )
 
 
-class Told(_Body):
+class Told(Body):
     """What somebody says; `told_fields` adds the limits of a service."""
 
     description: str | None
@@ -157,7 +152,7 @@ class Told(_Body):
     @model_validator(mode="after")
     def _is_one_text(self) -> Self:
         if (self.description is None) == (self.hints is None):
-            raise _wrong("give either description or hints", "description")
+            raise wrong("give either description or hints", "description")
         return self
 
     def text(self) -> str:
@@ -199,11 +194,11 @@ class LocalizeRequest(Told):
     @model_validator(mode="after")
     def _asks_once(self) -> Self:
         if self.answers and self.refine != "posterior":
-            raise _wrong("goes with refine posterior; leave one of them out", "answers")
+            raise wrong("goes with refine posterior; leave one of them out", "answers")
         asked = [answer.question for answer in self.answers]
         twice = next((n for n, one in enumerate(asked) if one in asked[:n]), None)
         if twice is not None:
-            raise _wrong("is answered twice; send one answer to each question", f"answers.{twice}.question")
+            raise wrong("is answered twice; send one answer to each question", f"answers.{twice}.question")
         return self
 
     def query(self) -> Query:
@@ -232,7 +227,7 @@ class LocalizeRequest(Told):
         return points
 
 
-class DescribeRequest(_Body):
+class DescribeRequest(Body):
     """What to describe; `describe_model` adds the limits of a service."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBE_EXAMPLE]})
@@ -251,41 +246,6 @@ class DescribeRequest(_Body):
         return [("position", self.position)]
 
 
-class EvaluateQuery(Told):
-    """A description and where it was said: [x, y] in metres, or [lon, lat] with crs wgs84."""
-
-    position: Point
-
-
-class EvaluateRequest(_Body):
-    """What to evaluate; `evaluate_model` adds the limits of a service."""
-
-    model_config = ConfigDict(json_schema_extra={"examples": [EVALUATE_EXAMPLE]})
-
-    queries: list[EvaluateQuery] | None
-    crs: Crs = Field("map", description="what the positions of queries mean")
-    data: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=255)] | None = Field(
-        None, description="instead of queries: a data set of the service, by its name in /info"
-    )
-    split: Annotated[str, Strict(), StringConstraints(pattern=r"^[A-Za-z0-9_,-]{1,255}$")] | None = Field(
-        None, description="of data: train, val or test, or a comma list of scenes; everything if it is left out"
-    )
-    grow: Annotated[list[Length], Field(min_length=1, max_length=MAX_RADII)] | None = Field(
-        None, description="radii in metres of a growing gallery, for example [200, 300, 400, 500]"
-    )
-    refine: Refine = REFINE
-
-    @model_validator(mode="after")
-    def _is_one_source(self) -> Self:
-        if (self.queries is None) == (self.data is None):
-            raise _wrong("give either queries or data", "queries")
-        if self.queries is not None and self.split is not None:
-            raise _wrong("goes with data, not with queries", "split")
-        if self.data is not None and "crs" in self.model_fields_set:
-            raise _wrong("goes with queries, not with data", "crs")
-        return self
-
-
 def told_fields(settings: Settings) -> dict[str, Any]:
     """The fields of `Told` with a service's limits."""
     text = Annotated[str, Strict(), StringConstraints(max_length=settings.max_characters), AfterValidator(check_text)]
@@ -294,14 +254,14 @@ def told_fields(settings: Settings) -> dict[str, Any]:
         try:
             count = len(split_hints(said))
         except DescriptionError as error:
-            raise _wrong(str(error)) from None
+            raise wrong(str(error)) from None
         if count > settings.max_hints:
-            raise _wrong(f"has {count} sentences, at most {settings.max_hints} are taken; shorten it")
+            raise wrong(f"has {count} sentences, at most {settings.max_hints} are taken; shorten it")
         return said
 
     def check_together(hints: list[str]) -> list[str]:
         if sum(map(len, hints)) > settings.max_characters:
-            raise _wrong(f"have more than {settings.max_characters} characters together; send fewer or shorter ones")
+            raise wrong(f"have more than {settings.max_characters} characters together; send fewer or shorter ones")
         check_sentences(join_hints(hints))
         return hints
 
@@ -340,17 +300,3 @@ def _deadline(settings: Settings) -> tuple[Any, Any]:
     """The field of a deadline, with a service's limit and default."""
     deadline_ms = Annotated[int, Strict(), Field(ge=1, le=settings.max_deadline_ms)]
     return deadline_ms, Field(settings.deadline_ms, description="504 if there is no answer by then")
-
-
-def evaluate_model(settings: Settings) -> type[EvaluateRequest]:
-    """EvaluateRequest with a service's limits in its fields."""
-    query = create_model(
-        "EvaluateQuery", __base__=EvaluateQuery, __doc__=EvaluateQuery.__doc__, **told_fields(settings)
-    )
-    queries = Annotated[list[query], Field(min_length=1, max_length=settings.max_queries)]
-    return create_model(
-        "EvaluateRequest",
-        __base__=EvaluateRequest,
-        __doc__="Queries with known positions, or a data set of the service by its name.",
-        queries=(queries | None, Field(None, description="asked of the index that is served")),
-    )

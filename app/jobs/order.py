@@ -9,11 +9,11 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from app.http.errors import Problem, field_name
+from app.http.evaluate_requests import EvaluateQuery, EvaluateRequest, evaluate_model
 from app.http.middleware import check_json
-from app.http.requests import EvaluateQuery, EvaluateRequest, evaluate_model
 from app.settings import Settings
-from index.answers import DEFAULT_REFINE, Refine
 from index.artifact import open_version
+from index.query import DEFAULT_REFINE, Refine
 from models.city.frame import Frame
 from models.city.queries import Queries
 from models.city.source import Source, open_source

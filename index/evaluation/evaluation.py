@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from index.answers import Query
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
 from index.finding import CellLocalizer
+from index.query import Query
 from models.city.gallery import MapData
 from models.city.queries import Queries
 from models.city.types import Floats, Progress

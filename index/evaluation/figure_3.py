@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from index.answers import Query
 from index.evaluation.report import DPI
+from index.query import Query
 from index.vector_localizer import VectorLocalizer
 from models.city.gallery import MapData
 from models.city.queries import Queries

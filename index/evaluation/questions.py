@@ -6,10 +6,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from index.answers import Answer, Query
+from index.answers import Answer
 from index.evaluation.person import Person, Truth
 from index.evaluation.report import Table
 from index.localizer import Localizer
+from index.query import Query
 from models.city.queries import Queries
 from models.city.source import Source
 from models.city.templates import render_hint

@@ -4,8 +4,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.answers import Query
 from index.describing import MOST_FACTS, SEEN_M, Describer, NamedSights, Sight, hint_text, named_text, street_facts
+from index.query import Query
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
 from models.city.types import Hint
 from models.language.places.cues import WIND_DEGREES

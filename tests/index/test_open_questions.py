@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from index.answers import Reply
 from index.asked import OPEN, Asked
 from index.open_questions import OpenQuestions
+from index.query import Reply
 from models.errors import ReplyError
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import WRONG

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.answers import Prior, Query
 from index.place_reader import constructions, near_hints, without
+from index.query import Prior, Query
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.language.places.reader import find_mentions

@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 import torch
 
-from index.answers import Box, Circle, Prior, Query
 from index.evaluation.evaluation import evaluate
 from index.finding import to_answer
 from index.localizer import Localizer
 from index.posterior_localizer import PosteriorLocalizer
+from index.query import Box, Circle, Prior, Query
 from index.ranking import Ranker
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS

@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.answers import Prior, Query, Reply
 from index.asked import Asked
+from index.query import Prior, Query, Reply
 from index.questions import Heard
 from models.errors import ReplyError
 from models.posterior.questions import expected_entropy

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import torch
 
-from index.answers import Circle, Query
 from index.evaluation.evaluation import evaluate
 from index.evaluation.predictions import FILE, Predictions
 from index.localizer import Localizer
+from index.query import Circle, Query
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.errors import WeightsError

@@ -10,7 +10,8 @@ from fake_localizer import TRUE_FRAME, FakeLocalizer
 from app.http.requests import request_model
 from app.http.routes.localize import check_reach
 from app.settings import Settings
-from index.answers import Box, Choice, Circle, Prior, Query, Question, Reply
+from index.answers import Choice, Question
+from index.query import Box, Circle, Prior, Query, Reply
 from models.city.frame import Frame
 from models.errors import ReplyError, WeightsError
 

@@ -6,7 +6,7 @@ import pytest
 
 from app.http.errors import Code, Problem
 from app.http.queue import InferenceQueue
-from index.answers import Query
+from index.query import Query
 
 
 def ask(name):

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from index.answers import Reply
 from index.asked import OPEN, Asked
 from index.evaluation import person as measured
 from index.evaluation.person import Person, Truth
+from index.query import Reply
 from tests.models.city.gazetteer.made_town import made_gazetteer
 
 LABELS = ("tree", "bench", "bollard", "building")

@@ -1,0 +1,67 @@
+"""What POST /evaluate is asked."""
+
+from typing import Annotated, Self
+
+from pydantic import ConfigDict, Field, JsonValue, Strict, StringConstraints, create_model, model_validator
+
+from app.http.requests import REFINE, Body, Length, Point, Told, told_fields, wrong
+from app.settings import Settings
+from index.query import Crs, Refine
+
+EXAMPLE: JsonValue = {
+    "queries": [
+        {"description": "I am north of a gray building. A black pole is to my west.", "position": [105.0, -35.0]},
+        {"hints": ["I stand on a gray road.", "There is a park to my west."], "position": [340.0, 200.0]},
+    ],
+    "crs": "map",
+}
+MAX_RADII = 8
+
+
+class EvaluateQuery(Told):
+    """A description and where it was said: [x, y] in metres, or [lon, lat] with crs wgs84."""
+
+    position: Point
+
+
+class EvaluateRequest(Body):
+    """What to evaluate; `evaluate_model` adds the limits of a service."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
+
+    queries: list[EvaluateQuery] | None
+    crs: Crs = Field("map", description="what the positions of queries mean")
+    data: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=255)] | None = Field(
+        None, description="instead of queries: a data set of the service, by its name in /info"
+    )
+    split: Annotated[str, Strict(), StringConstraints(pattern=r"^[A-Za-z0-9_,-]{1,255}$")] | None = Field(
+        None, description="of data: train, val or test, or a comma list of scenes; everything if it is left out"
+    )
+    grow: Annotated[list[Length], Field(min_length=1, max_length=MAX_RADII)] | None = Field(
+        None, description="radii in metres of a growing gallery, for example [200, 300, 400, 500]"
+    )
+    refine: Refine = REFINE
+
+    @model_validator(mode="after")
+    def _is_one_source(self) -> Self:
+        if (self.queries is None) == (self.data is None):
+            raise wrong("give either queries or data", "queries")
+        if self.queries is not None and self.split is not None:
+            raise wrong("goes with data, not with queries", "split")
+        if self.data is not None and "crs" in self.model_fields_set:
+            raise wrong("goes with queries, not with data", "crs")
+        return self
+
+
+def evaluate_model(settings: Settings) -> type[EvaluateRequest]:
+    """EvaluateRequest with a service's limits in its fields."""
+    query = create_model(
+        "EvaluateQuery", __base__=EvaluateQuery, __doc__=EvaluateQuery.__doc__, **told_fields(settings)
+    )
+    queries = Annotated[list[query], Field(min_length=1, max_length=settings.max_queries)]
+    return create_model(
+        "EvaluateRequest",
+        __base__=EvaluateRequest,
+        __doc__="Queries with known positions, or a data set of the service by its name.",
+        queries=(queries | None, Field(None, description="asked of the index that is served")),
+    )
