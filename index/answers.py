@@ -165,7 +165,10 @@ class Question:
 
     id: Annotated[str, Field(description="what to send back; it says all that the service needs to know")]
     text: Annotated[str, Field(description="the question, in English")]
-    choices: Annotated[tuple[Choice, ...], Field(description='the last is "unknown", which changes nothing')]
+    choices: Annotated[
+        tuple[Choice, ...],
+        Field(description='the last is "unknown": the question is not asked again, and nothing else changes'),
+    ]
     is_open: Annotated[
         bool,
         Field(

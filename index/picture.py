@@ -65,10 +65,12 @@ def _tell(figure: Figure, localizer: Localizer, text: str, answer: Answer) -> No
     place = answer.estimate.place or "here"
     sure = f"within {answer.estimate.radius_m.p90:.0f} m, nine times out of ten"
     told = sure if answer.status == "ok" else f"several places fit; the likeliest is shown, {sure}"
-    figure.text(0.01, 0.955, f"“{said}”", fontsize=9, style="italic", color="#625c52")
-    figure.text(0.01, 0.905, place[0].upper() + place[1:], fontsize=13, weight="bold", color="#23211d")
-    figure.text(0.01, 0.868, told, fontsize=9, color="#23211d")
-    figure.text(0.99, 0.015, localizer.facts.attribution, fontsize=6, ha="right", color="#625c52")
+    quiet: dict[str, Any] = {"color": "#625c52", "parse_math": False}
+    dark: dict[str, Any] = {"color": "#23211d", "parse_math": False}
+    figure.text(0.01, 0.955, f"“{said}”", fontsize=9, style="italic", **quiet)
+    figure.text(0.01, 0.905, place[0].upper() + place[1:], fontsize=13, weight="bold", **dark)
+    figure.text(0.01, 0.868, told, fontsize=9, **dark)
+    figure.text(0.99, 0.015, localizer.facts.attribution, fontsize=6, ha="right", **quiet)
 
 
 def _box(localizer: Localizer) -> tuple[float, float, float, float]:
@@ -129,6 +131,9 @@ def _draw_names(axes: Axes, drawn: Drawn, colours: dict[str, Any]) -> None:
     """Streets along their lines and places at their points, as many as have room."""
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
     taken: list[tuple[float, float]] = []
+    effects = [withStroke(linewidth=2.5, foreground=colours["halo"])]
+    style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7.5, "color": colours["name"], "zorder": 5}
+    style |= {"path_effects": effects, "clip_on": True, "parse_math": False}
     for name, x, y, angle in list(_names(drawn, (west, south, east, north)))[:NAMED]:
         at = ((x - west) / (east - west), (y - south) / (north - south))
         if not (0.08 < at[0] < 0.92 and 0.03 < at[1] < 0.97):
@@ -136,9 +141,7 @@ def _draw_names(axes: Axes, drawn: Drawn, colours: dict[str, Any]) -> None:
         if any(abs(at[0] - a) < APART[0] and abs(at[1] - b) < APART[1] for a, b in taken):
             continue
         taken.append(at)
-        effects = [withStroke(linewidth=2.5, foreground=colours["halo"])]
-        style: dict[str, Any] = {"ha": "center", "va": "center", "color": colours["name"], "zorder": 5, "clip_on": True}
-        axes.text(x, y, name, fontsize=7.5, rotation=angle, path_effects=effects, **style)
+        axes.text(x, y, name, rotation=angle, **style)
 
 
 def _names(drawn: Drawn, box: tuple[float, float, float, float]) -> Iterator[tuple[str, float, float, float]]:

@@ -7,6 +7,7 @@ Crs = Literal["map", "wgs84"]
 Refine = Literal["none", "matching", "regressor", "posterior"]
 DEFAULT_REFINE: Final[Refine] = "posterior"
 DEFAULT_TOP_K: Final = 5
+MOST_REPLIES: Final = 8  # of a query; who has given so many is asked nothing more
 
 
 @dataclass(frozen=True, slots=True)

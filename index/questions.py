@@ -9,7 +9,7 @@ import numpy as np
 from index.answers import Question
 from index.asked import LISTED, OPEN, UNKNOWN, Asked
 from index.open_questions import OpenQuestions
-from index.query import Reply
+from index.query import MOST_REPLIES, Reply
 from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.gazetteer.gazetteer import Gazetteer
@@ -150,6 +150,8 @@ class Questions:
 
     def ask(self, located: Located, heard: Heard, replies: Sequence[Reply]) -> Question | None:
         """The question whose answer leaves the least expected entropy over cells; None if none is worth it."""
+        if len(replies) >= MOST_REPLIES:
+            return None
         nodes, mass = self._places(located)
         seen = self._sights.seen(nodes, sorted(self._things.values()))
         before = [asked for reply in replies if (asked := Asked.parse(reply.question)) is not None]

@@ -18,13 +18,12 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
-from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, Box, Circle, Crs, Prior, Query, Refine, Reply
+from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, MOST_REPLIES, Box, Circle, Crs, Prior, Query, Refine, Reply
 from models.errors import DescriptionError
 from models.language.sentences import split_hints
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
-MAX_ANSWERS = 8
 MAX_ID = 1000  # characters; a name, and a question with four colours, are far shorter
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
 # No map is wider than the Earth or finer than a millimetre, and the squares of these stay numbers.
@@ -180,7 +179,7 @@ class LocalizeRequest(Told):
     crs: Crs = Field("map", description="what the coordinates of within and prior mean")
     refine: Refine = REFINE
     heat_map: Annotated[bool, Strict()] = Field(False, description="the distribution behind the answer")
-    answers: Annotated[list[GivenAnswer], Field(max_length=MAX_ANSWERS)] = Field(
+    answers: Annotated[list[GivenAnswer], Field(max_length=MOST_REPLIES)] = Field(
         [], description="to questions of earlier answers, all of them each time: the service remembers none"
     )
     deadline_ms: int

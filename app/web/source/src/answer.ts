@@ -14,6 +14,12 @@ export interface Acts {
   unlock(key: string): void;
 }
 
+/** What was asked besides the text. */
+export interface Given {
+  replies: { question: string; choice: string }[];
+  isInside: boolean; // an area alone is looked at
+}
+
 const FITS = 0.5; // as the service has it: from this probability on something explains what was said
 const WEAK = 0.2;
 const SIGNS = { solid: "✓", weak: "~", none: "✗" };
@@ -25,13 +31,13 @@ export function fitOf(evidence: Evidence): Fit {
   return evidence.explained >= WEAK ? "weak" : "none";
 }
 
-export function showAnswer(into: Element, said: string, answer: Answer, places: Place[], chosen: number, replies: { question: string; choice: string }[], acts: Acts): void {
+export function showAnswer(into: Element, said: string, answer: Answer, places: Place[], chosen: number, asked: Given, acts: Acts): void {
   fill(
     into,
-    headline(answer, places, acts),
+    headline(answer, places, asked, acts),
     told(said, answer, acts),
-    evidenceList(said, answer, acts),
-    replies.length > 0 && repliesList(replies, acts),
+    answer.evidence.length > 0 && evidenceList(said, answer, acts),
+    asked.replies.length > 0 && repliesList(asked.replies, acts),
     others(answer, places, chosen, acts),
     ...answer.warnings.map((warning) => h("p", { className: "warning" }, sentence(warning))),
   );
@@ -56,7 +62,7 @@ export function showProblem(into: Element, problem: Problem, replies: { question
   }
   fill(
     into,
-    h("div", { role: "alert" }, h("h2", {}, problem.title), h("p", {}, problem.message)),
+    h("div", { role: "alert" }, h("h2", { tabIndex: -1 }, problem.title), h("p", {}, problem.message)),
     needsKey ? keyForm(acts) : again,
     replies.length > 0 && repliesList(replies, acts),
     problem.requestId && h("p", { className: "small" }, `Request ${problem.requestId}`),
@@ -72,15 +78,17 @@ function keyForm(acts: Acts): Element {
   return h("form", { className: "row", onsubmit: submit }, h("label", { for: "key" }, "Key"), field, h("button", { className: "first" }, "Use it"));
 }
 
-function headline(answer: Answer, places: Place[], acts: Acts): Element {
+function headline(answer: Answer, places: Place[], asked: Given, acts: Acts): Element {
   const { estimate, status } = answer;
-  if (!estimate) return h("div", {}, h("h2", {}, "No place fits"), h("p", {}, answer.evidence.length ? "What was said is not on this map. Add one thing you see: a street, a shop, a colour." : "Name things around you, a street or a shop."));
-  if (status === "no_match") return h("div", {}, h("h2", {}, "Nothing of it was found on this map"), h("p", {}, "Is it the right map? Add one thing you see: a street's name, a shop, a colour."));
+  if (!estimate) {
+    const [title, advice] = nothing(answer, asked.isInside);
+    return h("div", {}, h("h2", { tabIndex: -1 }, title), h("p", {}, advice));
+  }
   if (status === "ambiguous") {
     const fitting = places.filter((place) => place.fits).length;
     const held = places.reduce((sum, place) => sum + place.probability, 0);
     const few = fitting > 1 && held > 0.5 ? `${count(fitting)} places fit.` : "Many places fit.";
-    return h("div", {}, h("h2", {}, answer.question ? `${few} Which is it?` : few), question(answer, acts), !answer.question && h("p", { className: "quiet" }, "Add one more thing you see."));
+    return h("div", {}, h("h2", { tabIndex: -1 }, few), question(answer, acts), !answer.question && h("p", { className: "quiet" }, "Add one more thing you see."));
   }
   const here = places[0]?.probability ?? estimate.probability; // of the place; the service's is of a cell of 10 m
   const [street, ...beside] = (estimate.place ?? "here").split(", ");
@@ -88,13 +96,20 @@ function headline(answer: Answer, places: Place[], acts: Acts): Element {
   return h(
     "div",
     {},
-    h("h2", {}, sentence(street), estimate.place ? copy(estimate.place, "Copy the place") : null),
+    h("h2", { tabIndex: -1 }, sentence(street), estimate.place ? copy(estimate.place, "Copy the place") : null),
     beside.length > 0 && h("p", {}, beside.join(", ")),
     h("p", {}, `within ${metres(estimate.radius_m.p90)}, nine times out of ten`),
     h("p", { className: "quiet" }, `${percent(here)}: ${likely(here)}`, estimate.heading ? ` · you look ${wind(estimate.heading.mean_deg)}` : null),
     h("p", { className: "spot" }, spot, copy(spot, "Copy the coordinates")),
     question(answer, acts),
   );
+}
+
+/** Why there is no place, and what to do. */
+function nothing(answer: Answer, isInside: boolean): [string, string] {
+  if (answer.evidence.length) return ["Nothing of it was found on this map", "Is it the right map? Add one thing you see: a street's name, a shop, a colour."];
+  if (isInside) return ["No place inside the area", "Move the area onto the map, or remove it."];
+  return ["Nothing to go by", "Name things around you: a street, a shop, a tree to your north."];
 }
 
 function copy(text: string, label: string): Element {
@@ -193,8 +208,14 @@ function missed(said: string, answer: Answer): Element[] {
   return empty.map(({ text }) => h("li", { className: "none" }, h("span", { className: "sign", "aria-hidden": "true" }, "?"), h("span", {}, h("b", {}, `“${text}”`), " was not understood")));
 }
 
+/** What a question was about, of its id. */
+function topic(id: string): string {
+  const [kind, about] = id.split(":");
+  return (about ?? kind).split("|")[0];
+}
+
 function repliesList(replies: { question: string; choice: string }[], acts: Acts): Element {
-  return h("p", { className: "row small" }, "You answered:", ...replies.map(({ question: asked, choice }) => h("button", { type: "button", className: "chip", "aria-label": `Take back ${asked}: ${choice}`, onclick: () => acts.forget(asked) }, `${asked.split(/[:/]/).pop()}: ${choice} ✕`)));
+  return h("p", { className: "row small" }, "You answered:", ...replies.map(({ question: asked, choice }) => h("button", { type: "button", className: "chip", "aria-label": `Take back ${topic(asked)}: ${choice}`, onclick: () => acts.forget(asked) }, `${topic(asked)}: ${choice} ✕`)));
 }
 
 function others(answer: Answer, places: Place[], chosen: number, acts: Acts): Element | null {
@@ -216,5 +237,5 @@ function others(answer: Answer, places: Place[], chosen: number, acts: Acts): El
   const rest = elsewhere > 0.005 ? h("li", { className: "small" }, `Elsewhere: ${percent(elsewhere)}`) : null;
   const list = h("ol", { className: "places" }, ...rows, rest);
   const amount = places.length === 2 ? "One other place" : `${count(places.length - 1)} other places`;
-  return h("details", { className: "others", open: answer.status === "ambiguous" }, h("summary", {}, amount), list);
+  return h("details", { className: "others", open: answer.status === "ambiguous" || chosen > 0 }, h("summary", {}, amount), list);
 }

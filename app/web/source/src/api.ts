@@ -28,7 +28,7 @@ export class Problem extends Error {
 }
 
 export function setKey(key: string): void {
-  sessionStorage.setItem(KEPT, key);
+  sessionStorage.setItem(KEPT, key.trim());
 }
 
 export async function info(): Promise<Info> {
@@ -48,8 +48,9 @@ export async function describe(position: [number, number], signal?: AbortSignal)
 }
 
 /** Starts an evaluation and follows it; the last state is the result. */
-export async function* evaluate(asked: Measured, signal: AbortSignal): AsyncGenerator<JobState> {
-  const accepted = await (await send("evaluate", asked, signal)).json();
+export async function* evaluate(asked: Measured, signal: AbortSignal, accept: (job: string) => void): AsyncGenerator<JobState> {
+  const accepted = await (await send("evaluate", asked)).json(); // never aborted: it could not be cancelled then
+  accept(accepted.job);
   const stream = await call(`evaluate/${accepted.job}/events`, { signal });
   const reader = stream.body!.pipeThrough(new TextDecoderStream()).getReader();
   let text = "";
@@ -75,6 +76,10 @@ function send(path: string, body: unknown, signal?: AbortSignal): Promise<Respon
 async function call(path: string, request: RequestInit = {}): Promise<Response> {
   const headers = new Headers(request.headers);
   const key = sessionStorage.getItem(KEPT);
+  if (key && !/^[\x21-\x7e]+$/.test(key)) {
+    sessionStorage.removeItem(KEPT);
+    throw new Problem("The key is wrong", "A key has letters, digits and signs of ASCII alone.", "key_wrong");
+  }
   if (key) headers.set("Authorization", `Bearer ${key}`);
   let response: Response;
   try {
@@ -89,10 +94,9 @@ async function call(path: string, request: RequestInit = {}): Promise<Response> 
 
 async function problemOf(response: Response): Promise<Problem> {
   const said = await response.json().catch(() => ({}));
-  const fields = (said.errors ?? []).map((error: { field?: string; message?: string }) => [error.field, error.message].filter(Boolean).join(" "));
   return new Problem(
     said.title ?? `The service answered ${response.status}`,
-    [said.detail, ...fields].filter(Boolean).join(" ") || "Try again later.",
+    said.detail ?? "Try again later.",
     said.code ?? String(response.status),
     said.request_id ?? response.headers.get("x-request-id"),
     Number(response.headers.get("retry-after")) || null,

@@ -1,6 +1,6 @@
 // Descriptions that work on the map that is loaded: random places of it, described by it.
 
-import { describe, type Described } from "./api";
+import { describe, Problem, type Described } from "./api";
 import { LINE, type Scenery, type Shapes } from "./scenery";
 
 const TRIES = 10; // places, until one can be described
@@ -11,8 +11,11 @@ export async function examples(scenery: Scenery | undefined, amount: number): Pr
   for (let n = 0; n < TRIES * amount && found.length < amount; n++) {
     const position = somewhere(scenery);
     if (!position) break;
-    const described = await describe(position).catch(() => null);
-    if (described) found.push(described);
+    try {
+      found.push(await describe(position));
+    } catch (error) {
+      if (!(error instanceof Problem && error.code === "invalid_request")) throw error; // else there is nothing to tell of
+    }
   }
   return found;
 }

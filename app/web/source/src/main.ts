@@ -8,8 +8,8 @@ import { examples } from "./examples";
 import { Measure } from "./measure";
 import { paint, type Shown } from "./overlay";
 import { isSheet, Panel } from "./panel";
-import { placesOf, streetAt } from "./places";
-import { readScenery, type Box, type Scenery, type Shape } from "./scenery";
+import { boxOf, placesOf, streetAt } from "./places";
+import { readScenery, type Scenery, type Shape } from "./scenery";
 import { read, write, type State } from "./state";
 import { draw, type Tool } from "./tools";
 import { View } from "./view";
@@ -19,22 +19,30 @@ const CLOSE = 14; // pixels from the pointer to what it means
 
 class Page implements Acts {
   private state: State = read(location.hash);
-  private readonly shown: Shown = { answer: null, places: [], chosen: 0, mention: null, pin: null, measured: [] };
+  private readonly shown: Shown = { said: "", answer: null, places: [], chosen: 0, mention: null, pin: null, measured: [] };
   private readonly objects = new Map<string, Shape>();
   private readonly view = new View(byId("map"), this.picked());
-  private readonly measure = new Measure((measured) => this.redraw({ measured }), (report) => report.split === "index");
+  private readonly measure = new Measure((measured) => this.redraw({ measured }), (report) => report.split === "index" && report.data === this.info?.index?.provenance.map);
   private readonly panel = new Panel(this.wishes(), this.measure.element);
   private info: api.Info | null = null;
   private sceneries: Scenery[] = [];
   private parts = 1;
   private tool: Tool | null = null;
   private asking = new AbortController();
+  private describing = new AbortController();
+  private loading: Promise<void> | null = null;
+  private described = ""; // the words for the pin
+  private stays = this.state.pose !== null; // a link that says where to look is heeded once
   private kept = 0;
 
   async start(): Promise<void> {
+    this.panel.said.value = this.state.said;
     this.panel.set(this.state, null);
     this.panel.offer([]);
-    this.view.overlay = (pen, camera, look, taken) => paint(pen, camera, look, taken, this.shown, this.state, this.objects);
+    this.view.overlay = (pen, camera, look, taken) => {
+      paint(pen, camera, look, taken, this.shown, this.state, this.objects);
+      if (this.sceneries.length) this.keep();
+    };
     legend(this.view, () => this.info);
     this.view.covered = () => [byId("panel"), byId("legend")].map((element) => {
       const { left, top, right, bottom } = element.getBoundingClientRect();
@@ -52,16 +60,19 @@ class Page implements Acts {
     this.asking.abort();
     const asking = (this.asking = new AbortController());
     const { said, prior, within, answers, topK } = this.state;
-    if (!said.trim()) return this.panel.said.focus();
+    this.redraw({ said, answer: null, places: [], chosen: 0, mention: null });
+    if (!said.trim()) return this.clear();
     showWaiting(this.panel.answer, said);
     this.panel.wait(true);
     try {
       const asked = { description: said, top_k: topK, heat_map: true, ...(prior && { prior }), ...(within && { within }), ...(answers.length && { answers }) };
       const answer = await api.localize(asked as api.Asked, asking.signal);
-      this.redraw({ answer, places: placesOf(answer, (at) => streetAt(this.sceneries, at)), chosen: 0, mention: null });
+      this.redraw({ answer, places: placesOf(answer, (at) => streetAt(this.sceneries, at)) });
       this.showAnswer();
       this.panel.reveal();
-      this.lookAt();
+      const box = boxOf(answer, this.shown.places);
+      if (box && !this.stays) this.view.camera.frame(box);
+      this.stays = false;
     } catch (error) {
       if (!asking.signal.aborted) this.fail(error);
     } finally {
@@ -98,14 +109,20 @@ class Page implements Acts {
     await this.load();
   }
 
-  /** What the service has, and then what the page was opened with. */
-  private async load(): Promise<void> {
+  /** What the service has, and then what the page was opened with; once, however often it is asked for. */
+  private load(): Promise<void> {
+    this.loading ??= this.loadAll().finally(() => (this.loading = null));
+    return this.loading;
+  }
+
+  private async loadAll(): Promise<void> {
     this.panel.wait(true);
     try {
       this.info = await api.info();
       const index = this.info.index;
       if (!index) throw new api.Problem("The map is still loading", "Try again in a moment.", "not_ready", null, 2);
       this.measure.offer(this.info.data_sets);
+      this.panel.limit(this.info.limits);
       if (!this.sceneries.length) await this.loadMap(index.provenance.map, 0);
       this.parts = index.scenery_parts;
       this.panel.offerPoints(this.sceneries.length < this.parts);
@@ -115,8 +132,15 @@ class Page implements Acts {
       this.panel.wait(false);
     }
     if (this.state.said) await this.ask();
-    else this.panel.answer.replaceChildren();
-    this.panel.offer(await examples(this.sceneries[0], 2));
+    else this.clear();
+    this.panel.offer(await examples(this.sceneries[0], 2).catch(() => []));
+  }
+
+  /** Nothing is asked. */
+  private clear(): void {
+    this.panel.wait(false);
+    this.panel.answer.replaceChildren();
+    this.panel.said.focus();
   }
 
   private async loadMap(name: string, part: number): Promise<void> {
@@ -134,7 +158,7 @@ class Page implements Acts {
     return {
       ask: (said: string) => {
         this.change({ said, answers: [] });
-        this.redraw({ pin: this.shown.pin && said === this.panel.said.value ? this.shown.pin : null });
+        if (said !== this.described) this.redraw({ pin: null });
         this.panel.said.value = said;
         void this.ask();
       },
@@ -149,31 +173,37 @@ class Page implements Acts {
   }
 
   private async morePoints(): Promise<void> {
+    this.panel.offerPoints(false);
     try {
       await this.loadMap(this.info!.index!.provenance.map, this.sceneries.length);
-      this.panel.offerPoints(this.sceneries.length < this.parts);
     } catch (error) {
-      this.fail(error);
+      this.panel.tell(problemOf(error));
     }
+    this.panel.offerPoints(this.sceneries.length < this.parts);
   }
 
   private async surprise(): Promise<void> {
-    const [example] = await examples(this.sceneries[0], 1);
-    if (example) this.wishes().ask(example.description);
-    else this.fail(new api.Problem("No place could be described", "Type what you see, or try again.", "none"));
+    try {
+      const [example] = await examples(this.sceneries[0], 1);
+      if (example) this.wishes().ask(example.description);
+      else this.panel.tell("No place could be described; type what you see, or try again.");
+    } catch (error) {
+      this.panel.tell(problemOf(error));
+    }
   }
 
   private async describe(position: [number, number]): Promise<void> {
+    this.describing.abort();
+    const describing = (this.describing = new AbortController());
     this.redraw({ pin: position });
-    this.panel.wait(true);
     try {
-      const described = await api.describe(position);
-      this.panel.said.value = described.description;
+      this.described = (await api.describe(position, describing.signal)).description;
+      this.panel.said.value = this.described;
       this.panel.said.focus();
     } catch (error) {
-      this.fail(error);
-    } finally {
-      this.panel.wait(false);
+      if (describing.signal.aborted) return;
+      this.redraw({ pin: null });
+      this.panel.tell(problemOf(error));
     }
   }
 
@@ -241,7 +271,10 @@ class Page implements Acts {
   /** The URL says what is seen, a moment after it stands still. */
   private keep(): void {
     clearTimeout(this.kept);
-    this.kept = window.setTimeout(() => history.replaceState(null, "", write(this.state) || location.pathname + location.search), 200);
+    this.kept = window.setTimeout(() => {
+      this.state.pose = { ...this.view.camera.pose };
+      history.replaceState(null, "", write(this.state));
+    }, 200);
   }
 
   private redraw(change: Partial<Shown>): void {
@@ -251,26 +284,15 @@ class Page implements Acts {
 
   private showAnswer(): void {
     const { answer, places, chosen } = this.shown;
-    if (answer) showAnswer(this.panel.answer, this.state.said, answer, places, chosen, this.state.answers, this);
-  }
-
-  /** Flies to what was found: the answer with its ring, or all places that fit. */
-  private lookAt(): void {
-    const { answer, places } = this.shown;
-    if (!answer?.estimate) return;
-    const fitting = answer.status === "ambiguous" ? places.filter((place) => place.fits).map((place) => place.at) : [answer.estimate.position];
-    const reach = answer.status === "ambiguous" ? 60 : Math.max(60, 1.2 * answer.estimate.radius_m.p90);
-    const box: Box = {
-      west: Math.min(...fitting.map(([x]) => x)) - reach,
-      east: Math.max(...fitting.map(([x]) => x)) + reach,
-      south: Math.min(...fitting.map(([, y]) => y)) - reach,
-      north: Math.max(...fitting.map(([, y]) => y)) + reach,
-    };
-    this.view.camera.frame(box);
+    if (!answer) return;
+    const hadFocus = this.panel.answer.contains(document.activeElement);
+    showAnswer(this.panel.answer, this.shown.said, answer, places, chosen, { replies: this.state.answers, isInside: this.state.within !== null }, this);
+    this.panel.announce();
+    if (hadFocus) (this.panel.answer.querySelector<HTMLElement>('.place[aria-pressed="true"]') ?? this.panel.answer.querySelector("h2"))?.focus();
   }
 
   private fail(error: unknown): void {
-    const known = error instanceof api.Problem ? error : new api.Problem("The page has a fault", String((error as Error)?.message ?? error), "page");
+    const known = error instanceof api.Problem ? error : new api.Problem("The page has a fault", problemOf(error), "page");
     this.redraw({ answer: null, places: [], mention: null });
     showProblem(this.panel.answer, known, this.state.answers, this);
   }
@@ -281,6 +303,10 @@ class Page implements Acts {
     this.view.camera.inset = isSheet() ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 };
     this.view.draw();
   }
+}
+
+function problemOf(error: unknown): string {
+  return error instanceof api.Problem ? `${error.title}. ${error.message}` : String((error as Error)?.message ?? error);
 }
 
 function isNear(at: [number, number] | null, px: number, py: number): boolean {

@@ -38,13 +38,15 @@ export class Measure {
     this.start.textContent = "Cancel";
     let job: string | null = null;
     try {
-      for await (const state of api.evaluate(this.asked(), running.signal)) {
-        job = state.job;
+      let ended = false;
+      for await (const state of api.evaluate(this.asked(), running.signal, (accepted) => (job = accepted))) {
+        ended = ["done", "failed", "cancelled"].includes(state.status);
         if (state.status === "done") this.report(state.report as unknown as Report);
         else if (state.status === "failed") this.say(state.error?.detail ?? "It failed.");
         else if (state.status === "cancelled") this.say("Cancelled.");
         else this.progress(state);
       }
+      if (!ended) this.say("The service ended the connection; ask again.");
     } catch (error) {
       if (running.signal.aborted) {
         if (job) await api.cancel(job).catch(() => null);

@@ -6,16 +6,17 @@ import { DARK, MENTIONS, MENTIONS_DARK, type Look } from "./look";
 import type { Measurement } from "./report";
 import type { Room } from "./names";
 import type { Place } from "./places";
-import type { Shape } from "./scenery";
+import { AREA, type Shape } from "./scenery";
 import type { State } from "./state";
 import { metres } from "./words";
 
 type Pen = CanvasRenderingContext2D;
 type Point = [number, number];
 
-export const LABEL = '600 12px system-ui, -apple-system, "Segoe UI", sans-serif';
+const LABEL = '600 12px system-ui, -apple-system, "Segoe UI", sans-serif';
 
 export interface Shown {
+  said: string; // what the answer is to
   answer: Answer | null;
   places: Place[];
   chosen: number; // of places
@@ -44,7 +45,7 @@ export function paint(pen: Pen, camera: Camera, look: Look, taken: Room[], shown
   for (const each of shown.measured) error(pen, camera, look, each);
 }
 
-export function colourOf(look: Look, mention: number): string {
+function colourOf(look: Look, mention: number): string {
   return (look === DARK ? MENTIONS_DARK : MENTIONS)[mention % MENTIONS.length];
 }
 
@@ -129,7 +130,7 @@ function object(pen: Pen, camera: Camera, colour: string, evidence: Evidence, ob
     for (const [n, path] of shape.paths.entries()) {
       if (shape.hole[n] || !trace(pen, camera, pairs(path), shape.top)) continue;
       pen.globalAlpha = lit ? 0.55 : 0.28;
-      if (shape.form === 2) pen.fill();
+      if (shape.form === AREA) pen.fill();
       pen.globalAlpha = lit ? 1 : 0.75;
       pen.lineWidth = lit ? 3 : 1.5;
       pen.stroke();

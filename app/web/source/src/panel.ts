@@ -1,12 +1,12 @@
 // The panel beside the map: the box, its chips, and what waits until it is wanted.
 
 import { byId, fill, h } from "./dom";
-import type { Described } from "./api";
+import type { Described, Info } from "./api";
 import type { State } from "./state";
 import { HINTS, type Tool } from "./tools";
 import { metres, sentence } from "./words";
 
-export interface Wishes {
+interface Wishes {
   ask(said: string): void;
   surprise(): void;
   take(tool: Tool | null): void;
@@ -14,6 +14,7 @@ export interface Wishes {
   morePoints(): void;
 }
 
+const AREAS: [Tool, string][] = [["near", "I am near …"], ["circle", "Inside a circle"], ["box", "Inside a box"]];
 const STEPS = ["low", "half", "high"] as const; // heights of the sheet on a phone
 
 export class Panel {
@@ -23,6 +24,7 @@ export class Panel {
   private readonly chips = byId("chips");
   private readonly describe = byId<HTMLButtonElement>("describe");
   private readonly where = h("div", {});
+  private readonly areas = AREAS.map(([kind, text]) => [kind, h("button", { type: "button", "aria-pressed": false, onclick: () => this.wishes.take(this.tool === kind ? null : kind) }, text)] as const);
   private readonly heat = h("input", { type: "checkbox" });
   private readonly cells = h("input", { type: "checkbox" });
   private readonly many = h("select", { id: "many" }, ...[5, 10, 40].map((k) => h("option", { value: String(k) }, String(k))));
@@ -54,28 +56,44 @@ export class Panel {
       h("label", { className: "check" }, this.cells, "Cells that were found, by rank"),
       h("div", { className: "row" }, h("label", { for: "many" }, "Candidates"), this.many, this.points),
     );
-    byId("more").append(h("details", { id: "look" }, h("summary", {}, "Say where to look"), this.where), shown, measure);
+    byId("more").append(h("details", { id: "look" }, h("summary", {}, "Say where to look"), h("div", { className: "row" }, ...this.areas.map(([, button]) => button)), this.where), shown, measure);
     this.sheet();
   }
 
   /** What was asked, as the page knows it. */
   set(state: State, tool: Tool | null): void {
     this.tool = tool;
-    if (this.said.value !== state.said && document.activeElement !== this.said) this.said.value = state.said;
     this.describe.setAttribute("aria-pressed", String(tool === "describe"));
     [this.heat.checked, this.cells.checked] = [state.heat, state.cells];
     if (![...this.many.options].some((option) => option.value === String(state.topK))) this.many.append(h("option", { value: String(state.topK) }, String(state.topK)));
     this.many.value = String(state.topK);
     const { prior, within } = state;
     if (prior || within) byId<HTMLDetailsElement>("look").open = true;
+    for (const [kind, button] of this.areas) button.setAttribute("aria-pressed", String(tool === kind));
     fill(
       this.where,
-      h("div", { className: "row" }, ...this.areas()),
       prior && this.given(`Near a place, give or take ${metres(prior.sigma_m)}`, { prior: null }),
       within && this.given("circle" in within ? `Only inside a circle of ${metres(within.circle.radius_m)}` : `Only inside a box, ${metres(within.bbox[2] - within.bbox[0])} by ${metres(within.bbox[3] - within.bbox[1])}`, { within: null }),
     );
-    byId("tip").textContent = tool ? HINTS[tool] : "";
-    byId("tip").hidden = !tool;
+    this.tell(tool ? HINTS[tool] : "");
+  }
+
+  /** What to do now, or what went wrong beside the answer. */
+  tell(text: string): void {
+    byId("tip").textContent = text;
+    byId("tip").hidden = !text;
+  }
+
+  /** The answer in short, for who hears the page. */
+  announce(): void {
+    const [title, next] = [this.answer.querySelector("h2"), this.answer.querySelector("h2 ~ p")];
+    byId("status").textContent = [title?.firstChild, next].map((part) => part?.textContent ?? "").join(". ");
+  }
+
+  /** What the service takes at most. */
+  limit(limits: Info["limits"]): void {
+    this.said.maxLength = limits.max_characters;
+    for (const option of [...this.many.options]) if (Number(option.value) > limits.max_top_k) option.remove();
   }
 
   /** Three ways to begin; the first stands in the box in grey as well. */
@@ -100,11 +118,6 @@ export class Panel {
   /** On a phone the answer takes the place of the form, which is a finger's move away. */
   reveal(): void {
     if (isSheet()) this.answer.scrollIntoView({ block: "start" });
-  }
-
-  private areas(): Element[] {
-    const words: [Tool, string][] = [["near", "I am near …"], ["circle", "Inside a circle"], ["box", "Inside a box"]];
-    return words.map(([tool, text]) => h("button", { type: "button", "aria-pressed": this.tool === tool, onclick: () => this.wishes.take(this.tool === tool ? null : tool) }, text));
   }
 
   private given(text: string, without: Partial<State>): Element {

@@ -1,7 +1,7 @@
 // Candidates are cells, and neighbouring cells are one place to people.
 
-import type { Answer, Candidate } from "./api";
-import { LINE, type Scenery } from "./scenery";
+import type { Answer } from "./api";
+import { LINE, type Box, type Scenery } from "./scenery";
 
 const SAME = 30; // metres
 const NEAR = 40; // metres: no street is farther from what is on it
@@ -12,7 +12,6 @@ export interface Place {
   street: string | null;
   at: [number, number];
   probability: number;
-  candidates: Candidate[];
   fits: boolean;
 }
 
@@ -23,10 +22,9 @@ export function placesOf(answer: Answer, street: (at: [number, number]) => strin
     const [x, y] = candidate.position;
     const same = places.find((place) => Math.hypot(place.at[0] - x, place.at[1] - y) <= SAME);
     if (same) {
-      same.candidates.push(candidate);
       same.probability += candidate.probability;
     } else {
-      places.push({ letter: "", street: street([x, y]), at: [x, y], probability: candidate.probability, candidates: [candidate], fits: false });
+      places.push({ letter: "", street: street([x, y]), at: [x, y], probability: candidate.probability, fits: false });
     }
   }
   share(answer, places);
@@ -51,6 +49,16 @@ function share(answer: Answer, places: Place[]): void {
     const nearest = away.indexOf(Math.min(...away));
     if (away[nearest] <= SAME) places[nearest].probability += probability;
   }
+}
+
+/** What to look at: the answer with its ring, or all places that fit. */
+export function boxOf(answer: Answer, places: Place[]): Box | null {
+  if (!answer.estimate) return null;
+  const open = answer.status === "ambiguous";
+  const fitting = open ? places.filter((place) => place.fits).map((place) => place.at) : [answer.estimate.position];
+  const reach = open ? 60 : Math.max(60, 1.2 * answer.estimate.radius_m.p90);
+  const [x, y] = [fitting.map((at) => at[0]), fitting.map((at) => at[1])];
+  return { west: Math.min(...x) - reach, east: Math.max(...x) + reach, south: Math.min(...y) - reach, north: Math.max(...y) + reach };
 }
 
 /** The name of the nearest street. */

@@ -1361,7 +1361,7 @@ export interface components {
             text: string;
             /**
              * Choices
-             * @description the last is "unknown", which changes nothing
+             * @description the last is "unknown": the question is not asked again, and nothing else changes
              */
             choices: components["schemas"]["Choice"][];
             /**

@@ -5,7 +5,7 @@ import type { Drag } from "./controls";
 import type { State, Within } from "./state";
 
 export type Tool = "describe" | "near" | "circle" | "box";
-export type Area = { prior: State["prior"] } | { within: Within };
+type Area = { prior: State["prior"] } | { within: Within };
 
 const USUAL = { near: 50, circle: 150, box: 150 }; // metres, where nothing was drawn
 const LEAST = 3; // metres; less was a click
@@ -18,7 +18,7 @@ export const HINTS: Record<Tool, string> = {
 };
 
 /** An area as one draws it from a first place to a second. */
-export function areaOf(tool: Exclude<Tool, "describe">, from: [number, number], to: [number, number]): Area {
+function areaOf(tool: Exclude<Tool, "describe">, from: [number, number], to: [number, number]): Area {
   const [wide, high] = [to[0] - from[0], to[1] - from[1]];
   const drawn = Math.hypot(wide, high);
   const size = drawn < LEAST ? USUAL[tool] : drawn;

@@ -6,12 +6,12 @@ import { DARK, LIGHT, type Look } from "./look";
 import { Map2d } from "./map2d";
 import { Map3d, type MapPicture } from "./map3d";
 import { Names, type Room } from "./names";
-import type { Box, Scenery } from "./scenery";
+import type { Scenery } from "./scenery";
 
 const MOVING = 250; // milliseconds between two pictures of a map that moves, at most
 
 /** Draws over the map; rooms that it takes are kept free of names. */
-export type Overlay = (pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]) => void;
+type Overlay = (pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]) => void;
 
 export class View {
   readonly camera: Camera;
@@ -32,7 +32,7 @@ export class View {
     this.picture = pictureOf(this.camera);
     this.over.className = "over";
     this.over.tabIndex = 0;
-    this.over.setAttribute("role", "img");
+    this.over.setAttribute("role", "application");
     this.over.setAttribute("aria-label", "Map. Arrow keys move it, plus and minus zoom, shift and arrow keys turn it.");
     stage.append(this.picture.canvas, this.over);
     control(this.over, this.camera, picked);
@@ -43,10 +43,6 @@ export class View {
 
   get look(): Look {
     return matchMedia("(prefers-color-scheme: dark)").matches ? DARK : LIGHT;
-  }
-
-  get box(): Box | null {
-    return this.sceneries[0]?.box ?? null;
   }
 
   /** The first shows all of the map, further ones have more points. */

@@ -42,7 +42,7 @@ export function sentence(text: string): string {
 
 /** The sentences of a text, with their places in its characters, as the service counts them. */
 export function sentences(text: string): { text: string; start: number; end: number }[] {
-  return [...text.matchAll(/[^.!?\n]+[.!?]*/g)]
+  return [...text.matchAll(/(?:[^.!?\n]|[.!?](?!\s|$))+[.!?]*/g)]
     .filter((match) => /[\p{L}\p{N}]/u.test(match[0]))
     .map((match) => {
       const start = [...text.slice(0, match.index)].length;
