@@ -102,7 +102,7 @@ export class Map3d implements MapPicture {
 
   private buildings(by: Map<string, Shape[]>, look: Look): void {
     const [material, edge] = [
-      new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }),
+      new MeshBasicMaterial({ vertexColors: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }),
       new LineBasicMaterial({ color: new Color(look.building).multiplyScalar(0.72), transparent: true, opacity: 0.55 }),
     ];
     for (const [label, paint] of Object.entries(RISING)) {

@@ -1,7 +1,7 @@
 // Shapes as triangles.
 
 import { ShapeUtils, Vector2 } from "three";
-import type { Shape } from "./scenery";
+import { AREA, type Shape } from "./scenery";
 
 /** Triangles under way: positions, and a shade a vertex that colours are multiplied with. */
 export class Triangles {
@@ -39,25 +39,36 @@ export function fill(out: Triangles, shape: Shape, z: number, shade = 1): void {
     if (corners[0].length < 3) continue;
     const first = out.positions.length / 3;
     for (const point of corners.flat()) out.vertex(point.x, point.y, z, shade);
+    const all = corners.flat();
     for (const [a, b, c] of ShapeUtils.triangulateShape(corners[0], corners.slice(1))) {
-      out.index.push(first + a, first + b, first + c);
+      const turned = ShapeUtils.area([all[a], all[b], all[c]]) < 0; // its front is up
+      out.index.push(first + a, first + (turned ? c : b), first + (turned ? b : c));
     }
   }
 }
 
-/** Walls along every path of a shape. */
+/** Walls along every path of a shape; those of an area have their fronts outside. */
 export function raise(out: Triangles, shape: Shape, base: number, top: number): void {
-  for (const path of shape.paths) {
+  shape.paths.forEach((path, ring) => {
+    const turned = shape.form === AREA && turns(path) < 0 !== shape.hole[ring];
     for (let n = 0; n + 3 < path.length; n += 2) {
       const [x, y, u, v] = path.subarray(n, n + 4);
       const length = Math.hypot(u - x, v - y) || 1;
       const lit = Math.abs(((v - y) * LIGHT_FROM[0] - (u - x) * LIGHT_FROM[1]) / length);
       const shade = 0.8 + 0.12 * lit;
-      out.quad(
-        out.vertex(x, y, base, shade * 0.94), out.vertex(u, v, base, shade * 0.94), out.vertex(u, v, top, shade), out.vertex(x, y, top, shade),
-      );
+      const [a, b] = [out.vertex(x, y, base, shade * 0.94), out.vertex(u, v, base, shade * 0.94)];
+      const [c, d] = [out.vertex(u, v, top, shade), out.vertex(x, y, top, shade)];
+      if (turned) out.quad(d, c, b, a);
+      else out.quad(a, b, c, d);
     }
-  }
+  });
+}
+
+/** Twice the area in a ring, negative if it runs clockwise. */
+function turns(ring: Float32Array): number {
+  let sum = 0;
+  for (let n = 0; n + 3 < ring.length; n += 2) sum += ring[n] * ring[n + 3] - ring[n + 2] * ring[n + 1];
+  return sum;
 }
 
 /** A strip along every path of a shape, as wide as it says. */
