@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from index.asked import Asked
-from index.query import Prior, Query, Reply
+from index.query import MOST_REPLIES, Prior, Query, Reply
 from index.questions import Heard
 from models.errors import ReplyError
 from models.posterior.questions import expected_entropy
@@ -139,6 +139,13 @@ def test_what_the_text_says_is_not_asked(posterior, asked):
     assert found.count("street") == 1
     assert "corner" not in found  # of a street that is not known
     assert "name" not in found  # nothing has one here
+
+
+def test_who_has_given_all_replies_that_are_taken_is_asked_nothing_more(posterior):
+    [finding] = posterior.find([VAGUE])
+    before = [Reply("near:tree", "unknown")] * MOST_REPLIES
+    assert posterior.questions.ask(finding.located, Heard(), before[1:]) is not None
+    assert posterior.questions.ask(finding.located, Heard(), before) is None
 
 
 def test_the_cross_street_is_asked_for_when_the_street_is_known():
