@@ -1,14 +1,17 @@
+import json
 import re
 
 import pytest
 from playwright.sync_api import expect
 
+from models.city.scenery.reading import LOOK_FILE
 from tests.app.web.conftest import CHROMIUM, EVIL, SOFTWARE, Visitor
 
 pytestmark = pytest.mark.slow
 
 SURE = "I am at Café Sirius on East Street 2."
 ACCENT = (200, 16, 46)
+MENTIONS = json.loads(LOOK_FILE.read_text())["light"]["mentions"]
 
 
 def test_who_asks_sees_the_answer_in_words_and_on_the_map(visit):
@@ -32,6 +35,8 @@ def test_a_mention_lights_its_object_up_and_the_object_its_mention(visit):
     assert page.evaluate("document.querySelector('#map .over').toDataURL()") != before
     assert "lit" in mention.get_attribute("class")
     number = mention.get_attribute("data-mention")
+    red, green, blue = bytes.fromhex(MENTIONS[int(number)][1:])
+    assert mention.evaluate("e => getComputedStyle(e).textDecorationColor") == f"rgb({red}, {green}, {blue})"
     assert "lit" in page.locator(f"[data-evidence='{number}']").get_attribute("class")
     assert answer["evidence"][int(number)]["name"] == "Café Sirius"
     page.mouse.move(600, 20)
@@ -48,6 +53,19 @@ def test_a_mention_lights_its_object_up_and_the_object_its_mention(visit):
         if found:
             break
     assert found, "the object under the mouse lights its words up"
+
+
+def test_a_pressed_mention_shows_where_it_is(visit):
+    visitor = visit().open()
+    answer = visitor.ask(SURE)
+    visitor.page.locator(".mention", has_text="Café Sirius").click()
+    cafe = next(each for each in answer["evidence"] if each["name"] == "Café Sirius")
+    x, y = ((a + b) / 2 for a, b in zip(answer["estimate"]["position"], cafe["at"], strict=True))
+    visitor.page.wait_for_function(
+        "([x, y]) => { const at = new URLSearchParams(location.hash.slice(1)).get('at').split(',');"
+        " return Math.hypot(at[0] - x, at[1] - y) < 1; }",
+        arg=[x, y],
+    )
 
 
 def test_what_was_not_understood_and_not_found_says_so(visit):

@@ -8,6 +8,8 @@ import { count, explains, likely, metres, percent, sentence, sentences, wind } f
 export interface Acts {
   choose(place: number): void;
   light(mention: number | null): void;
+  /** Flies to where a mention and the answer are both seen. */
+  visit(mention: number): void;
   reply(question: string, choice: string): void;
   forget(question: string): void;
   ask(): void;
@@ -170,6 +172,7 @@ function mentionOf(text: string, evidence: Evidence, mention: number, acts: Acts
       className: `mention ${fitOf(evidence)} m${mention % 8}`,
       "data-mention": mention,
       "aria-label": `${text}: ${reason(evidence)}`,
+      onclick: () => acts.visit(mention),
       onmouseenter: () => acts.light(mention),
       onmouseleave: () => acts.light(null),
       onfocus: () => acts.light(mention),

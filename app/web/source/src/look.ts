@@ -2,8 +2,9 @@
 
 import given from "../../../../models/city/scenery/look.json";
 
+/** `mentions` are of what a text mentions: eight that colour-blind eyes tell apart (after Okabe and Ito). */
 export type Look = Omit<typeof given.light, "heat"> & { heat: number[][] };
-export type Paint = keyof Omit<Look, "heat" | "name" | "halo" | "accent">;
+export type Paint = keyof Omit<Look, "heat" | "name" | "halo" | "accent" | "mentions">;
 
 export const LIGHT: Look = given.light;
 export const DARK: Look = given.dark;
@@ -13,6 +14,9 @@ export const GROUND = given.ground as Record<string, Paint>;
 export const RISING = given.rising as Record<string, Paint>;
 export const WALLS = given.walls as Record<string, Paint>;
 
-/** Colours of what a text mentions: eight that colour-blind eyes tell apart (after Okabe and Ito), on light and on dark. */
-export const MENTIONS = given.mentions;
-export const MENTIONS_DARK = given.mentions_dark;
+/** Gives the page around the map those of its colours that mean the same there. */
+export function wear(look: Look): void {
+  const { style } = document.documentElement;
+  style.setProperty("--accent", look.accent);
+  look.mentions.forEach((colour, n) => style.setProperty(`--m${n}`, colour));
+}

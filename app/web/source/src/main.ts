@@ -1,27 +1,27 @@
 // The page: what was asked, what was answered, and the map, kept together.
 
-import { fitOf, showAnswer, showProblem, showWaiting, type Acts } from "./answer";
+import { showAnswer, showProblem, showWaiting, type Acts } from "./answer";
 import * as api from "./api";
-import type { Drag } from "./controls";
 import { byId } from "./dom";
 import { examples } from "./examples";
 import { Measure } from "./measure";
 import { paint, type Shown } from "./overlay";
 import { isSheet, Panel } from "./panel";
-import { boxOf, placesOf, streetAt } from "./places";
+import { boxOf, boxRound, placesOf, streetAt } from "./places";
+import { pointer, type Hand } from "./pointer";
 import { readScenery, type Scenery, type Shape } from "./scenery";
 import { read, write, type State } from "./state";
-import { draw, type Tool } from "./tools";
+import type { Tool } from "./tools";
 import { View } from "./view";
 import { legend } from "./legend";
 
-const CLOSE = 14; // pixels from the pointer to what it means
+const BESIDE = 25; // metres of map around what is visited
 
 class Page implements Acts {
   private state: State = read(location.hash);
   private readonly shown: Shown = { said: "", answer: null, places: [], chosen: 0, mention: null, pin: null, measured: [] };
   private readonly objects = new Map<string, Shape>();
-  private readonly view = new View(byId("map"), this.picked());
+  private readonly view = new View(byId("map"), pointer(this.hand()));
   private readonly measure = new Measure((measured) => this.redraw({ measured }), (report) => report.split === "index" && report.data === this.info?.index?.provenance.map);
   private readonly panel = new Panel(this.wishes(), this.measure.element);
   private info: api.Info | null = null;
@@ -92,6 +92,12 @@ class Page implements Acts {
     for (const lit of document.querySelectorAll(".lit")) lit.classList.remove("lit");
     if (mention !== null) for (const words of document.querySelectorAll(`[data-mention="${mention}"], [data-evidence="${mention}"]`)) words.classList.add("lit");
     this.redraw({ mention });
+  }
+
+  visit(mention: number): void {
+    const { answer } = this.shown;
+    const at = answer?.evidence[mention].at;
+    if (answer?.estimate && at) this.view.camera.frame(boxRound([answer.estimate.position, at], BESIDE));
   }
 
   reply(question: string, choice: string): void {
@@ -213,44 +219,28 @@ class Page implements Acts {
     this.panel.set(this.state, tool);
   }
 
-  private picked() {
+  private hand(): Hand {
+    const page = this;
     return {
-      grab: (px: number, py: number): Drag | null => {
-        const tool = this.tool;
-        if (!tool || tool === "describe") return null;
-        return draw(tool, this.view.camera, px, py, (area, done) => {
-          if (done) {
-            this.take(null);
-            this.wishes().change(area);
-          } else {
-            this.state = { ...this.state, ...area };
-            this.view.draw();
-          }
-        });
+      get camera() { return page.view.camera; },
+      get shown() { return page.shown; },
+      get tool() { return page.tool; },
+      describe: (position) => {
+        this.take(null);
+        void this.describe(position);
       },
-      click: (px: number, py: number) => {
-        const at = this.view.camera.ground(px, py);
-        if (!at) return;
-        if (this.tool === "describe") {
+      drawn: (area, done) => {
+        if (done) {
           this.take(null);
-          void this.describe(at);
-        } else if (this.tool) draw(this.tool, this.view.camera, px, py, (area) => (this.take(null), this.wishes().change(area)))?.end();
-        else this.pick(px, py);
+          this.wishes().change(area);
+        } else {
+          this.state = { ...this.state, ...area };
+          this.view.draw();
+        }
       },
-      hover: (px: number, py: number) => this.light(this.mentionAt(px, py)),
-      leave: () => this.light(null),
+      choose: (place) => this.choose(place),
+      light: (mention) => this.light(mention),
     };
-  }
-
-  private pick(px: number, py: number): void {
-    const near = this.shown.places.findIndex(({ at }) => isNear(this.view.camera.project(...at), px, py));
-    if (near >= 0 && this.shown.answer?.status === "ambiguous") this.choose(near);
-  }
-
-  private mentionAt(px: number, py: number): number | null {
-    const evidence = this.shown.answer?.evidence ?? [];
-    const near = evidence.findIndex((each) => each.at && fitOf(each) !== "none" && isNear(this.view.camera.project(...each.at), px, py));
-    return near < 0 ? null : near;
   }
 
   private goTo(state: State): void {
@@ -307,10 +297,6 @@ class Page implements Acts {
 
 function problemOf(error: unknown): string {
   return error instanceof api.Problem ? `${error.title}. ${error.message}` : String((error as Error)?.message ?? error);
-}
-
-function isNear(at: [number, number] | null, px: number, py: number): boolean {
-  return at !== null && Math.hypot(at[0] - px, at[1] - py) <= CLOSE;
 }
 
 void new Page().start();

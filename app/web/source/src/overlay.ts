@@ -2,7 +2,7 @@
 
 import type { Answer, Evidence } from "./api";
 import type { Camera } from "./camera";
-import { DARK, MENTIONS, MENTIONS_DARK, type Look } from "./look";
+import type { Look } from "./look";
 import type { Measurement } from "./report";
 import type { Room } from "./names";
 import type { Place } from "./places";
@@ -46,7 +46,7 @@ export function paint(pen: Pen, camera: Camera, look: Look, taken: Room[], shown
 }
 
 function colourOf(look: Look, mention: number): string {
-  return (look === DARK ? MENTIONS_DARK : MENTIONS)[mention % MENTIONS.length];
+  return look.mentions[mention % look.mentions.length];
 }
 
 function trace(pen: Pen, camera: Camera, points: Iterable<Point>, height = 0): boolean {

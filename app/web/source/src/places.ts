@@ -56,8 +56,11 @@ export function boxOf(answer: Answer, places: Place[]): Box | null {
   if (!answer.estimate) return null;
   const open = answer.status === "ambiguous";
   const fitting = open ? places.filter((place) => place.fits).map((place) => place.at) : [answer.estimate.position];
-  const reach = open ? 60 : Math.max(60, 1.2 * answer.estimate.radius_m.p90);
-  const [x, y] = [fitting.map((at) => at[0]), fitting.map((at) => at[1])];
+  return boxRound(fitting, open ? 60 : Math.max(60, 1.2 * answer.estimate.radius_m.p90));
+}
+
+export function boxRound(points: [number, number][], reach: number): Box {
+  const [x, y] = [points.map((at) => at[0]), points.map((at) => at[1])];
   return { west: Math.min(...x) - reach, east: Math.max(...x) + reach, south: Math.min(...y) - reach, north: Math.max(...y) + reach };
 }
 

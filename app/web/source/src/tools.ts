@@ -5,7 +5,7 @@ import type { Drag } from "./controls";
 import type { State, Within } from "./state";
 
 export type Tool = "describe" | "near" | "circle" | "box";
-type Area = { prior: State["prior"] } | { within: Within };
+export type Area = { prior: State["prior"] } | { within: Within };
 
 const USUAL = { near: 50, circle: 150, box: 150 }; // metres, where nothing was drawn
 const LEAST = 3; // metres; less was a click

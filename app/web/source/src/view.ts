@@ -2,12 +2,13 @@
 
 import { Camera } from "./camera";
 import { control, type Picked } from "./controls";
-import { DARK, LIGHT, type Look } from "./look";
+import { DARK, LIGHT, wear, type Look } from "./look";
 import { Map2d } from "./map2d";
 import { Map3d, type MapPicture } from "./map3d";
 import { Names, type Room } from "./names";
 import type { Scenery } from "./scenery";
 
+const DARKNESS = matchMedia("(prefers-color-scheme: dark)");
 const MOVING = 250; // milliseconds between two pictures of a map that moves, at most
 
 /** Draws over the map; rooms that it takes are kept free of names. */
@@ -37,17 +38,19 @@ export class View {
     stage.append(this.picture.canvas, this.over);
     control(this.over, this.camera, picked);
     new ResizeObserver(() => this.fit()).observe(stage);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.show(this.sceneries));
+    DARKNESS.addEventListener("change", () => this.show(this.sceneries));
+    wear(this.look);
     this.fit();
   }
 
   get look(): Look {
-    return matchMedia("(prefers-color-scheme: dark)").matches ? DARK : LIGHT;
+    return DARKNESS.matches ? DARK : LIGHT;
   }
 
   /** The first shows all of the map, further ones have more points. */
   show(sceneries: Scenery[]): void {
     this.sceneries = sceneries;
+    wear(this.look);
     this.names = sceneries.flatMap((scenery) => (scenery.kind === "shapes" ? [new Names(scenery)] : []));
     this.picture.show(sceneries, this.look);
     this.draw();
