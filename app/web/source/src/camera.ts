@@ -20,13 +20,19 @@ export class Camera {
   pose: Pose = { x: 0, y: 0, distance: 1500, pitch: 0.95, bearing: 0 };
   width = 1;
   height = 1;
-  /** Pixels at the sides that a panel covers; what is looked at stands in the middle of the rest. */
-  inset = { left: 0, bottom: 0 };
+  /** Pixels at the sides that a panel covers. */
+  private inset = { left: 0, bottom: 0 };
   flat = false;
   private farthest = 20000;
   private flight = 0;
 
   constructor(private readonly changed: () => void) {}
+
+  /** What is looked at stands in the middle of what a panel does not cover. */
+  cover(inset: { left: number; bottom: number }): void {
+    this.inset = inset;
+    this.changed();
+  }
 
   get eye(): [number, number, number] {
     const { x, y, distance, pitch, bearing } = this.shifted;

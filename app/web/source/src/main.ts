@@ -290,8 +290,7 @@ class Page implements Acts {
   /** The panel covers a part of the map; what is looked at stands in the rest. */
   private fit(): void {
     const panel = byId("panel").getBoundingClientRect();
-    this.view.camera.inset = isSheet() ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 };
-    this.view.draw();
+    this.view.camera.cover(isSheet() ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 });
   }
 }
 

@@ -11,7 +11,8 @@ import { Triangles, fill, raise, widen } from "./mesh";
 import { AREA, POINT, type Cloud, type Scenery, type Shape, type Shapes } from "./scenery";
 
 const CLOSE = 900; // metres from which small things are drawn
-const TILE = 500; // metres; what lies in tiles out of sight is not drawn
+const COARSE = 0.6; // of a pixel's edge: how finely a CPU draws a map that moves
+const TILE = 1200; // metres; what lies in tiles out of sight is not drawn
 
 export interface MapPicture {
   readonly canvas: HTMLCanvasElement;
@@ -53,7 +54,8 @@ export class Map3d implements MapPicture {
 
   draw(hurried: boolean): void {
     const { camera, renderer, eye } = this;
-    const ratio = Math.min(2, devicePixelRatio);
+    const hurries = this.slow && hurried;
+    const ratio = Math.min(2, devicePixelRatio) * (hurries ? COARSE : 1);
     const [wide, high] = [camera.width, camera.height].map((size) => Math.floor(size * ratio));
     if (this.canvas.width !== wide || this.canvas.height !== high) {
       renderer.setPixelRatio(ratio);
@@ -67,8 +69,8 @@ export class Map3d implements MapPicture {
     eye.lookAt(x, y, 0);
     eye.updateProjectionMatrix();
     for (const object of this.small) object.visible = camera.pose.distance < CLOSE;
-    for (const object of this.rough) object.visible = camera.pose.distance >= CLOSE && !(this.slow && hurried);
-    for (const object of this.fine) object.visible = !(this.slow && hurried);
+    for (const object of this.rough) object.visible = camera.pose.distance >= CLOSE && !hurries;
+    for (const object of this.fine) object.visible = !hurries;
     renderer.render(this.scene, eye);
   }
 

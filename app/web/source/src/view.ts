@@ -9,7 +9,7 @@ import { Names, type Room } from "./names";
 import type { Scenery } from "./scenery";
 
 const DARKNESS = matchMedia("(prefers-color-scheme: dark)");
-const MOVING = 250; // milliseconds between two pictures of a map that moves, at most
+const STILL = 250; // milliseconds without a move after which the map is drawn as well as can be
 
 /** Draws over the map; rooms that it takes are kept free of names. */
 type Overlay = (pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]) => void;
@@ -25,11 +25,11 @@ export class View {
   private sceneries: Scenery[] = [];
   private names: Names[] = [];
   private due = false;
+  private moved = false;
   private still = 0;
-  private last = 0;
 
   constructor(private readonly stage: HTMLElement, picked: Picked) {
-    this.camera = new Camera(() => this.draw());
+    this.camera = new Camera(() => this.move());
     this.picture = pictureOf(this.camera);
     this.over.className = "over";
     this.over.tabIndex = 0;
@@ -53,18 +53,16 @@ export class View {
     wear(this.look);
     this.names = sceneries.flatMap((scenery) => (scenery.kind === "shapes" ? [new Names(scenery)] : []));
     this.picture.show(sceneries, this.look);
-    this.draw();
+    this.move();
   }
 
+  /** What lies over the map, and the map itself only if it has moved. */
   draw(): void {
     if (this.due) return;
     this.due = true;
-    requestAnimationFrame((now) => {
+    requestAnimationFrame(() => {
       this.due = false;
-      this.picture.draw(now - this.last < MOVING);
-      this.last = now;
-      clearTimeout(this.still);
-      this.still = window.setTimeout(() => this.picture.draw(false), MOVING);
+      if (this.moved) this.drawMap();
       const pen = this.over.getContext("2d")!;
       const ratio = Math.min(2, devicePixelRatio);
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -76,11 +74,23 @@ export class View {
     });
   }
 
+  private move(): void {
+    this.moved = true;
+    this.draw();
+  }
+
+  private drawMap(): void {
+    this.moved = false;
+    this.picture.draw(true);
+    clearTimeout(this.still);
+    this.still = window.setTimeout(() => this.picture.draw(false), STILL);
+  }
+
   private fit(): void {
     const ratio = Math.min(2, devicePixelRatio);
     [this.camera.width, this.camera.height] = [Math.max(1, this.stage.clientWidth), Math.max(1, this.stage.clientHeight)];
     [this.over.width, this.over.height] = [this.camera.width * ratio, this.camera.height * ratio];
-    this.draw();
+    this.move();
   }
 }
 
