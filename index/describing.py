@@ -1,13 +1,13 @@
 """What a map says at a position, in words by which the position is found again.
 
 On a map with names a description is the street, what has a name and can be seen from there, then what is near, by class
-and colour; on any other map the last alone. Each sentence tells of another thing; what is rare comes first, so that few
-sentences single a place out.
+and colour, and where these are few, what has a name farther away; on any other map what is near alone. Each sentence
+tells of another thing; what is rare comes first, so that few sentences single a place out.
 """
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Set
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass
 from itertools import islice
 from typing import Final
@@ -32,6 +32,7 @@ from models.posterior.surroundings import STEP_M, Surroundings
 MOST_FACTS: Final = 6
 MOST_NAMED: Final = 3
 SEEN_M: Final = 40.0  # what has a name and is farther away may be behind a house
+OPEN_M: Final = 150.0  # as far where little else can be told, as in a park or between railway tracks
 ON_STREET_M: Final = 15.0  # from the middle of a street; who is farther away is beside it
 CROSSING_M: Final = 150.0  # down a street one sees the next corner
 AT_M: Final = 1.0  # nearer than this there is no wind to tell
@@ -102,12 +103,13 @@ class Describer:
         metres, cell = self._cells.query(position)
         if metres > BEST_CELL_REACH_M:
             return None
-        named = self._named.facts(position)[:MOST_NAMED]
+        named = self._named.facts(position, SEEN_M)[:MOST_NAMED]
         # where little has a name, crossing streets tell how far along its street the position is
         facts = street_facts(self._gazetteer, position, MOST_NAMED - len(named))
         facts += sorted(named, key=lambda fact: fact.away_m)
-        told = {word for fact in facts for word in (fact.name, fact.source_id) if word is not None}
-        facts += self._near.facts(position, int(cell), told, MOST_FACTS - len(facts))
+        facts += self._near.facts(position, int(cell), _told(facts), MOST_FACTS - len(facts))
+        if len(facts) < MOST_FACTS:
+            facts += self._far_facts(position, _told(facts))[: MOST_FACTS - len(facts)]
         if not facts:
             return None
         return Described(
@@ -118,6 +120,17 @@ class Describer:
             wgs84=LatLon.of(position, self._frame),
             cell_id=self._ids[int(cell)],
         )
+
+    def _far_facts(self, position: Floats, told: Set[str]) -> list[Fact]:
+        """What else has a name around a position [2], from one side after the other: two ways that cross tell most."""
+        far = [fact for fact in self._named.facts(position, OPEN_M) if not {fact.name, fact.source_id} & told]
+        ways_m = np.array([fact.at for fact in far]).reshape(-1, 2) - position
+        return [far[n] for n in round_robin(direction_index(ways_m)).tolist()]
+
+
+def _told(facts: Sequence[Fact]) -> set[str]:
+    """Names and sources of what sentences tell of."""
+    return {word for fact in facts for word in (fact.name, fact.source_id) if word is not None}
 
 
 def street_facts(gazetteer: Gazetteer, position: Floats, most_crossing: int) -> list[Fact]:
@@ -173,12 +186,12 @@ class NamedSights:
         self._objects = np.array(seen, dtype=np.int64)
         self._namesakes = np.array([count[name] for name in names], dtype=np.int64)
 
-    def facts(self, position: Floats) -> list[Fact]:
-        """A sentence for each name in sight of a position [2], the most telling first."""
+    def facts(self, position: Floats, reach_m: float) -> list[Fact]:
+        """A sentence for each name within reach of a position [2], the most telling first."""
         gazetteer, objects = self._gazetteer, self._objects
         apart = np.hypot(*(gazetteer.middles_m[objects] - position).T) - gazetteer.reach_m[objects]
-        near = np.flatnonzero(apart <= SEEN_M)
-        ways = ways_from(gazetteer, objects[near], position, SEEN_M)
+        near = np.flatnonzero(apart <= reach_m)
+        ways = ways_from(gazetteer, objects[near], position, reach_m)
         rows = near[ways.item]
         # who is somewhere in a large park knows little more
         size_m = np.where(ways.metres < AT_M, gazetteer.reach_m[objects[rows]], 0.0)

@@ -170,6 +170,7 @@ for command in (
     cli_train.train,
     cli_measure.evaluate,
     cli_measure.questions,
+    cli_measure.descriptions,
     cli_measure.benchmark,
     cli_reproduce.reproduce,
 ):

@@ -162,6 +162,31 @@ def questions(
     console.print("asked: " + ", ".join(f"{count} {kind}" for kind, count in found["kinds"].items()))
 
 
+def descriptions(
+    index_dir: IndexDir = INDEX_DIR,
+    positions: Annotated[int, typer.Option(min=1, help="how many, each in another cell")] = 200,
+    seed: Seed = 0,
+) -> None:
+    """How well random positions of the map are found again by what POST /describe says of them."""
+    from app.cli.progress import stage_bars
+    from app.settings import load_settings
+    from index.evaluation.descriptions import descriptions_table, evaluate_descriptions
+    from index.localizer import Localizer
+
+    settings = load_settings(index_dir=index_dir)
+    weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
+    localizer = Localizer.open(settings.index_dir, *weights)
+    with stage_bars() as show:
+        found = evaluate_descriptions(localizer, positions, seed, show)
+    head, rows = descriptions_table(found)
+    table = Table(*head)
+    for row in rows:
+        table.add_row(*row)
+    console = Console(width=120)
+    console.print(f"{found['data']}: {found['positions']} positions, seed {seed}")
+    console.print(table)
+
+
 def benchmark(
     map_path: Annotated[Path, typer.Option("--map", help="map to index")],
     index_dir: IndexDir = INDEX_DIR,

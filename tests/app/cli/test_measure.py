@@ -42,6 +42,13 @@ def test_questions_prints_what_they_help(run, osm_file, index_dir) -> None:
     assert "within 10 m" in result.output
 
 
+def test_descriptions_prints_how_many_positions_are_found_again(run, index_dir) -> None:
+    result = run("descriptions", "--index", index_dir, "--positions", "3")
+    assert result.exit_code == 0, result.output
+    assert "tinytown: 3 positions, seed 0" in result.output
+    assert "within 5/10/15/30 m" in result.output
+
+
 def test_localize_draws_a_picture(run, index_dir, tmp_path) -> None:
     text = r"I am north of a red building. A bench costs $\foo{ and $2."  # is no formula
     result = run("localize", text, "--index", index_dir, "--picture", tmp_path / "a.png")
