@@ -2,8 +2,9 @@
 
 from dataclasses import fields
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue
+from pydantic import BaseModel, ConfigDict, Field
 
+from app.http.examples import ANSWERED, DESCRIBED
 from app.http.protocol import LocalizerLike
 from index.answers import (
     Answer,
@@ -23,140 +24,6 @@ from index.answers import (
 from models.city.frame import Frame
 
 INDEX_NAME = "default"
-CRS_EXAMPLE: JsonValue = {
-    "frame_id": "map",
-    "epsg": None,
-    "origin": {"lat": 60.17, "lon": 24.94},
-    "units": "m",
-    "axes": "ENU",
-}
-PROVENANCE_EXAMPLE: JsonValue = {
-    "index": "default",
-    "index_version": "20260101T120000Z-1a2b3c4d",
-    "model": "posterior/minilm/192",
-    "model_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
-    "map": "helsinki",
-    "attribution": "© OpenStreetMap contributors",
-}
-EXAMPLE: JsonValue = {
-    "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
-    "status": "ambiguous",
-    "estimate": {
-        "position": [105.0, -35.0],
-        "method": "posterior",
-        "covariance": [[1444.0, 0.0], [0.0, 1444.0]],
-        "radius_m": {"p50": 44.1, "p90": 81.8},
-        "probability": 0.22,
-        "wgs84": {"lat": 60.1699, "lon": 24.9384},
-        "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
-        "heading": {"mean_deg": 271.0, "spread_deg": 18.0},
-    },
-    "candidates": [
-        {
-            "rank": 1,
-            "cell_id": "helsinki_00042",
-            "score": 0.81,
-            "probability": 0.22,
-            "center": [105.0, -35.0],
-            "bbox": [90.0, -50.0, 120.0, -20.0],
-            "position": [105.0, -35.0],
-            "wgs84": {"lat": 60.1699, "lon": 24.9384},
-        }
-    ],
-    "other_probability": 0.78,
-    "evidence": [
-        {
-            "text": "building",
-            "span": [16, 24],
-            "label": "building",
-            "colour": "gray",
-            "relation": "north",
-            "distance_m": 6.0,
-            "absent": False,
-            "explained": 0.97,
-            "instance": "building",
-            "name": "Stockmann",
-            "source_id": "way/1234",
-            "away_m": 6.2,
-            "at": [105.0, -41.2],
-            "bearing_deg": None,
-            "exact": None,
-        },
-        {
-            "text": "Ateneum",
-            "span": [45, 52],
-            "label": "tourism/museum",
-            "colour": None,
-            "relation": "right",
-            "distance_m": None,
-            "absent": False,
-            "explained": 0.98,
-            "instance": "tourism/museum",
-            "name": "Ateneum",
-            "source_id": "way/5678",
-            "away_m": 14.0,
-            "at": [105.5, -21.0],
-            "bearing_deg": 2.0,
-            "exact": True,
-        },
-    ],
-    "heat_map": {"spacing_m": 1.5, "points": [[105.0, -35.0, 0.08]]},
-    "question": {
-        "id": "street",
-        "text": "Which street are you on?",
-        "choices": [
-            {"value": "Kaivokatu", "text": "Kaivokatu"},
-            {"value": "Mikonkatu", "text": "Mikonkatu"},
-            {"value": "unknown", "text": "I don't know"},
-        ],
-        "is_open": True,
-    },
-    "crs": CRS_EXAMPLE,
-    "provenance": PROVENANCE_EXAMPLE,
-    "timings_ms": {"queue": 0.2, "encode": 9.1, "search": 0.4, "estimate": 0.1, "total": 10.3},
-    "warnings": [],
-}
-DESCRIBE_EXAMPLE: JsonValue = {
-    "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
-    "description": "I am on Kaivokatu, between Keskuskatu and Mikonkatu. Ateneum is 14 m to my north. "
-    "A street lamp is 4 m to my west.",
-    "hints": [
-        {
-            "text": "I am on Kaivokatu, between Keskuskatu and Mikonkatu.",
-            "instance": "street",
-            "name": "Kaivokatu",
-            "source_id": "way/1234",
-            "at": [105.0, -41.2],
-            "away_m": 6.2,
-            "bearing_deg": 180.0,
-        },
-        {
-            "text": "Ateneum is 14 m to my north.",
-            "instance": "tourism/museum",
-            "name": "Ateneum",
-            "source_id": "way/5678",
-            "at": [105.5, -21.0],
-            "away_m": 14.0,
-            "bearing_deg": 2.0,
-        },
-        {
-            "text": "A street lamp is 4 m to my west.",
-            "instance": "street lamp",
-            "name": None,
-            "source_id": "node/9012",
-            "at": [101.5, -35.0],
-            "away_m": 3.5,
-            "bearing_deg": 270.0,
-        },
-    ],
-    "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
-    "position": [105.0, -35.0],
-    "wgs84": {"lat": 60.1699, "lon": 24.9384},
-    "cell_id": "helsinki_00042",
-    "crs": CRS_EXAMPLE,
-    "provenance": PROVENANCE_EXAMPLE,
-    "timings_ms": {"total": 8.4},
-}
 
 
 class _Out(BaseModel):
@@ -214,7 +81,7 @@ class Provenance(_Out):
 class LocalizeResponse(_Out):
     """The answer to one description."""
 
-    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
+    model_config = ConfigDict(json_schema_extra={"examples": [ANSWERED]})
 
     request_id: str
     status: Status
@@ -253,7 +120,7 @@ class LocalizeResponse(_Out):
 class DescribeResponse(_Out):
     """What the map says at a position; metres, map frame."""
 
-    model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBE_EXAMPLE]})
+    model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBED]})
 
     request_id: str
     description: str = Field(description="the sentences of `hints`; POST /localize finds the position by it")

@@ -1,0 +1,156 @@
+import pytest
+from fake_localizer import TRUE_FRAME, FakeLocalizer
+
+from app.http.requests import request_model
+from app.http.routes.localize import check_reach
+from app.settings import Settings
+from models.city.frame import Frame
+
+TREE = {"question": "near:tree", "choice": "yes"}
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({}, "description"),
+        ({"description": "a tree", "hints": ["a tree"]}, "description"),
+        ({"description": ""}, "description"),
+        ({"description": " \n\t "}, "description"),
+        ({"description": "?!."}, "description"),
+        ({"description": "a\u0000tree"}, "description"),
+        ({"description": "a\u0007tree"}, "description"),
+        ({"description": "a\u0085tree"}, "description"),
+        ({"description": 5}, "description"),
+        ({"description": True}, "description"),
+        ({"description": ["a tree"]}, "description"),
+        ({"description": "x" * 4001}, "description"),
+        ({"description": "a tree. " * 33}, "description"),
+        ({"hints": []}, "hints"),
+        ({"hints": ["1. "]}, "hints"),
+        ({"hints": ["I see a tree. " * 33]}, "hints"),
+        ({"hints": ["a.\n" * 17, "b.\n" * 17]}, "hints"),
+        ({"hints": ["a tree"] * 33}, "hints"),
+        ({"hints": "a tree"}, "hints"),
+        ({"hints": ["a tree", " "]}, "hints[1]"),
+        ({"hints": ["a tree", 7]}, "hints[1]"),
+        ({"hints": ["x" * 2001, "y" * 2000]}, "hints"),
+        ({"top_k": 0}, "top_k"),
+        ({"top_k": 41}, "top_k"),
+        ({"top_k": True}, "top_k"),
+        ({"top_k": 5.0}, "top_k"),
+        ({"top_k": "5"}, "top_k"),
+        ({"deadline_ms": 0}, "deadline_ms"),
+        ({"deadline_ms": 60_001}, "deadline_ms"),
+        ({"crs": "utm"}, "crs"),
+        ({"index": "other"}, "index"),
+        ({"refine": "guess"}, "refine"),
+        ({"heat": False}, "heat"),
+        ({"explain": True}, "explain"),
+        ({"within": {}}, "within"),
+        ({"within": {"bbox": [0, 0, 1, 1], "circle": {"center": [0, 0], "radius_m": 1}}}, "within"),
+        ({"within": {"bbox": [0, 0, 1]}}, "within.bbox[3]"),
+        ({"within": {"bbox": [0, 0, 1, True]}}, "within.bbox[3]"),
+        ({"within": {"bbox": [0, 0, 1, 10**400]}}, "within.bbox[3]"),
+        ({"within": {"bbox": [0, 0, 1, 1, 1]}}, "within.bbox"),
+        ({"within": {"bbox": [1, 0, 0, 1]}}, "within.bbox"),
+        ({"within": {"bbox": [0, 1, 1, 0]}}, "within.bbox"),
+        ({"within": {"bbox": [0, 0, 200, 1]}, "crs": "wgs84"}, "within.bbox"),
+        ({"within": {"bbox": [0, -91, 1, 1]}, "crs": "wgs84"}, "within.bbox"),
+        ({"within": {"circle": {"center": [0, 0], "radius_m": 0}}}, "within.circle.radius_m"),
+        ({"within": {"circle": {"center": [0, 0], "radius_m": 1, "x": 1}}}, "within.circle.x"),
+        ({"within": {"circle": {"center": [0, 91], "radius_m": 1}}, "crs": "wgs84"}, "within.circle.center"),
+        ({"prior": {"position": [0, 0], "sigma_m": -1}}, "prior.sigma_m"),
+        ({"prior": {"position": [0, 0], "sigma_m": 1e-200}}, "prior.sigma_m"),
+        ({"prior": {"position": [0, 0]}}, "prior.sigma_m"),
+        ({"prior": {"position": [181, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+        ({"prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+        ({"answers": None}, "answers"),
+        ({"answers": [TREE] * 9}, "answers"),
+        ({"answers": [{"question": "near:tree"}]}, "answers[0].choice"),
+        ({"answers": [{**TREE, "sure": True}]}, "answers[0].sure"),
+        ({"answers": [TREE, {"question": 7, "choice": "yes"}]}, "answers[1].question"),
+        ({"answers": [{"question": "near:tree", "choice": True}]}, "answers[0].choice"),
+        ({"answers": [{"question": "n" * 1001, "choice": "yes"}]}, "answers[0].question"),
+        ({"answers": [TREE, {"question": "near:tree", "choice": "no"}]}, "answers[1].question"),
+        ({"answers": [TREE], "refine": "none"}, "answers"),
+    ],
+)
+def test_wrong_field_is_named(refused, body, field):
+    if not {"description", "hints"} & set(body) and body:
+        body = {"description": "a tree", **body}
+    settings = Settings()
+    model = request_model(settings)
+    fields, _ = refused(lambda body: check_reach(model.model_validate(body), TRUE_FRAME), body)
+    assert field in fields
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({}, "description"),  # a check of several fields
+        ({"description": "a\u0085tree"}, "description"),  # of the characters of one
+        ({"description": 5}, "description"),
+        ({"description": "x" * 4001}, "description"),
+        ({"description": "a tree. " * 33}, "description"),  # after the request's model
+        ({"hints": ["a tree", 7]}, "hints[1]"),
+        ({"description": "a", "top_k": 41}, "top_k"),
+        ({"description": "a", "refine": "guess"}, "refine"),
+        ({"description": "a", "heat": False}, "heat"),
+        ({"description": "a", "within": {"bbox": [0, 0, 1]}}, "within.bbox[3]"),
+        ({"description": "a", "within": {"bbox": [0, 0, 1, 10**400]}}, "within.bbox[3]"),
+        ({"description": "a", "within": {"bbox": [1, 0, 0, 1]}}, "within.bbox"),
+        ({"description": "a", "within": {"circle": {"center": [0, 91], "radius_m": 1}}, "crs": "wgs84"},
+         "within.circle.center"),
+        ({"description": "a", "prior": {"position": [0, 0]}}, "prior.sigma_m"),
+        ({"description": "a", "prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+    ],
+)  # fmt: skip
+def test_wrong_field_is_a_422_and_nothing_is_computed(api, fake, problem, body, field):
+    """One of each kind of the errors above."""
+    problem(api.post("/localize", json=body), 422, "invalid_request", field)
+    assert fake.batches == []
+
+
+def test_body_that_is_no_object_is_422(api, problem):
+    problem(api.post("/localize", json=["a tree"]), 422, "invalid_request", "(body)")
+
+
+def test_box_may_reach_where_the_projection_does_not(api):
+    far = {"within": {"bbox": [-180, -90, 114.94, 0]}, "crs": "wgs84"}
+    assert api.post("/localize", json={"description": "a tree", **far}).status_code == 200
+
+
+def test_text_in_any_script_passes(api, fake):
+    body = {"description": "我在一栋灰色建筑的北边。\n나무 옆에 있어요 🌳"}
+    assert api.post("/localize", json=body).status_code == 200
+    assert fake.batches[0][0].description == body["description"]
+
+
+def test_limits_come_from_the_settings(settings, fake, start, problem):
+    small = settings.model_copy(
+        update={"max_characters": 20, "max_hints": 2, "max_top_k": 3, "max_deadline_ms": 500, "deadline_ms": 500}
+    )
+    with start(small, fake) as api:
+        assert api.post("/localize", json={"description": "a tree"}).status_code == 200
+        assert fake.batches[0][0].top_k == 3
+        for body, field in [
+            ({"description": "x" * 21}, "description"),
+            ({"description": "ab. cd. ef."}, "description"),
+            ({"hints": ["a", "b", "c"]}, "hints"),
+            ({"description": "a", "top_k": 4}, "top_k"),
+            ({"description": "a", "deadline_ms": 501}, "deadline_ms"),
+        ]:
+            problem(api.post("/localize", json=body), 422, "invalid_request", field)
+        schema = api.get("/openapi.json").json()["components"]["schemas"]["LocalizeRequest"]["properties"]
+    assert schema["top_k"]["maximum"] == 3
+    assert schema["top_k"]["default"] == 3
+    assert schema["description"]["anyOf"][0]["maxLength"] == 20
+    assert schema["hints"]["anyOf"][0]["maxItems"] == 2
+
+
+def test_degrees_on_a_map_that_is_not_on_earth(settings, start, problem):
+    with start(settings, FakeLocalizer(Frame())) as api:
+        problem(api.post("/localize", json={"description": "a tree", "crs": "wgs84"}), 422, "invalid_request", "crs")
+        answer = api.post("/localize", json={"description": "a tree"}).json()
+    assert answer["estimate"]["wgs84"] is None
+    assert answer["crs"]["origin"] is None
