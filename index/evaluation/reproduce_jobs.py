@@ -32,12 +32,13 @@ from models.training.fit_points import train_points
 from models.training.fit_retriever import train_retriever
 from models.training.paper_tables import GROWTH, MNCL
 from models.training.settings import load_settings
-from models.training.training_data import load_training
+from models.training.training_data import load_cells, load_training
 
 _FORMAT = 1  # of results; counted up when what a training or a measurement does changes
 RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
 POINTS_SEED = 0
 TEST, VALIDATION = "test", "val"
+_TAUGHT = "train", VALIDATION
 ALONE, LISTED, ALL = "global level alone", f"global, then all levels on {RERANKED}", "all levels on all cells"
 Z_SCORES = "all levels on all cells, by z-scores (the code)"
 GROWN = [made_of(run, variant) for run, _ in GROWTH.values() for variant in VARIANTS]
@@ -130,11 +131,11 @@ def train_and_measure(job: Job, gpu: int | None) -> None:
     where: Any = job.directory / RUN_DIR, True
 
     def load(encoder: Any, rng: np.random.Generator) -> list[Any]:
-        return [load_training(job.data, ("train", VALIDATION), encoder, config, rng)]
+        return [load_training(job.data, _TAUGHT, encoder, config, rng)]
 
     found: dict[str, Any]
     if job.run.method == POINTS:
-        found = {"validation": train_points(load, weights, config, *where)}
+        found = {"validation": train_points([load_cells(job.data, _TAUGHT)], weights, config, *where)}
     elif job.run.method in FINE_METHODS:
         train_fine(load, weights, job.run.method, model, config, *where)
         found = {"validation": _record(weights)["sources"][0]["validation"]}
