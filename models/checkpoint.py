@@ -22,7 +22,7 @@ CONFIG_FILE = "config.json"
 LARGE = 4096  # values; a tensor of more is kept in half precision, or in eight bits
 SCALE = ".scale"  # after the name of a tensor in eight bits: what a step is worth in each of its rows
 STEPS = 127  # to either side of 0
-SMALLEST = 2.0**-24  # half precision has above 0
+SMALLEST = 2.0**-24  # above 0, of half precision
 
 
 class Model(Protocol):
