@@ -69,6 +69,7 @@ train: towns  ## make the shipped weights again (west of Helsinki, made-up towns
 	$(BIN)/hereabouts train --method mncl $(TRAINED_ON) --out models/weights/retriever \
 		--set model.width=128 --set training.batch_size=64 --set training.steps=2200
 	$(BIN)/hereabouts train --method regressor $(TRAINED_ON) --out models/weights/regressor
+	$(BIN)/hereabouts train --method matching $(TRAINED_ON) --out models/weights/matching
 	$(BIN)/hereabouts train --method posterior $(FITTED_TO) --out models/weights/posterior
 	$(BIN)/hereabouts train --method places --reader models/weights/posterior $(TOLD_OF) --out models/weights/posterior
 
@@ -76,7 +77,7 @@ refit: towns  ## fit the shipped posterior's likelihood again, with the reader t
 	$(BIN)/hereabouts train --method posterior $(FITTED_TO) --reader models/weights/posterior --out models/weights/posterior
 
 evaluate: install  ## recall on the held-out east of Helsinki and on Alexanderplatz
-	for how in posterior regressor none; do \
+	for how in posterior regressor matching none; do \
 		$(BIN)/hereabouts evaluate --data models/maps/helsinki.osm.pbf --split test --refine $$how --report reports/helsinki-$$how && \
 		$(BIN)/hereabouts evaluate --data models/maps/alexanderplatz.osm.pbf --refine $$how --report reports/alexanderplatz-$$how \
 		|| exit 1; \

@@ -19,7 +19,10 @@ from models.language.text_encoder import TextEncoder, load_text_encoder
 SHIPPED = Path(__file__).parent / "weights"
 WEIGHTS_FILE = "model.safetensors"
 CONFIG_FILE = "config.json"
-LARGE = 4096  # values; a tensor of more is kept in half precision
+LARGE = 4096  # values; a tensor of more is kept in half precision, or in eight bits
+SCALE = ".scale"  # after the name of a tensor in eight bits: what a step is worth in each of its rows
+STEPS = 127  # to either side of 0
+SMALLEST = 2.0**-24  # above 0, of half precision
 
 
 class Model(Protocol):
@@ -54,22 +57,25 @@ class Checkpoints(Generic[M]):
         methods: the models of this kind by name.
         default: directory of the weights that ship with the package.
         advice: what to do where there are no good weights.
+        eight_bits: whether large tensors are kept in eight bits and all others in half precision, so that more models
+            fit into what ships; else large ones in half precision and all others as they are.
     """
 
     kind: str
     methods: Mapping[str, type[M]]
     default: Path
     advice: str
+    eight_bits: bool = False
 
     def save(self, model: M, directory: Path, training: dict[str, Any]) -> None:
-        """Write a model; large tensors are rounded to half precision, in the model too: it then is as it will be read.
+        """Write a model; its weights are rounded as they are kept, in the model too: it then is as it will be read.
 
         Args:
             model: on the CPU.
             directory: made if it is missing.
             training: how it came about, for the record.
         """
-        kept = round_large(model)
+        kept = round_weights(model, self.eight_bits)
         replace_file(directory / WEIGHTS_FILE, save({name: tensor.contiguous() for name, tensor in kept.items()}))
         record = {
             "method": model.method,
@@ -102,21 +108,51 @@ class Checkpoints(Generic[M]):
             raise WeightsError(f"the weights in {directory} {problem}; {self.advice}") from error
         model = method(load_text_encoder(config.text_encoder), config)
         try:
-            model.load_state_dict({n: t.float() if t.dtype is torch.float16 else t for n, t in weights.items()})
-        except RuntimeError as error:
+            model.load_state_dict(_read(weights))
+        except (RuntimeError, KeyError) as error:
             problem = f"are not of the model its {CONFIG_FILE} names"
             raise WeightsError(f"the weights in {directory} {problem}; {self.advice}") from error
         model.eval()
         return model
 
 
-def round_large(model: Model) -> dict[str, Tensor]:
-    """Round large tensors to half precision in a model, so that it is as it will be read; what is stored of it."""
-    state = model.state_dict()
-    kept = {name: tensor.half() if _is_large(tensor) else tensor for name, tensor in state.items()}
-    model.load_state_dict({name: tensor.to(state[name].dtype) for name, tensor in kept.items()})
+def round_weights(model: Model, eight_bits: bool = False) -> dict[str, Tensor]:
+    """Round the weights of a model as they are kept (see `Checkpoints`); what is stored of it."""
+    kept = _in_eight_bits(model.state_dict()) if eight_bits else _in_half(model.state_dict())
+    model.load_state_dict(_read(kept))
     model.eval()  # forgets what it computed with the weights unrounded
     return kept
+
+
+def _in_half(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    return {name: tensor.half() if _is_large(tensor) else tensor for name, tensor in state.items()}
+
+
+def _in_eight_bits(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Whole steps of each row's own size (absmax quantisation, LLM.int8(), NeurIPS 2022), and that size."""
+    kept: dict[str, Tensor] = {}
+    for name, tensor in state.items():
+        if _is_large(tensor) and tensor.dim() > 1:
+            scale = (tensor.abs().flatten(1).amax(dim=1) / STEPS).clamp(min=SMALLEST).half()
+            steps = tensor / _along_rows(scale, tensor)
+            kept |= {name: steps.round().clamp(-STEPS, STEPS).to(torch.int8), name + SCALE: scale}
+        else:
+            kept[name] = tensor.half() if tensor.dtype is torch.float32 else tensor
+    return kept
+
+
+def _read(kept: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """The weights as a model takes them."""
+    state = {name: tensor.float() if tensor.dtype is torch.float16 else tensor for name, tensor in kept.items()}
+    for name, tensor in kept.items():
+        if tensor.dtype is torch.int8:
+            state[name] = tensor * _along_rows(state.pop(name + SCALE), tensor)
+    return state
+
+
+def _along_rows(scale: Tensor, tensor: Tensor) -> Tensor:
+    """[R] in float32, so that it multiplies the rows of a tensor [R, ...]."""
+    return scale.float().view(-1, *[1] * (tensor.dim() - 1))
 
 
 def _is_large(tensor: Tensor) -> bool:

@@ -18,7 +18,7 @@ from filelock import FileLock
 
 from index.build import build_index
 from index.localizer import Localizer
-from models.checkpoint import round_large
+from models.checkpoint import round_weights
 from models.city.cells import CellTable, cut_cells
 from models.city.gallery import MapData
 from models.city.kitti360.job import prepare_data
@@ -163,7 +163,7 @@ def model(text_encoder: TextEncoder) -> Mncl:
     """Untrained: its answers mean nothing, its shapes and its determinism do."""
     torch.manual_seed(0)
     made = Mncl(text_encoder, MnclConfig(width=32, levels=("global",)))
-    round_large(made)  # as every process will read it
+    round_weights(made)  # as every process will read it
     return made
 
 

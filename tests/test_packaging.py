@@ -9,6 +9,7 @@ from app.http.routes.page import PAGE_DIR
 ROOT = Path(__file__).parent.parent
 SETUPTOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
 TOP = ("app", "index", "models")
+MOST_BYTES = 20_000_000  # of weights that ship
 
 
 def test_every_package_is_named() -> None:
@@ -32,3 +33,7 @@ def test_every_file_that_is_read_is_taken_along() -> None:
     read = {p for top in TOP for kind in ("toml", "xz", "safetensors", "pbf") for p in ROOT.glob(f"{top}/**/*.{kind}")}
     of_reports = set((ROOT / "models" / "reports").rglob("*.toml"))  # nothing that runs reads them
     assert read - taken - of_reports == set()
+
+
+def test_the_weights_that_ship_are_no_larger_than_agreed() -> None:
+    assert sum(path.stat().st_size for path in (ROOT / "models" / "weights").rglob("*") if path.is_file()) < MOST_BYTES

@@ -142,9 +142,9 @@ def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: A
 def _train_points(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
     """Train the point encoder; its figures in words."""
     from models.training.fit_points import train_points
+    from models.training.training_data import load_cells
 
-    out, *rest = where
-    figures = train_points(_loader(data, splits, config), out, config, *rest)
+    figures = train_points([load_cells(path, splits) for path in data], where[0], config, *where[1:])
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 

@@ -162,9 +162,8 @@ class Told(Body):
 REFINE: Any = Field(
     DEFAULT_REFINE,
     description="posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: "
-    "vector search, then a network that matches hints with a cell's instances, whose weights do not ship; none: vector "
-    "search alone, cells' centres; these three rank by all of the retriever's levels only on an index that was built "
-    "with --levels",
+    "vector search, then a network that matches hints with a cell's instances; none: vector search alone, cells' "
+    "centres; these three rank by all of the retriever's levels only on an index that was built with --levels",
 )
 
 

@@ -5,6 +5,7 @@ import json
 import resource
 import shutil
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,8 @@ from index.vector_localizer import VectorLocalizer
 from models.city.gallery import MapData
 from models.city.queries import Queries
 from models.city.source import CHOSEN_BY, open_source
-from models.files import replace_file
+from models.files import replace_file, sha256
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineModel
 from models.retrieval.checkpoint import METHODS, load_retriever
@@ -32,12 +34,13 @@ from models.training.fit_points import train_points
 from models.training.fit_retriever import train_retriever
 from models.training.paper_tables import GROWTH, MNCL
 from models.training.settings import load_settings
-from models.training.training_data import load_training
+from models.training.training_data import load_cells, load_training
 
 _FORMAT = 1  # of results; counted up when what a training or a measurement does changes
 RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
 POINTS_SEED = 0
 TEST, VALIDATION = "test", "val"
+_TAUGHT = "train", VALIDATION
 ALONE, LISTED, ALL = "global level alone", f"global, then all levels on {RERANKED}", "all levels on all cells"
 Z_SCORES = "all levels on all cells, by z-scores (the code)"
 GROWN = [made_of(run, variant) for run, _ in GROWTH.values() for variant in VARIANTS]
@@ -70,6 +73,7 @@ class Job:
         model, training = settings_of(run, seed, scale)
         settings = [model.model_dump(mode="json"), training.model_dump(mode="json", exclude={"device"})]
         facts = [_FORMAT, run.method, *settings, pick_device(training.device).type]
+        facts += _files_of(getattr(model, "text_encoder", DEFAULT_TEXT_ENCODER))
         if run.sees_points:
             facts.append(Job.of(Run(POINTS), POINTS_SEED, data, out, scale).key)
         key = hashlib.sha256(json.dumps([*facts, fingerprint(data), scale.growth_radii_m]).encode()).hexdigest()
@@ -105,6 +109,22 @@ def settings_of(run: Run, seed: int, scale: Scale, also: tuple[str, ...] = ()) -
     return load_settings(run.method, [*of_method, *run.settings, f"training.seed={seed}", *also])
 
 
+def _files_of(text_encoder: str) -> list[str]:
+    """Names and sums of the files of a text encoder that a directory holds; others are known by their names."""
+    directory = Path(text_encoder)
+    if text_encoder == DEFAULT_TEXT_ENCODER or not directory.is_dir():
+        return []
+    files = {path.relative_to(directory).as_posix(): path for path in directory.rglob("*") if path.is_file()}
+    known = {name: (path.stat().st_size, path.stat().st_mtime_ns) for name, path in files.items()}
+    return [f"{name} {_sum(path, *known[name])}" for name, path in sorted(files.items())]
+
+
+@lru_cache
+def _sum(path: Path, size: int, mtime_ns: int) -> str:
+    """sha256 of a file, read once while it stays as it was: every key of a job asks for it."""
+    return sha256(path)
+
+
 def _kept(path: Path, key: str) -> dict[str, Any] | None:
     found: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
     return found if found.get("key") == key else None
@@ -130,11 +150,11 @@ def train_and_measure(job: Job, gpu: int | None) -> None:
     where: Any = job.directory / RUN_DIR, True
 
     def load(encoder: Any, rng: np.random.Generator) -> list[Any]:
-        return [load_training(job.data, ("train", VALIDATION), encoder, config, rng)]
+        return [load_training(job.data, _TAUGHT, encoder, config, rng)]
 
     found: dict[str, Any]
     if job.run.method == POINTS:
-        found = {"validation": train_points(load, weights, config, *where)}
+        found = {"validation": train_points([load_cells(job.data, _TAUGHT)], weights, config, *where)}
     elif job.run.method in FINE_METHODS:
         train_fine(load, weights, job.run.method, model, config, *where)
         found = {"validation": _record(weights)["sources"][0]["validation"]}

@@ -12,8 +12,9 @@ FINE_STAGES = Checkpoints(
     "fine",
     FINE_METHODS,
     SHIPPED / "regressor",
-    "train some with 'hereabouts train --method regressor' (or matching, whose weights do not ship) and name their "
-    "directory in HEREABOUTS_FINE_WEIGHTS_DIR, or leave the position at the cell's centre",
+    "train some with 'hereabouts train --method regressor' (or matching) and name their directory in "
+    "HEREABOUTS_FINE_WEIGHTS_DIR, or leave the position at the cell's centre",
+    eight_bits=True,
 )
 save_fine, load_fine = FINE_STAGES.save, FINE_STAGES.load
 
@@ -22,7 +23,7 @@ def load_refiner(method: FineMethod, directory: Path | None = None) -> FineModel
     """The fine stage of a method: from a directory of weights, if they are of that method, else the one that ships.
 
     Raises:
-        WeightsError: the directory or the weights in it cannot be read, or none of this method ship.
+        WeightsError: the directory or the weights in it cannot be read.
     """
     given = load_fine(directory) if directory else None
     return given if given and given.method == method else load_fine(SHIPPED / method)

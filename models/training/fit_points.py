@@ -19,16 +19,14 @@ from models.checkpoint import CONFIG_FILE, WEIGHTS_FILE
 from models.city.colours import KITTI360_PALETTE
 from models.errors import TrainingError, WeightsError
 from models.files import replace_file
-from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.localization.fine_model import FineModel
 from models.retrieval.instance_encoder import GEOMETRY, CellFeatures
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
 from models.retrieval.retriever import Retriever
 from models.training.engine import distributed
-from models.training.engine.devices import lent_to
 from models.training.engine.loop import LoopConfig, Progress, pick_device, run_training
 from models.training.settings import TrainingConfig, load_settings
-from models.training.training_data import TrainingData
+from models.training.training_data import TrainingCells, TrainingData
 
 CELLS_A_SOURCE, CHOSEN_BY_CELLS = 800, 100  # whose instances it is trained on, and chosen by
 
@@ -121,7 +119,7 @@ def _cross_entropy(logits: Tensor, wanted: Tensor) -> Tensor:
 
 
 def train_points(
-    load: Callable[[TextEncoder, np.random.Generator], Sequence[TrainingData]],
+    sources: Sequence[TrainingCells],
     out: Path,
     config: TrainingConfig,
     run_dir: Path | None = None,
@@ -131,7 +129,7 @@ def train_points(
     """Train a point encoder alone and save it, for `TrainingConfig.points` of what is trained after it.
 
     Args:
-        load: reads what to train on, as for a retriever.
+        sources: what to train on.
         out: directory for model.safetensors and config.json.
         config: how to optimise.
         run_dir: see `run_training`.
@@ -145,9 +143,7 @@ def train_points(
         WeightsError, TrainingError: see `fit_points`.
     """
     torch.manual_seed(config.seed)
-    text_encoder, encoder = load_text_encoder(), PointEncoder()
-    with lent_to(pick_device(config.device), text_encoder):
-        sources = load(text_encoder, np.random.default_rng(config.seed))
+    encoder = PointEncoder()
     figures = fit_points(encoder, sources, config, run_dir, resume, progress)
     out.mkdir(parents=True, exist_ok=True)
     replace_file(out / WEIGHTS_FILE, save(encoder.cpu().state_dict()))
@@ -166,7 +162,8 @@ def look_at_points(
 ) -> dict[str, float]:
     """Give a model its point encoder, if it takes points, and look once at all that it is trained on.
 
-    The point encoder is read from `config.points`, or trained here; arguments, return and errors as `fit_points`.
+    The point encoder is read from `config.points`, or trained here on their cells; the other arguments, return and
+    errors as `fit_points`.
     """
     if model.points is None:
         if config.points:
@@ -174,7 +171,8 @@ def look_at_points(
         return {}
     if config.points is None:
         _, loop = load_settings("points", [f"training.seed={config.seed}", f"training.device={config.device}"])
-        figures = fit_points(model.points, sources, loop, run_dir, resume, progress)
+        cells = [source.cells for source in sources]
+        figures = fit_points(model.points, cells, loop, run_dir, resume, progress)
     else:
         figures = _read_points(model.points, config.points)
         model.points.to(pick_device(config.device))
@@ -199,7 +197,7 @@ def _read_points(encoder: PointEncoder, directory: Path) -> dict[str, float]:
 
 def fit_points(
     encoder: PointEncoder,
-    sources: Sequence[TrainingData],
+    sources: Sequence[TrainingCells],
     config: LoopConfig,
     run_dir: Path | None = None,
     resume: bool = False,
@@ -222,11 +220,9 @@ def fit_points(
         WeightsError: the cells come without points.
         TrainingError: see `run_training`.
     """
-    galleries = [source.training.features for source in sources]
-    labels = sorted({label for gallery in galleries for label in gallery.labels})
-    training = PointExamples.of(galleries, labels, CELLS_A_SOURCE, config.seed)
-    asked = [CellFeatures.of(source.gallery.cells, np.array(source.gallery.labels)) for source in sources]
-    validation = PointExamples.of(asked, labels, CHOSEN_BY_CELLS, config.seed)
+    labels = sorted({label for source in sources for label in source.training.labels})
+    training = PointExamples.of([source.training for source in sources], labels, CELLS_A_SOURCE, config.seed)
+    validation = PointExamples.of([source.validation for source in sources], labels, CHOSEN_BY_CELLS, config.seed)
     model = _Classifier(encoder.requires_grad_(True), len(labels))
     task = _PointTask(model, training, validation, config.batch_size)
     history = run_training(task, config, run_dir, resume, progress)

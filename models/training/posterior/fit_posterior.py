@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from models.checkpoint import CONFIG_FILE, round_large
+from models.checkpoint import CONFIG_FILE, round_weights
 from models.city.source import CHOSEN_BY, open_sources
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
@@ -79,7 +79,7 @@ def train_posterior(
         task = ReadingTask(trained.reader, training, validation, config.batch_size)
         record = settings_record(trained.method, model, config)
         history = run_training(task, config, run_dir, resume, progress, record=record)
-        round_large(trained)  # as `refit_posterior` reads it
+        round_weights(trained)  # as `refit_posterior` reads it
         fit_cues(trained.cues, labelled_texts(), EPOCHS, np.random.default_rng(config.seed))
     return fit_and_save(trained, validation, data, splits, out, config, history.best_step)
 

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
+from models.localization.checkpoint import FINE_METHODS, load_refiner
 from models.posterior.model import load_posterior
 
 
@@ -34,6 +35,15 @@ def test_description_gets_a_position_and_cells_that_exist(served, text):
     assert body["provenance"] == indexed | {"model": shipped.name, "model_sha256": shipped.fingerprint}
     vectors = served.post("/localize", json={"description": text, "refine": "none"}).json()
     assert vectors["provenance"] == indexed
+
+
+@pytest.mark.parametrize("refine", FINE_METHODS)
+def test_every_fine_stage_ships(served, text, refine):
+    response = served.post("/localize", json={"description": text, "refine": refine})
+    assert response.status_code == 200, response.text
+    body = response.json()
+    assert body["estimate"]["method"] == refine
+    assert body["provenance"]["model_sha256"] == load_refiner(refine).fingerprint
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,10 @@ import torch
 
 from index.evaluation import reproduce_jobs as module
 from index.evaluation.figure_3 import draw_figure_3
-from index.evaluation.reproduce_jobs import ALL, ALONE, LISTED, Z_SCORES
+from index.evaluation.reproduce_jobs import ALL, ALONE, LISTED, Z_SCORES, Job
 from models.localization.regressor import Regressor, RegressorConfig
 from models.retrieval.mncl import Mncl, MnclConfig
+from models.training.experiments import Run, Scale
 
 
 @pytest.mark.slow
@@ -26,3 +27,22 @@ def test_figure_3_is_drawn(asked, model, text_encoder, tmp_path) -> None:
     data, queries = asked
     draw_figure_3(data, queries, module._localizer(data, model, refiner=refiner), tmp_path / "figure3.png")
     assert (tmp_path / "figure3.png").stat().st_size > 50_000
+
+
+@pytest.mark.parametrize("method", ["mncl", "matching"])
+def test_results_go_with_the_files_of_a_text_encoder(osm_file, tmp_path, method) -> None:
+    encoder = tmp_path / "encoder"
+    (encoder / "pooling").mkdir(parents=True)
+
+    def key() -> str:
+        said = (f"model.text_encoder={encoder}",)
+        return Job.of(Run(method), 0, osm_file, tmp_path / "out", Scale(said, said, ())).key
+
+    keys = []
+    for name, content in (("weights", "a"), ("weights", "other"), ("pooling/config", "b"), ("weights", "a")):
+        (encoder / name).write_text(content)
+        keys.append(key())
+        assert key() == keys[-1]
+    assert len(set(keys)) == 4
+    (encoder / "pooling" / "config").unlink()
+    assert key() == keys[0]

@@ -1,9 +1,12 @@
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 import torch
+from safetensors.torch import load_file, save_file
 
+from models.checkpoint import LARGE
 from models.errors import WeightsError
 from models.localization.checkpoint import FINE_METHODS, load_fine, save_fine
 from models.localization.fine_model import CrossAttentionRound, Truth, nearest
@@ -170,6 +173,26 @@ def test_saved_and_loaded_is_the_same(fine_model, features, tmp_path) -> None:
     assert np.array_equal(again.predict(TEXTS, features, ROWS), fine_model.predict(TEXTS, features, ROWS))
 
 
+def test_weights_are_saved_to_half_a_step_of_their_row(fine_model, tmp_path) -> None:
+    torch.manual_seed(1)
+    model = type(fine_model)(fine_model.text_encoder, fine_model.config)
+    given = {name: torch.randn_like(t) if t.is_floating_point() else t for name, t in model.state_dict().items()}
+    given["hint_encoder.project.weight"][3] = 0.0
+    model.load_state_dict(given)
+    save_fine(model, tmp_path, {})
+    found = load_fine(tmp_path).state_dict()
+    for name, tensor in given.items():
+        if tensor.dim() > 1 and tensor.numel() > LARGE:
+            step = tensor.abs().amax(dim=1, keepdim=True) / 127
+            assert ((found[name] - tensor).abs() <= 0.57 * step).all(), (
+                "a half, and what a step in half precision is off"
+            )
+        else:
+            assert torch.allclose(found[name], tensor, rtol=1e-3, atol=1e-6)
+    kept = load_file(tmp_path / "model.safetensors")["hint_encoder.project.weight"]
+    assert kept.dtype == torch.int8
+
+
 @pytest.mark.parametrize(
     ("spoil", "message"),
     [
@@ -182,6 +205,7 @@ def test_saved_and_loaded_is_the_same(fine_model, features, tmp_path) -> None:
             "not of the model",
         ),
         (lambda d: (d / "config.json").write_text('{"method": "regressor", "fine": {"depth": 2}}'), "cannot be read"),
+        (lambda d: leave_out(d / "model.safetensors", "hint_encoder.project.weight.scale"), "not of the model"),
     ],
 )
 def test_broken_weights_are_refused(fine_model, tmp_path, spoil, message) -> None:
@@ -189,6 +213,12 @@ def test_broken_weights_are_refused(fine_model, tmp_path, spoil, message) -> Non
     spoil(tmp_path)
     with pytest.raises(WeightsError, match=message):
         load_fine(tmp_path)
+
+
+def leave_out(weights: Path, name: str) -> None:
+    tensors = load_file(weights)
+    del tensors[name]
+    save_file(tensors, weights)
 
 
 @pytest.mark.parametrize("method", FINE_METHODS)

@@ -27,7 +27,7 @@ from models.training.engine.devices import lent_to
 from models.training.posterior import fit_posterior
 from models.training.posterior.fit_reader import ReadingSet
 from models.training.settings import TrainingConfig
-from models.training.training_data import TrainingData
+from models.training.training_data import TrainingCells, TrainingData
 from tests.models.training.fake_device import FAKE, Away
 
 CPU = torch.device("cpu")
@@ -65,7 +65,7 @@ def fine(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> Non
 
 def shared_points(sources: Any, out: Path) -> None:
     """A point encoder that was made before."""
-    fit_points.train_points(partial(load, sources), out / "points", CONFIG)
+    fit_points.train_points([TrainingCells.of(*sources)], out / "points", CONFIG)
     given = CONFIG.model_copy(update={"points": out / "points"})
     config = METHODS["text2loc"].config_type(width=32, inputs=PAPERS)
     fit_retriever.train_retriever(partial(load, sources), out, METHODS["text2loc"], config, given)

@@ -21,7 +21,7 @@ from models.training.fit_points import train_points
 from models.training.fit_retriever import RetrievalTask, train_retriever
 from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect
 from models.training.settings import TrainingConfig, load_settings
-from models.training.training_data import TrainingData, load_training
+from models.training.training_data import TrainingCells, TrainingData, load_training
 from tests.models.city.raw_scenes import TRAIN_STREETS, VAL_STREET
 
 
@@ -178,7 +178,7 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(regions, 
     def load(encoder, rng):
         return [TrainingData.of(*regions, encoder, config, rng)]
 
-    figures = train_points(load, tmp_path / "points", config)
+    figures = train_points([TrainingCells.of(*regions)], tmp_path / "points", config)
     monkeypatch.setattr("models.training.fit_points.fit_points", None)  # none is trained again
     given = config.model_copy(update={"points": tmp_path / "points"})
     train_retriever(load, tmp_path / "coarse", Text2Loc, Text2LocConfig(width=32, inputs=PAPERS), given)

@@ -634,7 +634,7 @@ export interface components {
             grow?: number[] | null;
             /**
              * Refine
-             * @description posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances, whose weights do not ship; none: vector search alone, cells' centres; these three rank by all of the retriever's levels only on an index that was built with --levels
+             * @description posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, cells' centres; these three rank by all of the retriever's levels only on an index that was built with --levels
              * @default posterior
              * @enum {string}
              */
@@ -1049,7 +1049,7 @@ export interface components {
             crs: "map" | "wgs84";
             /**
              * Refine
-             * @description posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances, whose weights do not ship; none: vector search alone, cells' centres; these three rank by all of the retriever's levels only on an index that was built with --levels
+             * @description posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, cells' centres; these three rank by all of the retriever's levels only on an index that was built with --levels
              * @default posterior
              * @enum {string}
              */
