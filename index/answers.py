@@ -161,7 +161,7 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """The one thing whose answer would narrow an ambiguous answer most."""
+    """The one thing whose answer would narrow most where the speaker is."""
 
     id: Annotated[str, Field(description="what to send back; it says all that the service needs to know")]
     text: Annotated[str, Field(description="the question, in English")]
@@ -183,8 +183,8 @@ class Answer:
     """What the localizer found for one query.
 
     Attributes:
-        status: "ok"; "ambiguous" when the text fits several places; "no_match" when `within` holds no cell, or nothing
-            that is said is on the map.
+        status: "ok"; "ambiguous" when what is said and replied fits several places; "no_match" when `within` holds no
+            cell, or nothing that is said is on the map and no reply tells anything.
         model: what answered.
         estimate: None only with "no_match".
         candidates: best first.
@@ -193,8 +193,9 @@ class Answer:
         timings_ms: "encode", "search", "estimate"; what a batch shares counts for each of it.
         evidence: one a hint; the posterior alone says.
         heat_map: if it was asked for; the posterior alone has one.
-        question: what to ask; None unless the status is "ambiguous" and something would narrow it; the posterior alone
-            has one.
+        question: what to ask; None unless something would narrow the answer. With "ambiguous"; with "no_match" on a map
+            with names, of a text in English: its replies are an answer also where the text tells nothing; with "ok"
+            once something was replied, until half of the probability is within 10 m. The posterior alone has one.
     """
 
     status: Status

@@ -41,7 +41,7 @@ class Finding:
         place: the position in words.
         heading: where the speaker looks.
         warnings: what the caller should know.
-        question: what to ask if that is ambiguous.
+        question: what to ask if that is ambiguous, or refused.
     """
 
     located: Located | None
@@ -94,6 +94,7 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
             warnings=(*((finding.refusal,) if finding.refusal else ()), *finding.warnings),
             timings_ms=finding.timings_ms,
             evidence=finding.evidence,
+            question=finding.question,
         )
     p50, p90 = located.radii_m(0.5, 0.9)
     covariance = located.covariance_m2()

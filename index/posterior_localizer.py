@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from index.answers import Evidence, Method, ModelName
+from index.answers import Evidence, Method, ModelName, Question
 from index.filters import inside, log_prior, position_m
 from index.finding import Finding, is_ambiguous, pair
 from index.meaning import Meanings
@@ -50,6 +50,8 @@ NOTHING_SAID = (
 )
 NOWHERE = "no position of the map lies inside 'within'; move it onto the map or leave it out"
 NOTHING_FITS = "nothing that is said was found on the map; is it the right map?"
+OF_REPLIES = "the answer is of the replies: nothing that the description says was found there"
+GOOD_M = 10.0  # who has begun to reply is asked until half of the probability is this near
 
 
 class PosteriorLocalizer:
@@ -137,11 +139,12 @@ class PosteriorLocalizer:
         hints, mentions, told = self._places(query, language, hints)
         timings = {"encode": encode_ms + _since(start)}
         warnings += (*_not_found(mentions), *contradictions(mentions))
-        if not hints and told is None:
-            said = NOTHING_FITS if mentions else NOTHING_SAID
-            return Finding(None, said, timings_ms=timings, warnings=warnings)
-        start = time.perf_counter()
         reading = self.binding.reading(hints) if hints else None
+        heard = Heard.of(reading, mentions, self.labels.tolist(), self._gazetteer)
+        if not hints and told is None and answered is None:
+            said, question = NOTHING_FITS if mentions else NOTHING_SAID, self._rescue(query, language, heard)
+            return Finding(None, said, timings_ms=timings, warnings=warnings, question=question)
+        start = time.perf_counter()
         located = self._located(query, hints, reading, told, answered)
         timings["search"] = _since(start)
         if located is None:
@@ -149,12 +152,28 @@ class PosteriorLocalizer:
         start = time.perf_counter()
         finding = self._told_of(located, hints, reading, mentions, told)
         finding = replace(finding, evidence=_in_the_text(query.description, finding.evidence))
-        if is_ambiguous(located.radii_m(0.5)[0], self.gallery.cells) and not _is_elsewhere(query):
-            heard = Heard.of(reading, mentions, self.labels.tolist(), self._gazetteer)
+        fits = any(hint.explained >= EXPLAINED for hint in finding.evidence)
+        if not fits and answered is not None:
+            warnings += (OF_REPLIES,)
+        if not fits and answered is None and finding.evidence:
+            finding = replace(finding, refusal=NOTHING_FITS, question=self._rescue(query, language, heard))
+        elif self._is_wide(located, answered) and not _is_elsewhere(query):
             finding = replace(finding, question=self.questions.ask(located, heard, query.replies))
         timings["estimate"] = _since(start)
-        fits = any(hint.explained >= EXPLAINED for hint in finding.evidence) or not finding.evidence
-        return replace(finding, refusal=None if fits else NOTHING_FITS, timings_ms=timings, warnings=warnings)
+        return replace(finding, timings_ms=timings, warnings=warnings)
+
+    def _is_wide(self, located: Located, answered: Answered | None) -> bool:
+        """Whether more should be known of a place."""
+        p50 = located.radii_m(0.5)[0]
+        return is_ambiguous(p50, self.gallery.cells) or (answered is not None and p50 > GOOD_M)
+
+    def _rescue(self, query: Query, language: str, heard: Heard) -> Question | None:
+        """What to ask about a refused text; nothing on a map without names, and of a text that is not in English."""
+        if not self.questions.has_names or language != ENGLISH or _is_elsewhere(query):
+            return None
+        centers_m = self.gallery.cells.center_m[:, :2].astype(np.float64)
+        log_p = np.where(inside(query, centers_m, self.frame), log_prior(query, centers_m, self.frame), -np.inf)
+        return self.questions.ask_anywhere(log_p, heard, query.replies)
 
     def _told_of(
         self,

@@ -1,4 +1,4 @@
-"""The one question whose answer would narrow an ambiguous answer most, and what the answers to such questions tell."""
+"""The one question whose answer would narrow most where somebody is, and what the answers to such questions tell."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -148,11 +148,36 @@ class Questions:
         cells[self._owning] = at(self._middle)
         return Answered(cells, at)
 
+    @property
+    def has_names(self) -> bool:
+        """Whether the map has streets or places whose names can be asked for."""
+        return self._names.has("street") or self._names.has("name")
+
     def ask(self, located: Located, heard: Heard, replies: Sequence[Reply]) -> Question | None:
         """The question whose answer leaves the least expected entropy over cells; None if none is worth it."""
+        return self._ask(*self._places(located), heard, replies)
+
+    def ask_anywhere(self, log_prior: Floats, heard: Heard, replies: Sequence[Reply]) -> Question | None:
+        """The same of a text that tells nothing.
+
+        Args:
+            log_prior: [N] of the cells, any constant; -inf where it cannot be.
+            heard: what the text says nonetheless.
+            replies: none of which tells anything.
+        """
+        log_p = log_prior[self._owning]
+        if not (log_p > -np.inf).any():
+            return None
+        chance = np.exp(log_p - log_p.max())
+        # Of a distribution over all cells the same share each: a city is looked at everywhere, a prior at its middle.
+        share = (np.arange(PLACES) + 0.5) / PLACES
+        row, count = np.unique(np.searchsorted(chance.cumsum() / chance.sum(), share), return_counts=True)
+        return self._ask(self._middle[row], count / PLACES, heard, replies)
+
+    def _ask(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> Question | None:
+        """The best question about where one of some nodes [C], each in a cell of its own, may be; their mass is 1."""
         if len(replies) >= MOST_REPLIES:
             return None
-        nodes, mass = self._places(located)
         seen = self._sights.seen(nodes, sorted(self._things.values()))
         before = [asked for reply in replies if (asked := Asked.parse(reply.question)) is not None]
         closed = [asked for asked in self._of_things(mass, seen, heard) if asked not in before]

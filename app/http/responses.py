@@ -91,8 +91,10 @@ class LocalizeResponse(_Out):
     evidence: tuple[Evidence, ...] = Field(description="one a hint; empty unless refine is posterior")
     heat_map: HeatMap | None = Field(description="if it was asked for")
     question: Question | None = Field(
-        description="what to ask the speaker, whose answer would narrow this most: send it in `answers`; null unless "
-        "status is ambiguous"
+        description="what to ask the speaker, whose answer would narrow this most: send it in `answers`. With status "
+        "ambiguous; with no_match on a map with names, if the text is in English and not of a place outside `within`: "
+        "replies alone then make an answer; with ok once something was replied, until radius_m.p50 is 10 m. Else null, "
+        "and where nothing is worth asking"
     )
     crs: CrsOut
     provenance: Provenance

@@ -137,6 +137,7 @@ def test_a_text_about_nothing_is_no_match(answer):
     found = answer(Query("It rains and I like it."))
     assert (found.status, found.estimate) == ("no_match", None)
     assert "north of a gray building" in found.warnings[0]
+    assert found.question is None  # no name could be asked for on this map
 
 
 def test_things_that_the_map_has_not_are_no_match(answer):

@@ -4,13 +4,16 @@ import numpy as np
 import pytest
 
 from index.asked import Asked
-from index.query import MOST_REPLIES, Prior, Query, Reply
+from index.posterior_localizer import GOOD_M
+from index.query import MOST_REPLIES, Box, Circle, Prior, Query, Reply
 from index.questions import Heard
 from models.errors import ReplyError
 from models.posterior.questions import expected_entropy
 from tests.conftest import LAT, LAT_M, LON, LON_M
 
 VAGUE = Query("I am north of a tree.")
+SAYS_NOTHING = Query("There is a building near me, and a road.")
+FITS_NOTHING = Query("There is a volcano near me.")
 
 
 def mass_of_cells(located):
@@ -210,3 +213,61 @@ def test_nothing_is_asked_of_a_sure_answer_or_of_a_place_to_meet_at(localizer):
     )
     assert [answer.question for answer in answers] == [None, None, None]
     assert answers[1].status == "ok"
+
+
+@pytest.mark.parametrize("refused", [SAYS_NOTHING, FITS_NOTHING])
+def test_a_refused_text_has_a_question_and_its_reply_is_an_answer(localizer, refused):
+    [before] = localizer.localize([refused])
+    assert (before.status, before.estimate, before.question.id) == ("no_match", None, "street")
+    [after] = localizer.localize([replace(refused, replies=(Reply("street", "East Street 3"),))])
+    assert after.status != "no_match"
+    on_third = localizer.frame.from_wgs84(LAT + 180 * LAT_M, LON)[1]
+    assert abs(after.estimate.position[1] - on_third) < 30
+    assert any("of the replies" in warning for warning in after.warnings)
+
+
+def test_a_text_that_says_something_is_no_answer_of_replies_alone(localizer):
+    [answer] = localizer.localize([replace(VAGUE, replies=(Reply("street", "East Street 3"),))])
+    assert not answer.warnings
+
+
+def test_who_knows_nothing_is_asked_other_things_and_then_nothing(localizer):
+    query, found = SAYS_NOTHING, []
+    while (answer := localizer.localize([query])[0]).question is not None:
+        assert answer.status == "no_match"
+        found.append(answer.question.id)
+        query = replace(query, replies=(*query.replies, Reply(answer.question.id, "unknown")))
+    assert answer.status == "no_match"
+    assert found[0] == "street"
+    assert len(found) == len(set(found)) == MOST_REPLIES
+
+
+def test_what_is_offered_to_a_refused_text_is_where_it_may_have_been_said(localizer):
+    x, y = localizer.frame.from_wgs84(LAT + 240 * LAT_M, LON + 90 * LON_M)[:2]
+    near = {"East Street 3", "East Street 4", "East Street 5", "North Path 1", "North Path 2", "unknown"}
+    for where in ({"within": Box(x - 50, y - 50, x + 50, y + 50)}, {"prior": Prior((x, y), 25.0)}):
+        [answer] = localizer.localize([replace(SAYS_NOTHING, **where)])
+        assert answer.question.id == "street"
+        assert {choice.value for choice in answer.question.choices} <= near
+
+
+def test_not_every_refused_text_has_a_question(localizer):
+    """None that lies outside the map, is of a place to meet at, or in another language."""
+    queries = [
+        replace(SAYS_NOTHING, within=Circle((1e6, 1e6), 50.0)),
+        Query("Meet me near a building."),
+        Query("Seison talon ja tien vieressä, enkä tiedä missä olen."),
+    ]
+    answers = localizer.localize(queries)
+    assert [(answer.status, answer.question) for answer in answers] == [("no_match", None)] * 3
+
+
+def test_who_has_begun_to_reply_is_asked_until_the_place_is_good(localizer):
+    query, p50 = SAYS_NOTHING, np.inf
+    replies = {"street": "East Street 3", "corner": "North Path 2"}
+    while (question := localizer.localize([query])[0].question) is not None and len(query.replies) < MOST_REPLIES:
+        reply = Reply(question.id, replies.get(question.id, "unknown"))
+        query = replace(query, replies=(*query.replies, reply))
+        p50 = localizer.localize([query])[0].estimate.radius_m.p50
+    assert {reply.question for reply in query.replies} >= {"street", "corner"}
+    assert p50 <= GOOD_M or len(query.replies) == MOST_REPLIES

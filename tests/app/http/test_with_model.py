@@ -99,6 +99,19 @@ def test_a_question_is_answered_and_another_is_asked(served):
     assert unsure["question"]["id"] != question["id"]
 
 
+def test_a_text_that_is_refused_can_be_rescued_by_a_reply(served):
+    told = {"description": "There is a building near me, and a road."}
+    body = served.post("/localize", json=told).json()
+    assert (body["status"], body["estimate"], body["question"]["id"]) == ("no_match", None, "street")
+    reply = {"question": "street", "choice": "east street 3"}
+    after = served.post("/localize", json={**told, "answers": [reply]}).json()
+    assert after["status"] in {"ok", "ambiguous"}
+    assert "East Street 3" in after["estimate"]["place"]
+    unsure = served.post("/localize", json={**told, "answers": [reply | {"choice": "unknown"}]}).json()
+    assert unsure["status"] == "no_match"
+    assert unsure["question"]["id"] != "street"
+
+
 @pytest.mark.parametrize(
     ("question", "choice", "field"),
     [

@@ -136,6 +136,18 @@ def test_a_question_narrows_and_its_answer_can_be_taken_back(visit):
     assert response.value.json()["question"]["id"] == asked["id"]
 
 
+def test_a_text_that_is_refused_is_rescued_by_a_reply(visit):
+    visitor = visit().open()
+    page = visitor.page
+    refused = visitor.ask("There is a building near me, and a road.")
+    assert refused["status"] == "no_match"
+    assert page.inner_text(".question p") == refused["question"]["text"]
+    with page.expect_response("**/localize") as response:
+        page.click(f".question button >> text='{refused['question']['choices'][0]['text']}'")
+    assert response.value.json()["estimate"] is not None
+    page.wait_for_selector("text=You answered")
+
+
 def test_a_name_that_is_not_offered_is_typed_and_one_that_the_map_has_not_is_taken_back(visit):
     visitor = visit(errors=["422"]).open()
     page = visitor.page

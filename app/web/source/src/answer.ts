@@ -84,7 +84,7 @@ function headline(answer: Answer, places: Place[], asked: Given, acts: Acts): El
   const { estimate, status } = answer;
   if (!estimate) {
     const [title, advice] = nothing(answer, asked.isInside);
-    return h("div", {}, h("h2", { tabIndex: -1 }, title), h("p", {}, advice));
+    return h("div", {}, h("h2", { tabIndex: -1 }, title), h("p", {}, advice), question(answer, acts));
   }
   if (status === "ambiguous") {
     const fitting = places.filter((place) => place.fits).length;

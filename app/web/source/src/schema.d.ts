@@ -1270,7 +1270,7 @@ export interface components {
             evidence: components["schemas"]["Evidence"][];
             /** @description if it was asked for */
             heat_map: components["schemas"]["HeatMap"] | null;
-            /** @description what to ask the speaker, whose answer would narrow this most: send it in `answers`; null unless status is ambiguous */
+            /** @description what to ask the speaker, whose answer would narrow this most: send it in `answers`. With status ambiguous; with no_match on a map with names, if the text is in English and not of a place outside `within`: replies alone then make an answer; with ok once something was replied, until radius_m.p50 is 10 m. Else null, and where nothing is worth asking */
             question: components["schemas"]["Question"] | null;
             crs: components["schemas"]["CrsOut"];
             provenance: components["schemas"]["Provenance"];
@@ -1346,7 +1346,7 @@ export interface components {
         };
         /**
          * Question
-         * @description The one thing whose answer would narrow an ambiguous answer most.
+         * @description The one thing whose answer would narrow most where the speaker is.
          */
         Question: {
             /**
