@@ -13,7 +13,7 @@ from index.artifact import (
     write_manifest,
 )
 from index.hint_features import save_hint_features, template_hints
-from index.meaning import Meanings
+from index.posterior.meaning import Meanings
 from index.ranking import Ranker
 from models.city.gallery import MapData
 from models.city.kinds.vocabulary import load_vocabulary

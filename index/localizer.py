@@ -8,14 +8,14 @@ import numpy as np
 
 from index.answers import Answer, CellDetail, CellInstance, Described, IndexFacts, LatLon, ModelName
 from index.artifact import Manifest, check_model, open_version
-from index.describing import Describer
 from index.finding import CellLocalizer, to_answer
 from index.hint_features import load_hint_features
-from index.meaning import Meanings
-from index.posterior_localizer import PosteriorLocalizer
+from index.posterior.localizer import PosteriorLocalizer
+from index.posterior.meaning import Meanings
 from index.query import Query, Refine
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer, raw_sentences
+from index.words.describing import Describer
 from models.city.colours import PALETTES
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData

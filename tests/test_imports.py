@@ -21,8 +21,10 @@ PLACES = (*NAMES, "models.language.places", "models.posterior.places")
 SERVED = (*RETRIEVAL, *SOURCES, *PLACES, "models.city.scenery", "models.localization", "models.posterior")
 TRAINED = (*SERVED, GRAMMAR, "models.city.synthetic", "models.training", "models.training.engine")
 FITTED = (*TRAINED, "models.training.posterior")
-ANSWERS = (*SERVED, "index")
-MEASURES = (*FITTED, "index", "index.evaluation")
+INDEX = ("index", "index.asking", "index.posterior", "index.words")
+ANSWERS = (*SERVED, *INDEX)
+MEASURES = (*FITTED, *INDEX, "index.evaluation")
+REPRODUCES = (*MEASURES, "index.reproduction")
 # A package: whose modules it may import, beside its own. "models" stands for the modules right in models/.
 MAY_IMPORT = {
     "models": ("models.language",),
@@ -52,13 +54,17 @@ MAY_IMPORT = {
     "models.training": TRAINED,
     "models.training.posterior": FITTED,
     "models.training.engine": RETRIEVAL,
-    "index": SERVED,
+    "index": ANSWERS,
+    "index.asking": (*SERVED, "index"),
+    "index.posterior": ANSWERS,
+    "index.words": (*SERVED, "index"),
     "index.evaluation": MEASURES,
+    "index.reproduction": REPRODUCES,
     "app": ("app.http", "app.http.routes", "app.jobs", *ANSWERS),
     "app.http": ("app", "app.jobs", *ANSWERS),
     "app.http.routes": ("app", "app.http", "app.jobs", *ANSWERS),
     "app.jobs": ("app", "app.http", *MEASURES),
-    "app.cli": ("app", "app.http", "app.jobs", *MEASURES),
+    "app.cli": ("app", "app.http", "app.jobs", *REPRODUCES),
 }
 # Of a package that may be imported, the modules that may be; (importing, imported), sub-packages included.
 ONLY = {

@@ -42,9 +42,9 @@ def reproduce(
 ) -> None:
     """Make the tables 1-4 and figures 3-5 of MNCL: train what is missing, measure, print beside what is published."""
     from app.cli.progress import stage_bars
-    from index.evaluation.reproduce import chosen, figure_3_of, in_epochs
-    from index.evaluation.reproduce import reproduce as run
-    from index.evaluation.reproduce_report import write_reproduction
+    from index.reproduction.report import write_reproduction
+    from index.reproduction.reproduce import chosen, figure_3_of, in_epochs
+    from index.reproduction.reproduce import reproduce as run
     from models.training.experiments import POINTS, SCALES, Run, runs_of
 
     if steps and epochs:
@@ -78,7 +78,7 @@ def _checked(scale: "Scale", runs: "Sequence[Run]", config: Path | None) -> int:
     import torch
 
     from app.threads import usable_cpus
-    from index.evaluation.reproduce_jobs import settings_of
+    from index.reproduction.jobs import settings_of
     from models.training.engine.loop import pick_device
 
     kinds = set()

@@ -22,7 +22,7 @@ from models.errors import DataError
 
 if TYPE_CHECKING:  # torch takes seconds
     from index.finding import CellLocalizer
-    from index.posterior_localizer import PosteriorLocalizer
+    from index.posterior.localizer import PosteriorLocalizer
     from index.ranking import Ranker
     from index.vector_localizer import VectorLocalizer
     from models.retrieval.retriever import Retriever
@@ -94,7 +94,7 @@ class Evaluation(BaseModel):
 
     def _posterior(self, source: Source, progress: Progress) -> "PosteriorLocalizer":
         """The hint posterior of a data set."""
-        from index.posterior_localizer import PosteriorLocalizer  # noqa: PLC0415
+        from index.posterior.localizer import PosteriorLocalizer  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.posterior.surroundings import Surroundings  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415

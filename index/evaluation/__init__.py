@@ -1,6 +1,5 @@
 """Measuring: predictions of a model are saved, then scored (`scoring`) and drawn (`report`).
 
 `robustness`, `candidates` and `ambiguity` ask other questions, `questions` and `descriptions` measure what else the
-service says, `reproduce` trains and measures the paper's methods. May import index and all of models; nothing that
-answers imports it.
+service says. May import index and all of models; nothing that answers imports it.
 """

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from index.evaluation.report import Table
-from index.posterior_localizer import PosteriorLocalizer
+from index.posterior.localizer import PosteriorLocalizer
 from index.vector_localizer import raw_sentences
 from models.city.queries import Queries
 

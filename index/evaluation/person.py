@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from index.answers import Question
-from index.asked import OTHER, UNKNOWN, Asked
+from index.asking.asked import OTHER, UNKNOWN, Asked
 from index.query import Reply
 from models.city.colours import Palette
 from models.city.gallery import Bodies, Gallery

@@ -13,7 +13,7 @@ from index.evaluation.report import Table
 from index.evaluation.scoring import score
 from index.evaluation.trials import CANDIDATES_OF, Trial, all_trials
 from index.finding import CellLocalizer
-from index.posterior_localizer import PosteriorLocalizer
+from index.posterior.localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.city.cells import CellTable, Parts

@@ -15,7 +15,7 @@ from index.answers import Answer
 from index.evaluation.report import Table, as_markdown
 from index.evaluation.scoring import calibration
 from index.localizer import Localizer
-from index.place_reader import PlaceReader, constructions
+from index.posterior.place_reader import PlaceReader, constructions
 from index.query import Prior, Query
 from models.city.told_texts import SIGMA_M, ToldText
 from models.city.types import Floats, Progress

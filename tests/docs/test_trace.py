@@ -47,7 +47,7 @@ def test_a_description_begins_at_its_route_and_goes_on_where_the_model_is(descri
     files = [row[0] for row in rows]
     order = [
         "app/http/queue.py",
-        "index/posterior_localizer.py",
+        "index/posterior/localizer.py",
         "models/language/reader.py",
         "models/posterior/locate.py",
     ]

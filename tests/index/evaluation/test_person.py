@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from index.asked import OPEN, Asked
+from index.asking.asked import OPEN, Asked
 from index.evaluation import person as measured
 from index.evaluation.person import Person, Truth
 from index.query import Reply

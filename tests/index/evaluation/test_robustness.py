@@ -7,7 +7,7 @@ import torch
 from index.evaluation.candidates import SIZES, SOURCES, candidate_recall
 from index.evaluation.robustness import _damage, nearest_hints, robustness, robustness_tables
 from index.evaluation.trials import Trial, all_trials
-from index.posterior_localizer import PosteriorLocalizer
+from index.posterior.localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.city.types import Hint

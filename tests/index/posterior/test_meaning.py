@@ -1,6 +1,6 @@
 import pytest
 
-from index.meaning import PHRASES_FILE, VECTORS_FILE, Meanings
+from index.posterior.meaning import PHRASES_FILE, VECTORS_FILE, Meanings
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, Words, build_gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken

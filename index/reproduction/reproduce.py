@@ -10,7 +10,7 @@ from typing import Any
 import torch
 
 from index.evaluation.ambiguity import ambiguity
-from index.evaluation.reproduce_jobs import FIGURE_3, TEST, Job, localize, localized, train_and_measure
+from index.reproduction.jobs import FIGURE_3, TEST, Job, localize, localized, train_and_measure
 from models.city.source import open_source
 from models.city.types import Progress
 from models.errors import DataError

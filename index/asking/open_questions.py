@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from scipy.sparse import csr_array
 
-from index.asked import LISTED, OPEN, UNKNOWN, Asked
+from index.asking.asked import LISTED, OPEN, UNKNOWN, Asked
 from index.query import Reply
 from models.city.points import Ints
 from models.city.types import Floats

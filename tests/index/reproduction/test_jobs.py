@@ -3,9 +3,9 @@
 import pytest
 import torch
 
-from index.evaluation import reproduce_jobs as module
-from index.evaluation.figure_3 import draw_figure_3
-from index.evaluation.reproduce_jobs import ALL, ALONE, LISTED, Z_SCORES, Job
+from index.reproduction import jobs as module
+from index.reproduction.figure_3 import draw_figure_3
+from index.reproduction.jobs import ALL, ALONE, LISTED, Z_SCORES, Job
 from models.localization.regressor import Regressor, RegressorConfig
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.training.experiments import Run, Scale

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 
 from index.answers import Evidence, Method, ModelName, Question
+from index.asking.heard import Heard
+from index.asking.questions import Questions
 from index.filters import inside, log_prior, position_m
 from index.finding import Finding, is_ambiguous, pair
-from index.meaning import Meanings
-from index.place_reader import PlaceReader, may_be_near, near_hints
-from index.place_text import place_text
+from index.posterior.meaning import Meanings
+from index.posterior.place_reader import PlaceReader, may_be_near, near_hints
 from index.query import Query
-from index.questions import Heard, Questions
 from index.ranking import Ranker
+from index.words.place_text import place_text
 from models.city.colours import Palette
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData

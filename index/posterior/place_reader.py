@@ -9,7 +9,7 @@ import torch
 
 from index.answers import Evidence, Heading
 from index.finding import pair
-from index.meaning import Meanings
+from index.posterior.meaning import Meanings
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.types import Floats

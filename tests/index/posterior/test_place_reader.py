@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.place_reader import constructions, near_hints, without
+from index.posterior.place_reader import constructions, near_hints, without
 from index.query import Prior, Query
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention

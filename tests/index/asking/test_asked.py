@@ -1,6 +1,6 @@
 import pytest
 
-from index.asked import LISTED, OTHER, UNKNOWN, Asked
+from index.asking.asked import LISTED, OTHER, UNKNOWN, Asked
 from models.language.lexicon.asked import load_asked
 from models.language.lexicon.lexicon import load_lexicon
 

@@ -8,7 +8,7 @@ import torch
 from index.evaluation.evaluation import evaluate
 from index.finding import to_answer
 from index.localizer import Localizer
-from index.posterior_localizer import PosteriorLocalizer
+from index.posterior.localizer import PosteriorLocalizer
 from index.query import Box, Circle, Prior, Query
 from index.ranking import Ranker
 from models.language.parsed_hint import RELATIONS, ParsedHint

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from index.asked import OPEN, Asked
-from index.open_questions import OpenQuestions
+from index.asking.asked import OPEN, Asked
+from index.asking.open_questions import OpenQuestions
 from index.query import Reply
 from models.errors import ReplyError
 from models.posterior.places.landmarks import Landmarks

@@ -3,10 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.asked import Asked
-from index.posterior_localizer import GOOD_M
+from index.asking.asked import Asked
+from index.asking.heard import Heard
+from index.posterior.localizer import GOOD_M
 from index.query import MOST_REPLIES, Box, Circle, Prior, Query, Reply
-from index.questions import Heard
 from models.errors import ReplyError
 from models.posterior.questions import expected_entropy
 from tests.conftest import LAT, LAT_M, LON, LON_M

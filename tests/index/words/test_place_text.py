@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from index.place_text import place_text
+from index.words.place_text import place_text
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
 from tests.models.city.gazetteer.made_town import line, made_gazetteer, point
 

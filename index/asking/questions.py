@@ -1,14 +1,14 @@
 """The one question whose answer would narrow most where somebody is, and what the answers to such questions tell."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from index.answers import Question
-from index.asked import LISTED, OPEN, UNKNOWN, Asked
-from index.open_questions import OpenQuestions
+from index.asking.asked import LISTED, UNKNOWN, Asked
+from index.asking.heard import Heard
+from index.asking.open_questions import OpenQuestions
 from index.query import MOST_REPLIES, Reply
 from models.city.cells import CellTable
 from models.city.colours import Palette
@@ -17,10 +17,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.asked import load_asked
-from models.language.places.mentions import Mention
 from models.localization.located import Located
-from models.posterior.binding import LIKELY, TRUSTED
-from models.posterior.likelihood import Reading
 from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors
@@ -29,72 +26,6 @@ from models.posterior.sights import Seen, Sights
 LEAST_GAIN: Final = 0.1  # bits; what narrows no more is not worth asking
 PLACES: Final = 256  # cells that a question is chosen by: the likeliest
 FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it has is not asked about
-
-
-@dataclass(frozen=True, slots=True)
-class Heard:
-    """What is known of a place already, and need not be asked.
-
-    Attributes:
-        labels: classes that the text names.
-        winds: of these, those with a wind.
-        colours: of these, those with a colour.
-        is_on_street: whether a street is named.
-        is_at_corner: whether two streets are named that meet.
-        is_at_name: whether a place is named.
-        has_winds: whether the speaker knows where north is, as far as the text tells.
-    """
-
-    labels: frozenset[str] = frozenset()
-    winds: frozenset[str] = frozenset()
-    colours: frozenset[str] = frozenset()
-    is_on_street: bool = False
-    is_at_corner: bool = False
-    is_at_name: bool = False
-    has_winds: bool = True
-
-    @classmethod
-    def of(
-        cls, reading: Reading | None, mentions: Sequence[Mention], labels: Sequence[str], gazetteer: Gazetteer
-    ) -> "Heard":
-        """What a text says.
-
-        Args:
-            reading: of what is near; None if it tells of nothing near.
-            mentions: of places.
-            labels: the map's classes.
-            gazetteer: the map's names.
-        """
-        labelled, with_wind, with_colour = set[str](), set[str](), set[str]()
-        if reading is not None:
-            trust, number = reading.label.max(dim=1)
-            relation, colour = reading.relation[:, :-1].sum(dim=1), 1 - reading.colour[:, -1]
-            for n in (trust >= TRUSTED).nonzero().flatten().tolist():
-                label = labels[int(number[n])]
-                labelled.add(label)
-                with_wind |= {label} if relation[n] > LIKELY else set()
-                with_colour |= {label} if colour[n] > LIKELY else set()
-        labelled |= {kind.rsplit("/")[-1].replace("_", " ") for mention in mentions for kind in mention.kinds}
-        return cls(
-            labels=frozenset(labelled),
-            winds=frozenset(with_wind),
-            colours=frozenset(with_colour),
-            is_on_street=any(mention.form in {"street", "address", "corner", "span"} for mention in mentions),
-            is_at_corner=any(mention.form in {"corner", "span"} for mention in mentions),
-            is_at_name=any(mention.form == "thing" and mention.is_exact for mention in mentions),
-            has_winds=not len(gazetteer) or bool(with_wind) or any(m.cue.wind is not None for m in mentions),
-        )
-
-    def open(self, replies: Sequence[Reply]) -> list[Asked]:
-        """The open questions that neither the text nor replies have answered."""
-        before = {reply.question: reply.choice for reply in replies}
-        is_on_street = self.is_on_street or before.get("street", UNKNOWN) != UNKNOWN
-        left = {
-            "street": not self.is_on_street,
-            "name": not self.is_at_name,
-            "corner": is_on_street and not self.is_at_corner,
-        }
-        return [asked for asked in map(Asked, OPEN) if left[asked.kind] and asked.kind not in before]
 
 
 class Questions:

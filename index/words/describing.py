@@ -18,7 +18,7 @@ from scipy.spatial import cKDTree
 
 from index.answers import Described, Fact, LatLon
 from index.finding import pair
-from index.place_text import AT_CORNER_M, nearest_street, place_text, street_text, ways_from, wind_of
+from index.words.place_text import AT_CORNER_M, nearest_street, place_text, street_text, ways_from, wind_of
 from models.city.colours import Palette
 from models.city.frame import Frame
 from models.city.gallery import Gallery

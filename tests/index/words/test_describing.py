@@ -4,7 +4,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.describing import (
+from index.query import Query
+from index.words.describing import (
     MOST_FACTS,
     OPEN_M,
     SEEN_M,
@@ -15,7 +16,6 @@ from index.describing import (
     named_text,
     street_facts,
 )
-from index.query import Query
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
 from models.city.types import Hint
 from models.language.places.cues import WIND_DEGREES

@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 import torch
 
-from index.evaluation import reproduce as module
-from index.evaluation.reproduce import chosen, in_epochs
-from index.evaluation.reproduce_report import markdown, write_reproduction
+from index.reproduction import reproduce as module
+from index.reproduction.report import markdown, write_reproduction
+from index.reproduction.reproduce import chosen, in_epochs
 from models.city.source import open_source
 from models.errors import DataError
 from models.training.experiments import POINTS, Experiment, Row, Run, Scale, made_of, pairs_of, runs_of

@@ -14,8 +14,8 @@ import torch
 
 from index.artifact import fingerprint
 from index.evaluation.evaluation import evaluate
-from index.evaluation.figure_3 import draw_figure_3
 from index.ranking import RERANKED, Ranker
+from index.reproduction.figure_3 import draw_figure_3
 from index.vector_localizer import VectorLocalizer
 from models.city.gallery import MapData
 from models.city.queries import Queries
