@@ -113,7 +113,7 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
     ranker = localizer.by_vectors("none").ranker
     steps: dict[str, list[float]] = {"read": [], "posterior": [], "candidates": [], "encode": [], "vector_search": []}
     for text in texts:
-        [hints] = _timed(steps["read"], posterior.parse, [" ".join(text)])
+        [hints] = _timed(steps["read"], posterior.texts.parse, [" ".join(text)])
         reading = posterior.binding.reading(hints)
         also = _timed(steps["candidates"], posterior.candidates, hints, reading)
         _timed(steps["posterior"], partial(locate, also=also), posterior.nodes, reading)

@@ -31,7 +31,7 @@ def candidate_recall(queries: Queries, posterior: PosteriorLocalizer) -> list[di
     rendered = posterior.sentences(descriptions)
     for q, (raw, said) in enumerate(zip(raw_sentences(descriptions), rendered, strict=True)):
         texts = retriever.encode_texts([raw, said or raw])
-        hints = posterior.parse(descriptions[q : q + 1])[0]
+        hints = posterior.texts.parse(descriptions[q : q + 1])[0]
         by_list = posterior.nodes.cell_scores(posterior.binding.reading(hints)) if hints else np.zeros(deepest)
         orders = [*posterior.ranker.search(texts, deepest)[1], np.argsort(-by_list, kind="stable")[:deepest]]
         for n, order in enumerate(orders):

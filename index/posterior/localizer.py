@@ -1,8 +1,7 @@
 """The hint posterior on one gallery: a description read, candidates from the vector index and the inverted list."""
 
 import time
-from collections import OrderedDict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,6 +14,7 @@ from index.filters import inside, log_prior, position_m
 from index.finding import Finding, is_ambiguous, pair
 from index.posterior.meaning import Meanings
 from index.posterior.place_reader import PlaceReader, may_be_near, near_hints
+from index.posterior.texts import Texts, as_read, in_the_text
 from index.query import Query
 from index.ranking import Ranker
 from index.words.place_text import place_text
@@ -29,7 +29,6 @@ from models.language.places.languages import ENGLISH, NAMES, language_of
 from models.language.places.mentions import Mention
 from models.language.places.reader import is_meeting, listener_wind
 from models.language.reader import COLOURS
-from models.language.sentences import reader_texts, spans_in
 from models.localization.located import Located
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading
@@ -40,10 +39,7 @@ from models.posterior.posterior import CANDIDATES, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.surroundings import STEP_M, Surroundings
 
-LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
-KEPT_TEXTS = 2000
 PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
-READ_AT_ONCE = 16
 EXPLAINED = 0.5  # a hint counts as explained from this probability on
 NOTHING_SAID = (
     "nothing in the description says what is around the speaker; name things and directions, for example "
@@ -98,7 +94,7 @@ class PosteriorLocalizer:
             of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings
             self.places = PlaceReader(model.places, model.cues, *of_map)
         self.questions = Questions(self.nodes.sights, self.labels.tolist(), palette, gazetteer, gallery.cells)
-        self._read_lately: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
+        self.texts = Texts(model.reader)
 
     @classmethod
     def of_map(
@@ -127,7 +123,7 @@ class PosteriorLocalizer:
     def find(self, queries: Sequence[Query]) -> list[Finding]:
         """See CellLocalizer."""
         start = time.perf_counter()
-        parsed = self.parse([query.description for query in queries])
+        parsed = self.texts.parse([query.description for query in queries])
         encode_ms = _since(start)
         return [self._find(*each, encode_ms) for each in zip(queries, parsed, strict=True)]
 
@@ -152,7 +148,7 @@ class PosteriorLocalizer:
             return Finding(None, NOWHERE, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
         finding = self._told_of(located, hints, reading, mentions, told)
-        finding = replace(finding, evidence=_in_the_text(query.description, finding.evidence))
+        finding = replace(finding, evidence=in_the_text(query.description, finding.evidence))
         fits = any(hint.explained >= EXPLAINED for hint in finding.evidence)
         if not fits and answered is not None:
             warnings += (OF_REPLIES,)
@@ -200,7 +196,7 @@ class PosteriorLocalizer:
         if self.places is None:
             return hints, [], None
         listener_m = None if query.prior is None else position_m(query.prior.position, query.crs, self.frame)
-        text = _as_read(query.description)
+        text = as_read(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
         mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)
         hints = [] if mentions and _is_elsewhere(query) else may_be_near(hints, mentions)
@@ -249,27 +245,8 @@ class PosteriorLocalizer:
         """Descriptions in the retriever's words, as far as they were read: template sentences of the map's classes."""
         return [
             self.binding.sentences(hints, self.binding.reading(hints)) if hints else ()
-            for hints in self.parse(descriptions)
+            for hints in self.texts.parse(descriptions)
         ]
-
-    def parse(self, descriptions: Sequence[str]) -> list[tuple[ParsedHint, ...]]:
-        """What each description names; several go through the reader together, the latest are remembered.
-
-        Characters are those of `reader_texts`, joined by blanks.
-        """
-        pieces = [reader_texts(description, LONGEST) for description in descriptions]
-        texts = [text for some in pieces for text in some]
-        kept = self._read_lately
-        new = sorted({text for text in texts if text not in kept}, key=len)  # those of like length together
-        for start in range(0, len(new), READ_AT_ONCE):
-            some = new[start : start + READ_AT_ONCE]
-            kept.update((text, tuple(found)) for text, found in zip(some, self.weights.reader.read(some), strict=True))
-        for text in texts:
-            kept.move_to_end(text)
-        parsed = [tuple(_shifted(some, kept)) for some in pieces]
-        while len(kept) > KEPT_TEXTS:
-            kept.popitem(last=False)
-        return parsed
 
     def _evidence(self, hints: Sequence[ParsedHint], reading: Reading, located: Located) -> tuple[Evidence, ...]:
         """How each hint was understood, and what explains it at the best position."""
@@ -304,25 +281,6 @@ class PosteriorLocalizer:
             explained=explained,
             **shown,
         )
-
-
-def _as_read(description: str) -> str:
-    """The text that the places of hints and mentions are of."""
-    return " ".join(reader_texts(description, LONGEST)) or description
-
-
-def _in_the_text(description: str, evidence: Sequence[Evidence]) -> tuple[Evidence, ...]:
-    """Evidence with its places in the description, not in what was made of it for the reader."""
-    spans = spans_in(description, _as_read(description), [hint.span or (0, 0) for hint in evidence])
-    return tuple(replace(hint, span=span) for hint, span in zip(evidence, spans, strict=True))
-
-
-def _shifted(pieces: Sequence[str], read: Mapping[str, Sequence[ParsedHint]]) -> Iterator[ParsedHint]:
-    """The hints of the pieces of a text, with their places in the whole."""
-    before = 0
-    for piece in pieces:
-        yield from (replace(hint, start=hint.start + before, end=hint.end + before) for hint in read[piece])
-        before += len(piece) + 1
 
 
 def _is_elsewhere(query: Query) -> bool:

@@ -164,7 +164,7 @@ def test_several_texts_together_are_where_each_alone_is(localizer, refine) -> No
     ]
     together = localizer.localize([Query(text, refine=refine) for text in texts])
     for text, one in zip(texts, together, strict=True):
-        localizer.posterior._read_lately.clear()
+        localizer.posterior.texts._kept.clear()
         (alone,) = localizer.localize([Query(text, refine=refine)])
         assert alone.estimate.position == pytest.approx(one.estimate.position, abs=1e-3)
         assert [c.cell_id for c in alone.candidates] == [c.cell_id for c in one.candidates]

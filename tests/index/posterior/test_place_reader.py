@@ -128,7 +128,7 @@ def test_odd_texts_are_answered_without_numbers_that_are_none(localizer, text) -
 def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(localizer) -> None:
     posterior = localizer.posterior
     for text, kept in (("I am north of a bench.", 1), ("There is a bench on my left.", 0)):
-        [hints] = posterior.parse([text])
+        [hints] = posterior.texts.parse([text])
         trust = posterior.binding.reading(hints).label.amax(dim=1).tolist()
         mentions = posterior.places.read(text, "en", to_listener=False)
         near, places = near_hints(hints, trust, mentions)
@@ -137,7 +137,7 @@ def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(local
 
 def test_a_class_that_the_gazetteer_lacks_stays_a_hint(localizer) -> None:
     posterior = localizer.posterior
-    [hints] = posterior.parse(["The pose is south of a bench."])
+    [hints] = posterior.texts.parse(["The pose is south of a bench."])
     lacks = Mention("bench", 23, 28, "unknown", kinds=("amenity/bench",), cue=Cue("wind", wind=0.0))
     assert near_hints(hints, [1.0], [lacks]) == ([0], [])
     assert near_hints(hints, [1.0], [replace(lacks, kinds=())])[0] == [], "a name is no class"
