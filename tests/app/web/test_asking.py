@@ -62,7 +62,7 @@ def test_a_pressed_mention_shows_where_it_is(visit):
     cafe = next(each for each in answer["evidence"] if each["name"] == "Café Sirius")
     x, y = ((a + b) / 2 for a, b in zip(answer["estimate"]["position"], cafe["at"], strict=True))
     visitor.page.wait_for_function(
-        "([x, y]) => { const at = new URLSearchParams(location.hash.slice(1)).get('at').split(',');"
+        "([x, y]) => { const at = (new URLSearchParams(location.hash.slice(1)).get('at') ?? '').split(',');"
         " return Math.hypot(at[0] - x, at[1] - y) < 1; }",
         arg=[x, y],
     )

@@ -6,12 +6,14 @@ import {
   Points, PointsMaterial, Scene, WebGLRenderer,
 } from "three";
 import { FIELD_OF_VIEW, type Camera } from "./camera";
-import { GROUND, RISING, WALLS, type Look } from "./look";
+import { GROUND, RISING, WALLS, type Look, type Paint } from "./look";
 import { Triangles, fill, raise, widen } from "./mesh";
 import { AREA, POINT, type Cloud, type Scenery, type Shape, type Shapes } from "./scenery";
 
 const CLOSE = 900; // metres from which small things are drawn
-const COARSE = 0.6; // of a pixel's edge: how finely a CPU draws a map that moves
+const FAR = 1500; // from which on a CPU draws no walls and paths while the map moves: it is triangles that cost it time
+const FARTHER = 3500; // from which on paths are thinner than a pixel
+const NARROW = new Set<Paint>(["path", "crossing", "rail"]);
 const TILE = 1200; // metres; what lies in tiles out of sight is not drawn
 
 export interface MapPicture {
@@ -28,6 +30,8 @@ export class Map3d implements MapPicture {
   private readonly eye = new PerspectiveCamera(FIELD_OF_VIEW);
   private small: Object3D[] = []; // drawn from near
   private rough: Object3D[] = []; // drawn from afar
+  private narrow: Object3D[] = []; // drawn but from very far
+  private upright: Object3D[] = []; // drawn from afar when there is time
   private fine: Object3D[] = []; // drawn when there is time
   private readonly slow = isSoftware();
 
@@ -44,7 +48,7 @@ export class Map3d implements MapPicture {
       for (const each of [material].flat()) each?.dispose();
     });
     this.scene.clear();
-    [this.small, this.rough, this.fine] = [[], [], []];
+    [this.small, this.rough, this.narrow, this.upright, this.fine] = [[], [], [], [], []];
     this.scene.background = new Color(look.ground);
     for (const scenery of sceneries) {
       if (scenery.kind === "points") this.scene.add(cloud(scenery));
@@ -54,8 +58,7 @@ export class Map3d implements MapPicture {
 
   draw(hurried: boolean): void {
     const { camera, renderer, eye } = this;
-    const hurries = this.slow && hurried;
-    const ratio = Math.min(2, devicePixelRatio) * (hurries ? COARSE : 1);
+    const ratio = Math.min(2, devicePixelRatio);
     const [wide, high] = [camera.width, camera.height].map((size) => Math.floor(size * ratio));
     if (this.canvas.width !== wide || this.canvas.height !== high) {
       renderer.setPixelRatio(ratio);
@@ -68,8 +71,11 @@ export class Map3d implements MapPicture {
     else eye.up.set(0, 0, 1);
     eye.lookAt(x, y, 0);
     eye.updateProjectionMatrix();
-    for (const object of this.small) object.visible = camera.pose.distance < CLOSE;
-    for (const object of this.rough) object.visible = camera.pose.distance >= CLOSE && !hurries;
+    const [{ distance }, hurries] = [camera.pose, this.slow && hurried];
+    for (const object of this.small) object.visible = distance < CLOSE;
+    for (const object of this.rough) object.visible = distance >= CLOSE && !hurries;
+    for (const object of this.narrow) object.visible = distance < (hurries ? FAR : FARTHER);
+    for (const object of this.upright) object.visible = distance < FAR || !hurries;
     for (const object of this.fine) object.visible = !hurries;
     renderer.render(this.scene, eye);
   }
@@ -80,7 +86,7 @@ export class Map3d implements MapPicture {
     for (const shape of map.shapes) by.get(shape.label)!.push(shape);
     map.labels.forEach((label, n) => {
       const shapes = by.get(label) ?? [];
-      if (label in GROUND) this.flat(shapes, look[GROUND[label]], map.labels.length - n);
+      if (label in GROUND) this.flat(shapes, GROUND[label], look, map.labels.length - n);
     });
     this.buildings(by, look);
     this.walls(by, look);
@@ -88,17 +94,20 @@ export class Map3d implements MapPicture {
     this.things(map.shapes.filter((shape) => shape.form === POINT && shape.label !== "tree"), look);
   }
 
-  private flat(shapes: Shape[], paint: string, order: number): void {
+  private flat(shapes: Shape[], paint: Paint, look: Look, order: number): void {
     const material = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, depthTest: false, depthWrite: false });
-    for (const tile of tiles(shapes)) {
-      const out = new Triangles();
-      for (const shape of tile) {
-        if (shape.form === AREA) fill(out, shape, 0);
-        else if (shape.form !== POINT) widen(out, shape, 0);
+    const isNarrow = (shape: Shape) => NARROW.has(paint) && shape.form !== AREA;
+    for (const [some, shown] of [[shapes.filter((shape) => !isNarrow(shape)), undefined], [shapes.filter(isNarrow), this.narrow]] as const) {
+      for (const tile of tiles(some)) {
+        const out = new Triangles();
+        for (const shape of tile) {
+          if (shape.form === AREA) fill(out, shape, 0);
+          else if (shape.form !== POINT) widen(out, shape, 0);
+        }
+        const mesh = new Mesh(geometry(out, new Color(look[paint])), material);
+        mesh.renderOrder = order - 1000;
+        this.add(mesh, shown);
       }
-      const mesh = new Mesh(geometry(out, new Color(paint)), material);
-      mesh.renderOrder = order - 1000;
-      this.add(mesh);
     }
   }
 
@@ -109,16 +118,17 @@ export class Map3d implements MapPicture {
     ];
     for (const [label, paint] of Object.entries(RISING)) {
       for (const tile of tiles((by.get(label) ?? []).filter((shape) => shape.form === AREA))) {
-        const [out, edges] = [new Triangles(), [] as number[]];
+        const [roofs, sides, edges] = [new Triangles(), new Triangles(), [] as number[]];
         for (const shape of tile) {
           const top = Math.max(shape.top, shape.base + 0.5);
-          raise(out, shape, shape.base, top);
-          fill(out, shape, top, 1);
+          raise(sides, shape, shape.base, top);
+          fill(roofs, shape, top, 1);
           for (const path of shape.paths) {
             for (let n = 0; n + 3 < path.length; n += 2) edges.push(path[n], path[n + 1], top, path[n + 2], path[n + 3], top);
           }
         }
-        this.add(new Mesh(geometry(out, new Color(look[paint])), material));
+        this.add(new Mesh(geometry(roofs, new Color(look[paint])), material));
+        this.add(new Mesh(geometry(sides, new Color(look[paint])), material), this.upright);
         const lines = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(edges), 3));
         this.add(new LineSegments(lines, edge), this.fine);
       }
