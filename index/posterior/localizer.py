@@ -40,6 +40,7 @@ from models.posterior.questions import Answered
 from models.posterior.surroundings import STEP_M, Surroundings
 
 PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
+REPLY_CANDIDATES = 1024  # where replies are all that is known: they may name a street of some kilometres
 EXPLAINED = 0.5  # a hint counts as explained from this probability on
 NOTHING_SAID = (
     "nothing in the description says what is around the speaker; name things and directions, for example "
@@ -212,12 +213,13 @@ class PosteriorLocalizer:
         told: Told | None,
         answered: Answered | None,
     ) -> Located | None:
+        count = REPLY_CANDIDATES if reading is None else CANDIDATES
         located = locate(
             self.nodes,
             reading,
             None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
             None if query.within is None else inside(query, self.nodes.nodes_m, self.frame),
-            PLACE_CANDIDATES if told is not None else CANDIDATES,
+            PLACE_CANDIDATES if told is not None else count,
             also=None if reading is None else self.candidates(hints, reading),
             told=told,
             answered=answered,
