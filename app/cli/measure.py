@@ -17,6 +17,7 @@ from models.errors import DataError
 
 if TYPE_CHECKING:
     from app.settings import Settings
+    from index.evaluation.report import Table as Rows
 
 
 def evaluate(
@@ -82,22 +83,23 @@ def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> Non
     weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     with stage_bars() as show:
         found = evaluate_told(Localizer.open(settings.index_dir, *weights), texts, report, show)
-    for head, rows in told_tables(found):
-        table = Table(*head)
-        for row in rows:
-            table.add_row(*row)
-        Console(width=150).print(table)
+    _print_tables(Console(width=150), *told_tables(found))
 
 
 def _print_robustness(found: dict[str, Any]) -> None:
     from index.evaluation.robustness import robustness_tables
 
-    Console(width=140).print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
-    for head, rows in robustness_tables(found):
+    console = Console(width=140)
+    console.print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
+    _print_tables(console, *robustness_tables(found))
+
+
+def _print_tables(console: Console, *tables: "Rows") -> None:
+    for head, rows in tables:
         table = Table(*head)
         for row in rows:
             table.add_row(*row)
-        Console(width=140).print(table)
+        console.print(table)
 
 
 def _radii(grow: str | None) -> list[float]:
@@ -116,12 +118,7 @@ def _print_report(report: dict[str, Any]) -> None:
     tables += [group_table(name, report[key]) for name, key in (("scene", "by_scene"), ("strategy", "by_strategy"))]
     if "growth" in report:
         tables.append(growth_table(report["growth"]))
-    for head, rows in tables:
-        if len(rows) > 1:
-            table = Table(*head)
-            for row in rows:
-                table.add_row(*row)
-            console.print(table)
+    _print_tables(console, *((head, rows) for head, rows in tables if len(rows) > 1))
     low, high = report["intervals"]["retrieval"]["5"]
     line = f"R@5 95 % interval {low:.3f}-{high:.3f}; calibration error of the probability: "
     line += f"{report['calibration']['expected_calibration_error']:.3f}"
@@ -152,13 +149,9 @@ def questions(
     with stage_bars() as show:
         source = open_source(data, split, show)
         found = evaluate_questions(localizer, source, texts, seed, show, is_plain=plain)
-    head, rows = questions_table(found)
-    table = Table(*head)
-    for row in rows:
-        table.add_row(*row)
     console = Console(width=120)
     console.print(f"{found['data']}: {found['texts']} texts, seed {seed}")
-    console.print(table)
+    _print_tables(console, questions_table(found))
     console.print("asked: " + ", ".join(f"{count} {kind}" for kind, count in found["kinds"].items()))
 
 
@@ -178,13 +171,9 @@ def descriptions(
     localizer = Localizer.open(settings.index_dir, *weights)
     with stage_bars() as show:
         found = evaluate_descriptions(localizer, positions, seed, show)
-    head, rows = descriptions_table(found)
-    table = Table(*head)
-    for row in rows:
-        table.add_row(*row)
     console = Console(width=120)
     console.print(f"{found['data']}: {found['positions']} positions, seed {seed}")
-    console.print(table)
+    _print_tables(console, descriptions_table(found))
 
 
 def benchmark(
