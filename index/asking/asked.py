@@ -8,11 +8,12 @@ from index.answers import Choice, Question
 from models.language.lexicon.asked import load_asked
 from models.posterior.sights import NEAR_M, QUARTERS
 
-Kind = Literal["near", "way", "colour", "street", "name", "corner"]
+Kind = Literal["near", "way", "colour", "street", "name", "corner", "address"]
 OPEN: Final[Mapping[Kind, str]] = {
     "street": "Which street are you on?",
     "name": "What is the name of a shop or another place that you see?",
     "corner": "Which street crosses the street you are on nearest to you?",
+    "address": "What is the number of the house nearest to you, and its street?",
 }
 UNKNOWN: Final = "unknown"
 OTHER: Final = "other"
@@ -28,7 +29,7 @@ class Asked:
 
     Attributes:
         kind: whether a thing is near, which way the nearest is, its colour; or for which name is asked: of the street
-            one is on, of a place that one sees, of the nearest street that crosses.
+            one is on, of a place that one sees, of the nearest street that crosses, of the nearest house.
         names: the class it is about, and for colours what there is to choose from; none where a name is asked for.
     """
 

@@ -22,6 +22,7 @@ class Heard:
         is_on_street: whether a street is named.
         is_at_corner: whether two streets are named that meet.
         is_at_name: whether a place is named.
+        is_at_house: whether a house number is.
         has_winds: whether the speaker knows where north is, as far as the text tells.
     """
 
@@ -31,6 +32,7 @@ class Heard:
     is_on_street: bool = False
     is_at_corner: bool = False
     is_at_name: bool = False
+    is_at_house: bool = False
     has_winds: bool = True
 
     @classmethod
@@ -62,16 +64,18 @@ class Heard:
             is_on_street=any(mention.form in {"street", "address", "corner", "span"} for mention in mentions),
             is_at_corner=any(mention.form in {"corner", "span"} for mention in mentions),
             is_at_name=any(mention.form == "thing" and mention.is_exact for mention in mentions),
+            is_at_house=any(mention.form == "address" for mention in mentions),
             has_winds=not len(gazetteer) or bool(with_wind) or any(m.cue.wind is not None for m in mentions),
         )
 
     def open(self, replies: Sequence[Reply]) -> list[Asked]:
         """The open questions that neither the text nor replies have answered."""
         before = {reply.question: reply.choice for reply in replies}
-        is_on_street = self.is_on_street or before.get("street", UNKNOWN) != UNKNOWN
+        is_on_street = self.is_on_street or any(before.get(kind, UNKNOWN) != UNKNOWN for kind in ("street", "address"))
         left = {
             "street": not self.is_on_street,
             "name": not self.is_at_name,
             "corner": is_on_street and not self.is_at_corner,
+            "address": not self.is_at_house,
         }
         return [asked for asked in map(Asked, OPEN) if left[asked.kind] and asked.kind not in before]

@@ -1,4 +1,4 @@
-"""Questions whose reply is a name that people read off a sign: a street, a place, the nearest cross street."""
+"""Questions whose reply people read off a sign: a street, a place, the nearest cross street or house number."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -11,11 +11,13 @@ from index.query import Reply
 from models.city.points import Ints
 from models.city.types import Floats
 from models.errors import ReplyError
-from models.posterior.places.landmarks import Landmarks
+from models.posterior.places.addresses import Addresses
+from models.posterior.places.landmarks import Landmarks, Table
 from models.posterior.places.spelt import Spelt
 from models.posterior.questions import said_with_errors
 
 _NONE: Final = np.zeros(0, np.int64)
+_WHAT: Final = {"name": "place that people know by its name", "address": "house number and street"}
 
 
 class OpenQuestions:
@@ -53,21 +55,29 @@ class OpenQuestions:
         landmarks, names = self._landmarks, len(self._spelt(asked.kind))
         if asked.kind == "corner":
             return landmarks.crossings.rows(cells, self._street(replies)), names
-        return (landmarks.on_street if asked.kind == "street" else landmarks.said).rows[cells], names
+        return self._table(asked.kind).rows[cells], names
 
     def likeliest(self, asked: Asked, share: Floats) -> list[str]:
         """At most LISTED names, likeliest first, of [K] the share of each."""
         best = np.argsort(-share, kind="stable")[:LISTED]
         return [self._spelt(asked.kind).shown[n] for n in best.tolist() if share[n] > 0]
 
-    def _spelt(self, kind: str) -> Spelt:
+    def _spelt(self, kind: str) -> Spelt | Addresses:
+        if kind == "address":
+            return self._landmarks.addresses
         return self._landmarks.names if kind == "name" else self._landmarks.streets
+
+    def _table(self, kind: str) -> Table:
+        """What is true of each name; but of corners, which ask for the street that one is on."""
+        if kind == "address":
+            return self._landmarks.numbered
+        return self._landmarks.said if kind == "name" else self._landmarks.on_street
 
     def _true(self, kind: str, names: Ints, street: Ints) -> Floats:
         """[N] chance that one of some names is the right one in each cell, of who may have said to be on a street."""
         if kind == "corner":
             return self._landmarks.crossings.of(names, street)
-        return (self._landmarks.on_street if kind == "street" else self._landmarks.said).of(names)
+        return self._table(kind).of(names)
 
     def _said(self, number: int, reply: Reply) -> Ints:
         """[k] the columns of the names that a reply may mean; none unless it is to an open question, and known."""
@@ -75,7 +85,7 @@ class OpenQuestions:
             return _NONE
         names = self._spelt(reply.question).find(reply.choice)
         if not len(names):
-            what = "place that people know by its name" if reply.question == "name" else "street"
+            what = _WHAT.get(reply.question, "street")
             advice = f'is no {what} on this map; say it in the description instead, or send "{UNKNOWN}"'
             raise ReplyError(number, "choice", advice)
         return names

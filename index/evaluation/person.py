@@ -1,6 +1,6 @@
 """Made-up people who answer questions, by what a map has where they stand."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -45,6 +45,7 @@ class Truth:
         kinds = load_asked().kinds
         known = [n for n in gazetteer.named if gazetteer.words[n].kinds[0].startswith(kinds)]
         self._places = np.array(known, np.int64)
+        self._houses = np.array([n for n, w in enumerate(gazetteer.words) if w.street and w.numbers], np.int64)
         parts = gallery.cells.parts
         instance, first = np.unique(bodies.part_instance, return_index=True)
         self._rgb = dict(zip(instance.tolist(), parts.rgb[first], strict=True))
@@ -77,12 +78,21 @@ class Truth:
     @property
     def street_names(self) -> Sequence[str]:
         """Of all streets."""
-        return [self._gazetteer.words[n].names[0] for n in self._streets]
+        return [self._name(n) for n in self._streets.tolist()]
 
     @property
     def place_names(self) -> Sequence[str]:
         """Of all places that people know by their names."""
-        return [self._gazetteer.words[n].names[0] for n in self._places]
+        return [self._name(n) for n in self._places.tolist()]
+
+    @property
+    def house_names(self) -> Sequence[str]:
+        """Numbers and streets of all houses."""
+        return [self._address(n) for n in self._houses.tolist()]
+
+    def houses(self, position: Floats, reach_m: float) -> list[tuple[float, str]]:
+        """Metres to the houses near a position that have a number, and number and street, nearest first."""
+        return self._near(position, self._houses, reach_m, self._address)
 
     def streets(self, position: Floats, reach_m: float) -> list[tuple[float, str]]:
         """Metres and names of the streets near a position, nearest first."""
@@ -103,10 +113,19 @@ class Truth:
                 found.append((float(np.hypot(*(at - foot))), self._gazetteer.words[other].names[0]))
         return sorted(found)
 
-    def _near(self, position: Floats, objects: Ints, reach_m: float) -> list[tuple[float, str]]:
+    def _near(
+        self, position: Floats, objects: Ints, reach_m: float, called: Callable[[int], str] | None = None
+    ) -> list[tuple[float, str]]:
         ways = self._ways(position, objects, reach_m)
         items = objects[ways.item].tolist()
-        return sorted(zip(ways.metres.tolist(), (self._gazetteer.words[n].names[0] for n in items), strict=True))
+        return sorted(zip(ways.metres.tolist(), map(called or self._name, items), strict=True))
+
+    def _name(self, number: int) -> str:
+        return self._gazetteer.words[number].names[0]
+
+    def _address(self, number: int) -> str:
+        words = self._gazetteer.words[number]
+        return f"{words.numbers[0]} {words.street}"
 
     def _ways(self, position: Floats, objects: Ints, reach_m: float) -> Ways:
         return ways_to(Around.of(position[None], np.zeros(1, np.int64)), *cut(self._gazetteer, objects), reach_m)
@@ -142,7 +161,8 @@ class Person:
     def _right(self, asked: Asked) -> str | None:
         """What is true, as they see it; None if the map does not say."""
         if asked.is_open:
-            return {"street": self._street, "name": self._place, "corner": self._corner}[asked.kind]()
+            open_ones = {"street": self._street, "name": self._place, "corner": self._corner, "address": self._house}
+            return open_ones[asked.kind]()
         found = self.truth.nearest(self.scene, self.position_m, asked.names[0])
         if asked.kind == "near":
             return "no" if found is None or found[0] > TEN_M * self._idea() else "yes"
@@ -156,8 +176,11 @@ class Person:
         """Another answer; half of the wrong names are of somewhere near, the others of anywhere."""
         values: Sequence[str] = asked.values
         if asked.is_open:
-            near = self.truth.places if asked.kind == "name" else self.truth.streets
-            values = self.truth.place_names if asked.kind == "name" else self.truth.street_names
+            near, values = self.truth.streets, self.truth.street_names
+            if asked.kind == "name":
+                near, values = self.truth.places, self.truth.place_names
+            elif asked.kind == "address":
+                near, values = self.truth.houses, self.truth.house_names
             some = [name for _, name in near(self.position_m, NEARBY_M) if name != right]
             values = some if some and self.rng.random() < 0.5 else values
         others = [value for value in values if value != right]
@@ -173,6 +196,13 @@ class Person:
             return None
         weight = np.array([1 / (metres + SIGHT_M) for metres, _ in seen])
         return seen[int(self.rng.choice(len(seen), p=weight / weight.sum()))][1]
+
+    def _house(self) -> str | None:
+        """The one that seems nearest, as far as numbers are read."""
+        seen = [
+            (metres * self._idea(), name) for metres, name in self.truth.houses(self.position_m, SIGN_M * self._idea())
+        ]
+        return min(seen)[1] if seen else None
 
     def _corner(self) -> str | None:
         street = self._street()

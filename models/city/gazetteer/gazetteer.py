@@ -40,6 +40,11 @@ class Words:
     street: str | None = None
     source_id: str | None = None
 
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Its house numbers, in lower case; some houses have several."""
+        return tuple(one.strip() for one in (self.number or "").lower().replace(";", ",").split(",") if one.strip())
+
 
 @dataclass(frozen=True, eq=False)
 class Gazetteer:

@@ -136,8 +136,8 @@ class Lookup:
         for number, words in enumerate(self.gazetteer.words):
             if words.number and words.street:
                 of = found.setdefault(" ".join(full_words(plain_words(words.street))), {})
-                for one in words.number.lower().replace(";", ",").split(","):
-                    of.setdefault(one.strip(), []).append(number)
+                for one in words.numbers:
+                    of.setdefault(one, []).append(number)
         return found
 
     def named(self, words: Sequence[str]) -> Match | None:

@@ -1,4 +1,4 @@
-"""What people say when asked for a name: the street they are on, a place that they see, the nearest cross street."""
+"""What people say when asked: their street, a place that they see, the nearest cross street or house number."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,10 +12,11 @@ from models.city.gazetteer.gazetteer import STREET, Gazetteer
 from models.city.gazetteer.ways import Around, cut, ways_to
 from models.city.points import Ints
 from models.city.types import Floats
+from models.posterior.places.addresses import Addresses
 from models.posterior.places.spelt import Spelt
 
 ON_STREET_M: Final = 40.0  # as far as a street may be which somebody says to be on
-BETWEEN_M: Final = 8.0  # by which of two streets one must be nearer to be the one
+BETWEEN_M: Final = 8.0  # by which of two streets or houses one must be nearer to be the one
 SEEN_M, SEEN_SOFT_M = 30.0, 8.0  # as far as the sign over a door is read, about
 NAMED_M: Final = 15.0  # over which it is said less often than what is nearer
 CORNERS: Final = 4  # of a street that may be the nearest
@@ -94,6 +95,7 @@ class Landmarks:
     Attributes:
         streets: columns of `on_street`.
         names: columns of `said`.
+        addresses: columns of `numbered`.
     """
 
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats, kinds: tuple[str, ...]) -> None:
@@ -108,6 +110,7 @@ class Landmarks:
         self._named_objects = np.array(known, np.int64)
         self.streets = Spelt([words[n].names for n in self._street_objects], are_streets=True)
         self.names = Spelt([words[n].names for n in known], are_streets=False)
+        self.addresses = Addresses(words)
 
     @property
     def has_corners(self) -> bool:
@@ -128,6 +131,15 @@ class Landmarks:
         metres = self._metres(self._named_objects, self.names, SEEN_M + 3 * SEEN_SOFT_M)
         cell, nearest = _nearest(metres)
         share = _shares(cell, np.exp(-metres.data / NAMED_M) * _is_seen(metres.data))
+        metres.data = share * _is_seen(nearest)[cell]
+        return Table(metres)
+
+    @cached_property
+    def numbered(self) -> Table:
+        """Of each house number, that who stands in a cell says that it is the nearest."""
+        metres = self._metres(self.addresses.objects, self.addresses, SEEN_M + 3 * SEEN_SOFT_M)
+        cell, nearest = _nearest(metres)
+        share = _shares(cell, np.exp((nearest[cell] - metres.data) / BETWEEN_M))
         metres.data = share * _is_seen(nearest)[cell]
         return Table(metres)
 
@@ -159,7 +171,7 @@ class Landmarks:
         weight *= (chance / weight.sum(axis=1))[:, None]
         return np.repeat(cells, few), corners[row].ravel(), weight.ravel()
 
-    def _metres(self, objects: Ints, names: Spelt, reach_m: float) -> csr_array:
+    def _metres(self, objects: Ints, names: Spelt | Addresses, reach_m: float) -> csr_array:
         """[N, names] distance to the nearest of each name, as far as it is within reach."""
         shape = (len(self._order), max(1, len(names)))
         if not len(objects):

@@ -1,6 +1,6 @@
 import pytest
 
-from index.asking.asked import LISTED, OTHER, UNKNOWN, Asked
+from index.asking.asked import LISTED, OPEN, OTHER, UNKNOWN, Asked
 from models.language.lexicon.asked import load_asked
 from models.language.lexicon.lexicon import load_lexicon
 
@@ -11,6 +11,7 @@ ALL = [
     Asked("street"),
     Asked("name"),
     Asked("corner"),
+    Asked("address"),
 ]
 
 
@@ -22,7 +23,7 @@ def test_an_id_says_all(asked):
 @pytest.mark.parametrize(
     "wrong",
     [
-        *("", "near", "near:", "far:tree", "street:", "street:A", "name:Stockmann", "corner:A|B"),
+        *("", "near", "near:", "far:tree", "street:", "street:A", "name:Stockmann", "corner:A|B", "address:1 A"),
         *("colour:building", "colour:building|", "colour:building|red|red", "colour:building|a|b|c|d|e"),
     ],
 )
@@ -40,6 +41,7 @@ def test_questions_in_words():
         "Which street are you on?",
         "What is the name of a shop or another place that you see?",
         "Which street crosses the street you are on nearest to you?",
+        "What is the number of the house nearest to you, and its street?",
     ]
 
 
@@ -50,7 +52,7 @@ def test_choices_are_the_values_and_unknown(asked):
     assert [choice.value for choice in question.choices] == [*asked.values, UNKNOWN]
     assert len({choice.text for choice in question.choices}) == len(question.choices)
     assert (OTHER in asked.values) == (asked.kind == "colour")
-    assert question.is_open == (asked.kind in {"street", "name", "corner"})
+    assert question.is_open == (asked.kind in OPEN)
 
 
 def test_an_open_question_offers_names():

@@ -9,8 +9,10 @@ from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import WRONG
 from tests.models.city.gazetteer.made_town import made_gazetteer
 
-CENTERS = np.array([(100.0, 78.0), (190.0, 75.0), (200.0, 80.0), (120.0, 92.0), (215.0, 300.0), (100.0, 300.0)])
-STREETS, PLACES = 7, 11
+CENTERS = np.array(
+    [(100.0, 78.0), (190.0, 75.0), (200.0, 80.0), (120.0, 92.0), (215.0, 300.0), (100.0, 300.0), (250.0, 88.0)]
+)
+NAMES = {"street": 7, "name": 11, "corner": 7, "address": 5}
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +24,7 @@ def questions():
 def test_what_can_be_said_is_what_the_rows_have(questions, kind):
     """A reply is as likely as the row of each cell has it, with errors."""
     rows, names = questions.rows(Asked(kind), np.arange(len(CENTERS)), [])
-    assert names == (PLACES if kind == "name" else STREETS)
+    assert names == NAMES[kind]
     total = np.zeros(len(CENTERS))
     for n in range(names):
         [name] = questions.likeliest(Asked(kind), np.eye(names)[n])
@@ -43,7 +45,7 @@ def test_the_cross_street_is_of_the_street_that_was_said(questions):
         for street in ("10th Avenue", "West 25th Street")
     }
     assert np.exp(crossing["10th Avenue"][at_corner]) == pytest.approx(1 - WRONG, abs=0.01)
-    assert np.exp(crossing["West 25th Street"][at_corner]) == pytest.approx(WRONG / (STREETS - 1), abs=0.01)
+    assert np.exp(crossing["West 25th Street"][at_corner]) == pytest.approx(WRONG / (NAMES["street"] - 1), abs=0.01)
     rows, _ = questions.rows(Asked("corner"), np.array([at_corner]), [on_west])
     assert questions.likeliest(Asked("corner"), rows.toarray()[0])[0] == "10th Avenue"
 
@@ -53,7 +55,9 @@ def test_what_is_unknown_or_closed_tells_nothing(questions):
     assert questions.answered([Reply("street", "unknown"), Reply("near:tree", "yes")]) is None
 
 
-@pytest.mark.parametrize(("kind", "what"), [("street", "street"), ("corner", "street"), ("name", "place")])
+@pytest.mark.parametrize(
+    ("kind", "what"), [("street", "street"), ("corner", "street"), ("name", "place"), ("address", "house")]
+)
 def test_a_name_that_the_map_has_not_is_refused_with_advice(questions, kind, what):
     with pytest.raises(ReplyError, match=rf"^answers\[1\]\.choice: is no {what} .*description.*unknown") as raised:
         questions.answered([Reply("near:tree", "yes"), Reply(kind, "Elm Street")])
@@ -63,4 +67,4 @@ def test_a_name_that_the_map_has_not_is_refused_with_advice(questions, kind, wha
 def test_a_map_without_names_asks_for_none():
     gazetteer = made_gazetteer()
     bare = OpenQuestions(Landmarks(gazetteer, CENTERS, ("aeroway",)))
-    assert [bare.has(kind) for kind in OPEN] == [True, False, True]
+    assert [bare.has(kind) for kind in OPEN] == [True, False, True, True]

@@ -155,11 +155,13 @@ def test_the_cross_street_is_asked_for_when_the_street_is_known():
     def open_of(heard, *replies):
         return [one.kind for one in heard.open(replies)]
 
-    assert open_of(Heard()) == ["street", "name"]
-    assert open_of(Heard(), Reply("street", "unknown")) == ["name"]
-    assert open_of(Heard(), Reply("street", "A"), Reply("name", "unknown")) == ["corner"]
-    assert open_of(Heard(is_on_street=True, is_at_name=True)) == ["corner"]
-    assert open_of(Heard(is_on_street=True, is_at_corner=True)) == ["name"]
+    assert open_of(Heard()) == ["street", "name", "address"]
+    assert open_of(Heard(), Reply("street", "unknown")) == ["name", "address"]
+    assert open_of(Heard(), Reply("street", "A"), Reply("name", "unknown")) == ["corner", "address"]
+    assert open_of(Heard(is_on_street=True, is_at_name=True)) == ["corner", "address"]
+    assert open_of(Heard(is_on_street=True, is_at_corner=True, is_at_house=True)) == ["name"]
+    assert open_of(Heard(), Reply("address", "1 A")) == ["name", "corner"]  # of the street that was said with it
+    assert open_of(Heard(), Reply("address", "unknown")) == ["street", "name"]
 
 
 def test_an_answer_narrows_and_a_wrong_one_is_survived(posterior, asked):

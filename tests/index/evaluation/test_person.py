@@ -76,13 +76,29 @@ def test_people_know_the_nearest_street_that_crosses(in_town) -> None:
     assert in_town(100.0, 420.0).reply(question).choice == "unknown"  # on a road that none crosses
 
 
+def test_people_read_the_number_that_seems_nearest(in_town, monkeypatch) -> None:
+    question = Asked("address").question()
+    assert in_town(250.0, 84.0).reply(question).choice == "450 West 25th Street"
+    assert in_town(250.0, 76.0).reply(question).choice == "449 West 25th Street"
+    assert in_town(60.0, 80.0).reply(question).choice == "unknown"
+    monkeypatch.setattr(measured, "IDEAS", 0.25)
+    said = [in_town(250.0, 82.0, seed).reply(question).choice for seed in range(300)]
+    assert 0.5 < np.mean([name == "450 West 25th Street" for name in said]) < 0.95  # 13 m away, the other 17
+
+
 @pytest.mark.parametrize("kind", OPEN)
 def test_a_wrong_name_is_another_of_the_map(in_town, monkeypatch, kind) -> None:
     monkeypatch.setattr(measured, "WRONG", 1.0)
-    names = {in_town(120.0, 90.0, seed).reply(Asked(kind).question()).choice for seed in range(200)}
-    right = {"street": {"West 25th Street"}, "name": {"T-Optik"}, "corner": {"10th Avenue"}}[kind]
-    assert not right & names
-    assert len(names) >= 5
+    x = 250.0 if kind == "address" else 120.0
+    names = {in_town(x, 90.0, seed).reply(Asked(kind).question()).choice for seed in range(200)}
+    right = {
+        "street": "West 25th Street",
+        "name": "T-Optik",
+        "corner": "10th Avenue",
+        "address": "450 West 25th Street",
+    }
+    assert right[kind] not in names
+    assert len(names) >= 4
 
 
 def test_people_err_as_often_as_is_said(truth, asked) -> None:

@@ -38,6 +38,19 @@ def test_a_sign_is_said_from_near_rather_than_from_far(landmarks):
     assert not len(landmarks.names.find("London Terrace Gardens"))  # a building has no sign
 
 
+def test_the_number_of_the_nearest_house_is_said():
+    centers = np.array([(250.0, 88.0), (250.0, 80.0), (370.0, 95.0), (250.0, 300.0)])
+    town = Landmarks(made_gazetteer(), centers, ("shop",))
+    chance = chance_of(town.numbered, town.addresses, "450 W 25th St")
+    assert chance[0] > 0.7  # 7 m away, that across the street 23 m
+    assert chance[1] == pytest.approx(chance_of(town.numbered, town.addresses, "449 West 25th Street")[1])
+    assert 0.8 < town.numbered.rows.sum(axis=1)[1] < 0.9
+    assert chance_of(town.numbered, town.addresses, "402 W 25th")[2] == pytest.approx(
+        chance_of(town.numbered, town.addresses, "410 W 25th")[2]
+    )
+    assert town.numbered.rows.sum(axis=1)[3] == 0.0
+
+
 def test_the_street_that_crosses_is_the_nearest(landmarks):
     streets, none = landmarks.streets, np.zeros(0, np.int64)
     tenth, west = streets.find("10th Avenue"), streets.find("West 25th Street")
