@@ -19,14 +19,19 @@ export function legend(view: View, info: () => Info | null): void {
     let length = 1;
     for (let ten = 1; ten < 1e6; ten *= 10) for (const nice of NICE) if (nice * ten <= LONGEST * metresAPixel) length = nice * ten;
     scale.style.width = `${length / metresAPixel}px`;
-    scale.textContent = metres(length);
-    scale.setAttribute("aria-label", `Scale: this long is ${metres(length)}`);
+    say(scale, metres(length), `Scale: this long is ${metres(length)}`);
     north.hidden = Math.abs(pose.bearing) < 0.01;
     north.style.transform = `rotate(${-pose.bearing}rad)`;
     tilt.hidden = flat;
-    tilt.textContent = pose.pitch === TOP ? "3D" : "2D";
-    tilt.setAttribute("aria-label", pose.pitch === TOP ? "Look from the side" : "Look from above");
-    const said = info()?.index?.provenance.attribution ?? "";
-    if (attribution.textContent !== said) attribution.textContent = said;
+    if (pose.pitch === TOP) say(tilt, "3D", "Look from the side");
+    else say(tilt, "2D", "Look from above");
+    say(attribution, info()?.index?.provenance.attribution ?? "");
   };
+}
+
+/** What has not changed is left alone, so that the page is not laid out anew. */
+function say(element: HTMLElement, text: string, label?: string): void {
+  if (element.textContent === text) return;
+  element.textContent = text;
+  if (label) element.setAttribute("aria-label", label);
 }

@@ -40,8 +40,8 @@ class Page implements Acts {
     this.panel.set(this.state, null);
     this.panel.offer([]);
     this.view.overlay = (pen, camera, look, taken) => {
-      paint(pen, camera, look, taken, this.shown, this.state, this.objects);
       if (this.sceneries.length) this.keep();
+      return paint(pen, camera, look, taken, this.shown, this.state, this.objects);
     };
     legend(this.view, () => this.info);
     this.view.covered = () => [byId("panel"), byId("legend")].map((element) => {

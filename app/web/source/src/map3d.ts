@@ -7,11 +7,12 @@ import {
 } from "three";
 import { FIELD_OF_VIEW, type Camera } from "./camera";
 import { GROUND, RISING, WALLS, type Look, type Paint } from "./look";
-import { Triangles, fill, raise, widen } from "./mesh";
+import { Triangles, coarser, fill, raise, widen } from "./mesh";
 import { AREA, POINT, type Cloud, type Scenery, type Shape, type Shapes } from "./scenery";
 
 const CLOSE = 900; // metres from which small things are drawn
 const FAR = 1500; // from which on a CPU draws no walls and paths while the map moves: it is triangles that cost it time
+const COARSE = 5; // metres: there it also draws nothing smaller
 const FARTHER = 3500; // from which on paths are thinner than a pixel
 const NARROW = new Set<Paint>(["path", "crossing", "rail"]);
 const TILE = 1200; // metres; what lies in tiles out of sight is not drawn
@@ -28,11 +29,13 @@ export class Map3d implements MapPicture {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly eye = new PerspectiveCamera(FIELD_OF_VIEW);
-  private small: Object3D[] = []; // drawn from near
-  private rough: Object3D[] = []; // drawn from afar
-  private narrow: Object3D[] = []; // drawn but from very far
-  private upright: Object3D[] = []; // drawn from afar when there is time
-  private fine: Object3D[] = []; // drawn when there is time
+  private readonly small: Object3D[] = []; // drawn from near
+  private readonly rough: Object3D[] = []; // drawn from afar
+  private readonly narrow: Object3D[] = []; // drawn but from very far
+  private readonly upright: Object3D[] = []; // drawn from afar when there is time
+  private readonly fine: Object3D[] = []; // drawn when there is time
+  private readonly exact: Object3D[] = []; // drawn from near, and from afar when there is time
+  private readonly coarse: Object3D[] = []; // what is drawn for it when there is none
   private readonly slow = isSoftware();
 
   constructor(private readonly camera: Camera) {
@@ -48,7 +51,7 @@ export class Map3d implements MapPicture {
       for (const each of [material].flat()) each?.dispose();
     });
     this.scene.clear();
-    [this.small, this.rough, this.narrow, this.upright, this.fine] = [[], [], [], [], []];
+    for (const some of [this.small, this.rough, this.narrow, this.upright, this.fine, this.exact, this.coarse]) some.length = 0;
     this.scene.background = new Color(look.ground);
     for (const scenery of sceneries) {
       if (scenery.kind === "points") this.scene.add(cloud(scenery));
@@ -75,7 +78,8 @@ export class Map3d implements MapPicture {
     for (const object of this.small) object.visible = distance < CLOSE;
     for (const object of this.rough) object.visible = distance >= CLOSE && !hurries;
     for (const object of this.narrow) object.visible = distance < (hurries ? FAR : FARTHER);
-    for (const object of this.upright) object.visible = distance < FAR || !hurries;
+    for (const object of [...this.upright, ...this.exact]) object.visible = distance < FAR || !hurries;
+    for (const object of this.coarse) object.visible = distance >= FAR && hurries;
     for (const object of this.fine) object.visible = !hurries;
     renderer.render(this.scene, eye);
   }
@@ -97,7 +101,8 @@ export class Map3d implements MapPicture {
   private flat(shapes: Shape[], paint: Paint, look: Look, order: number): void {
     const material = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, depthTest: false, depthWrite: false });
     const isNarrow = (shape: Shape) => NARROW.has(paint) && shape.form !== AREA;
-    for (const [some, shown] of [[shapes.filter((shape) => !isNarrow(shape)), undefined], [shapes.filter(isNarrow), this.narrow]] as const) {
+    const wide = shapes.filter((shape) => !isNarrow(shape));
+    for (const [some, shown] of [...this.details(wide), [shapes.filter(isNarrow), this.narrow] as const]) {
       for (const tile of tiles(some)) {
         const out = new Triangles();
         for (const shape of tile) {
@@ -118,16 +123,19 @@ export class Map3d implements MapPicture {
     ];
     for (const [label, paint] of Object.entries(RISING)) {
       for (const tile of tiles((by.get(label) ?? []).filter((shape) => shape.form === AREA))) {
-        const [roofs, sides, edges] = [new Triangles(), new Triangles(), [] as number[]];
+        const [sides, edges] = [new Triangles(), [] as number[]];
+        for (const [some, shown] of this.details(tile)) {
+          const roofs = new Triangles();
+          for (const shape of some) fill(roofs, shape, roof(shape));
+          this.add(new Mesh(geometry(roofs, new Color(look[paint])), material), shown);
+        }
         for (const shape of tile) {
-          const top = Math.max(shape.top, shape.base + 0.5);
+          const top = roof(shape);
           raise(sides, shape, shape.base, top);
-          fill(roofs, shape, top, 1);
           for (const path of shape.paths) {
             for (let n = 0; n + 3 < path.length; n += 2) edges.push(path[n], path[n + 1], top, path[n + 2], path[n + 3], top);
           }
         }
-        this.add(new Mesh(geometry(roofs, new Color(look[paint])), material));
         this.add(new Mesh(geometry(sides, new Color(look[paint])), material), this.upright);
         const lines = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(edges), 3));
         this.add(new LineSegments(lines, edge), this.fine);
@@ -177,12 +185,22 @@ export class Map3d implements MapPicture {
     }
   }
 
+  /** Shapes as they are, and for a CPU as they are seen from afar. */
+  private details(shapes: Shape[]): [Shape[], Object3D[]][] {
+    const exact: [Shape[], Object3D[]] = [shapes, this.exact];
+    return this.slow ? [exact, [shapes.map((shape) => coarser(shape, COARSE)).filter(({ paths }) => paths.length), this.coarse]] : [exact];
+  }
+
   /** `shown` are those that are drawn from near or from afar alone. */
   private add(object: Object3D, shown?: Object3D[]): void {
     object.matrixAutoUpdate = false;
     shown?.push(object);
     this.scene.add(object);
   }
+}
+
+function roof(shape: Shape): number {
+  return Math.max(shape.top, shape.base + 0.5);
 }
 
 /** Shapes by the tile that they begin in. */

@@ -47,6 +47,24 @@ export function fill(out: Triangles, shape: Shape, z: number, shade = 1): void {
   }
 }
 
+/** A shape as seen from afar: without the corners that are less than some metres from the one before, and what is smaller. */
+export function coarser(shape: Shape, metres: number): Shape {
+  const paths = shape.paths.map((path) => thinned(path, metres));
+  const kept = paths.map((path) => path.length >= (shape.form === AREA ? 8 : 4)); // a ring ends where it began
+  if (shape.form === AREA && !kept[0]) return { ...shape, paths: [], hole: [] };
+  return { ...shape, paths: paths.filter((_, n) => kept[n]), hole: shape.hole.filter((_, n) => kept[n]) };
+}
+
+function thinned(path: Float32Array, metres: number): Float32Array {
+  const kept: number[] = [];
+  for (let n = 0; n < path.length; n += 2) {
+    const [x, y] = [path[n], path[n + 1]];
+    const isEnd = n === 0 || n === path.length - 2;
+    if (isEnd || Math.hypot(x - kept[kept.length - 2], y - kept[kept.length - 1]) >= metres) kept.push(x, y);
+  }
+  return new Float32Array(kept);
+}
+
 /** Walls along every path of a shape; those of an area have their fronts outside. */
 export function raise(out: Triangles, shape: Shape, base: number, top: number): void {
   shape.paths.forEach((path, ring) => {

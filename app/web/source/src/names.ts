@@ -60,7 +60,9 @@ export class Names {
     for (const place of map.places) this.names.push({ text: place.name, x: place.x, y: place.y, angle: null, length: 0, from: PLACE_FROM });
   }
 
-  draw(pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]): void {
+  /** Says whether there was a name to draw. */
+  draw(pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]): boolean {
+    let drawn = false;
     for (const name of this.names) {
       if (camera.pose.distance > name.from) continue;
       const at = camera.project(name.x, name.y);
@@ -82,6 +84,7 @@ export class Names {
       const room: Room = [at[0] - wide, at[1] - high, at[0] + wide, at[1] + high];
       if (taken.some((other) => overlap(room, other))) continue;
       taken.push(room);
+      drawn = true;
       pen.save();
       if (turn) pen.translate(...at);
       else pen.translate(Math.round(at[0] - sprite.wide / 2) + sprite.wide / 2, Math.round(at[1])); // sharp
@@ -89,6 +92,7 @@ export class Names {
       pen.drawImage(sprite.canvas, -sprite.wide / 2, -sprite.high / 2, sprite.wide, sprite.high);
       pen.restore();
     }
+    return drawn;
   }
 }
 

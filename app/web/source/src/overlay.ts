@@ -25,8 +25,8 @@ export interface Shown {
   measured: Measurement[];
 }
 
-/** Draws it all; `objects` finds what has a source. */
-export function paint(pen: Pen, camera: Camera, look: Look, taken: Room[], shown: Shown, state: State, objects: Map<string, Shape>): void {
+/** Draws it all, and says whether there was anything; `objects` finds what has a source. */
+export function paint(pen: Pen, camera: Camera, look: Look, taken: Room[], shown: Shown, state: State, objects: Map<string, Shape>): boolean {
   const { answer, places } = shown;
   area(pen, camera, look, state);
   if (answer && state.heat) heat(pen, camera, look, answer);
@@ -43,6 +43,7 @@ export function paint(pen: Pen, camera: Camera, look: Look, taken: Room[], shown
   }
   if (shown.pin) pin(pen, camera, look, shown.pin, taken);
   for (const each of shown.measured) error(pen, camera, look, each);
+  return Boolean(answer || shown.pin || shown.measured.length || state.prior || state.within);
 }
 
 function colourOf(look: Look, mention: number): string {

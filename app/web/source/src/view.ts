@@ -11,12 +11,12 @@ import type { Scenery } from "./scenery";
 const DARKNESS = matchMedia("(prefers-color-scheme: dark)");
 const STILL = 250; // milliseconds without a move after which the map is drawn as well as can be
 
-/** Draws over the map; rooms that it takes are kept free of names. */
-type Overlay = (pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]) => void;
+/** Draws over the map, and says whether there was anything to draw; rooms that it takes are kept free of names. */
+type Overlay = (pen: CanvasRenderingContext2D, camera: Camera, look: Look, taken: Room[]) => boolean;
 
 export class View {
   readonly camera: Camera;
-  overlay: Overlay = () => {};
+  overlay: Overlay = () => false;
   drawn: () => void = () => {};
   /** What stands on the map, where names would be hidden. */
   covered: () => Room[] = () => [];
@@ -26,6 +26,7 @@ export class View {
   private names: Names[] = [];
   private due = false;
   private moved = false;
+  private marked = false; // whether anything is drawn over the map
   private still = 0;
 
   constructor(private readonly stage: HTMLElement, picked: Picked) {
@@ -66,10 +67,10 @@ export class View {
       const pen = this.over.getContext("2d")!;
       const ratio = Math.min(2, devicePixelRatio);
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-      pen.clearRect(0, 0, this.camera.width, this.camera.height);
+      if (this.marked) pen.clearRect(0, 0, this.camera.width, this.camera.height); // a canvas that is touched is shown anew
       const taken: Room[] = this.covered();
-      this.overlay(pen, this.camera, this.look, taken);
-      for (const names of this.names) names.draw(pen, this.camera, this.look, taken);
+      this.marked = this.overlay(pen, this.camera, this.look, taken);
+      for (const names of this.names) if (names.draw(pen, this.camera, this.look, taken)) this.marked = true;
       this.drawn();
     });
   }
