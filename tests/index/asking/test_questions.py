@@ -228,6 +228,19 @@ def test_a_refused_text_has_a_question_and_its_reply_is_an_answer(localizer, ref
     assert any("of the replies" in warning for warning in after.warnings)
 
 
+def test_replies_alone_look_along_a_whole_street(posterior, monkeypatch):
+    """However few cells a text would be looked at in."""
+    monkeypatch.setattr("index.posterior.localizer.CANDIDATES", 2)
+    y_m = posterior.gallery.cells.center_m[:, 1]
+    on_third = posterior.frame.from_wgs84(LAT + 180 * LAT_M, LON)[1]
+    [finding] = posterior.find([replace(SAYS_NOTHING, replies=(Reply("street", "East Street 3"),))])
+    there = np.flatnonzero(np.abs(y_m - on_third) < 5)
+    assert len(there) > 5
+    assert set(there.tolist()) <= set(finding.located.rows.tolist())
+    [finding] = posterior.find([VAGUE])
+    assert len(finding.located.rows) < len(y_m)
+
+
 def test_a_text_that_says_something_is_no_answer_of_replies_alone(localizer):
     [answer] = localizer.localize([replace(VAGUE, replies=(Reply("street", "East Street 3"),))])
     assert not answer.warnings
