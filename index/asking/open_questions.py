@@ -17,6 +17,7 @@ from models.posterior.places.spelt import Spelt
 from models.posterior.questions import said_with_errors
 
 _NONE: Final = np.zeros(0, np.int64)
+LIKELY_ENOUGH: Final = 0.01  # of the mass: one house number of a city is not
 _WHAT: Final = {"name": "place that people know by its name", "address": "house number and street"}
 
 
@@ -58,9 +59,9 @@ class OpenQuestions:
         return self._table(asked.kind).rows[cells], names
 
     def likeliest(self, asked: Asked, share: Floats) -> list[str]:
-        """At most LISTED names, likeliest first, of [K] the share of each."""
+        """At most LISTED names that are worth a button, likeliest first, of [K] the share of each."""
         best = np.argsort(-share, kind="stable")[:LISTED]
-        return [self._spelt(asked.kind).shown[n] for n in best.tolist() if share[n] > 0]
+        return [self._spelt(asked.kind).shown[n] for n in best.tolist() if share[n] >= LIKELY_ENOUGH]
 
     def _spelt(self, kind: str) -> Spelt | Addresses:
         if kind == "address":

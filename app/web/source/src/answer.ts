@@ -137,7 +137,8 @@ function question(answer: Answer, acts: Acts): Element | null {
 
 /** A name that is not among those that are offered. */
 function nameForm(id: string, acts: Acts): Element {
-  const field = h("input", { type: "text", autocomplete: "off", required: true, maxLength: 200, "aria-label": "Another name", placeholder: "Another name" });
+  const asked = id === "address" ? "Number and street" : "Another name";
+  const field = h("input", { type: "text", autocomplete: "off", required: true, maxLength: 200, "aria-label": asked, placeholder: asked });
   const send = (event: Event) => {
     event.preventDefault();
     if (field.value.trim()) acts.reply(id, field.value.trim());
