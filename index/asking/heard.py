@@ -73,7 +73,7 @@ class Heard:
         before = {reply.question: reply.choice for reply in replies}
         is_on_street = self.is_on_street or any(before.get(kind, UNKNOWN) != UNKNOWN for kind in ("street", "address"))
         left = {
-            "street": not self.is_on_street,
+            "street": not is_on_street,
             "name": not self.is_at_name,
             "corner": is_on_street and not self.is_at_corner,
             "address": not self.is_at_house,

@@ -24,6 +24,7 @@ from models.posterior.questions import Answered, entropy, expected_entropy, expe
 from models.posterior.sights import Seen, Sights
 
 LEAST_GAIN: Final = 0.1  # bits; what narrows no more is not worth asking
+EFFORT: Final = {"address": 1.0}  # bits that it must narrow more than what a word answers, to be asked instead
 PLACES: Final = 256  # cells that a question is chosen by: the likeliest
 FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it has is not asked about
 
@@ -120,7 +121,7 @@ class Questions:
         named = [asked for asked in heard.open(replies) if self._names.has(asked.kind)]
         rows = {asked: self._names.rows(asked, self._cell[nodes], replies) for asked in named}
         left |= {asked: expected_entropy_of_names(mass, true, names) for asked, (true, names) in rows.items()}
-        best = min(left, key=lambda asked: left[asked], default=None)
+        best = min(left, key=lambda asked: left[asked] + EFFORT.get(asked.kind, 0.0), default=None)
         if best is None or entropy(mass) - left[best] < LEAST_GAIN:
             return None
         return best.question(self._names.likeliest(best, mass @ rows[best][0]) if best.is_open else ())

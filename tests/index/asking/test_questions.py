@@ -5,8 +5,10 @@ import pytest
 
 from index.asking.asked import Asked
 from index.asking.heard import Heard
+from index.asking.questions import Questions
 from index.posterior.localizer import GOOD_M
 from index.query import MOST_REPLIES, Box, Circle, Prior, Query, Reply
+from models.city.gazetteer.gazetteer import ADDRESS, Words
 from models.errors import ReplyError
 from models.posterior.questions import expected_entropy
 from tests.conftest import LAT, LAT_M, LON, LON_M
@@ -123,6 +125,36 @@ def test_the_question_leaves_the_least_entropy_of_all_that_could_be_asked(poster
     others = [Asked("near", ("bench",)), Asked("near", ("bollard",)), Asked("near", ("post box",))]
     best = Asked.parse(finding.question.id)
     assert left(best) < min(left(one) for one in others)
+
+
+def test_a_house_number_is_asked_for_where_a_word_would_tell_too_little(posterior):
+    """A reply of a word is preferred as long as it leaves no bit more."""
+    numbered = with_house_numbers(posterior)
+    everywhere = np.zeros(len(posterior.gallery.cells))
+    asked = numbered.ask_anywhere(everywhere, Heard(), [])
+    assert asked.id == "address"
+    assert [choice.value for choice in asked.choices][-1] == "unknown"
+    told = numbered.answered([Reply("address", "17, east street 3")])
+    assert told.cells.argmax() == 16
+    two = np.where(np.isin(np.arange(len(everywhere)), told.cells.argsort()[[0, -1]]), 0.0, -np.inf)
+    assert numbered.ask_anywhere(two, Heard(), []).id != "address"
+    said = [Reply("address", "17 East Street 3")]
+    assert numbered.ask_anywhere(everywhere, Heard(), said).id not in {"address", "street"}
+
+
+def with_house_numbers(posterior):
+    """The questions about the map if a house stood in the middle of each of its cells, numbered from 1."""
+    sights, gazetteer = posterior.nodes.sights, posterior.places.gazetteer
+    at = posterior.gallery.cells.center_m[:, :2]
+    houses = [Words((ADDRESS,), (), str(n + 1), "East Street 3") for n in range(len(at))]
+    town = replace(
+        gazetteer,
+        words=(*gazetteer.words, *houses),
+        segments_m=np.concatenate([gazetteer.segments_m, np.tile(at, 2).astype(np.float32)]),
+        starts=np.concatenate([gazetteer.starts, gazetteer.starts[-1] + 1 + np.arange(len(at))]),
+        is_area=np.concatenate([gazetteer.is_area, np.zeros(len(at), bool)]),
+    )
+    return Questions(sights, posterior.labels.tolist(), posterior._palette, town, posterior.gallery.cells)
 
 
 def test_what_the_text_says_is_not_asked(posterior, asked):
