@@ -25,7 +25,8 @@ from models.posterior.sights import Seen, Sights
 
 LEAST_GAIN: Final = 0.1  # bits; what narrows no more is not worth asking
 EFFORT: Final = {"address": 1.0}  # bits that it must narrow more than what a word answers, to be asked instead
-PLACES: Final = 256  # cells that a question is chosen by: the likeliest
+PLACES: Final = 256  # cells that a question about things is chosen by
+NAMED_PLACES: Final = 4096  # and one for a name, which may leave few of a city's
 FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it has is not asked about
 
 
@@ -86,7 +87,7 @@ class Questions:
         return self._names.has("street") or self._names.has("name")
 
     def ask(self, located: Located, heard: Heard, replies: Sequence[Reply]) -> Question | None:
-        """The question whose answer leaves the least expected entropy over cells; None if none is worth it."""
+        """The question whose answer narrows the cells most, by expected entropy; None if none is worth it."""
         return self._ask(*self._places(located), heard, replies)
 
     def ask_anywhere(self, log_prior: Floats, heard: Heard, replies: Sequence[Reply]) -> Question | None:
@@ -101,15 +102,32 @@ class Questions:
         if not (log_p > -np.inf).any():
             return None
         chance = np.exp(log_p - log_p.max())
-        # Of a distribution over all cells the same share each: a city is looked at everywhere, a prior at its middle.
-        share = (np.arange(PLACES) + 0.5) / PLACES
-        row, count = np.unique(np.searchsorted(chance.cumsum() / chance.sum(), share), return_counts=True)
-        return self._ask(self._middle[row], count / PLACES, heard, replies)
+        return self._ask(*_sampled(self._middle, chance / chance.sum(), NAMED_PLACES), heard, replies)
 
     def _ask(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> Question | None:
         """The best question about where one of some nodes [C], each in a cell of its own, may be; their mass is 1."""
         if len(replies) >= MOST_REPLIES:
             return None
+        gain = self._gain_of_things(*_sampled(nodes, mass, PLACES), heard, replies)
+        named = [asked for asked in heard.open(replies) if self._names.has(asked.kind)]
+        rows = {asked: self._names.rows(asked, self._cell[nodes], replies) for asked in named}
+        before = entropy(mass)
+        gain |= {asked: before - expected_entropy_of_names(mass, true, names) for asked, (true, names) in rows.items()}
+        best = max(gain, key=lambda asked: gain[asked] - EFFORT.get(asked.kind, 0.0), default=None)
+        if best is None or gain[best] < LEAST_GAIN:
+            return None
+        return best.question(self._names.likeliest(best, mass @ rows[best][0]) if best.is_open else ())
+
+    def _places(self, located: Located) -> tuple[Ints, Floats]:
+        """[C] the heaviest node of each cell that is listed, and their probabilities, made to add up to 1."""
+        cell = self._cell[located.points]
+        order = np.lexsort((-located.weight, cell))
+        first = order[np.diff(cell[order], prepend=-1) != 0]
+        mass = np.bincount(cell, located.weight)[cell[first]]
+        return located.points[first], mass / max(mass.sum(), 1e-300)
+
+    def _gain_of_things(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> dict[Asked, float]:
+        """Bits that each closed question is expected to take away."""
         seen = self._sights.seen(nodes, sorted(self._things.values()))
         before = [asked for reply in replies if (asked := Asked.parse(reply.question)) is not None]
         closed = [asked for asked in self._of_things(mass, seen, heard) if asked not in before]
@@ -117,23 +135,8 @@ class Questions:
         for n, asked in enumerate(closed):
             found = with_errors(self._true(asked, seen))
             chance[n, :, : found.shape[1]] = found
-        left = dict(zip(closed, expected_entropy(mass, chance).tolist(), strict=True))
-        named = [asked for asked in heard.open(replies) if self._names.has(asked.kind)]
-        rows = {asked: self._names.rows(asked, self._cell[nodes], replies) for asked in named}
-        left |= {asked: expected_entropy_of_names(mass, true, names) for asked, (true, names) in rows.items()}
-        best = min(left, key=lambda asked: left[asked] + EFFORT.get(asked.kind, 0.0), default=None)
-        if best is None or entropy(mass) - left[best] < LEAST_GAIN:
-            return None
-        return best.question(self._names.likeliest(best, mass @ rows[best][0]) if best.is_open else ())
-
-    def _places(self, located: Located) -> tuple[Ints, Floats]:
-        """[C] the heaviest node of each of the likeliest cells, and their probabilities, made to add up to 1."""
-        cell = self._cell[located.points]
-        order = np.lexsort((-located.weight, cell))
-        first = order[np.diff(cell[order], prepend=-1) != 0]
-        mass = np.bincount(cell, located.weight)[cell[first]]
-        kept = np.argsort(-mass, kind="stable")[:PLACES]
-        return located.points[first[kept]], mass[kept] / max(mass[kept].sum(), 1e-300)
+        gain = entropy(mass) - expected_entropy(mass, chance)
+        return dict(zip(closed, gain.tolist(), strict=True))
 
     def _of_things(self, mass: Floats, seen: Seen, heard: Heard) -> list[Asked]:
         """Classes that some of the likely places have around them."""
@@ -177,3 +180,12 @@ class Questions:
         if asked.is_open:
             return self._names.has(asked.kind)
         return asked.names[0] in self._things and set(asked.names[1:]) <= set(self._words)
+
+
+def _sampled(nodes: Ints, mass: Floats, count: int) -> tuple[Ints, Floats]:
+    """At most so many of some nodes [C], each for the same share of the mass but where it is all of them."""
+    if len(nodes) <= count:
+        return nodes, mass
+    share = (np.arange(count) + 0.5) / count
+    row, times = np.unique(np.searchsorted(mass.cumsum() / mass.sum(), share), return_counts=True)
+    return nodes[row], times / count
