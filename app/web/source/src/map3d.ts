@@ -12,8 +12,9 @@ import { AREA, POINT, type Cloud, type Scenery, type Shape, type Shapes } from "
 
 const CLOSE = 900; // metres from which small things are drawn
 const FAR = 1500; // from which on a CPU draws no walls and paths while the map moves: it is triangles that cost it time
-const COARSE = 5; // metres: there it also draws nothing smaller
 const FARTHER = 3500; // from which on paths are thinner than a pixel
+const OVERVIEW = 3000; // from which on a CPU draws no corner that is nearer than COARSE metres to the one before while the map moves
+const COARSE = 10;
 const NARROW = new Set<Paint>(["path", "crossing", "rail"]);
 const TILE = 1200; // metres; what lies in tiles out of sight is not drawn
 
@@ -78,8 +79,9 @@ export class Map3d implements MapPicture {
     for (const object of this.small) object.visible = distance < CLOSE;
     for (const object of this.rough) object.visible = distance >= CLOSE && !hurries;
     for (const object of this.narrow) object.visible = distance < (hurries ? FAR : FARTHER);
-    for (const object of [...this.upright, ...this.exact]) object.visible = distance < FAR || !hurries;
-    for (const object of this.coarse) object.visible = distance >= FAR && hurries;
+    for (const object of this.upright) object.visible = distance < FAR || !hurries;
+    for (const object of this.exact) object.visible = distance < OVERVIEW || !hurries;
+    for (const object of this.coarse) object.visible = distance >= OVERVIEW && hurries;
     for (const object of this.fine) object.visible = !hurries;
     renderer.render(this.scene, eye);
   }
