@@ -1,6 +1,7 @@
 """The table of what a passer-by could name: geometry, kinds and all names of every object of a map."""
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
@@ -21,6 +22,7 @@ ADDRESS: Final = "address"  # the kind of what has a house number alone
 WALKED: Final = "walked"  # the kind of the one object that is all lines people walk on
 SHAPES_FILE = "gazetteer.safetensors"
 WORDS_FILE = "gazetteer.json"
+_SEVERAL: Final = re.compile("[;,&]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +44,9 @@ class Words:
 
     @property
     def numbers(self) -> tuple[str, ...]:
-        """Its house numbers, in lower case; some houses have several."""
-        return tuple(one.strip() for one in (self.number or "").lower().replace(";", ",").split(",") if one.strip())
+        """Its house numbers, in lower case; some houses have several, and what begins with no digit ("s/n") is none."""
+        parts = (one.strip() for one in _SEVERAL.split((self.number or "").lower()))
+        return tuple(one for one in parts if one and one[0].isdecimal())
 
 
 @dataclass(frozen=True, eq=False)
