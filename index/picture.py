@@ -15,14 +15,13 @@ from matplotlib.patheffects import withStroke
 
 from index.answers import Answer, Estimate
 from index.localizer import Localizer
-from models.city.scenery.reading import Drawn, Outline, look, read_scenery
+from models.city.scenery.reading import AREA, LINE, POINT, Drawn, Outline, look, read_scenery
 
 SIZE_IN: Final = (11.0, 6.2)
 DPI: Final = 130
 LEAST_REACH_M, REACH_RADII = 70.0, 1.6  # of what is shown round the estimate, as on the page
 NAMED = 60  # names that are tried, those of long streets first
 APART: Final = (0.16, 0.035)  # of the picture's sides: names nearer than this would overlap
-AREA, LINE = 2, 1
 
 
 def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> None:
@@ -96,7 +95,7 @@ def _draw_map(axes: Axes, drawn: Drawn, box: tuple[float, float, float, float], 
             if outline.label in paints and _is_seen(outline, box):
                 edge = colours["rail"] if kind == "rising" else "none"
                 _draw_outline(axes, outline, colours[paints[outline.label]], edge, points_a_metre, level)
-    trees = [outline.paths[0][0] for outline in drawn.outlines if outline.form == 0 and outline.label == "tree"]
+    trees = [outline.paths[0][0] for outline in drawn.outlines if outline.form == POINT and outline.label == "tree"]
     if trees:
         x, y = np.array(trees).T
         axes.scatter(x, y, s=max(2.0, (4 * points_a_metre) ** 2), c=colours["tree"], lw=0, zorder=3)

@@ -16,6 +16,7 @@ from models.city.scenery.shapes import UNITS_A_METRE, Place
 from models.city.types import Floats
 
 LOOK_FILE: Final = Path(__file__).with_name("look.json")
+POINT, LINE, AREA = 0, 1, 2  # the form of an outline
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,7 +25,7 @@ class Outline:
 
     Attributes:
         label: its class.
-        form: 0 point, 1 line, 2 area.
+        form: POINT, LINE or AREA.
         width_m: of a line.
         name: if it has one.
         paths: [V, 2] each, metres, map frame.

@@ -1,10 +1,11 @@
 // The map as a scene: flat ground, buildings raised to their height, trees; or a cloud of points. Drawn when it changes.
 
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, Color, ColorManagement, DoubleSide, IcosahedronGeometry, InstancedMesh,
+  BoxGeometry, BufferAttribute, BufferGeometry, Color, ColorManagement, DoubleSide, FrontSide, IcosahedronGeometry, InstancedMesh,
   LineBasicMaterial, LinearSRGBColorSpace, LineSegments, Matrix4, Mesh, MeshBasicMaterial, type Object3D, PerspectiveCamera,
   Points, PointsMaterial, Scene, WebGLRenderer,
 } from "three";
+import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { FIELD_OF_VIEW, type Camera } from "./camera";
 import { GROUND, RISING, WALLS, type Look, type Paint } from "./look";
 import { Triangles, coarser, fill, raise, widen } from "./mesh";
@@ -98,23 +99,34 @@ export class Map3d implements MapPicture {
     this.walls(by, look);
     this.trees(by.get("tree") ?? [], look);
     this.things(map.shapes.filter((shape) => shape.form === POINT && shape.label !== "tree"), look);
+    if (this.slow) this.overview(map.labels, by, look);
   }
 
   private flat(shapes: Shape[], paint: Paint, look: Look, order: number): void {
     const material = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, depthTest: false, depthWrite: false });
-    const isNarrow = (shape: Shape) => NARROW.has(paint) && shape.form !== AREA;
-    const wide = shapes.filter((shape) => !isNarrow(shape));
-    for (const [some, shown] of [...this.details(wide), [shapes.filter(isNarrow), this.narrow] as const]) {
-      for (const tile of tiles(some)) {
-        const out = new Triangles();
-        for (const shape of tile) {
-          if (shape.form === AREA) fill(out, shape, 0);
-          else if (shape.form !== POINT) widen(out, shape, 0);
-        }
-        const mesh = new Mesh(geometry(out, new Color(look[paint])), material);
+    for (const [narrow, shown] of [[false, this.exact], [true, this.narrow]] as const) {
+      for (const tile of tiles(shapes.filter((shape) => isNarrow(shape, paint) === narrow))) {
+        const mesh = new Mesh(geometry(ground(tile), new Color(look[paint])), material);
         mesh.renderOrder = order - 1000;
         this.add(mesh, shown);
       }
+    }
+  }
+
+  /** Ground and roofs as a CPU draws them from afar while the map moves: one mesh of each, with few corners. */
+  private overview(labels: string[], by: Map<string, Shape[]>, look: Look): void {
+    const of = (label: string) => (by.get(label) ?? []).map((shape) => coarser(shape, COARSE)).filter(({ paths }) => paths.length);
+    const flat = labels.filter((label) => label in GROUND).reverse().map((label) => { // what lies on top comes last
+      const wide = of(label).filter((shape) => !isNarrow(shape, GROUND[label]));
+      return geometry(ground(wide), new Color(look[GROUND[label]]));
+    });
+    const high = Object.entries(RISING).map(([label, paint]) => geometry(roofs(of(label)), new Color(look[paint])));
+    for (const [parts, order, depthTest] of [[flat, -1000, false], [high, 0, true]] as const) {
+      if (!parts.length) continue;
+      const material = new MeshBasicMaterial({ vertexColors: true, side: depthTest ? FrontSide : DoubleSide, depthTest, depthWrite: depthTest });
+      const mesh = new Mesh(mergeGeometries([...parts]), material);
+      mesh.renderOrder = order;
+      this.add(mesh, this.coarse);
     }
   }
 
@@ -126,11 +138,7 @@ export class Map3d implements MapPicture {
     for (const [label, paint] of Object.entries(RISING)) {
       for (const tile of tiles((by.get(label) ?? []).filter((shape) => shape.form === AREA))) {
         const [sides, edges] = [new Triangles(), [] as number[]];
-        for (const [some, shown] of this.details(tile)) {
-          const roofs = new Triangles();
-          for (const shape of some) fill(roofs, shape, roof(shape));
-          this.add(new Mesh(geometry(roofs, new Color(look[paint])), material), shown);
-        }
+        this.add(new Mesh(geometry(roofs(tile), new Color(look[paint])), material), this.exact);
         for (const shape of tile) {
           const top = roof(shape);
           raise(sides, shape, shape.base, top);
@@ -187,12 +195,6 @@ export class Map3d implements MapPicture {
     }
   }
 
-  /** Shapes as they are, and for a CPU as they are seen from afar. */
-  private details(shapes: Shape[]): [Shape[], Object3D[]][] {
-    const exact: [Shape[], Object3D[]] = [shapes, this.exact];
-    return this.slow ? [exact, [shapes.map((shape) => coarser(shape, COARSE)).filter(({ paths }) => paths.length), this.coarse]] : [exact];
-  }
-
   /** `shown` are those that are drawn from near or from afar alone. */
   private add(object: Object3D, shown?: Object3D[]): void {
     object.matrixAutoUpdate = false;
@@ -201,8 +203,27 @@ export class Map3d implements MapPicture {
   }
 }
 
+function isNarrow(shape: Shape, paint: Paint): boolean {
+  return NARROW.has(paint) && shape.form !== AREA;
+}
+
+function ground(shapes: Shape[]): Triangles {
+  const out = new Triangles();
+  for (const shape of shapes) {
+    if (shape.form === AREA) fill(out, shape, 0);
+    else if (shape.form !== POINT) widen(out, shape, 0);
+  }
+  return out;
+}
+
 function roof(shape: Shape): number {
   return Math.max(shape.top, shape.base + 0.5);
+}
+
+function roofs(shapes: Shape[]): Triangles {
+  const out = new Triangles();
+  for (const shape of shapes.filter(({ form }) => form === AREA)) fill(out, shape, roof(shape));
+  return out;
 }
 
 /** Shapes by the tile that they begin in. */
