@@ -67,6 +67,8 @@ _SIDE = re.compile(
 )
 _THE_STREET = re.compile(r"\s+(?:the|that|this)\s+(?:same\s+)?(?:street|road|avenue|ave|st)\b", re.IGNORECASE)
 _ABSENT = english().pattern("cues", "absent", r"\b(?:{})\s+(?:[a-z]+\s+){{0,2}}$")
+_GREETING = english().pattern("cues", "greeting", r"\W*(?:{})[ ,]+")
+_HERE = re.compile(r"\s+here\b", re.IGNORECASE)
 _SENTENCE = re.compile(r"[.;!?\n]\s")
 _THE = re.compile(r"\b(?:the|this|that|our|my)\s+$", re.IGNORECASE)
 _ON_TOP = re.compile(r"\bon[\s-]top of\s+(?:[a-z-]+\s+){0,3}$", re.IGNORECASE)
@@ -81,7 +83,7 @@ def with_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list
     kept = [
         (mention, cue)
         for mention, cue in zip(mentions, read, strict=True)
-        if cue.is_meant and not _ABSENT.search(text[: mention.start])
+        if cue.is_meant and not _ABSENT.search(text[: mention.start]) and not _is_greeted(text, mention)
     ]
     sides = [Said(m.start(), m.end(), wind_of(m[1]) or 0.0) for m in _SIDE.finditer(text)]
     winds = _apart(winds_of(text), [*mentions, *sides])  # the east of East 53rd Street is none
@@ -93,6 +95,15 @@ def with_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list
         replace(mention, cue=said[n], side=beside[n].value if n in beside else None)
         for n, (mention, _) in enumerate(kept)
     ]
+
+
+def _is_greeted(text: str, mention: Mention) -> bool:
+    """Whether a name that the map has not is somebody's: "This is Ruth", "Hey Ruth", "Ruth here"."""
+    if mention.form != "unknown" or " " in mention.text:
+        return False
+    before = text[: mention.start]
+    is_here = not before.strip() and _HERE.match(text, mention.end) is not None
+    return is_here or _GREETING.fullmatch(before) is not None
 
 
 def _is_again(text: str, mention: Mention, before: Sequence[Mention]) -> bool:

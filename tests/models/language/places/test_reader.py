@@ -48,12 +48,20 @@ def test_names_that_the_map_lacks_are_unknown(lookup, cues) -> None:
     assert mention.text == "Blarney Stone"
 
 
-def test_an_unknown_name_is_told_of_and_a_greeting_is_not(lookup, cues) -> None:
+@pytest.mark.parametrize(
+    "hello",
+    ["This is Ruth.", "Hi, it's Leo.", "Hey Margaret,", "Nuala here,", "Hello, Marta here,", "My name is Yusuf."],
+)
+def test_who_speaks_is_no_place(lookup, cues, hello) -> None:
+    assert [m.text for m in find_mentions(f"{hello} I'm at 25th and 10th.", lookup, cues)] == ["25th and 10th"]
+
+
+def test_an_unknown_name_is_told_of(lookup, cues) -> None:
     assert [m.text for m in find_mentions("I'm outside Zanzibar Moon Palace and Elmo is on my left", lookup, cues)] == [
         "Zanzibar Moon Palace",
         "Elmo",
     ]
-    assert [m.text for m in find_mentions("This is Ruth. I'm at 25th and 10th.", lookup, cues)] == ["25th and 10th"]
+    assert [m.text for m in find_mentions("This is Zanzibar Moon Palace.", lookup, cues)] == ["Zanzibar Moon Palace"]
 
 
 def test_a_kind_that_the_map_lacks_is_unknown(lookup, cues) -> None:
