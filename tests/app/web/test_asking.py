@@ -74,8 +74,8 @@ def test_what_was_not_understood_and_not_found_says_so(visit):
     missed = visitor.page.locator(".evidence li.none")
     assert "helicopter" in missed.first.inner_text()
     assert "was not understood" in missed.first.inner_text()
-    visitor.ask("I am on East Street 1 next to a book shop.")
-    assert visitor.page.locator(".mention.none", has_text="book shop").count() == 1
+    visitor.ask("I am on East Street 1, right outside the museum.")
+    assert visitor.page.locator(".mention.none", has_text="museum").count() == 1
     visitor.ask("Hello, how do you do?")
     assert visitor.page.inner_text("#answer h2") == "Nothing to go by"
 
@@ -85,7 +85,7 @@ def test_markup_is_shown_as_text_in_what_is_typed_and_in_what_the_map_calls_thin
     typed = f"{EVIL} I am on East Street 1. <b>There</b> is a tree to my north."
     visitor.ask(typed)
     assert typed in visitor.page.inner_text("#answer .told")
-    answer = visitor.ask("I am at the corner of East Street 1 and North Path 4. A building is to my north.")
+    answer = visitor.ask("I am on East Street 1, and a book shop is on my left.")
     assert EVIL in answer["estimate"]["place"], "else this tests nothing"
     assert EVIL in visitor.page.inner_text("#answer")
     assert visitor.page.locator("#answer img, #answer b b").count() == 0
