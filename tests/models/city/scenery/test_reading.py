@@ -4,7 +4,7 @@ import shapely
 
 from models.city.scenery.cloud import encode_cloud
 from models.city.scenery.files import file_name, save_scenery
-from models.city.scenery.reading import look, read_scenery
+from models.city.scenery.reading import AREA, LINE, POINT, look, read_scenery
 from models.city.scenery.shapes import Place, encode_shapes
 from models.city.types import MapShape
 
@@ -19,9 +19,9 @@ def test_shapes_are_read_as_they_were_written(tmp_path) -> None:
     save_scenery(tmp_path, [encode_shapes(shapes, [Place((1.0, -2.0), "Café Ö", "amenity/cafe")])])
     drawn = read_scenery(tmp_path / file_name(0))
     assert [(o.label, o.form, o.name, o.width_m) for o in drawn.outlines] == [
-        ("tree", 0, None, 0.0),
-        ("building", 2, "Kauppahalli", 0.0),
-        ("road", 1, None, 6.5),
+        ("tree", POINT, None, 0.0),
+        ("building", AREA, "Kauppahalli", 0.0),
+        ("road", LINE, None, 6.5),
     ]
     tree, house, road = drawn.outlines
     assert tree.paths[0].tolist() == [[-3.2, 4.0]]
