@@ -5,6 +5,7 @@ import json
 import struct
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
 
@@ -87,7 +88,7 @@ def _outlines(told: dict[str, str], tensors: dict[str, npt.NDArray[Any]], walked
             paths=paths[first:end],
             hole=hole[first:end],
         )
-        for n, (first, end) in enumerate(zip([0, *last], last, strict=False))
+        for n, (first, end) in enumerate(pairwise([0, *last]))
     ]
 
 

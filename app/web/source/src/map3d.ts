@@ -124,7 +124,7 @@ export class Map3d implements MapPicture {
     for (const [parts, order, depthTest] of [[flat, -1000, false], [high, 0, true]] as const) {
       if (!parts.length) continue;
       const material = new MeshBasicMaterial({ vertexColors: true, side: depthTest ? FrontSide : DoubleSide, depthTest, depthWrite: depthTest });
-      const mesh = new Mesh(mergeGeometries([...parts]), material);
+      const mesh = new Mesh(mergeGeometries(parts), material);
       mesh.renderOrder = order;
       this.add(mesh, this.coarse);
     }
