@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from models.files import sha256
+from models.training.posterior.cue_texts import LABELLED
 
 ROOT = Path(__file__).parents[1]
 REPORTS = ROOT / "models" / "reports"
@@ -37,7 +38,7 @@ def test_nothing_is_trained_on_a_test_set() -> None:
     recipe = (ROOT / "Makefile").read_text() + (ROOT / "models/weights/posterior/MODEL_CARD.md").read_text()
     fitted = {said["file"] for said in SETS if Path(said["file"]).name in recipe}
     assert fitted
-    assert {said["role"] for said in SETS if said["file"] in fitted} == {"fitted"}
+    assert fitted == {said["file"] for said in SETS if said["role"] == "fitted"}
 
 
 def test_sets_of_different_roles_share_no_text() -> None:
@@ -48,3 +49,10 @@ def test_sets_of_different_roles_share_no_text() -> None:
             words = text.get("description") or text.get("text") or " ".join(text["hints"])
             by_role.setdefault(said["role"], set()).add(words)
     assert not by_role["test"] & (by_role["fitted"] | by_role["validation"])
+    assert not by_role["fitted"] & by_role["validation"]
+
+
+def test_the_reader_of_cues_has_not_read_what_was_written_as_a_test() -> None:
+    read = {json.loads(line)["text"] for path in LABELLED.glob("*.jsonl") for line in path.read_text().splitlines()}
+    for path in REPORTS.glob("people/*_test.jsonl"):
+        assert not read & {text["text"] for text in texts_of(path)}

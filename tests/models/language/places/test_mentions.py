@@ -1,6 +1,6 @@
 import pytest
 
-from models.language.places.cue_reader import CueReader
+from models.language.places.cue_reader import CueReader, ReadCue
 from models.language.places.mentions import Mention, with_cues
 from models.language.places.reader import find_mentions
 
@@ -75,6 +75,17 @@ def test_a_kind_named_again_is_the_same_thing(cues) -> None:
         mentions = [Mention(words, start, start + len(words), "thing") for words, start in at]
         right += [m.start for m in with_cues(text, mentions, cues)] == [start for _, start in at[:2]]
     assert right >= len(pairs) - 1, "a trained reader may stumble over a word"
+
+
+def test_who_is_named_again_is_left_out_before_it_is_read() -> None:
+    class Credulous:
+        def read(self, text: str, places: list[tuple[int, int, str]]) -> list[ReadCue]:
+            return [ReadCue(None, (), "seen", has_wind=False, is_meant=True) for _ in places]
+
+    text = "A cafe is near. A bakery is north of the cafe."
+    at = [("cafe", 2), ("bakery", 18), ("cafe", text.rindex("cafe"))]
+    mentions = [Mention(words, start, start + len(words), "thing") for words, start in at]
+    assert [m.start for m in with_cues(text, mentions, Credulous())] == [2, 18]
 
 
 def test_another_of_a_kind_is_another(lookup, cues) -> None:
