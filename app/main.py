@@ -1,6 +1,6 @@
 """The service: put together here, and nowhere else."""
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from functools import partial
 from importlib.metadata import version
@@ -11,15 +11,19 @@ from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
 from app.http.errors import add_error_handlers
+from app.http.indexes import Indexes
 from app.http.keys import KeyCheck, open_routes
 from app.http.middleware import AccessLog, NoSniff, StrictBody, is_sane_request_id
 from app.http.openapi import describe as describe_app
 from app.http.openapi import error_table
 from app.http.protocol import LocalizerLike
-from app.http.queue import InferenceQueue
 from app.http.routes import cells, describe, evaluate, health, localize, maps, page
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
+from app.threads import usable_cpus
+from app.workers.order import OpenOrder
+from app.workers.remote import open_workers
+from index.artifact import MANIFEST, read_aliases
 
 ABOUT = """Say in plain words what you see around you, and it says where in the city you are.
 
@@ -35,22 +39,24 @@ def create_app(
 
     Args:
         settings: limits, and where the index is.
-        open_localizer: run once, on the inference thread, when the service starts; None opens settings.index_dir.
+        open_localizer: run when the service starts, in a thread of it; None opens settings.index_dir in workers.
         page_dir: what the page's build wrote.
     """
-    opener = open_localizer or partial(_open_localizer, settings)
-    queue = InferenceQueue(opener, settings.max_queue, settings.max_batch)
+    if open_localizer is None:
+        indexes = Indexes(partial(_open_workers, settings), partial(_aliases, settings.index_dir), settings)
+    else:
+        indexes = Indexes(lambda _alias, _version: [open_localizer()], dict, settings)
     jobs = EvaluationJobs(settings.max_jobs)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
-        queue.start()
+        await indexes.start()
         jobs.start()
         try:
             yield
         finally:
             await jobs.close()
-            await queue.close()
+            await indexes.close()
 
     app = FastAPIOffline(
         title="Hereabouts",
@@ -62,7 +68,7 @@ def create_app(
         swagger_ui_parameters={"validatorUrl": None},  # else Swagger shows a badge from swagger.io
     )
     app.state.settings = settings
-    app.state.queue = queue
+    app.state.indexes = indexes
     app.state.jobs = jobs
     add_error_handlers(app)
     _add_routes(app, settings, page_dir)
@@ -84,12 +90,17 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     app.add_middleware(NoSniff)
 
 
-def _open_localizer(settings: Settings) -> LocalizerLike:
-    from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
-    from index.query import Query  # noqa: PLC0415
+def _open_workers(settings: Settings, alias: str, version: str | None) -> Sequence[LocalizerLike]:
+    """The workers of an index: of the version that an alias names, or of a directory that is a version itself."""
+    return open_workers(open_order(settings, version), settings.workers or usable_cpus())
 
-    localizer = Localizer.open(
-        settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
-    )
-    localizer.localize([Query("I am north of a building.")])  # or the first request waits
-    return localizer
+
+def open_order(settings: Settings, version: str | None = None) -> OpenOrder:
+    """What to open of the settings' index directory: a version, or what is there by default."""
+    directory = settings.index_dir / version if version else settings.index_dir
+    return OpenOrder(directory, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir)
+
+
+def _aliases(index_dir: Path) -> dict[str, str]:
+    """What the aliases name; nothing of a directory that is a version itself."""
+    return {} if (index_dir / MANIFEST).is_file() else read_aliases(index_dir).aliases

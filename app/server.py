@@ -8,7 +8,7 @@ import structlog
 import uvicorn
 from fastapi import FastAPI
 
-from app.http.queue import InferenceQueue
+from app.http.indexes import Indexes
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 
@@ -24,9 +24,9 @@ class DrainingServer(uvicorn.Server):
     before connections are closed, else those who follow one would keep the service from ending.
     """
 
-    def __init__(self, config: uvicorn.Config, queue: InferenceQueue, jobs: EvaluationJobs) -> None:
+    def __init__(self, config: uvicorn.Config, indexes: Indexes, jobs: EvaluationJobs) -> None:
         super().__init__(config)
-        self._queue = queue
+        self._indexes = indexes
         self._jobs = jobs
         self._is_ending = False
 
@@ -42,13 +42,13 @@ class DrainingServer(uvicorn.Server):
         if self._is_ending:
             super().handle_exit(sig, frame)
         self._is_ending = True
-        self._queue.drain()
+        self._indexes.drain()
 
     async def on_tick(self, counter: int) -> bool:
         """Whether to leave, asked ten times a second."""
         if self._is_ending:
-            self._queue.drain()  # again: a signal may have come before the queue was started
-        return await super().on_tick(counter) or (self._is_ending and self._queue.is_idle)
+            self._indexes.drain()  # again: a signal may have come before the queue was started
+        return await super().on_tick(counter) or (self._is_ending and self._indexes.is_idle)
 
     async def shutdown(self, sockets: list[socket] | None = None) -> None:
         """Leave."""
@@ -69,7 +69,7 @@ def serve(app: FastAPI, settings: Settings) -> None:
         server_header=False,
         timeout_graceful_shutdown=settings.max_deadline_ms // 1000 + CLOSING_S,
     )
-    DrainingServer(config, app.state.queue, app.state.jobs).run()
+    DrainingServer(config, app.state.indexes, app.state.jobs).run()
 
 
 def is_local(host: str) -> bool:

@@ -37,7 +37,11 @@ class Settings(BaseSettings):
     max_hints: PositiveInt = Field(32, description="of one request, given as hints or found in a description")
     max_top_k: PositiveInt = 40
     max_queue: PositiveInt = Field(256, description="requests that wait for the model; one more is refused with 429")
-    max_batch: PositiveInt = Field(32, description="requests computed in one forward pass")
+    max_wait_ms: PositiveInt = Field(
+        1500, description="that a request may be expected to wait for the model; one that would wait longer gets 429"
+    )
+    max_batch: PositiveInt = Field(8, description="requests that a worker computes at once")
+    workers: PositiveInt | None = Field(None, description="processes that hold the model; None: as many as CPUs")
     deadline_ms: PositiveInt = Field(10_000, description="of a request that names none")
     max_deadline_ms: PositiveInt = 60_000
     log_level: Literal["debug", "info", "warning", "error"] = "info"

@@ -3,12 +3,13 @@
     python docs/trace.py description --index data/index "I stand on a gray road. A park is to my west."
     python docs/trace.py map models/maps/helsinki.osm.pbf
 
-A description is a POST /localize to the service in this process, from the route to the response; the service is ready
-before, as it is for users, and what runs before the route (middleware, checks of the body) is named apart. A map is the
-command `index`, from the command to the files written, into a directory that is deleted after. Each file comes with the
-function that was entered first, and with how many different functions and lines of it ran. What runs while a module is
-imported does not count. Files of which fewer than SMALL lines ran are helpers, and listed apart. All threads are
-followed; what other processes would share of a map's work is done in this one. Settings are the HEREABOUTS_ variables.
+A description is a POST /localize to the service in this process, its model too, from the route to the response; the
+service is ready before, as it is for users, and what runs before the route (middleware, checks of the body) is named
+apart. A map is the command `index`, from the command to the files written, into a directory that is deleted after. Each
+file comes with the function that was entered first, and with how many different functions and lines of it ran. What
+runs while a module is imported does not count. Files of which fewer than SMALL lines ran are helpers, and listed apart.
+All threads are followed; what other processes would share of a map's work is done in this one. Settings are the
+HEREABOUTS_ variables.
 """
 # ruff: noqa: PLC0415  # tracing begins before what is traced is imported
 
@@ -129,11 +130,12 @@ def trace_description(index_dir: Path, text: str) -> None:
     from fastapi.testclient import TestClient
 
     from app.logs import configure_logging
-    from app.main import create_app
+    from app.main import create_app, open_order
     from app.settings import load_settings
 
     configure_logging("error")
-    with TestClient(create_app(load_settings(index_dir=index_dir, read_key=None))) as client:
+    settings = load_settings(index_dir=index_dir, read_key=None)
+    with TestClient(create_app(settings, open_order(settings).open)) as client:  # in this process, not in a worker
         end_s = time.monotonic() + READY_S
         while (ready := client.get("/readyz")).status_code != 200:
             if ready.json().get("code") == "load_failed" or time.monotonic() > end_s:

@@ -1,6 +1,6 @@
 """An index on disk: immutable version directories, a manifest in each, and an alias that says which one serves.
 
-<root>/aliases.json            {"default": "<version>"}
+<root>/aliases.json            {"aliases": {"default": "<version>"}, "versions": {"<version>": "<manifest's sha256>"}}
 <root>/<version>/manifest.json written last; names every other file with its sha256
 <root>/<version>/vectors.faiss                 a vector a cell
 <root>/<version>/hints.safetensors             what the retriever makes of every template hint about the map
@@ -13,22 +13,57 @@
 """
 
 import hashlib
-import json
+from contextlib import suppress
 from datetime import UTC, datetime
 from importlib.metadata import version as package_version
 from pathlib import Path
+from typing import Annotated, Final, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from filelock import FileLock
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    PositiveFloat,
+    PositiveInt,
+    StringConstraints,
+    TypeAdapter,
+    ValidationError,
+)
 
 from models.city.kitti360pose.files import list_scenes, select_scenes
 from models.city.store.files import MANIFEST as STORE_MANIFEST
 from models.errors import IndexBroken, IndexMismatch
 from models.files import FileRecord, replace_file, sha256
 
-MANIFEST = "manifest.json"
-ALIASES = "aliases.json"
-FORMAT = 6
-ADVICE = "build it with 'hereabouts index --map MAP --out DIR'"
+MANIFEST: Final = "manifest.json"
+ALIASES: Final = "aliases.json"
+DEFAULT: Final = "default"  # the alias that is served to who names none
+FORMAT: Final = 7
+ADVICE: Final = "build it with 'hereabouts index --map MAP --out DIR'"
+LOCK: Final = ".lock"  # held by whoever changes the aliases
+NEEDED: Final = frozenset({"vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "gazetteer.json"})
+
+NAME: Final = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,127}$"  # of an alias, version or file
+Name = Annotated[str, StringConstraints(pattern=NAME)]
+Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
+
+
+class Aliases(BaseModel):
+    """What an index directory serves under which name.
+
+    Attributes:
+        aliases: the version that each names.
+        versions: sha256 of the manifest of each version that was registered.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    aliases: dict[Name, Name] = {}
+    versions: dict[Name, Sha256] = {}
+
+
+EARLIER: Final = TypeAdapter(dict[Name, Name])
 
 
 class FrameRecord(BaseModel):
@@ -36,10 +71,10 @@ class FrameRecord(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    frame_id: str
-    origin_lat: float | None
-    origin_lon: float | None
-    epsg: int | None
+    frame_id: str = Field(min_length=1)
+    origin_lat: float | None = Field(ge=-90, le=90)
+    origin_lon: float | None = Field(ge=-180, le=180)
+    epsg: PositiveInt | None
 
 
 class Manifest(BaseModel):
@@ -61,23 +96,29 @@ class Manifest(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     format: int = FORMAT
-    version: str
-    created: str
+    version: Name
+    created: Annotated[str, StringConstraints(pattern=r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00$")]
     software: str
     map_name: str
-    map_sha256: str
+    map_sha256: Sha256
     attribution: str
     frame: FrameRecord
-    palette: str
-    cell_size_m: float
-    grid_m: float
+    palette: Literal["basic", "kitti360"]
+    cell_size_m: PositiveFloat
+    grid_m: PositiveFloat
     model: str
-    model_fingerprint: str
-    dim: int
-    metric: str = "inner_product"
-    cells: int
-    instances: int
-    files: dict[str, FileRecord]
+    model_fingerprint: Sha256
+    dim: PositiveInt
+    metric: Literal["inner_product"] = "inner_product"
+    cells: PositiveInt
+    instances: PositiveInt
+    files: dict[Name, FileRecord]
+
+
+class FormatOnly(BaseModel):
+    """What is read of a manifest first, whatever else is in it."""
+
+    format: int
 
 
 def fingerprint(data: Path, split: str | None = None) -> str:
@@ -115,27 +156,63 @@ def write_manifest(directory: Path, manifest: Manifest) -> None:
 
 
 def set_alias(root: Path, alias: str, version: str) -> None:
-    """Let an alias name another version, at once for whoever opens it next."""
-    aliases = read_aliases(root) | {alias: version}
-    replace_file(root / ALIASES, (json.dumps(aliases, indent=2) + "\n").encode())
+    """Let an alias name another version, at once for whoever opens it next; the version is registered, if it is not.
+
+    Raises:
+        IndexBroken: the aliases there are cannot be read.
+    """
+    _change(root, aliases={alias: version}, versions={version: sha256(root / version / MANIFEST)})
 
 
-def read_aliases(root: Path) -> dict[str, str]:
-    """The aliases of an index directory; none if there is no such file."""
+def register(root: Path, version: str) -> Manifest:
+    """Take a version that was built elsewhere and copied into an index directory; no alias names it yet.
+
+    Returns:
+        Its manifest.
+
+    Raises:
+        IndexBroken: it is missing, incomplete or changed; one that is registered stays as it is.
+    """
+    if version in read_aliases(root).versions:
+        return open_version(root / version)[1]
+    manifest = _read_manifest(root / version)
+    check_files(root / version, manifest)
+    _change(root, aliases={}, versions={version: sha256(root / version / MANIFEST)})
+    return manifest
+
+
+def _change(root: Path, aliases: dict[str, str], versions: dict[str, str]) -> None:
+    root.mkdir(parents=True, exist_ok=True)
+    with FileLock(root / LOCK):
+        known = read_aliases(root)
+        changed = Aliases(aliases=known.aliases | aliases, versions=known.versions | versions)
+        replace_file(root / ALIASES, (changed.model_dump_json(indent=2) + "\n").encode())
+
+
+def read_aliases(root: Path) -> Aliases:
+    """The aliases and versions of an index directory; none if there is no such file.
+
+    Raises:
+        IndexBroken: the file is broken, or cannot be read.
+    """
     try:
-        aliases = json.loads((root / ALIASES).read_text())
-        return {str(alias): str(version) for alias, version in aliases.items()}
+        content = (root / ALIASES).read_bytes()
+        with suppress(ValidationError):  # up to format 6, an object of aliases alone; their versions are built anew
+            return Aliases(aliases=EARLIER.validate_json(content))
+        return Aliases.model_validate_json(content)
     except FileNotFoundError:
-        return {}
-    except (ValueError, AttributeError) as error:
-        raise IndexBroken(f"{root / ALIASES} cannot be read; delete {root} and {ADVICE}") from error
+        return Aliases()
+    except (OSError, ValidationError) as error:
+        advice = f"delete {root} and {ADVICE}"
+        raise IndexBroken(f"{root / ALIASES} is broken or of another version of hereabouts; {advice}") from error
 
 
-def open_version(path: Path) -> tuple[Path, Manifest]:
+def open_version(path: Path, alias: str = DEFAULT) -> tuple[Path, Manifest]:
     """Find and check an index version.
 
     Args:
-        path: an index directory (its alias "default" is opened), or one version of it.
+        path: an index directory, or one version of it.
+        alias: what to open of an index directory.
 
     Returns:
         The version's directory and its manifest; every file is there and unchanged.
@@ -143,22 +220,61 @@ def open_version(path: Path) -> tuple[Path, Manifest]:
     Raises:
         IndexBroken: it is missing, incomplete or changed.
     """
-    directory = path if (path / MANIFEST).is_file() else path / read_aliases(path).get("default", "")
-    if not (directory / MANIFEST).is_file():
-        raise IndexBroken(f"no index in {path}; {ADVICE}")
+    directory = path if (path / MANIFEST).is_file() else _named(path, alias)
+    known = read_aliases(directory.parent).versions
+    manifest = _read_manifest(directory, known.get(directory.name))
+    check_files(directory, manifest)
+    return directory, manifest
+
+
+def _named(root: Path, alias: str) -> Path:
+    """The version's directory that an alias names."""
+    aliases = read_aliases(root).aliases
+    if alias not in aliases:
+        there = f"; its aliases are {', '.join(sorted(aliases))}" if aliases else ""
+        raise IndexBroken(f"no index {'' if alias == DEFAULT else alias + ' '}in {root}{there}; {ADVICE}")
+    return root / aliases[alias]
+
+
+def _read_manifest(directory: Path, expected: str | None = None) -> Manifest:
+    """A version's manifest, if it is what was registered (its sha256)."""
+    path = directory / MANIFEST
     try:
-        manifest = Manifest.model_validate_json((directory / MANIFEST).read_bytes())
+        content = path.read_bytes()
+        given = FormatOnly.model_validate_json(content).format
+    except OSError as error:
+        raise IndexBroken(f"{path} is missing; {ADVICE}") from error
     except ValidationError as error:
-        raise IndexBroken(f"{directory / MANIFEST} is broken or of another version of hereabouts; {ADVICE}") from error
-    if manifest.format != FORMAT:
-        raise IndexBroken(f"{directory} has format {manifest.format}, this hereabouts reads {FORMAT}; {ADVICE}")
+        raise IndexBroken(f"{path} is broken; {ADVICE}") from error
+    if given != FORMAT:
+        raise IndexBroken(f"{directory} has format {given}, this hereabouts reads {FORMAT}; {ADVICE}")
+    if expected is not None and hashlib.sha256(content).hexdigest() != expected:
+        raise IndexBroken(f"{path} was changed after it was written; {ADVICE}")
+    try:
+        manifest = Manifest.model_validate_json(content)
+    except ValidationError as error:
+        wrong = error.errors()[0]
+        field = ".".join(map(str, wrong["loc"])) or "manifest"
+        raise IndexBroken(f"{path} is broken: {field}: {wrong['msg']}; {ADVICE}") from error
+    if manifest.version != directory.name:
+        raise IndexBroken(f"{path} is of version {manifest.version}; give its directory that name, or {ADVICE}")
+    if missing := NEEDED - set(manifest.files):
+        raise IndexBroken(f"{path} names no {', '.join(sorted(missing))}; {ADVICE}")
+    return manifest
+
+
+def check_files(directory: Path, manifest: Manifest) -> None:
+    """Compare a version's files with its manifest.
+
+    Raises:
+        IndexBroken: one is missing, incomplete or changed.
+    """
     for name, record in manifest.files.items():
-        file = directory / Path(name).name
+        file = directory / name
         if not file.is_file() or file.stat().st_size != record.bytes:
             raise IndexBroken(f"{file} is missing or cut short; {ADVICE}")
         if sha256(file) != record.sha256:
             raise IndexBroken(f"{file} was changed after it was written; {ADVICE}")
-    return directory, manifest
 
 
 def check_model(manifest: Manifest, fingerprint: str) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from index.answers import Answer, CellDetail, CellInstance, Described, IndexFacts, LatLon, ModelName
-from index.artifact import Manifest, check_model, open_version
+from index.artifact import ADVICE, Manifest, check_model, open_version
 from index.finding import CellLocalizer, to_answer
 from index.hint_features import load_hint_features
 from index.posterior.localizer import PosteriorLocalizer
@@ -22,6 +22,7 @@ from models.city.gallery import Gallery, MapData
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.scenery.files import SceneryPart, file_name, is_scenery
 from models.city.types import Floats
+from models.errors import IndexBroken
 from models.language.text_encoder import load_text_encoder
 from models.localization.checkpoint import load_refiner
 from models.localization.fine_model import FineMethod, FineModel
@@ -59,6 +60,14 @@ class Localizer:
         self.gallery = Gallery.load(directory)
         self.ranker = Ranker.load(retriever.global_alone(), directory)
         self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
+        said = {"dim": manifest.dim, "cells": manifest.cells, "instances": manifest.instances}
+        held = {
+            "dim": self.ranker.store.dim,
+            "cells": len(self.ranker.store),
+            "instances": len(self.gallery.labels),
+        }
+        if said != held or len(self.gallery.cells) != manifest.cells:
+            raise IndexBroken(f"{directory}: the manifest says {said}, its files hold {held}; {ADVICE}")
         self._known_hints = load_hint_features(directory, retriever)
         self._row = {cell_id: row for row, cell_id in enumerate(self.gallery.cells.ids)}
 
@@ -193,6 +202,9 @@ class Localizer:
     def describe(self, position_m: tuple[float, float]) -> Described | None:
         """What the map says at a position (x, y), metres, map frame; None off the map, and where nothing is near."""
         return self._describer.describe(np.array(position_m, dtype=np.float64))
+
+    def close(self) -> None:
+        """Let go of it; what it holds goes with its process."""
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""

@@ -42,6 +42,10 @@ class ReplyError(HereaboutsError):
         super().__init__(f"answers[{number}].{field}: {advice}")
         self.number, self.field, self.advice = number, field, advice
 
+    def __reduce__(self) -> tuple[type["ReplyError"], tuple[int, str, str]]:
+        """What another process makes it of again."""
+        return type(self), (self.number, self.field, self.advice)
+
 
 class WeightsError(HereaboutsError):
     """Weights that are missing, broken or of another model."""

@@ -1,16 +1,21 @@
 """Files and directories that are there whole or not at all, whatever happens while they are written."""
 
+import fcntl
 import hashlib
 import os
 import shutil
 import tempfile
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import get_ident
-from typing import BinaryIO
+from typing import BinaryIO, Final
 
 from pydantic import BaseModel, ConfigDict
+
+BUILDING: Final = ".building-"  # begins the name of a directory that is being filled
+SETTLING_S: Final = 60.0
 
 
 class FileRecord(BaseModel):
@@ -59,7 +64,10 @@ def new_directory(path: Path) -> Iterator[Path]:
     Whoever may reach it can read what is in it: some libraries write files that only their owner can.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    beside = Path(tempfile.mkdtemp(prefix=f".{path.name}-", dir=path.parent))
+    _remove_abandoned(path.parent)
+    beside = Path(tempfile.mkdtemp(prefix=BUILDING, dir=path.parent))
+    held = os.open(beside, os.O_RDONLY)
+    fcntl.flock(held, fcntl.LOCK_EX)  # until this process ends, however that may be
     try:
         yield beside
         for item in (*beside.rglob("*"), beside):
@@ -68,7 +76,22 @@ def new_directory(path: Path) -> Iterator[Path]:
         beside.rename(path)
         sync(path.parent)
     finally:
+        os.close(held)
         shutil.rmtree(beside, ignore_errors=True)
+
+
+def _remove_abandoned(parent: Path) -> None:
+    """Remove directories that were being filled when their process was killed."""
+    for left in parent.glob(f"{BUILDING}*"):
+        with suppress(OSError):  # of somebody else, or somebody else removes it too
+            if time.time() - left.stat().st_mtime < SETTLING_S:
+                continue  # it may be about to be locked
+            held = os.open(left, os.O_RDONLY)
+            try:
+                fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                shutil.rmtree(left, ignore_errors=True)
+            finally:
+                os.close(held)
 
 
 def sync(path: Path) -> None:

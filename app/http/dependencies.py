@@ -1,13 +1,16 @@
-"""What routes are given: the settings, the queue, the evaluations, and a localizer that is ready."""
+"""What routes are given: the settings, the indexes, the evaluations, and a localizer that is ready."""
 
+from collections.abc import AsyncIterator
 from typing import Annotated
 
-from fastapi import Depends, Request
+from fastapi import Depends, Query, Request
 
+from app.http.indexes import Indexes
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
+from index.artifact import DEFAULT, NAME
 
 
 async def get_settings(request: Request) -> Settings:
@@ -16,10 +19,23 @@ async def get_settings(request: Request) -> Settings:
     return settings
 
 
-async def get_queue(request: Request) -> InferenceQueue:
-    """The application's queue."""
-    queue: InferenceQueue = request.app.state.queue
-    return queue
+async def get_indexes(request: Request) -> Indexes:
+    """The application's indexes."""
+    indexes: Indexes = request.app.state.indexes
+    return indexes
+
+
+async def get_queue(
+    request: Request,
+    index: Annotated[str, Query(pattern=NAME, description="which of the indexes that /info names")] = DEFAULT,
+) -> AsyncIterator[InferenceQueue]:
+    """The queue of an index, which stays until the request is answered.
+
+    Raises:
+        Problem: 404, no such index.
+    """
+    async with (await get_indexes(request)).lease(index) as queue:
+        yield queue
 
 
 async def get_jobs(request: Request) -> EvaluationJobs:
@@ -28,16 +44,19 @@ async def get_jobs(request: Request) -> EvaluationJobs:
     return jobs
 
 
-async def get_localizer(request: Request) -> LocalizerLike:
-    """The localizer.
+Queue = Annotated[InferenceQueue, Depends(get_queue)]
+
+
+async def get_localizer(queue: Queue) -> LocalizerLike:
+    """The localizer of an index.
 
     Raises:
         Problem: 503 until it is loaded.
     """
-    return (await get_queue(request)).localizer
+    return queue.localizer
 
 
 SettingsNow = Annotated[Settings, Depends(get_settings)]
-Queue = Annotated[InferenceQueue, Depends(get_queue)]
+AllIndexes = Annotated[Indexes, Depends(get_indexes)]
 Jobs = Annotated[EvaluationJobs, Depends(get_jobs)]
 Localizer = Annotated[LocalizerLike, Depends(get_localizer)]

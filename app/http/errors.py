@@ -39,6 +39,7 @@ class Code(Enum):
         None,
     )
     NOT_FOUND = (404, "No such path", "See /docs for the paths there are.", None)
+    INDEX_NOT_FOUND = (404, "No such index", "GET /info names the indexes that are served.", None)
     CELL_NOT_FOUND = (404, "No such cell", "Take a cell_id from an answer of the index that is served now.", None)
     MAP_NOT_FOUND = (
         404,
@@ -114,8 +115,15 @@ class ProblemBody(BaseModel):
 class Problem(HTTPException):
     """An error on its way to the client."""
 
-    def __init__(self, code: Code, detail: str | None = None, errors: Sequence[FieldError] = ()) -> None:
-        headers = {} if code.retry_after_s is None else {"Retry-After": str(code.retry_after_s)}
+    def __init__(
+        self,
+        code: Code,
+        detail: str | None = None,
+        errors: Sequence[FieldError] = (),
+        retry_after_s: int | None = None,
+    ) -> None:
+        retry_after_s = retry_after_s or code.retry_after_s
+        headers = {} if retry_after_s is None else {"Retry-After": str(retry_after_s)}
         super().__init__(code.status, detail or code.remedy, headers)
         self.code = code
         self.errors = tuple(errors)

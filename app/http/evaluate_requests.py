@@ -4,8 +4,9 @@ from typing import Annotated, Self
 
 from pydantic import ConfigDict, Field, JsonValue, Strict, StringConstraints, create_model, model_validator
 
-from app.http.requests import REFINE, Body, Length, Point, Told, told_fields, wrong
+from app.http.requests import REFINE, Body, IndexName, Length, Point, Told, told_fields, wrong
 from app.settings import Settings
+from index.artifact import DEFAULT
 from index.query import Crs, Refine
 
 EXAMPLE: JsonValue = {
@@ -41,6 +42,7 @@ class EvaluateRequest(Body):
         None, description="radii in metres of a growing gallery, for example [200, 300, 400, 500]"
     )
     refine: Refine = REFINE
+    index: IndexName = DEFAULT
 
     @model_validator(mode="after")
     def _is_one_source(self) -> Self:

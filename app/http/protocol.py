@@ -13,7 +13,7 @@ class LocalizerLike(Protocol):
     """Answers queries about one map."""
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
-        """One answer a query, in order; blocks, and runs on the inference thread only."""
+        """One answer a query, in order; blocks, and runs on one thread only."""
         ...
 
     def describe(self, position_m: tuple[float, float]) -> Described | None:
@@ -26,6 +26,10 @@ class LocalizerLike(Protocol):
 
     def scenery(self, number: int) -> SceneryPart | None:
         """A part of what the map looks like; None if there is no such part. Called from any thread."""
+        ...
+
+    def close(self) -> None:
+        """Let go of what it holds; nothing is asked any more."""
         ...
 
     @property

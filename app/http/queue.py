@@ -1,9 +1,10 @@
-"""One thread that owns the model, a bounded queue before it, and micro-batches of whatever waits."""
+"""A bounded queue before the workers that hold the model, and small batches of whatever waits."""
 
 import asyncio
+import math
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from threading import Condition, Thread
@@ -12,10 +13,11 @@ import structlog
 
 from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
-from app.startup import no_collection
 from index.answers import Answer
 from index.query import Query
 from models.errors import HereaboutsError
+
+LEARNING = 0.1  # weight of the last batch in what a query is thought to take
 
 log = structlog.get_logger()
 
@@ -48,38 +50,58 @@ class _Job:
 
 
 class InferenceQueue:
-    """Answers queries on one thread, several in a forward pass when several wait.
+    """Answers queries on as many threads as there are workers, several at once when several wait.
 
-    The thread opens the localizer, then takes what waits, up to `max_batch`, without any artificial delay.
-    A query whose client left or whose deadline has passed is not computed. When a batch fails, its items
-    are computed one by one, so that a bad one fails alone.
+    A thread opens the localizers, then each of them has a thread that takes its share of what waits, up to
+    `max_batch`, without any artificial delay. A query whose client left or whose deadline has passed is not computed;
+    one that would wait too long is refused at once. When a batch fails, its items are computed one by one, so that a
+    bad one fails alone.
+
+    Args:
+        open_localizers: run once; each of what it gives answers on a thread of its own.
+        max_queue: queries that wait.
+        max_batch: queries that are computed at once.
+        max_wait_s: that a query may be expected to wait.
     """
 
-    def __init__(self, open_localizer: Callable[[], LocalizerLike], max_queue: int, max_batch: int) -> None:
-        self._open_localizer = open_localizer
+    def __init__(
+        self,
+        open_localizers: Callable[[], Sequence[LocalizerLike]],
+        max_queue: int,
+        max_batch: int,
+        max_wait_s: float = math.inf,
+    ) -> None:
+        self._open_localizers = open_localizers
         self._max_queue = max_queue
         self._max_batch = max_batch
+        self._max_wait_s = max_wait_s
         self._changed = Condition()
         self._jobs: deque[_Job] = deque()
         self._computing = 0
-        self._localizer: LocalizerLike | None = None
+        self._query_s = 0.0  # that a worker takes for a query, a moving average
+        self._localizers: Sequence[LocalizerLike] = ()
         self._failure: str | None = None
         self._is_draining = False
         self._is_closed = False
-        self._thread: Thread | None = None
+        self._threads: list[Thread] = []
+        self._opened: Future[None] = Future()
 
     @property
     def localizer(self) -> LocalizerLike:
-        """The localizer, for its facts and cells; `localize` belongs to the inference thread.
+        """The localizer, for its facts and cells; `localize` belongs to the threads of the queue.
 
         Raises:
             Problem: not ready, or it could not be loaded.
         """
         if self._failure is not None:
             raise Problem(Code.LOAD_FAILED, self._failure)
-        if self._localizer is None:
+        if not self._localizers:
             raise Problem(Code.NOT_READY)
-        return self._localizer
+        return self._localizers[0]
+
+    async def opened(self) -> None:
+        """Wait until the localizers are there, or cannot be opened."""
+        await asyncio.wrap_future(self._opened)
 
     @property
     def is_draining(self) -> bool:
@@ -103,23 +125,24 @@ class InferenceQueue:
         _ = self.localizer
 
     def start(self) -> None:
-        """Start the thread, which begins by loading the localizer."""
+        """Start to load the localizers."""
         self._is_draining = self._is_closed = False
-        self._thread = Thread(target=self._run, name="inference", daemon=True)
-        self._thread.start()
+        self._opened = Future()
+        self._threads = [Thread(target=self._open, name="inference", daemon=True)]
+        self._threads[0].start()
 
     def drain(self) -> None:
         """Refuse new queries; the waiting ones are answered. Takes no lock: a signal handler may call it."""
         self._is_draining = True
 
     async def close(self) -> None:
-        """Drain, wait for the waiting queries, end the thread."""
+        """Drain, wait for the waiting queries, end the threads."""
         self.drain()
         with self._changed:
             self._is_closed = True
-            self._changed.notify()
-        if self._thread is not None:
-            await asyncio.to_thread(self._thread.join)
+            self._changed.notify_all()
+        for thread in self._threads:  # the first adds the others before it ends
+            await asyncio.to_thread(thread.join)
 
     async def submit(self, query: Query, deadline_s: float) -> Served:
         """Answer a query. When the caller is cancelled before the computation begins, it never begins.
@@ -144,8 +167,9 @@ class InferenceQueue:
     def _enqueue(self, job: _Job) -> None:
         with self._changed:
             self.check_accepting()
-            if len(self._jobs) >= self._max_queue:
-                raise Problem(Code.QUEUE_FULL)
+            wait_s = self._query_s * (len(self._jobs) + self._computing / 2) / len(self._localizers)
+            if len(self._jobs) >= self._max_queue or wait_s > min(self._max_wait_s, job.deadline_s - time.monotonic()):
+                raise Problem(Code.QUEUE_FULL, retry_after_s=max(1, math.ceil(wait_s)))
             self._jobs.append(job)
             self._changed.notify()
 
@@ -154,30 +178,48 @@ class InferenceQueue:
             if job in self._jobs:
                 self._jobs.remove(job)
 
-    def _run(self) -> None:
+    def _open(self) -> None:
+        localizers = self._try_to_open()
+        self._localizers = localizers
+        self._threads += [
+            Thread(target=self._run, args=(localizer,), name="inference", daemon=True) for localizer in localizers[1:]
+        ]
+        for thread in self._threads[1:]:
+            thread.start()
+        self._opened.set_result(None)
+        if localizers:
+            self._run(localizers[0])
+
+    def _try_to_open(self) -> Sequence[LocalizerLike]:
+        """The localizers; none if they cannot be opened."""
         try:
-            with no_collection():
-                self._localizer = localizer = self._open_localizer()
+            localizers = self._open_localizers()
         except HereaboutsError as error:
             log.error("load failed", reason=str(error))
-            self._failure = str(error)
-            return
+            self._failure = "the index or the model cannot be used; the operator finds in the log why"
+            return ()
         except Exception:
             log.exception("load failed")
             self._failure = "a fault in the service while loading; the operator finds it in the log"
-            return
-        log.info("ready", index_version=localizer.facts.version, cells=localizer.facts.num_cells)
+            return ()
+        facts = localizers[0].facts
+        log.info("ready", index_version=facts.version, cells=facts.num_cells, workers=len(localizers))
+        return localizers
+
+    def _run(self, localizer: LocalizerLike) -> None:
         while batch := self._take():
             self._compute(localizer, [job for job in batch if job.begins()])
             with self._changed:
-                self._computing = 0
+                self._computing -= len(batch)
+        localizer.close()
 
     def _take(self) -> list[_Job]:
-        """What waits, at most `max_batch`; waits for a first one; empty when closed and nothing is left."""
+        """A worker's share of what waits; waits for a first one; empty when closed and nothing is left."""
         with self._changed:
             self._changed.wait_for(lambda: self._jobs or self._is_closed)
-            batch = [self._jobs.popleft() for _ in range(min(self._max_batch, len(self._jobs)))]
-            self._computing = len(batch)
+            share = math.ceil(len(self._jobs) / len(self._localizers))
+            batch = [self._jobs.popleft() for _ in range(min(self._max_batch, share))]
+            self._computing += len(batch)
             return batch
 
     def _compute(self, localizer: LocalizerLike, jobs: list[_Job]) -> None:
@@ -195,5 +237,10 @@ class InferenceQueue:
             for job in jobs:
                 self._compute(localizer, [job] if job.is_in_time() else [])
         else:
+            self._learn((time.monotonic() - started_s) / len(jobs))
             for job, answer in served:
                 job.result.set_result(Served(answer, (started_s - job.submitted_s) * 1000))
+
+    def _learn(self, query_s: float) -> None:
+        with self._changed:
+            self._query_s += LEARNING * (query_s - self._query_s) if self._query_s else query_s

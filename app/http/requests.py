@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
 from pydantic import (
     AfterValidator,
@@ -18,6 +18,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
+from index.artifact import DEFAULT, NAME
 from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, MOST_REPLIES, Box, Circle, Crs, Prior, Query, Refine, Reply
 from models.errors import DescriptionError
 from models.language.sentences import split_hints
@@ -33,6 +34,9 @@ MIN_METRES = 1e-3
 Coordinate = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=-MAX_METRES, le=MAX_METRES)]
 Length = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=MIN_METRES, le=MAX_METRES)]
 Point = tuple[Coordinate, Coordinate]
+IndexName = Annotated[
+    str, Strict(), StringConstraints(pattern=NAME), Field(description="which of the indexes that GET /info names")
+]
 
 
 def wrong(message: str, field: str = "") -> PydanticCustomError:
@@ -182,7 +186,7 @@ class LocalizeRequest(Told):
         [], description="to questions of earlier answers, all of them each time: the service remembers none"
     )
     deadline_ms: int
-    index: Literal["default"] = "default"
+    index: IndexName = DEFAULT
 
     @model_validator(mode="after")
     def _is_on_earth(self) -> Self:
@@ -233,6 +237,7 @@ class DescribeRequest(Body):
     position: Point = Field(description="[x, y] in metres, or [lon, lat] with crs wgs84")
     crs: Crs = Field("map", description="what the coordinates of position mean")
     deadline_ms: int
+    index: IndexName = DEFAULT
 
     @model_validator(mode="after")
     def _is_on_earth(self) -> Self:

@@ -179,6 +179,7 @@ class Limits(_Out):
     max_hints: int
     max_top_k: int
     max_queue: int
+    max_wait_ms: int = Field(description="that a request may be expected to wait for the model")
     max_batch: int
     max_queries: int = Field(description="of one evaluation")
     max_jobs: int = Field(description="evaluations that wait")
@@ -219,5 +220,6 @@ class InfoResponse(_Out):
     version: str
     key_required: bool = Field(description="whether all but this, the page and the checks of health needs the read key")
     limits: Limits
-    index: IndexInfo | None = Field(description="null until it is loaded")
+    index: IndexInfo | None = Field(description="the one that is asked by default; null until it is loaded")
+    indexes: list[str] = Field(description="names that requests take as index")
     data_sets: list[str] = Field(description="names that POST /evaluate takes as data")

@@ -75,7 +75,7 @@ def api(_shared, fake):
     localizer.own = fake
     yield api
     fake.gate.set()
-    wait_until(lambda: api.app.state.queue.is_idle)
+    wait_until(lambda: api.app.state.indexes.is_idle)
 
 
 @pytest.fixture

@@ -34,6 +34,7 @@ class FakeLocalizer:
         self.batches = []  # queries of each call, in order
         self.threads = set()
         self.positions = []  # that were to be described, in order
+        self.is_closed = False
         self.gate = threading.Event()  # cleared: localize and describe block
         self.gate.set()
         self.entered = threading.Semaphore(0)
@@ -64,6 +65,9 @@ class FakeLocalizer:
             return None
         tree = CellInstance("tree", None, "node/1", "green", 12, (1.0, 2.0, 3.0), (2.0, 2.0, 6.0), (0.5, 1.0, 0.0))
         return CellDetail(cell_id, "fakeville", (0.0, 0.0, 1.0), (-15.0, -15.0, 15.0, 15.0), self._wgs84(), (tree,))
+
+    def close(self):
+        self.is_closed = True
 
     def scenery(self, number):
         return self.parts[number] if number < len(self.parts) else None

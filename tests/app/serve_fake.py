@@ -28,5 +28,5 @@ configure_logging("info")
 WORKER = (sys.executable, Path(__file__).parent / "jobs/fake_worker.py")
 with patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=WORKER)):
     app = create_app(settings, TellingLocalizer)
-app.add_api_route("/waiting", lambda: len(app.state.queue._jobs))
+app.add_api_route("/waiting", lambda: len(app.state.indexes.queue()._jobs))
 serve(app, settings)

@@ -15,7 +15,7 @@ import uvicorn
 from structlog.testing import capture_logs
 
 from app.http.errors import Code, Problem
-from app.http.queue import InferenceQueue
+from app.http.indexes import Indexes
 from app.jobs.runner import EvaluationJobs
 from app.main import create_app
 from app.server import DrainingServer, page_url, serve
@@ -185,17 +185,17 @@ def is_running(pid):
 
 
 def test_a_signal_that_comes_before_the_queue_is_started_is_not_lost(fake):
-    queue, jobs = InferenceQueue(lambda: fake, 1, 1), EvaluationJobs(1)
-    server = DrainingServer(uvicorn.Config(None), queue, jobs)
+    indexes, jobs = Indexes(lambda _alias, _version: [fake], dict, Settings()), EvaluationJobs(1)
+    server = DrainingServer(uvicorn.Config(None), indexes, jobs)
     server.handle_exit(signal.SIGTERM, None)
 
     async def start_and_end():
-        queue.start()  # as the application does when it starts
+        await indexes.start()  # as the application does when it starts
         while not await server.on_tick(1):
             await asyncio.sleep(0.01)
         with pytest.raises(Problem) as refused:
-            queue.check_accepting()
-        await queue.close()
+            indexes.check_accepting()
+        await indexes.close()
         return refused.value.code
 
     assert asyncio.run(asyncio.wait_for(start_and_end(), 20)) is Code.DRAINING

@@ -1,5 +1,6 @@
 import json
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -7,6 +8,7 @@ from index.artifact import (
     check_model,
     open_version,
     read_aliases,
+    register,
     set_alias,
 )
 from index.localizer import Localizer
@@ -32,7 +34,7 @@ def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
         *("vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "surroundings.safetensors"),
         *("gazetteer.safetensors", "gazetteer.json", "meanings.faiss", "meanings.json", "scenery.0.safetensors.gz"),
     }
-    assert not list(index_dir.glob(".*"))
+    assert [path.name for path in index_dir.glob(".*")] == [".lock"]
 
 
 def test_a_version_opens_by_its_own_path(index_dir) -> None:
@@ -46,7 +48,7 @@ def test_no_index_is_a_clear_error(tmp_path) -> None:
 
 
 def version_file(root, name):
-    return root / read_aliases(root)["default"] / name
+    return root / read_aliases(root).aliases["default"] / name
 
 
 @pytest.mark.parametrize("name", ["vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json"])
@@ -64,11 +66,81 @@ def test_cut_changed_and_missing_files_are_noticed(copy, name) -> None:
         open_version(copy)
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 1}'])
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 7}'])
 def test_a_broken_manifest_is_noticed(copy, text) -> None:
     version_file(copy, "manifest.json").write_text(text)
-    with pytest.raises(IndexBroken, match="broken or of another version"):
+    with pytest.raises(IndexBroken, match=r"manifest.json (is broken|was changed)"):
         open_version(copy)
+
+
+def test_a_manifest_with_any_byte_changed_is_refused_by_name(copy) -> None:
+    path = version_file(copy, "manifest.json")
+    whole = path.read_bytes()
+    for at in range(len(whole)):
+        for changed in (whole[at] ^ 1, whole[at] ^ 0x20, ord("7")):
+            if changed != whole[at]:
+                path.write_bytes(whole[:at] + bytes([changed]) + whole[at + 1 :])
+                with pytest.raises(IndexBroken, match=r"manifest.json|has format"):
+                    open_version(copy)
+    path.write_bytes(whole)
+    open_version(copy)
+
+
+def unregistered(root):
+    """The manifest of a version that was copied here from elsewhere, and its path."""
+    path = version_file(root, "manifest.json")
+    (root / "aliases.json").unlink()
+    return path, json.loads(path.read_text())
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("dim", 0), ("dim", -1), ("cells", 0), ("metric", "l2"), ("version", "v9"), ("version", "../v"), ("files", {}),
+        ("palette", "grey"), ("model_fingerprint", "0"), ("map_sha256", "z" * 64), ("grid_m", -10), ("created", "now"),
+        ("frame", {"frame_id": "map", "origin_lat": 160.0, "origin_lon": 24.9, "epsg": None}),
+    ],
+)  # fmt: skip
+def test_each_field_of_a_manifest_is_checked(copy, field, value) -> None:
+    path, manifest = unregistered(copy)
+    path.write_text(json.dumps(manifest | {field: value}))
+    with pytest.raises(IndexBroken, match=r"manifest.json"):
+        open_version(path.parent)
+
+
+@pytest.mark.parametrize("field", ["dim", "cells", "instances"])
+def test_what_a_manifest_counts_has_to_be_there(copy, model, tmp_path, field) -> None:
+    save_retriever(model, tmp_path / "weights", {})
+    path, manifest = unregistered(copy)
+    path.write_text(json.dumps(manifest | {field: manifest[field] + 1}))
+    with pytest.raises(IndexBroken, match=field):
+        Localizer.open(path.parent, tmp_path / "weights")
+
+
+def test_a_version_from_elsewhere_is_registered_once_it_is_whole(copy) -> None:
+    path, _ = unregistered(copy)
+    version = path.parent.name
+    whole = (path.parent / "cells.json").read_bytes()
+    (path.parent / "cells.json").write_bytes(whole[:-1])
+    with pytest.raises(IndexBroken, match="cut short"):
+        register(copy, version)
+    assert read_aliases(copy).versions == {}
+    (path.parent / "cells.json").write_bytes(whole)
+    assert register(copy, version).version == version
+    assert list(read_aliases(copy).versions) == [version]
+    path.write_text(path.read_text().replace("1.0", "1.1"))
+    with pytest.raises(IndexBroken, match="changed"):
+        register(copy, version)
+
+
+def test_two_writers_lose_nothing(index_dir, tmp_path) -> None:
+    version, record = read_aliases(index_dir).aliases["default"], read_aliases(index_dir)
+    (tmp_path / version).mkdir()
+    shutil.copy(version_file(index_dir, "manifest.json"), tmp_path / version)
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(lambda n: set_alias(tmp_path, f"a{n}", version), range(40)))
+    assert len(read_aliases(tmp_path).aliases) == 40
+    assert read_aliases(tmp_path).versions == record.versions
 
 
 def test_another_format_is_refused(copy) -> None:
@@ -81,17 +153,37 @@ def test_another_format_is_refused(copy) -> None:
 @pytest.mark.parametrize("text", ["{", "3"])
 def test_broken_aliases_are_noticed(copy, text) -> None:
     (copy / "aliases.json").write_text(text)
-    with pytest.raises(IndexBroken, match="cannot be read"):
+    with pytest.raises(IndexBroken, match=r"aliases.json is broken"):
         open_version(copy)
+
+
+def test_an_alias_that_no_file_can_have_is_refused(copy) -> None:
+    known = json.loads((copy / "aliases.json").read_text())
+    for alias in ("x" * 5000, "../v", "", "a\0b"):
+        (copy / "aliases.json").write_text(json.dumps(known | {"aliases": {"default": alias}}))
+        with pytest.raises(IndexBroken, match=r"aliases.json is broken"):
+            open_version(copy)
+
+
+def test_an_index_of_an_earlier_format_says_that_it_has_to_be_built_anew(copy) -> None:
+    path, manifest = unregistered(copy)
+    path.write_text(json.dumps({"format": 6, "version": manifest["version"]}))
+    (copy / "aliases.json").write_text(json.dumps({"default": manifest["version"]}))
+    with pytest.raises(IndexBroken, match=r"has format 6, .* build it"):
+        open_version(copy)
+
+
+def test_an_unknown_alias_says_which_there_are(copy) -> None:
+    with pytest.raises(IndexBroken, match=r"no index canary in .* its aliases are default"):
+        open_version(copy, "canary")
 
 
 def test_a_manifest_cannot_name_files_elsewhere(copy) -> None:
-    path = version_file(copy, "manifest.json")
-    manifest = json.loads(path.read_text())
+    path, manifest = unregistered(copy)
     manifest["files"]["../../../etc/passwd"] = manifest["files"].pop("cells.json")
     path.write_text(json.dumps(manifest))
-    with pytest.raises(IndexBroken, match=r"passwd is missing"):
-        open_version(copy)
+    with pytest.raises(IndexBroken, match=r"manifest.json is broken: files"):
+        open_version(path.parent)
 
 
 def test_a_failed_build_leaves_nothing(tmp_path) -> None:
@@ -103,11 +195,12 @@ def test_a_failed_build_leaves_nothing(tmp_path) -> None:
 def test_aliases_switch(tmp_path) -> None:
     for version in ("v1", "v2"):
         with new_directory(tmp_path / version) as directory:
-            (directory / "x").write_text(version)
+            (directory / "manifest.json").write_text(version)
         set_alias(tmp_path, "default", version)
     set_alias(tmp_path, "canary", "v1")
-    assert read_aliases(tmp_path) == {"default": "v2", "canary": "v1"}
-    assert (tmp_path / "v1" / "x").read_text() == "v1", "older versions stay"
+    assert read_aliases(tmp_path).aliases == {"default": "v2", "canary": "v1"}
+    assert list(read_aliases(tmp_path).versions) == ["v1", "v2"]
+    assert (tmp_path / "v1" / "manifest.json").read_text() == "v1", "older versions stay"
 
 
 def test_an_index_of_another_model_is_refused(index_dir, model, text_encoder, tmp_path) -> None:

@@ -1,5 +1,9 @@
 import hashlib
+import os
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
@@ -83,3 +87,23 @@ def test_records_are_sizes_and_sums(tmp_path) -> None:
     records = file_records(tmp_path)
     assert list(records) == ["a", "b"]
     assert (records["b"].bytes, records["b"].sha256) == (5, hashlib.sha256(b"bytes").hexdigest())
+
+
+def test_what_a_killed_process_left_is_removed_and_what_another_fills_is_not(tmp_path) -> None:
+    script = "import sys, time; from models.files import new_directory\nwith new_directory(Path(sys.argv[1])) as d:\n"
+    script = f"from pathlib import Path\n{script}    (d / 'x').write_text('x'); print(d, flush=True); time.sleep(60)"
+    running = [
+        subprocess.Popen([sys.executable, "-c", script, tmp_path / name], stdout=subprocess.PIPE, text=True)
+        for name in ("killed", "alive")
+    ]
+    killed, alive = (Path(process.stdout.readline().strip()) for process in running)
+    running[0].kill()
+    running[0].wait()
+    for left in (killed, alive):
+        os.utime(left, (0, 0))
+    with new_directory(tmp_path / "own"):
+        assert not killed.exists()
+        assert (alive / "x").read_text() == "x"
+    running[1].kill()
+    running[1].communicate()
+    running[0].communicate()

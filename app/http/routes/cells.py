@@ -19,7 +19,15 @@ router = APIRouter(tags=["map"])
     responses={
         200: geojson_content(),
         304: {"description": "The cell that the client has (If-None-Match) is still the one that is served"},
-        **problems(Code.CELL_NOT_FOUND, Code.NOT_ACCEPTABLE, Code.NO_GEOREFERENCE, Code.NOT_READY, Code.LOAD_FAILED),
+        **problems(
+            Code.CELL_NOT_FOUND,
+            Code.INDEX_NOT_FOUND,
+            Code.INVALID_REQUEST,
+            Code.NOT_ACCEPTABLE,
+            Code.NO_GEOREFERENCE,
+            Code.NOT_READY,
+            Code.LOAD_FAILED,
+        ),
     },
 )
 def cell(cell_id: str, request: Request, localizer: Localizer) -> Response:

@@ -6,7 +6,7 @@ import time
 from asgi_correlation_id import correlation_id
 from fastapi import APIRouter
 
-from app.http.dependencies import Localizer, Queue
+from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
 from app.http.requests import DescribeRequest, describe_model
@@ -20,6 +20,7 @@ ERRORS = (
     Code.BODY_TOO_LARGE,
     Code.UNSUPPORTED_MEDIA_TYPE,
     Code.INVALID_REQUEST,
+    Code.INDEX_NOT_FOUND,
     Code.INTERNAL_ERROR,
     Code.NOT_READY,
     Code.DRAINING,
@@ -37,24 +38,25 @@ def build_router(settings: Settings) -> APIRouter:
     @router.post("/describe", responses=problems(*ERRORS))
     async def describe(
         body: body_model,  # type: ignore[valid-type]  # FastAPI reads this class, made from the settings
-        queue: Queue,
-        localizer: Localizer,
+        indexes: AllIndexes,
     ) -> DescribeResponse:
         """What the map says at a position, in words by which POST /localize finds it again."""
         started_s = time.monotonic()
-        queue.check_accepting()
         asked: DescribeRequest = body
-        check_reach(asked, localizer.frame)
-        x, y = position_m(asked.position, asked.crs, localizer.frame).tolist()
-        # It reads what the localizer holds and runs no model: a thread of its own will do.
-        work = asyncio.to_thread(localizer.describe, (x, y))
-        try:
-            described = await asyncio.wait_for(work, asked.deadline_ms / 1000)
-        except TimeoutError:
-            raise Problem(Code.DEADLINE_EXCEEDED) from None
-        if described is None:
-            raise Problem.of_field("position", NOTHING_THERE)
-        timings_ms = {"total": (time.monotonic() - started_s) * 1000}
-        return DescribeResponse.of(described, localizer, correlation_id.get() or "", timings_ms)
+        async with indexes.lease(asked.index) as queue:
+            queue.check_accepting()
+            localizer = queue.localizer
+            check_reach(asked, localizer.frame)
+            x, y = position_m(asked.position, asked.crs, localizer.frame).tolist()
+            # It reads what the localizer holds and runs no model: a thread of its own will do.
+            work = asyncio.to_thread(localizer.describe, (x, y))
+            try:
+                described = await asyncio.wait_for(work, asked.deadline_ms / 1000)
+            except TimeoutError:
+                raise Problem(Code.DEADLINE_EXCEEDED) from None
+            if described is None:
+                raise Problem.of_field("position", NOTHING_THERE)
+            timings_ms = {"total": (time.monotonic() - started_s) * 1000}
+            return DescribeResponse.of(described, localizer, correlation_id.get() or "", timings_ms)
 
     return router

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Response
 from pydantic import BaseModel
 from sse_starlette import EventSourceResponse, ServerSentEvent
 
-from app.http.dependencies import Jobs, Localizer, Queue
+from app.http.dependencies import AllIndexes, Jobs
 from app.http.errors import Code
 from app.http.evaluate_requests import EvaluateRequest, evaluate_model
 from app.http.openapi import problems
@@ -24,6 +24,7 @@ POST_ERRORS = (
     Code.BODY_TOO_LARGE,
     Code.UNSUPPORTED_MEDIA_TYPE,
     Code.INVALID_REQUEST,
+    Code.INDEX_NOT_FOUND,
     Code.JOBS_FULL,
     Code.INTERNAL_ERROR,
     Code.NOT_READY,
@@ -61,13 +62,14 @@ def build_router(settings: Settings) -> APIRouter:
     async def evaluate(
         body: body_model,  # type: ignore[valid-type]  # FastAPI reads this class, made from the settings
         response: Response,
-        queue: Queue,
-        localizer: Localizer,
+        indexes: AllIndexes,
         jobs: Jobs,
     ) -> JobAccepted:
         """Start an evaluation: queries of one's own, or a data set of the service by its name."""
-        queue.check_accepting()
         asked: EvaluateRequest = body
+        queue = indexes.queue(asked.index)
+        queue.check_accepting()
+        localizer = queue.localizer
         index_dir = version_dir(settings.index_dir, localizer.facts.version)
         job = await jobs.submit(await asyncio.to_thread(to_evaluation, asked, settings, index_dir, localizer.frame))
         links = JobLinks(status=f"{PATH}/{job.id}", events=f"{PATH}/{job.id}/events")

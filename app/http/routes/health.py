@@ -4,7 +4,7 @@ from importlib.metadata import version
 
 from fastapi import APIRouter
 
-from app.http.dependencies import Queue, SettingsNow
+from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Code, Problem
 from app.http.keys import OPEN
 from app.http.openapi import problems
@@ -21,17 +21,17 @@ async def healthz() -> Health:
 
 
 @router.get("/readyz", responses=problems(Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED), openapi_extra=OPEN)
-async def readyz(queue: Queue) -> Health:
+async def readyz(indexes: AllIndexes) -> Health:
     """Whether a description would be answered now."""
-    queue.check_accepting()
+    indexes.check_accepting()
     return Health(status="ready")
 
 
 @router.get("/info", openapi_extra=OPEN)
-async def info(queue: Queue, settings: SettingsNow) -> InfoResponse:
+async def info(indexes: AllIndexes, settings: SettingsNow) -> InfoResponse:
     """The service's version and limits, and the index it serves."""
     try:
-        index = IndexInfo.of(queue.localizer)
+        index = IndexInfo.of(indexes.queue().localizer)
     except Problem:
         index = None
     return InfoResponse(
@@ -40,5 +40,6 @@ async def info(queue: Queue, settings: SettingsNow) -> InfoResponse:
         key_required=settings.read_key is not None,
         limits=Limits.model_validate(settings, from_attributes=True),
         index=index,
+        indexes=indexes.names(),
         data_sets=[path.name for path in data_sets(settings.data_dir)],
     )

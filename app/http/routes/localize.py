@@ -10,7 +10,7 @@ from asgi_correlation_id import correlation_id
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from app.http.dependencies import Localizer, Queue
+from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.geojson import localize_collection
 from app.http.negotiation import GEOJSON, negotiate, respond
@@ -34,22 +34,20 @@ def build_router(settings: Settings) -> APIRouter:
     async def localize(
         request: Request,
         body: body_model,  # type: ignore[valid-type]  # FastAPI reads this class, made from the settings
-        queue: Queue,
-        localizer: Localizer,
+        indexes: AllIndexes,
     ) -> Response:
         """Where the speaker of a description is, as JSON, or as GeoJSON if Accept says so."""
         started_s = time.monotonic()
         asked: LocalizeRequest = body
-        media_type = negotiate(request, localizer.frame)
-        check_reach(asked, localizer.frame)
-        deadline_s = started_s + asked.deadline_ms / 1000
-        served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
-        total_ms = (time.monotonic() - started_s) * 1000
-        response = LocalizeResponse.of(
-            served.answer, localizer, correlation_id.get() or "", {"queue": served.queue_ms, "total": total_ms}
-        )
-        geojson = localize_collection(response, localizer.frame) if media_type == GEOJSON else None
-        return respond(geojson or response, media_type)
+        async with indexes.lease(asked.index) as queue:
+            frame = queue.localizer.frame
+            media_type = negotiate(request, frame)
+            check_reach(asked, frame)
+            deadline_s = started_s + asked.deadline_ms / 1000
+            served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
+            timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
+            response = LocalizeResponse.of(served.answer, queue.localizer, correlation_id.get() or "", timings_ms)
+        return respond(localize_collection(response, frame) if media_type == GEOJSON else response, media_type)
 
     return router
 

@@ -94,5 +94,5 @@ def test_an_index_that_fits_is_kept(run, prepared, tmp_path) -> None:
     for split in ("0003", "0003", "0010"):
         args = ("index", "--map", prepared, "--out", tmp_path, "--split", split, "--keep-current")
         assert run(*args).exit_code == 0
-        versions.append(json.loads((tmp_path / "aliases.json").read_text())["default"])
+        versions.append(json.loads((tmp_path / "aliases.json").read_text())["aliases"]["default"])
     assert versions[0] == versions[1] != versions[2]

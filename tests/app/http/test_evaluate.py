@@ -154,7 +154,7 @@ def test_its_own_limit_of_bytes(settings, fake, start, submitted, problem):
 
 def test_refused_until_ready_and_while_draining(settings, fake, start, submitted, problem):
     with start(settings, fake) as api:
-        api.app.state.queue.drain()
+        api.app.state.indexes.drain()
         problem(api.post("/evaluate", json={"queries": [ASKED]}), 503, "draining")
 
 

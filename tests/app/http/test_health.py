@@ -31,7 +31,7 @@ def test_alive_at_once_and_ready_when_loaded(settings, fake, until, problem):
 @pytest.mark.parametrize(
     ("error", "said"),
     [
-        (IndexMismatch("index built by a, model is b; rebuild it"), "index built by a, model is b; rebuild it"),
+        (IndexMismatch("/secret/index built by a, model is b; rebuild it"), "the operator finds in the log why"),
         (KeyError("secret"), "the operator finds it in the log"),
     ],
 )
@@ -43,14 +43,14 @@ def test_load_that_failed_is_said_by_readyz(settings, until, problem, error, sai
         until(lambda: api.get("/readyz").json()["code"] != "not_ready")
         body = problem(api.get("/readyz"), 503, "load_failed")
         assert said in body["detail"]
-        assert "secret" not in body["detail"]
+        assert "secret" not in api.get("/readyz").text + api.post("/localize", json={"description": "a tree"}).text
         problem(api.post("/localize", json={"description": "a tree"}), 503, "load_failed")
         assert api.get("/healthz").status_code == 200
 
 
 def test_draining_refuses_and_says_so(settings, fake, start, problem):
     with start(settings, fake) as api:
-        api.app.state.queue.drain()
+        api.app.state.indexes.drain()
         response = api.get("/readyz")
         problem(response, 503, "draining")
         assert response.headers["retry-after"] == "5"
@@ -78,7 +78,8 @@ def test_info_shows_limits_and_index(api):
         "max_hints": 32,
         "max_top_k": 40,
         "max_queue": 256,
-        "max_batch": 32,
+        "max_batch": 8,
+        "max_wait_ms": 1500,
         "max_evaluate_bytes": 16_777_216,
         "max_queries": 10_000,
         "max_jobs": 8,
@@ -86,6 +87,7 @@ def test_info_shows_limits_and_index(api):
         "max_deadline_ms": 60_000,
     }
     assert body["data_sets"] == []
+    assert body["indexes"] == ["default"]
     assert body["index"]["num_cells"] == 2
     assert body["index"]["dim"] == 8
     assert body["index"]["crs"]["origin"] == {"lat": 60.17, "lon": 24.94}

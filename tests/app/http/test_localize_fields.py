@@ -42,7 +42,7 @@ TREE = {"question": "near:tree", "choice": "yes"}
         ({"deadline_ms": 0}, "deadline_ms"),
         ({"deadline_ms": 60_001}, "deadline_ms"),
         ({"crs": "utm"}, "crs"),
-        ({"index": "other"}, "index"),
+        ({"index": "../other"}, "index"),
         ({"refine": "guess"}, "refine"),
         ({"heat": False}, "heat"),
         ({"explain": True}, "explain"),

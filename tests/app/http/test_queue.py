@@ -23,7 +23,7 @@ def soon(seconds=5.0):
 
 @asynccontextmanager
 async def running(fake, max_queue=100, max_batch=100):
-    queue = InferenceQueue(lambda: fake, max_queue, max_batch)
+    queue = InferenceQueue(lambda: [fake], max_queue, max_batch)
     queue.start()
     while True:
         try:

@@ -1,0 +1,193 @@
+"""The indexes that are served: a queue an alias, exchanged under load when the alias names another version."""
+
+import asyncio
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Final
+
+import structlog
+
+from app.http.errors import Code, Problem
+from app.http.protocol import LocalizerLike
+from app.http.queue import InferenceQueue
+from app.settings import Settings
+from index.artifact import DEFAULT
+from models.errors import IndexUnusable
+
+LOOKED_AT_S: Final = 1.0  # how often aliases are read again
+
+log = structlog.get_logger()
+
+
+@dataclass(eq=False, slots=True)
+class _Served:
+    """A queue, and how many requests use it."""
+
+    queue: InferenceQueue
+    version: str | None  # that its alias named when it was opened; None: nobody knew
+    leases: int = 0
+    unused: asyncio.Event = field(default_factory=asyncio.Event)
+
+
+class Indexes:
+    """Queues by alias. A request leases one, so that one version answers it, whatever the alias names next.
+
+    Args:
+        open_index: what answers for an alias and the version that it names; blocks, runs on a thread.
+        read_aliases: the version that each alias names; blocks.
+        settings: limits of the queues.
+    """
+
+    def __init__(
+        self,
+        open_index: Callable[[str, str | None], Sequence[LocalizerLike]],
+        read_aliases: Callable[[], Mapping[str, str]],
+        settings: Settings,
+    ) -> None:
+        self._open_index, self._read_aliases, self._settings = open_index, read_aliases, settings
+        self._served: dict[str, _Served] = {}
+        self._retiring: set[asyncio.Task[None]] = set()
+        self._watching: asyncio.Task[None] | None = None
+        self._switching = asyncio.Lock()
+        self._is_draining = False
+        self._unreadable = ""  # why, when it was last logged
+
+    async def start(self) -> None:
+        """Begin to open what the aliases name, and to watch them."""
+        self._is_draining, self._switching = False, asyncio.Lock()
+        named = await self._named()
+        self._served = {alias: self._begin(alias, named.get(alias)) for alias in {DEFAULT, *named}}
+        self._watching = asyncio.create_task(self._watch())
+
+    def queue(self, alias: str = DEFAULT) -> InferenceQueue:
+        """What answers for an alias now.
+
+        Raises:
+            Problem: there is no such alias.
+        """
+        try:
+            return self._served[alias].queue
+        except KeyError:
+            raise Problem(Code.INDEX_NOT_FOUND) from None
+
+    def names(self) -> list[str]:
+        """The aliases, in order."""
+        return sorted(self._served)
+
+    @asynccontextmanager
+    async def lease(self, alias: str = DEFAULT) -> AsyncIterator[InferenceQueue]:
+        """What answers for an alias, and goes on to until the block ends.
+
+        Raises:
+            Problem: there is no such alias.
+        """
+        self.queue(alias)
+        served = self._served[alias]
+        served.leases += 1
+        try:
+            yield served.queue
+        finally:
+            served.leases -= 1
+            if not served.leases:
+                served.unused.set()
+
+    @property
+    def is_draining(self) -> bool:
+        """Whether new queries are refused for good."""
+        return self._is_draining
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing waits and nothing is computed."""
+        return all(served.queue.is_idle for served in self._served.values())
+
+    def check_accepting(self) -> None:
+        """Pass if a query to the default index would be taken now.
+
+        Raises:
+            Problem: draining, not ready, or not loaded.
+        """
+        if self._is_draining:
+            raise Problem(Code.DRAINING)
+        self.queue().check_accepting()
+
+    def drain(self) -> None:
+        """Refuse new queries; the waiting ones are answered. Takes no lock: a signal handler may call it."""
+        self._is_draining = True
+        for served in list(self._served.values()):
+            served.queue.drain()
+
+    async def close(self) -> None:
+        """Drain, wait for the waiting queries, end all queues."""
+        self.drain()
+        if self._watching is not None:
+            self._watching.cancel()
+            await asyncio.gather(self._watching, return_exceptions=True)
+        for task in self._retiring:
+            task.cancel()
+        await asyncio.gather(*self._retiring, return_exceptions=True)
+        await asyncio.gather(*(served.queue.close() for served in self._served.values()))
+
+    async def switch(self, alias: str, version: str | None) -> None:
+        """Open a version, then let an alias name it; who asks meanwhile, or has asked, is answered by the one before.
+
+        Raises:
+            Problem: it cannot be opened; the one before keeps answering.
+        """
+        async with self._switching:
+            new = self._begin(alias, version)
+            try:
+                await new.queue.opened()
+                new.queue.check_accepting()
+            except BaseException:
+                await new.queue.close()
+                raise
+            old, self._served[alias] = self._served.get(alias), new
+            log.info("index switched", alias=alias, index_version=new.queue.localizer.facts.version)
+            if old is not None:
+                task = asyncio.create_task(self._retire(old))
+                self._retiring.add(task)
+                task.add_done_callback(self._retiring.discard)
+
+    def _begin(self, alias: str, version: str | None) -> _Served:
+        limits = self._settings
+        opener = partial(self._open_index, alias, version)
+        queue = InferenceQueue(opener, limits.max_queue, limits.max_batch, limits.max_wait_ms / 1000)
+        queue.start()
+        if self._is_draining:
+            queue.drain()
+        return _Served(queue, version)
+
+    async def _retire(self, served: _Served) -> None:
+        """End a queue once no request uses it."""
+        while served.leases:
+            served.unused.clear()
+            await served.unused.wait()
+        await served.queue.close()
+
+    async def _named(self) -> dict[str, str]:
+        try:
+            return dict(await asyncio.to_thread(self._read_aliases))
+        except IndexUnusable as error:
+            if str(error) != self._unreadable:
+                log.error("aliases cannot be read", reason=str(error))
+            self._unreadable = str(error)
+            return {}
+
+    async def _watch(self) -> None:
+        """Follow the aliases; what cannot be opened is tried again when its alias changes again."""
+        failed: dict[str, str] = {}
+        while True:
+            await asyncio.sleep(LOOKED_AT_S)
+            for alias, version in (await self._named()).items():
+                served = self._served.get(alias)
+                if failed.get(alias) == version or (served is not None and served.version == version):
+                    continue
+                try:
+                    await self.switch(alias, version)
+                    failed.pop(alias, None)
+                except Problem as problem:
+                    failed[alias] = version
+                    log.error("index not switched", alias=alias, index_version=version, reason=problem.detail)

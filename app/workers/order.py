@@ -1,0 +1,34 @@
+"""What is said between the service and the processes that hold a model."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from index.localizer import Localizer
+
+FORK: Final = "fork"
+
+
+class WorkerFault(Exception):
+    """A fault in a worker, with its traceback."""
+
+
+@dataclass(frozen=True, slots=True)
+class OpenOrder:
+    """What to open; as `index.localizer.Localizer.open`."""
+
+    index_dir: Path
+    weights_dir: Path | None = None
+    fine_weights_dir: Path | None = None
+    posterior_weights_dir: Path | None = None
+
+    def open(self) -> "Localizer":
+        """The localizer, with everything read that its usual queries need."""
+        from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
+        from index.query import Query  # noqa: PLC0415
+
+        dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
+        localizer = Localizer.open(self.index_dir, *dirs)
+        localizer.localize([Query("I am north of a building.")])  # or the first request waits
+        return localizer

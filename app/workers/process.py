@@ -1,0 +1,85 @@
+"""The processes that hold a model: `python -m app.workers.process FD`.
+
+The first opens an index and is the mould: on request it forks workers, which share its memory and each answer on two
+connections of their own, one for queries and one for what needs no model. It ends when FD closes, a worker when its
+connections do, so that none outlives the service.
+"""
+
+import os
+import signal
+import sys
+import traceback
+from multiprocessing.connection import Connection
+from multiprocessing.reduction import recv_handle
+from threading import Thread
+from typing import TYPE_CHECKING, Final
+
+from app.startup import no_collection
+from app.workers.order import FORK, WorkerFault
+from models.errors import HereaboutsError
+
+if TYPE_CHECKING:
+    from index.localizer import Localizer
+
+SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # are for the service, which drains
+
+
+def main(control: Connection) -> None:
+    """Open what the first message says, answer (facts, frame) or an error, then fork workers as they are asked for."""
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+    try:
+        with no_collection():
+            localizer = control.recv().open()
+    except Exception as error:
+        control.send(_as_sent(error))
+        return
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the dead are buried at once
+    control.send((localizer.facts, localizer.frame))
+    while True:
+        try:
+            assert control.recv() == FORK
+            handles = recv_handle(control), recv_handle(control)
+        except (EOFError, OSError):
+            return
+        if os.fork() == 0:
+            control.close()
+            _work(localizer, *(Connection(handle) for handle in handles))
+            os._exit(0)
+        for handle in handles:
+            os.close(handle)
+
+
+def _work(localizer: "Localizer", queries: Connection, reads: Connection) -> None:
+    """Answer until the service closes the connection for queries."""
+    Thread(target=_answer, args=(localizer, reads), daemon=True).start()
+    queries.send(os.getpid())
+    _answer(localizer, queries)
+
+
+def _answer(localizer: "Localizer", asked: Connection) -> None:
+    """Answer calls (name of a method, arguments), one after another."""
+    while True:
+        try:
+            name, arguments = asked.recv()
+        except (EOFError, OSError):
+            return
+        try:
+            answer = getattr(localizer, name)(*arguments)
+        except Exception as error:
+            answer = _as_sent(error)
+        try:
+            asked.send(answer)
+        except OSError:
+            return
+
+
+def _as_sent(error: Exception) -> Exception:
+    """An error that another process can read: those that users meet are themselves, others become text."""
+    if isinstance(error, HereaboutsError):
+        return error
+    return WorkerFault("".join(traceback.format_exception(error)))
+
+
+if __name__ == "__main__":
+    main(Connection(int(sys.argv[1])))

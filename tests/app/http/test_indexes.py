@@ -1,0 +1,209 @@
+import asyncio
+import time
+from contextlib import asynccontextmanager
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+from fake_localizer import FakeLocalizer
+
+from app.http.errors import Code, Problem
+from app.http.indexes import Indexes
+from app.settings import Settings
+from index.query import Query
+from models.errors import IndexBroken
+
+
+class City:
+    """Index versions and the aliases that name them; what opened them, and what can no longer be opened."""
+
+    def __init__(self, **aliases):
+        self.aliases = aliases
+        self.opened = {}
+        self.broken = set()
+
+    def open(self, alias, version):
+        if version in self.broken:
+            raise IndexBroken(version)
+        fake = FakeLocalizer()
+        fake.facts = replace(fake.facts, version=version or "none")
+        self.opened[version] = fake
+        return [fake]
+
+
+@asynccontextmanager
+async def serving(city):
+    indexes = Indexes(city.open, lambda: city.aliases, Settings())
+    await indexes.start()
+    try:
+        for alias in indexes.names():
+            await indexes.queue(alias).opened()
+        yield indexes
+    finally:
+        for fake in city.opened.values():
+            fake.gate.set()
+        await indexes.close()
+
+
+async def asked(indexes, alias="default"):
+    """The version that answers."""
+    async with indexes.lease(alias) as queue:
+        await queue.submit(Query("a tree"), time.monotonic() + 5)
+        return queue.localizer.facts.version
+
+
+async def soon(condition):
+    async with asyncio.timeout(10):
+        while not condition():
+            await asyncio.sleep(0.01)
+
+
+@pytest.fixture(autouse=True)
+def _looks_often(monkeypatch):
+    monkeypatch.setattr("app.http.indexes.LOOKED_AT_S", 0.01)
+
+
+def test_each_alias_is_served_by_its_own_version():
+    async def run():
+        async with serving(City(default="v1", berlin="b1")) as indexes:
+            assert indexes.names() == ["berlin", "default"]
+            with pytest.raises(Problem) as refused:
+                indexes.queue("paris")
+            assert refused.value.code is Code.INDEX_NOT_FOUND
+            return await asked(indexes), await asked(indexes, "berlin")
+
+    assert asyncio.run(run()) == ("v1", "b1")
+
+
+def test_an_alias_that_changes_on_disk_is_followed_and_the_old_version_let_go():
+    city = City(default="v1")
+
+    async def run():
+        async with serving(city) as indexes:
+            first = city.opened["v1"]
+            city.aliases = {"default": "v2", "new": "v1"}
+            await soon(lambda: indexes.queue().localizer.facts.version == "v2" and "new" in indexes.names())
+            assert await asked(indexes) == "v2"
+            await soon(lambda: first.is_closed)
+            assert not city.opened["v1"].is_closed
+
+    asyncio.run(run())
+
+
+def test_a_request_keeps_its_version_while_the_alias_moves_on():
+    city = City(default="v1")
+
+    async def run():
+        async with serving(city) as indexes:
+            city.opened["v1"].gate.clear()
+            waiting = asyncio.create_task(asked(indexes))
+            async with indexes.lease() as held:
+                await asyncio.sleep(0.02)
+                city.aliases = {"default": "v2"}
+                await soon(lambda: indexes.queue() is not held)
+                assert await asked(indexes) == "v2"
+                city.opened["v1"].gate.set()
+                assert await waiting == "v1"
+                assert held.localizer.facts.version == "v1"
+                await held.submit(Query("another"), time.monotonic() + 5)
+                assert not city.opened["v1"].is_closed
+            await soon(lambda: city.opened["v1"].is_closed)
+
+    asyncio.run(run())
+
+
+def test_many_switches_under_load_lose_no_request():
+    city = City(default="v0")
+
+    async def client(indexes, versions):
+        while len(versions) < 2000:
+            versions.append(await asked(indexes))
+
+    async def run():
+        async with serving(city) as indexes:
+            versions = []
+            clients = [asyncio.create_task(client(indexes, versions)) for _ in range(64)]
+            for n in range(1, 41):
+                await indexes.switch("default", f"v{n}")
+            await asyncio.gather(*clients)
+            await soon(lambda: sum(not fake.is_closed for fake in city.opened.values()) == 1)
+            return versions
+
+    assert len(set(asyncio.run(run()))) > 10
+
+
+def test_a_version_that_cannot_be_opened_leaves_the_old_one_serving():
+    city = City(default="v1")
+    city.broken = {"v2"}
+
+    async def run():
+        async with serving(city) as indexes:
+            with pytest.raises(Problem) as refused:
+                await indexes.switch("default", "v2")
+            assert refused.value.code is Code.LOAD_FAILED
+            city.aliases = {"default": "v2"}
+            await asyncio.sleep(0.1)
+            assert await asked(indexes) == "v1"
+            city.aliases = {"default": "v3"}
+            await soon(lambda: indexes.queue().localizer.facts.version == "v3")
+
+    asyncio.run(run())
+
+
+def test_an_index_that_is_built_after_the_service_started_is_found():
+    city = City()
+    city.broken = {None}
+
+    async def run():
+        async with serving(city) as indexes:
+            with pytest.raises(Problem) as refused:
+                indexes.check_accepting()
+            assert refused.value.code is Code.LOAD_FAILED
+            city.aliases = {"default": "v1"}
+            await soon(lambda: "v1" in city.opened)
+            await soon(lambda: indexes.queue()._localizers)
+            return await asked(indexes)
+
+    assert asyncio.run(run()) == "v1"
+
+
+def test_aliases_that_cannot_be_read_change_nothing():
+    city = City(default="v1")
+
+    def unreadable():
+        raise IndexBroken("half a file")
+
+    async def run():
+        async with serving(city) as indexes:
+            indexes._read_aliases = unreadable
+            await asyncio.sleep(0.05)
+            return await asked(indexes)
+
+    assert asyncio.run(run()) == "v1"
+
+
+def test_draining_refuses_on_every_index():
+    async def run():
+        async with serving(City(default="v1", berlin="b1")) as indexes:
+            indexes.drain()
+            for alias in indexes.names():
+                with pytest.raises(Problem) as refused:
+                    await asked(indexes, alias)
+                assert refused.value.code is Code.DRAINING
+            return indexes.is_idle
+
+    assert asyncio.run(run())
+
+
+def test_a_request_names_its_index(api, fake, problem, text):
+    assert api.post("/localize", json={"description": text, "index": "default"}).status_code == 200
+    for path, body in (
+        ("/localize", {"description": text}),
+        ("/describe", {"position": [0.0, 0.0]}),
+        ("/evaluate", {"queries": [{"description": text, "position": [0.0, 0.0]}]}),
+    ):
+        problem(api.post(path, json=body | {"index": "paris"}), 404, "index_not_found")
+    problem(api.get("/cells/fakeville_00001?index=paris"), 404, "index_not_found")
+    problem(api.get("/cells/fakeville_00001?index=../x"), 422, "invalid_request", "index")
+    assert api.get("/cells/fakeville_00001?index=default").status_code == 200
+    assert SimpleNamespace(**api.get("/info").json()).indexes == ["default"]
