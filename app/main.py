@@ -10,10 +10,11 @@ from asgi_correlation_id import CorrelationIdMiddleware
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
+from app.http.bodies import StrictBody
 from app.http.errors import add_error_handlers
 from app.http.indexes import Indexes
 from app.http.keys import KeyCheck, open_routes
-from app.http.middleware import AccessLog, NoSniff, StrictBody, is_sane_request_id
+from app.http.middleware import AccessLog, NoSniff, is_sane_request_id
 from app.http.openapi import describe as describe_app
 from app.http.openapi import error_table
 from app.http.protocol import LocalizerLike
@@ -82,6 +83,7 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     routers = (*asked, cells.router, maps.router, health.router, page.build_router(page_dir))
     for router in routers:
         app.include_router(router)
+    app.state.routes = [route for router in routers for route in router.routes]  # FastAPI hides those it includes
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
     if settings.read_key is not None:
         app.add_middleware(KeyCheck, key=settings.read_key, open_routes=open_routes(routers))

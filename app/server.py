@@ -1,5 +1,7 @@
 """Running the service in one process, and ending it without dropping a request."""
 
+import signal
+import threading
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from socket import socket
 from types import FrameType
@@ -8,6 +10,7 @@ import structlog
 import uvicorn
 from fastapi import FastAPI
 
+from app.http.connection import Connection
 from app.http.indexes import Indexes
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
@@ -32,6 +35,8 @@ class DrainingServer(uvicorn.Server):
 
     async def startup(self, sockets: list[socket] | None = None) -> None:
         """Listen, and say where the page is."""
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGHUP, self.handle_exit)  # a terminal that closes ends it as others do
         await super().startup(sockets)
         if self.started:
             port = self.servers[0].sockets[0].getsockname()[1]  # the one that was free, if the settings say 0
@@ -67,6 +72,7 @@ def serve(app: FastAPI, settings: Settings) -> None:
         access_log=False,
         log_config=None,
         server_header=False,
+        http=Connection,
         timeout_graceful_shutdown=settings.max_deadline_ms // 1000 + CLOSING_S,
     )
     DrainingServer(config, app.state.indexes, app.state.jobs).run()

@@ -11,11 +11,12 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException as StarletteHTTPException
 from starlette.responses import JSONResponse, Response
+from starlette.routing import Match, Route
 
 from models.errors import ReplyError, WeightsError
 
 PROBLEM_JSON = "application/problem+json"
-MAX_LISTED_ERRORS = 20
+MAX_LISTED_ERRORS, MAX_BYTES = 20, 1024  # of a problem
 _PLAIN_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 
 
@@ -25,6 +26,7 @@ class Code(Enum):
     A member holds: HTTP status, title, what to do about it, seconds for Retry-After.
     """
 
+    INVALID_HTTP = (400, "The request is not HTTP", "Send HTTP/1.1, with a head of at most 64 KiB.", None)
     INVALID_JSON = (400, "The body is not JSON", "Send one JSON object in UTF-8.", None)
     KEY_REQUIRED = (
         401,
@@ -51,11 +53,13 @@ class Code(Enum):
     METHOD_NOT_ALLOWED = (405, "The path does not take this method", "See the Allow header.", None)
     NOT_ACCEPTABLE = (406, "No such format", "Accept application/json or application/geo+json.", None)
     NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.", None)
+    BODY_TOO_SLOW = (408, "The body did not come in time", "Send it without a pause, or send less.", None)
     CONFLICT = (409, "In conflict with what the service holds", "Look at /info, then ask again.", None)
     BODY_TOO_LARGE = (413, "The body is too large", "Send less; /info shows the limits.", None)
     UNSUPPORTED_MEDIA_TYPE = (415, "The body is of another type", "Send Content-Type: application/json.", None)
     INVALID_REQUEST = (422, "The request cannot be used", "Correct the fields listed in `errors`.", None)
     QUEUE_FULL = (429, "Too many requests wait", "Ask again after Retry-After seconds.", 1)
+    BODIES_FULL = (429, "Too many large bodies at once", "Ask again after Retry-After seconds.", 2)
     JOBS_FULL = (429, "Too many evaluations wait", "Ask again after Retry-After seconds, or cancel one.", 30)
     CLIENT_CLOSED_REQUEST = (499, "The client left", "Nobody reads this; it is for the log.", None)
     INTERNAL_ERROR = (500, "A fault in the service", "Report it with the request_id.", None)
@@ -158,14 +162,25 @@ def add_error_handlers(app: FastAPI) -> None:
     app.add_exception_handler(ReplyError, _on_reply_error)
 
 
-async def _on_http_exception(_request: Request, error: Exception) -> Response:
+async def _on_http_exception(request: Request, error: Exception) -> Response:
     if isinstance(error, Problem):
         return error.response()
     if not isinstance(error, StarletteHTTPException):
         raise error
     problem = Problem(_BY_STATUS.get(error.status_code, Code.INTERNAL_ERROR))
     problem.headers = {**(problem.headers or {}), **(error.headers or {})}
+    if problem.code is Code.METHOD_NOT_ALLOWED:
+        problem.headers["Allow"] = ", ".join(sorted(_methods(request)))
     return problem.response()
+
+
+def _methods(request: Request) -> set[str]:
+    """The methods that a path takes, of all its routes."""
+    methods: set[str] = set()
+    for route in (*request.app.routes, *request.app.state.routes):
+        if isinstance(route, Route) and route.matches(request.scope)[0] is not Match.NONE:
+            methods |= route.methods or set()
+    return methods
 
 
 async def _on_validation_error(_request: Request, error: Exception) -> Response:
@@ -179,7 +194,10 @@ async def _on_validation_error(_request: Request, error: Exception) -> Response:
     detail = f"{listed[0].field}: {listed[0].message}"
     if len(found) > 1:
         detail += f" (and {len(found) - 1} more)"
-    return Problem(Code.INVALID_REQUEST, detail, listed).response()
+    problem = Problem(Code.INVALID_REQUEST, detail, listed)
+    while len(problem.response().body) > MAX_BYTES and len(problem.errors) > 1:
+        problem.errors = problem.errors[:-1]
+    return problem.response()
 
 
 async def _on_weights_error(_request: Request, _error: Exception) -> Response:

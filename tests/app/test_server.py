@@ -82,7 +82,8 @@ def served(until, tmp_path):
         served.process.communicate()
 
 
-def test_sigterm_finishes_what_waits_and_exits_with_0(served, problem, until):
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT], ids=lambda number: number.name)
+def test_a_signal_finishes_what_waits_and_exits_with_0(served, problem, until, number):
     answers = []
     threads = [
         threading.Thread(target=lambda word=word: answers.append(served.localize(word))) for word in ("held", "queued")
@@ -91,7 +92,7 @@ def test_sigterm_finishes_what_waits_and_exits_with_0(served, problem, until):
     assert served.process.stdout.readline() == "held\n"
     threads[1].start()
     until(lambda: served.waiting() == 1)
-    served.terminate()
+    served.process.send_signal(number)
     until(lambda: httpx.get(f"{served.url}/readyz").status_code == 503)
     problem(httpx.get(f"{served.url}/readyz"), 503, "draining")
     problem(served.localize("refused"), 503, "draining")

@@ -18,6 +18,8 @@ from index.filters import position_m
 ERRORS = (
     Code.INVALID_JSON,
     Code.BODY_TOO_LARGE,
+    Code.BODIES_FULL,
+    Code.BODY_TOO_SLOW,
     Code.UNSUPPORTED_MEDIA_TYPE,
     Code.INVALID_REQUEST,
     Code.INDEX_NOT_FOUND,

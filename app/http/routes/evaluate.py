@@ -26,6 +26,8 @@ POST_ERRORS = (
     Code.INVALID_REQUEST,
     Code.INDEX_NOT_FOUND,
     Code.JOBS_FULL,
+    Code.BODIES_FULL,
+    Code.BODY_TOO_SLOW,
     Code.INTERNAL_ERROR,
     Code.NOT_READY,
     Code.DRAINING,

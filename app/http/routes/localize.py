@@ -28,6 +28,7 @@ def build_router(settings: Settings) -> APIRouter:
     body_model = request_model(settings)
     never_here = {Code.NOT_FOUND, Code.CELL_NOT_FOUND, Code.METHOD_NOT_ALLOWED, Code.CONFLICT}
     never_here |= {Code.JOB_NOT_FOUND, Code.JOBS_FULL, Code.MAP_NOT_FOUND, Code.KEY_REQUIRED, Code.KEY_WRONG}
+    never_here |= {Code.INVALID_HTTP}
     errors = problems(*(code for code in Code if code not in never_here | {Code.CLIENT_CLOSED_REQUEST}))
 
     @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **errors})

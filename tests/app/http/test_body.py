@@ -6,8 +6,8 @@ import json
 import pytest
 from starlette.datastructures import Headers
 
+from app.http.bodies import LARGE_BYTES, MAX_VALUES, LargeBodies, Share, check_headers, check_json, read_body
 from app.http.errors import Problem
-from app.http.middleware import check_headers, check_json, read_body
 
 JSON = {"Content-Type": "application/json"}
 
@@ -102,8 +102,15 @@ def test_short_unknown_field_is_named(api, problem):
 
 def test_many_errors_are_a_short_answer(api, problem):
     body = problem(api.post("/localize", json={f"x{n}": 1 for n in range(5000)}), 422, "invalid_request")
-    assert len(body["errors"]) == 20
+    assert 5 < len(body["errors"]) <= 20
     assert "4999 more" in body["detail"]
+
+
+def test_an_answer_about_what_is_wrong_has_at_most_a_kibibyte(api):
+    for length in (1, 20, 64, 200):
+        response = api.post("/localize", json={f"x{n}".ljust(length, "y"): 1 for n in range(20)})
+        assert response.status_code == 422
+        assert len(response.content) <= 1024
 
 
 def test_five_megabytes_are_a_short_413(api, problem):
@@ -131,7 +138,7 @@ def test_excess_is_not_read():
         return {"type": "http.request", "body": b"x" * 10, "more_body": True}
 
     with pytest.raises(Problem, match="more than 25 bytes"):
-        asyncio.run(read_body(receive, 25))
+        asyncio.run(read_body(receive, 25, Share(LargeBodies(1))))
     assert reads == 3
 
 
@@ -146,7 +153,7 @@ def test_client_that_leaves_in_the_body_is_no_body():
     async def receive():
         return {"type": "http.disconnect"}
 
-    assert asyncio.run(read_body(receive, 25)) is None
+    assert asyncio.run(read_body(receive, 25, Share(LargeBodies(1)))) is None
 
 
 @pytest.mark.parametrize(
@@ -160,6 +167,12 @@ def test_client_that_leaves_in_the_body_is_no_body():
         "application/geo+json",
         "application/json; charset=latin-1",
         "application/json; charset=utf-16",
+        'application/json; charset="utf-16"',
+        "application/json; charset=",
+        "application/json; charset=utf-8; charset=latin-1",
+        "application/json; charset*=latin-1''x",
+        b"application/json; charset=\xff",
+        "application/json, text/plain",
     ],
 )
 def test_other_content_type_is_415(api, fake, problem, content_type):
@@ -171,8 +184,9 @@ def test_compressed_body_is_415(api, problem):
     problem(post(api, b"x", {**JSON, "Content-Encoding": "gzip"}), 415, "unsupported_media_type")
 
 
-@pytest.mark.parametrize("content_type", ["application/json", "Application/JSON; charset=UTF-8"])
-def test_json_content_type_passes(api, content_type):
+@pytest.mark.parametrize("parameters", ["", "; charset=UTF-8", ';charset="utf-8"', "; v=1", ";"])
+def test_json_content_type_passes(api, parameters):
+    content_type = "Application/JSON" + parameters
     assert post(api, b'{"description": "a tree"}', {"Content-Type": content_type}).status_code == 200
 
 
@@ -186,4 +200,58 @@ def test_wrong_method_is_405_with_allow(api, problem):
     response = api.get("/localize")
     problem(response, 405, "method_not_allowed")
     assert response.headers["allow"] == "POST"
+    assert api.options("/evaluate/x").headers["allow"] == "DELETE, GET"
     problem(api.post("/cells/x", content=b"x"), 405, "method_not_allowed")
+
+
+@pytest.mark.parametrize("piece", [b"[],", b"{},", b"1,"])
+def test_a_body_of_many_values_is_refused_before_it_is_parsed(api, problem, monkeypatch, piece):
+    content = b"[" + piece * MAX_VALUES + b"1]"
+    problem(api.post("/evaluate", content=content, headers=JSON), 413, "body_too_large")
+    monkeypatch.setattr("app.http.bodies.json", None)
+    with pytest.raises(Problem, match="values"):
+        check_json(content)
+
+
+def test_a_large_body_with_few_values_is_taken(api, problem):
+    content = json.dumps({"queries": "a" * 10_000_000}).encode()
+    problem(api.post("/evaluate", content=content, headers=JSON), 422, "invalid_request", "queries")
+
+
+def test_large_bodies_have_a_bound_together():
+    large = LargeBodies(3 * LARGE_BYTES)
+    with large.share() as one, large.share() as two, large.share() as three:
+        one.grow(LARGE_BYTES)
+        one.grow(2 * LARGE_BYTES)
+        two.grow(LARGE_BYTES - 1)
+        two.grow(LARGE_BYTES)
+        three.grow(LARGE_BYTES - 1)
+        with pytest.raises(Problem, match="Retry-After"):
+            three.grow(LARGE_BYTES)
+    assert large.bytes == 0
+    with large.share() as again:
+        again.grow(3 * LARGE_BYTES)
+
+
+def test_a_body_that_does_not_come_is_given_up(settings, fake, start, monkeypatch):
+    monkeypatch.setattr("app.http.bodies.BODY_S", 0.05)
+    sent = []
+
+    async def ask(app):
+        async def receive():
+            await asyncio.sleep(0 if not sent else 10)
+            return {"type": "http.request", "body": b"{", "more_body": True}
+
+        async def send(message):
+            sent.append(message)
+
+        headers = [(b"content-type", b"application/json")]
+        scope = {"type": "http", "method": "POST", "path": "/localize", "headers": headers, "query_string": b""}
+        sent.append(None)  # the body begins to be late at once
+        await app(scope | {"app": app, "raw_path": b"/localize", "root_path": "", "scheme": "http"}, receive, send)
+
+    with start(settings, fake) as api:
+        asyncio.run(ask(api.app))
+    assert sent[1]["status"] == 408
+    assert (b"connection", b"close") in sent[1]["headers"]
+    assert json.loads(sent[2]["body"])["code"] == "body_too_slow"

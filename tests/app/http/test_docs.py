@@ -21,7 +21,7 @@ def test_there_is_no_second_page_of_docs(api):
 def test_openapi_describes_bodies_answers_and_problems(api, text):
     document = api.get("/openapi.json").json()
     post = document["paths"]["/localize"]["post"]
-    assert {int(status) for status in post["responses"]} == {200, 400, 404, 406, 413, 415, 422, 429, 500, 503, 504}
+    assert {int(status) for status in post["responses"]} == {200, 400, 404, 406, 408, 413, 415, 422, 429, 500, 503, 504}
     for path in document["paths"].values():
         for operation in path.values():
             for status, response in operation["responses"].items():
