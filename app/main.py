@@ -18,7 +18,7 @@ from app.http.middleware import AccessLog, NoSniff, is_sane_request_id
 from app.http.openapi import describe as describe_app
 from app.http.openapi import error_table
 from app.http.protocol import LocalizerLike
-from app.http.routes import cells, describe, evaluate, health, localize, maps, page
+from app.http.routes import cells, describe, evaluate, geocoder, health, localize, maps, page
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 from app.threads import usable_cpus
@@ -79,7 +79,7 @@ def create_app(
 
 def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
-    asked = [routes.build_router(settings) for routes in (localize, describe, evaluate)]
+    asked = [routes.build_router(settings) for routes in (localize, describe, evaluate, geocoder)]
     routers = (*asked, cells.router, maps.router, health.router, page.build_router(page_dir))
     for router in routers:
         app.include_router(router)

@@ -21,9 +21,8 @@ from index.answers import (
     Question,
     Status,
 )
+from index.artifact import DEFAULT
 from models.city.frame import Frame
-
-INDEX_NAME = "default"
 
 
 class _Out(BaseModel):
@@ -59,17 +58,18 @@ class Provenance(_Out):
     attribution: str
 
     @classmethod
-    def of(cls, localizer: LocalizerLike, model: ModelName | None = None) -> "Provenance":
+    def of(cls, localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT) -> "Provenance":
         """Of what a localizer answers.
 
         Args:
             localizer: what answers.
             model: what it answered with; None for the one that made the index.
+            index: the name by which it was asked.
         """
         facts = localizer.facts
         model = model or facts.model
         return cls(
-            index=INDEX_NAME,
+            index=index,
             index_version=facts.version,
             model=model.name,
             model_sha256=model.sha256,
@@ -103,7 +103,12 @@ class LocalizeResponse(_Out):
 
     @classmethod
     def of(
-        cls, answer: Answer, localizer: LocalizerLike, request_id: str, timings_ms: dict[str, float]
+        cls,
+        answer: Answer,
+        localizer: LocalizerLike,
+        request_id: str,
+        timings_ms: dict[str, float],
+        index: str = DEFAULT,
     ) -> "LocalizeResponse":
         """Of a localizer's answer.
 
@@ -112,10 +117,11 @@ class LocalizeResponse(_Out):
             localizer: what found it.
             request_id: of the request.
             timings_ms: the service's own, shown with the localizer's.
+            index: the name by which it was asked.
         """
         found = {f.name: getattr(answer, f.name) for f in fields(answer) if f.name != "model"}
         found["timings_ms"] = {**answer.timings_ms, **timings_ms}
-        crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer, answer.model)
+        crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer, answer.model, index)
         return cls(request_id=request_id, crs=crs, provenance=provenance, **found)
 
 
@@ -137,11 +143,16 @@ class DescribeResponse(_Out):
 
     @classmethod
     def of(
-        cls, described: Described, localizer: LocalizerLike, request_id: str, timings_ms: dict[str, float]
+        cls,
+        described: Described,
+        localizer: LocalizerLike,
+        request_id: str,
+        timings_ms: dict[str, float],
+        index: str = DEFAULT,
     ) -> "DescribeResponse":
         """Of what a localizer says of a position; the rest as `LocalizeResponse.of`."""
         said = {f.name: getattr(described, f.name) for f in fields(described)}
-        crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer)
+        crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer, index=index)
         return cls(request_id=request_id, crs=crs, provenance=provenance, timings_ms=timings_ms, **said)
 
 

@@ -1,10 +1,13 @@
 import sys
+import threading
 import time
 from contextlib import contextmanager
 from pathlib import Path
 
+import httpx
 import pytest
 import structlog
+import uvicorn
 from fastapi.testclient import TestClient
 from pydantic import ValidationError
 
@@ -12,6 +15,7 @@ sys.path.append(str(Path(__file__).parent))  # importlib mode does not; see also
 
 from fake_localizer import FakeLocalizer
 
+from app.http.connection import Connection
 from app.http.errors import Code, Problem, field_name
 from app.main import create_app
 from app.settings import Settings
@@ -82,6 +86,30 @@ def api(_shared, fake):
 def start():
     """A context manager: (settings, localizer) -> client of a service of its own that is ready."""
     return started
+
+
+@pytest.fixture(scope="session")
+def in_a_thread():
+    """A context manager: application -> port on which it is served, as users reach it, once it is ready."""
+
+    @contextmanager
+    def serve(app):
+        server = uvicorn.Server(
+            uvicorn.Config(app, port=0, http=Connection, access_log=False, log_config=None, lifespan="on")
+        )
+        thread = threading.Thread(target=server.run)
+        thread.start()
+        wait_until(lambda: server.started)
+        port = server.servers[0].sockets[0].getsockname()[1]
+        wait_until(lambda: httpx.get(f"http://127.0.0.1:{port}/readyz").status_code == 200)
+        try:
+            yield port
+        finally:
+            server.should_exit = True
+            thread.join(10)
+        assert not thread.is_alive()
+
+    return serve
 
 
 @pytest.fixture(scope="session")

@@ -59,6 +59,6 @@ def build_router(settings: Settings) -> APIRouter:
             if described is None:
                 raise Problem.of_field("position", NOTHING_THERE)
             timings_ms = {"total": (time.monotonic() - started_s) * 1000}
-            return DescribeResponse.of(described, localizer, correlation_id.get() or "", timings_ms)
+            return DescribeResponse.of(described, localizer, correlation_id.get() or "", timings_ms, asked.index)
 
     return router

@@ -15,42 +15,54 @@ from app.http.errors import Code, Problem
 from app.http.geojson import localize_collection
 from app.http.negotiation import GEOJSON, negotiate, respond
 from app.http.openapi import geojson_content, problems
-from app.http.queue import Served
+from app.http.queue import InferenceQueue, Served
 from app.http.requests import DescribeRequest, LocalizeRequest, request_model
 from app.http.responses import LocalizeResponse
 from app.settings import Settings
 from models.city.frame import Frame
+
+_NEVER_HERE = {
+    *(Code.INVALID_HTTP, Code.NOT_FOUND, Code.CELL_NOT_FOUND, Code.METHOD_NOT_ALLOWED, Code.CONFLICT),
+    *(Code.JOB_NOT_FOUND, Code.JOBS_FULL, Code.MAP_NOT_FOUND, Code.KEY_REQUIRED, Code.KEY_WRONG),
+    Code.CLIENT_CLOSED_REQUEST,
+}
+ERRORS = tuple(code for code in Code if code not in _NEVER_HERE)
 
 
 def build_router(settings: Settings) -> APIRouter:
     """The routes, with the settings' limits in their request bodies."""
     router = APIRouter(tags=["localize"])
     body_model = request_model(settings)
-    never_here = {Code.NOT_FOUND, Code.CELL_NOT_FOUND, Code.METHOD_NOT_ALLOWED, Code.CONFLICT}
-    never_here |= {Code.JOB_NOT_FOUND, Code.JOBS_FULL, Code.MAP_NOT_FOUND, Code.KEY_REQUIRED, Code.KEY_WRONG}
-    never_here |= {Code.INVALID_HTTP}
-    errors = problems(*(code for code in Code if code not in never_here | {Code.CLIENT_CLOSED_REQUEST}))
 
-    @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **errors})
+    @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **problems(*ERRORS)})
     async def localize(
         request: Request,
         body: body_model,  # type: ignore[valid-type]  # FastAPI reads this class, made from the settings
         indexes: AllIndexes,
     ) -> Response:
         """Where the speaker of a description is, as JSON, or as GeoJSON if Accept says so."""
-        started_s = time.monotonic()
         asked: LocalizeRequest = body
         async with indexes.lease(asked.index) as queue:
             frame = queue.localizer.frame
             media_type = negotiate(request, frame)
             check_reach(asked, frame)
-            deadline_s = started_s + asked.deadline_ms / 1000
-            served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
-            timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
-            response = LocalizeResponse.of(served.answer, queue.localizer, correlation_id.get() or "", timings_ms)
+            response = await found_for(request, asked, queue)
         return respond(localize_collection(response, frame) if media_type == GEOJSON else response, media_type)
 
     return router
+
+
+async def found_for(request: Request, asked: LocalizeRequest, queue: InferenceQueue) -> LocalizeResponse:
+    """The answer to a description, unless its client leaves.
+
+    Raises:
+        Problem: it is refused, too late, or nobody waits for it.
+    """
+    started_s = time.monotonic()
+    deadline_s = started_s + asked.deadline_ms / 1000
+    served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
+    timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
+    return LocalizeResponse.of(served.answer, queue.localizer, correlation_id.get() or "", timings_ms, asked.index)
 
 
 def check_reach(asked: LocalizeRequest | DescribeRequest, frame: Frame) -> None:

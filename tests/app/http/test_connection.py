@@ -7,10 +7,8 @@ import threading
 
 import httpx
 import pytest
-import uvicorn
 from fake_localizer import FakeLocalizer
 
-from app.http.connection import Connection
 from app.main import create_app
 from app.settings import Settings
 
@@ -18,21 +16,10 @@ POST = "POST /localize HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n
 
 
 @pytest.fixture
-def served(until, monkeypatch):
+def served(in_a_thread, monkeypatch):
     monkeypatch.setattr("app.http.connection.HEAD_S", 0.5)
-    config = uvicorn.Config(
-        create_app(Settings(), FakeLocalizer), port=0, http=Connection, access_log=False, log_config=None
-    )
-    server = uvicorn.Server(config)
-    thread = threading.Thread(target=server.run)
-    thread.start()
-    until(lambda: server.started)
-    port = server.servers[0].sockets[0].getsockname()[1]
-    until(lambda: httpx.get(f"http://127.0.0.1:{port}/readyz").status_code == 200)
-    yield port
-    server.should_exit = True
-    thread.join(10)
-    assert not thread.is_alive()
+    with in_a_thread(create_app(Settings(), FakeLocalizer)) as port:
+        yield port
 
 
 def connect(port):

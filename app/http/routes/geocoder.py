@@ -1,0 +1,128 @@
+"""The two paths of Nominatim that most geocoder clients ask: /search for words, /reverse for a position."""
+
+import asyncio
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request
+from fastapi.exceptions import RequestValidationError
+from pydantic import ValidationError
+from starlette.responses import JSONResponse, Response
+
+from app.http.dependencies import AllIndexes
+from app.http.errors import Code, Problem
+from app.http.negotiation import GEOJSON, JSON
+from app.http.nominatim import NOTHING, Format, formatted, formatted_one, place_of, places
+from app.http.openapi import problems
+from app.http.queue import InferenceQueue
+from app.http.requests import request_model
+from app.http.routes.localize import ERRORS, check_reach, found_for
+from app.settings import Settings
+from index.artifact import DEFAULT, NAME
+from models.city.frame import Frame
+
+MOST = 40  # results, as of Nominatim
+REVERSE_ERRORS = (
+    Code.INVALID_REQUEST,
+    Code.INDEX_NOT_FOUND,
+    Code.NO_GEOREFERENCE,
+    Code.NOT_READY,
+    Code.DRAINING,
+    Code.LOAD_FAILED,
+)
+Index = Annotated[str, Query(pattern=NAME, description="which of the indexes that /info names")]
+Form = Annotated[Format, Query(alias="format", description="as of Nominatim; xml is not spoken")]
+DESCRIBED: dict[str, Any] = {"description": "what Nominatim answers, with the place in words as display_name"}
+
+
+def build_router(settings: Settings) -> APIRouter:
+    """The routes, with the settings' limits for what is asked."""
+    router = APIRouter(tags=["geocoder"])
+    asked_model = request_model(settings)
+
+    @router.get("/search", responses={200: DESCRIBED, **problems(*ERRORS)})
+    async def search(
+        request: Request,
+        indexes: AllIndexes,
+        q: Annotated[str, Query(description="what is around the speaker, in plain words")],
+        form: Form = "jsonv2",
+        limit: Annotated[int, Query(ge=1, le=MOST)] = 10,
+        viewbox: Annotated[str | None, Query(description="lon,lat,lon,lat: two corners of where to look first")] = None,
+        bounded: Annotated[bool, Query(description="look nowhere else")] = False,
+        index: Index = DEFAULT,
+    ) -> Response:
+        """Where the speaker of a description is, as Nominatim answers; its other parameters are passed over."""
+        top_k = min(limit, settings.max_top_k)
+        async with indexes.lease(index) as queue:
+            frame = _on_earth(queue)
+            look = _look(viewbox, bounded, frame)
+            try:
+                asked = asked_model.model_validate({"description": q, "top_k": top_k, "index": index, **look})
+            except ValidationError as error:
+                raise RequestValidationError([_of_query(item) for item in error.errors()]) from None
+            check_reach(asked, frame)
+            found = await found_for(request, asked, queue)
+            listed = await asyncio.to_thread(places, found, queue.localizer, limit)
+        return _respond(formatted(listed, form), form)
+
+    @router.get("/reverse", responses={200: DESCRIBED, **problems(*REVERSE_ERRORS)})
+    async def reverse(
+        indexes: AllIndexes,
+        lat: Annotated[float, Query(ge=-90, le=90, allow_inf_nan=False)],
+        lon: Annotated[float, Query(ge=-180, le=180, allow_inf_nan=False)],
+        form: Form = "jsonv2",
+        index: Index = DEFAULT,
+    ) -> Response:
+        """A position in words, as Nominatim answers; its other parameters are passed over."""
+        async with indexes.lease(index) as queue:
+            queue.check_accepting()
+            position = _on_earth(queue).from_wgs84(lat, lon)
+            x, y = position.tolist()
+            described = await asyncio.to_thread(queue.localizer.describe, (x, y)) if abs(x) + abs(y) < 1e8 else None
+            if described is None:
+                return _respond(NOTHING, "json")
+            return _respond(formatted_one(place_of(described, queue.localizer), form), form)
+
+    return router
+
+
+def _of_query(wrong: Any) -> dict[str, Any]:
+    """What is wrong with a request's body, as of the parameter that it was made of."""
+    steps = (*wrong["loc"], *wrong.get("ctx", {}).get("field", "").split("."))
+    return {**wrong, "loc": ("query", "q" if {"within", "prior"}.isdisjoint(steps) else "viewbox"), "ctx": {}}
+
+
+def _respond(content: Any, form: Format) -> Response:
+    return JSONResponse(content, media_type=GEOJSON if form == "geojson" else JSON)
+
+
+def _on_earth(queue: InferenceQueue) -> Frame:
+    """The frame of an index.
+
+    Raises:
+        Problem: nobody knows where on Earth it is.
+    """
+    frame = queue.localizer.frame
+    if not frame.is_georeferenced:
+        raise Problem(Code.NO_GEOREFERENCE, "This map has no latitude and longitude; ask POST /localize.")
+    return frame
+
+
+def _look(viewbox: str | None, bounded: bool, frame: Frame) -> dict[str, Any]:
+    """Where to look, as POST /localize takes it: the box alone, or a bias to its middle.
+
+    Raises:
+        Problem: it is no box.
+    """
+    if viewbox is None:
+        return {}
+    try:
+        west, south, east, north = (float(part) for part in viewbox.split(","))
+        (west, east), (south, north) = sorted((west, east)), sorted((south, north))
+        middle = [(west + east) / 2, (south + north) / 2]
+        corner, centre = frame.from_wgs84(south, west), frame.from_wgs84(middle[1], middle[0])
+        half_m = float(((corner - centre) ** 2).sum() ** 0.5)
+    except ValueError:
+        raise Problem.of_field("viewbox", "takes lon,lat,lon,lat: two corners") from None
+    if bounded:
+        return {"within": {"bbox": [west, south, east, north]}, "crs": "wgs84"}
+    return {"prior": {"position": middle, "sigma_m": max(half_m, 1.0)}, "crs": "wgs84"}
