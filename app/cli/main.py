@@ -4,6 +4,7 @@
 import json
 import sys
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -22,7 +23,13 @@ from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from models.errors import HereaboutsError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from index.answers import Answer
+    from index.localizer import Localizer
+    from index.query import Query
+
+LINES = "-"
 
 
 class _Commands(TyperGroup):
@@ -94,8 +101,33 @@ def serve(
 
 
 @app.command()
+def mcp(
+    url: Annotated[str, typer.Option(help="of the running service")] = "http://127.0.0.1:8000",
+    key: Annotated[str | None, typer.Option(envvar="HEREABOUTS_READ_KEY", help="its read key, if it needs one")] = None,
+    http_port: Annotated[
+        int | None, typer.Option(help="serve streamable HTTP at http://127.0.0.1:PORT/mcp; else stdin and stdout")
+    ] = None,
+) -> None:
+    """Give agents the running service as tools (Model Context Protocol)."""
+    from app.client import AsyncClient
+    from app.mcp import build_server
+
+    server = build_server(AsyncClient(url, key))
+    if http_port is None:
+        server.run()
+    else:
+        server.run("streamable-http", port=http_port)
+
+
+@app.command()
 def localize(
-    text: Annotated[str, typer.Argument(help="what is around you, for example 'I am north of a gray building.'")],
+    text: Annotated[
+        str,
+        typer.Argument(
+            help="what is around you, for example 'I am north of a gray building.'; -: a description a line from "
+            "standard input, an answer a line as JSON"
+        ),
+    ],
     index_dir: IndexDir = INDEX_DIR,
     top_k: Annotated[int, typer.Option(min=1, max=40, help="candidates to list")] = DEFAULT_TOP_K,
     refine: Annotated[Refine, typer.Option(help="how the position is found")] = DEFAULT_REFINE,
@@ -108,8 +140,8 @@ def localize(
     from index.query import Query
     from models.language.sentences import split_hints
 
-    split_hints(text)  # or DescriptionError, before anything is loaded
-    query = Query(text, top_k=top_k, refine=refine)
+    if text != LINES:
+        split_hints(text)  # or DescriptionError, before anything is loaded
     settings = load_settings(index_dir=index_dir)
     with no_collection():
         from index.localizer import Localizer
@@ -117,7 +149,10 @@ def localize(
         localizer = Localizer.open(
             settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
         )
-        [answer] = localizer.localize([query])
+        ask = partial(Query, top_k=top_k, refine=refine)
+        if text == LINES:
+            raise typer.Exit(_answer_lines(localizer, ask))
+        [answer] = localizer.localize([ask(text)])
     if picture and answer.estimate:
         from index.picture import draw_answer
 
@@ -128,9 +163,28 @@ def localize(
         _print_table(answer)
 
 
-def _print_json(answer: "Answer") -> None:
-    json.dump(asdict(answer), sys.stdout, allow_nan=False, indent=2, ensure_ascii=False)
-    sys.stdout.write("\n")
+def _answer_lines(localizer: "Localizer", ask: "Callable[[str], Query]") -> int:
+    """Answer every line of standard input by one of JSON, at once; a bad one fails alone.
+
+    Returns:
+        The exit status: 1 if any failed.
+    """
+    from models.language.sentences import split_hints
+
+    failed = 0
+    for line in filter(str.strip, sys.stdin):
+        try:
+            split_hints(line)
+            [answer] = localizer.localize([ask(line.strip())])
+            _print_json(answer, indent=None)
+        except HereaboutsError as error:
+            failed = 1
+            print(json.dumps({"error": str(error)}, ensure_ascii=False), flush=True)
+    return failed
+
+
+def _print_json(answer: "Answer", indent: int | None = 2) -> None:
+    print(json.dumps(asdict(answer), allow_nan=False, indent=indent, ensure_ascii=False), flush=True)
 
 
 def _print_table(answer: "Answer") -> None:

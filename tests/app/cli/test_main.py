@@ -143,3 +143,17 @@ def test_threads_are_set_before_any_command(opened, monkeypatch):
     opened(fake)
     assert run("localize", TEXT).exit_code == 0
     assert int(seen[0]) >= 1
+
+
+def test_lines_of_standard_input_are_answered_a_line_each_and_a_bad_one_fails_alone(opened):
+    fake = FakeLocalizer()
+    opened(fake)
+    given = f"{TEXT}\n\n   \n...\nnowhere to be seen\n"
+    result = CliRunner().invoke(app, ["localize", "-", "--top-k", "1"], input=given)
+    first, second, third = map(json.loads, result.stdout.splitlines())
+    assert first["status"] == "ok"
+    assert len(first["candidates"]) == 1
+    assert "error" in second
+    assert third["status"] == "no_match"
+    assert result.exit_code == 1
+    assert [query.description for [query] in fake.batches] == [TEXT, "nowhere to be seen"]

@@ -1,0 +1,108 @@
+import asyncio
+import json
+import subprocess
+import sys
+
+import httpx
+import pytest
+from fake_localizer import FakeLocalizer
+
+from app.client import AsyncClient, Client, ServiceError
+from app.main import create_app
+from app.settings import Settings
+
+TEXT = "I am north of a gray building. A black pole is to my west."
+
+
+@pytest.fixture(scope="module")
+def url(in_a_thread):
+    with in_a_thread(create_app(Settings(read_key="a-read-key"), FakeLocalizer)) as port:
+        yield f"http://127.0.0.1:{port}"
+
+
+def both(url, ask, **options):
+    """What the two kinds of client answer, or raise."""
+
+    async def asked():
+        async with AsyncClient(url, "a-read-key", **options) as client:
+            return await ask(client)
+
+    def outcome(work):
+        try:
+            return work()
+        except ServiceError as error:
+            return error
+
+    with Client(url, "a-read-key", **options) as client:
+        return outcome(lambda: ask(client)), outcome(lambda: asyncio.run(asked()))
+
+
+def test_answers_are_typed(url):
+    for found in both(url, lambda client: client.localize(TEXT, top_k=1)):
+        assert found.status == "ok"
+        assert found.estimate.wgs84.lat == 60.17
+        assert found.candidates[0].cell_id == "fakeville_00001"
+        assert len(found.candidates) == 1
+    for said in both(url, lambda client: client.describe((24.94, 60.17), "wgs84")):
+        assert said.place == "on Main Street"
+    for info in both(url, lambda client: client.info()):
+        assert info.key_required
+
+
+def test_hints_and_options_arrive(url):
+    options = {
+        "prior": {"position": [1.0, 2.0], "sigma_m": 50.0}, "within": {"bbox": [-9.0, -9.0, 9.0, 9.0]},
+        "refine": "posterior", "heat_map": True, "answers": {"q1": "yes"}, "deadline_ms": 5000, "index": "default",
+    }  # fmt: skip
+    for found in both(url, lambda client: client.localize(["a tree", "a pole"], **options)):
+        assert found.status == "ok"
+
+
+def test_what_is_refused_says_why(url):
+    for error in both(url, lambda client: client.localize(TEXT, top_k=0)):
+        assert (error.status, error.code) == (422, "invalid_request")
+        assert error.errors[0]["field"] == "top_k"
+        assert error.request_id
+    with Client(url, "another-key") as client, pytest.raises(ServiceError, match="key_wrong"):
+        client.localize(TEXT)
+
+
+def test_nobody_there_says_so(monkeypatch):
+    monkeypatch.setattr("app.client.time.sleep", lambda _s: None)
+    for error in both("http://127.0.0.1:9", lambda client: client.info(), tries=2):
+        assert (error.status, error.code) == (0, "no_answer")
+        assert "is the service running" in error.detail
+
+
+def test_another_service_is_not_taken_for_this_one():
+    other = httpx.MockTransport(lambda _request: httpx.Response(404, text="<html>"))
+    with Client("http://x", transport=other) as client, pytest.raises(ServiceError, match="something else answers"):
+        client.info()
+
+
+@pytest.mark.parametrize(("status", "code"), [(429, "queue_full"), (503, "not_ready")])
+def test_what_is_busy_is_asked_again_when_it_says(url, monkeypatch, status, code):
+    waited = []
+    monkeypatch.setattr("app.client.time.sleep", waited.append)
+    problem = {"code": code, "detail": "busy", "request_id": "r"}
+    answers = [httpx.Response(status, json=problem, headers={"Retry-After": str(n)}) for n in (2, 90)]
+    answers.append(httpx.Response(200, content=httpx.get(f"{url}/info").content))
+    asked = []
+
+    def answer(request):
+        asked.append(json.loads(request.content or b"null"))
+        return answers[len(asked) - 1]
+
+    with Client("http://x", transport=httpx.MockTransport(answer)) as client:
+        assert client.info().service == "hereabouts"
+    assert waited == [2, 30]
+    asked.clear()
+    few = Client("http://x", tries=2, transport=httpx.MockTransport(answer))
+    with few as client, pytest.raises(ServiceError, match=code):
+        client.info()
+    assert len(asked) == 2
+
+
+def test_it_brings_no_torch():
+    script = "import sys, app.client; assert not {'torch', 'faiss', 'transformers'} & set(sys.modules)"
+    subprocess.run([sys.executable, "-c", script], check=True)
