@@ -14,13 +14,15 @@ from app.http.bodies import StrictBody
 from app.http.errors import add_error_handlers
 from app.http.indexes import Indexes
 from app.http.keys import KeyCheck, open_routes
-from app.http.middleware import AccessLog, NoSniff, is_sane_request_id
+from app.http.metrics import Metrics
+from app.http.middleware import AccessLog, SafeHeaders, is_sane_request_id
 from app.http.openapi import describe as describe_app
 from app.http.openapi import error_table
 from app.http.protocol import LocalizerLike
-from app.http.routes import cells, describe, evaluate, geocoder, health, localize, maps, page
+from app.http.routes import batch, cells, describe, evaluate, geocoder, health, localize, maps, page
+from app.http.routes import indexes as index_routes
 from app.jobs.runner import EvaluationJobs
-from app.settings import Settings
+from app.settings import Settings, is_local
 from app.threads import usable_cpus
 from app.workers.order import OpenOrder
 from app.workers.remote import open_workers
@@ -70,6 +72,7 @@ def create_app(
     )
     app.state.settings = settings
     app.state.indexes = indexes
+    app.state.metrics = Metrics(indexes)
     app.state.jobs = jobs
     add_error_handlers(app)
     _add_routes(app, settings, page_dir)
@@ -79,17 +82,22 @@ def create_app(
 
 def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
-    asked = [routes.build_router(settings) for routes in (localize, describe, evaluate, geocoder)]
-    routers = (*asked, cells.router, maps.router, health.router, page.build_router(page_dir))
+    asked = [routes.build_router(settings) for routes in (localize, batch, describe, evaluate, geocoder)]
+    routers = (*asked, cells.router, maps.router, index_routes.router, health.router, page.build_router(page_dir))
     for router in routers:
         app.include_router(router)
     app.state.routes = [route for router in routers for route in router.routes]  # FastAPI hides those it includes
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
-    if settings.read_key is not None:
-        app.add_middleware(KeyCheck, key=settings.read_key, open_routes=open_routes(routers))
-    app.add_middleware(AccessLog)
+    app.add_middleware(
+        KeyCheck,
+        read_key=settings.read_key,
+        admin_key=settings.admin_key,
+        is_local=is_local(settings.host),
+        open_routes=open_routes(routers),
+    )
+    app.add_middleware(AccessLog, metrics=app.state.metrics)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
-    app.add_middleware(NoSniff)
+    app.add_middleware(SafeHeaders)
 
 
 def _open_workers(settings: Settings, alias: str, version: str | None) -> Sequence[LocalizerLike]:

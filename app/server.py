@@ -2,7 +2,7 @@
 
 import signal
 import threading
-from ipaddress import IPv4Address, IPv6Address, ip_address
+from ipaddress import IPv6Address
 from socket import socket
 from types import FrameType
 
@@ -13,7 +13,7 @@ from fastapi import FastAPI
 from app.http.connection import Connection
 from app.http.indexes import Indexes
 from app.jobs.runner import EvaluationJobs
-from app.settings import Settings
+from app.settings import Settings, address_of, is_local
 
 CLOSING_S = 5
 
@@ -78,12 +78,6 @@ def serve(app: FastAPI, settings: Settings) -> None:
     DrainingServer(config, app.state.indexes, app.state.jobs).run()
 
 
-def is_local(host: str) -> bool:
-    """Whether only this machine reaches what listens there."""
-    address = _address(host)
-    return host == "localhost" if address is None else address.is_loopback
-
-
 def page_url(host: str, port: int) -> str:
     """Where a browser on this machine finds the page.
 
@@ -91,17 +85,9 @@ def page_url(host: str, port: int) -> str:
         host: what the service listens on; all of a machine's addresses ("0.0.0.0") are none to go to.
         port: of it.
     """
-    address = _address(host)
+    address = address_of(host)
     if not host or (address and address.is_unspecified):
         host = "localhost"
     elif isinstance(address, IPv6Address):
         host = f"[{host}]"
     return f"http://{host}:{port}/"
-
-
-def _address(host: str) -> IPv4Address | IPv6Address | None:
-    """A host as an address; None if it is a name."""
-    try:
-        return ip_address(host)
-    except ValueError:
-        return None

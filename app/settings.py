@@ -1,6 +1,7 @@
 """What an operator can set, from the environment (HEREABOUTS_PORT=9000) or the command line."""
 
 import re
+from ipaddress import IPv4Address, IPv6Address, ip_address
 from pathlib import Path
 from typing import Literal, Self
 
@@ -28,6 +29,10 @@ class Settings(BaseSettings):
     host: str = "127.0.0.1"
     port: int = Field(8000, ge=0, le=65535)
     read_key: SecretStr | None = Field(None, description="what clients have to send to ask anything; None: nothing")
+    admin_key: SecretStr | None = Field(
+        None,
+        description="what operators have to send to change indexes; None: nothing on this machine, else nobody may",
+    )
     data_dir: Path | None = Field(None, description="maps and data sets that POST /evaluate takes by name; None: none")
     max_bytes: PositiveInt = Field(262_144, description="of a request body")
     max_evaluate_bytes: PositiveInt = Field(16_777_216, description="of the body of POST /evaluate")
@@ -35,6 +40,7 @@ class Settings(BaseSettings):
     max_jobs: PositiveInt = Field(8, description="evaluations that wait; one more is refused with 429")
     max_characters: PositiveInt = Field(4000, description="of a description, or of all hints together")
     max_hints: PositiveInt = Field(32, description="of one request, given as hints or found in a description")
+    max_items: PositiveInt = Field(64, description="of one POST /localize/batch")
     max_top_k: PositiveInt = 40
     max_queue: PositiveInt = Field(256, description="requests that wait for the model; one more is refused with 429")
     max_wait_ms: PositiveInt = Field(
@@ -46,7 +52,7 @@ class Settings(BaseSettings):
     max_deadline_ms: PositiveInt = 60_000
     log_level: Literal["debug", "info", "warning", "error"] = "info"
 
-    @field_validator("read_key")
+    @field_validator("read_key", "admin_key")
     @classmethod
     def _key_can_be_sent(cls, key: SecretStr | None) -> SecretStr | None:
         if key is not None and not _KEY.fullmatch(key.get_secret_value()):
@@ -76,3 +82,17 @@ def load_settings(**given: object) -> Settings:
             f"{'.'.join(map(str, item['loc'])) or 'settings'}: {item['msg']}" for item in error.errors()
         )
         raise HereaboutsError(f"{problems}; correct the option or the HEREABOUTS_ variable of that name") from None
+
+
+def is_local(host: str) -> bool:
+    """Whether only this machine reaches what listens there."""
+    address = address_of(host)
+    return host == "localhost" if address is None else address.is_loopback
+
+
+def address_of(host: str) -> IPv4Address | IPv6Address | None:
+    """A host as an address; None if it is a name."""
+    try:
+        return ip_address(host)
+    except ValueError:
+        return None

@@ -40,8 +40,16 @@ class Code(Enum):
         "Send the key that the service was started with (HEREABOUTS_READ_KEY), once; ask its operator.",
         None,
     )
+    ADMIN_OFF = (
+        403,
+        "Nobody may change this service from outside",
+        "Its operator sets HEREABOUTS_ADMIN_KEY, and sends that.",
+        None,
+    )
+    ADMIN_KEY_REQUIRED = (403, "This takes the admin key", "The read key is not enough; ask the operator.", None)
     NOT_FOUND = (404, "No such path", "See /docs for the paths there are.", None)
     INDEX_NOT_FOUND = (404, "No such index", "GET /info names the indexes that are served.", None)
+    VERSION_NOT_FOUND = (404, "No such index version", "GET /indexes lists them.", None)
     CELL_NOT_FOUND = (404, "No such cell", "Take a cell_id from an answer of the index that is served now.", None)
     MAP_NOT_FOUND = (
         404,
@@ -55,6 +63,18 @@ class Code(Enum):
     NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.", None)
     BODY_TOO_SLOW = (408, "The body did not come in time", "Send it without a pause, or send less.", None)
     CONFLICT = (409, "In conflict with what the service holds", "Look at /info, then ask again.", None)
+    INDEX_MISMATCH = (
+        409,
+        "Another model built that index",
+        "Build it with the model that is served (hereabouts index), or serve the model that built it.",
+        None,
+    )
+    INDEX_BROKEN = (
+        409,
+        "That index is broken",
+        "A file of it is missing, changed or of another format; build it again. What was served still is.",
+        None,
+    )
     BODY_TOO_LARGE = (413, "The body is too large", "Send less; /info shows the limits.", None)
     UNSUPPORTED_MEDIA_TYPE = (415, "The body is of another type", "Send Content-Type: application/json.", None)
     INVALID_REQUEST = (422, "The request cannot be used", "Correct the fields listed in `errors`.", None)
@@ -156,10 +176,30 @@ class Problem(HTTPException):
 
 def add_error_handlers(app: FastAPI) -> None:
     """Make every error of an application a problem."""
+    for kind in (RequestValidationError, WeightsError, ReplyError):
+        app.add_exception_handler(kind, _on_error)
     app.add_exception_handler(StarletteHTTPException, _on_http_exception)
-    app.add_exception_handler(RequestValidationError, _on_validation_error)
-    app.add_exception_handler(WeightsError, _on_weights_error)
-    app.add_exception_handler(ReplyError, _on_reply_error)
+
+
+def as_problem(error: Exception) -> "Problem":
+    """An error as clients see it.
+
+    Raises:
+        Exception: it is a fault of the service.
+    """
+    if isinstance(error, Problem):
+        return error
+    if isinstance(error, RequestValidationError):
+        return _of_fields(error)
+    if isinstance(error, WeightsError):  # the retriever was loaded before, so it is what `refine` asks for
+        return Problem.of_field("refine", "this service has no usable model for it; leave it out")
+    if isinstance(error, ReplyError):  # only the map knows what can be asked, so the model finds it
+        return Problem.of_field(f"answers[{error.number}].{error.field}", error.advice)
+    raise error
+
+
+async def _on_error(_request: Request, error: Exception) -> Response:
+    return as_problem(error).response()
 
 
 async def _on_http_exception(request: Request, error: Exception) -> Response:
@@ -183,9 +223,7 @@ def _methods(request: Request) -> set[str]:
     return methods
 
 
-async def _on_validation_error(_request: Request, error: Exception) -> Response:
-    if not isinstance(error, RequestValidationError):
-        raise error
+def _of_fields(error: RequestValidationError) -> Problem:
     found = error.errors()
     listed = [
         FieldError(field=field_name(item["loc"], item.get("ctx", {})), message=item["msg"])
@@ -197,19 +235,7 @@ async def _on_validation_error(_request: Request, error: Exception) -> Response:
     problem = Problem(Code.INVALID_REQUEST, detail, listed)
     while len(problem.response().body) > MAX_BYTES and len(problem.errors) > 1:
         problem.errors = problem.errors[:-1]
-    return problem.response()
-
-
-async def _on_weights_error(_request: Request, _error: Exception) -> Response:
-    """The retriever is loaded before anything is asked, so it is what `refine` asks for that is missing."""
-    return Problem.of_field("refine", "this service has no usable model for it; leave it out").response()
-
-
-async def _on_reply_error(_request: Request, error: Exception) -> Response:
-    """Only the map knows what can be asked about it, so this is found when the model answers."""
-    if not isinstance(error, ReplyError):
-        raise error
-    return Problem.of_field(f"answers[{error.number}].{error.field}", error.advice).response()
+    return problem
 
 
 def field_name(location: Sequence[str | int], context: Mapping[str, Any]) -> str:

@@ -4,7 +4,8 @@ from typing import Annotated, Self
 
 from pydantic import ConfigDict, Field, JsonValue, Strict, StringConstraints, create_model, model_validator
 
-from app.http.requests import REFINE, Body, IndexName, Length, Point, Told, told_fields, wrong
+from app.http.fields import IndexName, Length, Point, either, wrong
+from app.http.requests import REFINE, Body, Told, told_fields
 from app.settings import Settings
 from index.artifact import DEFAULT
 from index.query import Crs, Refine
@@ -28,7 +29,7 @@ class EvaluateQuery(Told):
 class EvaluateRequest(Body):
     """What to evaluate; `evaluate_model` adds the limits of a service."""
 
-    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE], **either("queries", "array", "data", "string")})
 
     queries: list[EvaluateQuery] | None
     crs: Crs = Field("map", description="what the positions of queries mean")

@@ -1,7 +1,7 @@
 """The indexes that are served: a queue an alias, exchanged under load when the alias names another version."""
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from functools import partial
@@ -14,7 +14,7 @@ from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
 from app.settings import Settings
 from index.artifact import DEFAULT
-from models.errors import IndexUnusable
+from models.errors import IndexMismatch, IndexUnusable
 
 LOOKED_AT_S: Final = 1.0  # how often aliases are read again
 
@@ -76,6 +76,11 @@ class Indexes:
         """The aliases, in order."""
         return sorted(self._served)
 
+    def versions(self) -> dict[str, str]:
+        """The version that answers for each alias; those that are not ready are left out."""
+        ready = {alias: served.queue for alias, served in self._served.items() if served.queue.num_workers}
+        return {alias: queue.localizer.facts.version for alias, queue in sorted(ready.items())}
+
     @asynccontextmanager
     async def lease(self, alias: str = DEFAULT) -> AsyncIterator[InferenceQueue]:
         """What answers for an alias, and goes on to until the block ends.
@@ -130,18 +135,33 @@ class Indexes:
         await asyncio.gather(*self._retiring, return_exceptions=True)
         await asyncio.gather(*(served.queue.close() for served in self._served.values()))
 
-    async def switch(self, alias: str, version: str | None) -> None:
+    async def switch(self, alias: str, version: str, keep: Coroutine[None, None, None] | None = None) -> None:
         """Open a version, then let an alias name it; who asks meanwhile, or has asked, is answered by the one before.
+
+        Args:
+            alias: a name, new or known.
+            version: of the index directory.
+            keep: run once it is open and before anybody is answered by it; if it fails nothing is switched.
 
         Raises:
             Problem: it cannot be opened; the one before keeps answering.
         """
         async with self._switching:
+            if alias in self._served and self._served[alias].version == version and keep is None:
+                return
             new = self._begin(alias, version)
             try:
                 await new.queue.opened()
+                if isinstance(new.queue.failure, IndexMismatch):
+                    raise Problem(Code.INDEX_MISMATCH)
+                if new.queue.failure is not None:
+                    raise Problem(Code.INDEX_BROKEN)
                 new.queue.check_accepting()
+                if keep is not None:
+                    await keep
             except BaseException:
+                if keep is not None:
+                    keep.close()
                 await new.queue.close()
                 raise
             old, self._served[alias] = self._served.get(alias), new

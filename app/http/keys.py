@@ -1,7 +1,7 @@
-"""Who may ask: the read key. Every route needs it but those that say they are open; what is new is closed."""
+"""Who may ask and who may change: the read key, the admin key. What is new is closed, unless it says it is open."""
 
 import hmac
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any, Final
 
 from fastapi import APIRouter
@@ -13,6 +13,7 @@ from app.http.errors import Code, Problem
 
 OPEN: Final[dict[str, Any]] = {"security": []}  # `openapi_extra=` of a route that needs no key; OpenAPI's own words
 DOCS: Final = frozenset({("GET", "/docs"), ("GET", "/docs/oauth2-redirect"), ("GET", "/openapi.json")})
+ADMIN: Final = "/indexes"
 DOCS_ASSETS: Final = "/static-offline-docs/"
 SCHEMES: Final[dict[str, Any]] = {
     "bearer": {"type": "http", "scheme": "bearer"},
@@ -24,29 +25,52 @@ Headers = Iterable[tuple[bytes, bytes]]
 
 
 class KeyCheck:
-    """Refuses requests without the key, before a route is looked for, a body is read or a place in the queue is taken.
+    """Refuses requests without a key, before a route is looked for, a body is read or a place in the queue is taken.
 
     Args:
         app: what is served.
-        key: the key.
+        read_key: of what asks; None: nothing.
+        admin_key: of what changes the indexes, and of everything else too; None: nothing if the service is local, else
+            nobody may.
+        is_local: whether only this machine reaches the service.
         open_routes: method and path of what needs no key; HEAD goes with GET. Paths are compared as they are, so one
             with a parameter is never open.
     """
 
-    def __init__(self, app: ASGIApp, key: SecretStr, open_routes: Collection[tuple[str, str]]) -> None:
+    def __init__(
+        self,
+        app: ASGIApp,
+        read_key: SecretStr | None,
+        admin_key: SecretStr | None,
+        is_local: bool,
+        open_routes: Collection[tuple[str, str]],
+    ) -> None:
         self.app = app
-        self._key = key.get_secret_value().encode()
+        self._read_key, self._admin_key = _bytes(read_key), _bytes(admin_key)
+        self._is_local = is_local
         self._open_routes = frozenset(open_routes) | DOCS
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one request if it may be."""
         if scope["type"] != "lifespan" and not self._is_open(scope):
             try:
-                check_key(scope["headers"], self._key)
+                self._check(scope)
             except Problem as problem:
                 await problem.response()(scope, receive, send)
                 return
         await self.app(scope, receive, send)
+
+    def _check(self, scope: Scope) -> None:
+        headers, changes = scope["headers"], is_admin(scope)
+        if self._read_key is not None or (changes and self._admin_key is not None):
+            check_key(headers, [key for key in (self._read_key, self._admin_key) if key is not None])
+        if not changes:
+            return
+        if self._admin_key is None:
+            if self._read_key is not None or not self._is_local:
+                raise _refusal(headers, Code.ADMIN_OFF, CHALLENGE)
+        elif not all(hmac.compare_digest(each, self._admin_key) for each in sent_keys(headers)):
+            raise _refusal(headers, Code.ADMIN_KEY_REQUIRED, CHALLENGE)
 
     def _is_open(self, scope: Scope) -> bool:
         if scope["type"] != "http":
@@ -54,6 +78,16 @@ class KeyCheck:
         method = "GET" if scope["method"] == "HEAD" else scope["method"]
         is_asset = method == "GET" and scope["path"].startswith(DOCS_ASSETS)
         return is_asset or (method, scope["path"]) in self._open_routes
+
+
+def is_admin(scope: Scope) -> bool:
+    """Whether a request would change what is served."""
+    path = scope["path"]
+    return scope.get("method") not in {"GET", "HEAD", "OPTIONS"} and (path == ADMIN or path.startswith(f"{ADMIN}/"))
+
+
+def _bytes(key: SecretStr | None) -> bytes | None:
+    return None if key is None else key.get_secret_value().encode()
 
 
 def open_routes(routers: Iterable[APIRouter]) -> set[tuple[str, str]]:
@@ -67,8 +101,8 @@ def open_routes(routers: Iterable[APIRouter]) -> set[tuple[str, str]]:
     }
 
 
-def check_key(headers: Headers, key: bytes) -> None:
-    """Refuse a request by the keys that it brings: all of them have to be right.
+def check_key(headers: Headers, keys: Sequence[bytes]) -> None:
+    """Refuse a request by the keys that it brings: each has to be one of those that open.
 
     Raises:
         Problem: 401, with the challenge that RFC 6750 asks for.
@@ -76,7 +110,7 @@ def check_key(headers: Headers, key: bytes) -> None:
     sent = sent_keys(headers)
     if not sent:
         raise _refusal(headers, Code.KEY_REQUIRED, CHALLENGE)
-    if not all(hmac.compare_digest(each, key) for each in sent):
+    if not all([any([hmac.compare_digest(each, key) for key in keys]) for each in sent]):  # noqa: C419  # all are looked at
         raise _refusal(headers, Code.KEY_WRONG, f'{CHALLENGE}, error="invalid_token"')
 
 

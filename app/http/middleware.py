@@ -9,6 +9,7 @@ from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
+from app.http.metrics import OTHER, Metrics
 
 _SANE_ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 
@@ -21,10 +22,11 @@ def is_sane_request_id(value: str) -> bool:
 
 
 class AccessLog:
-    """Writes a line a request (never its text), and answers 500 for what nobody else has caught."""
+    """Writes a line a request (never its text) and counts it, and answers 500 for what nobody else has caught."""
 
-    def __init__(self, app: ASGIApp) -> None:
+    def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
         self.app = app
+        self._metrics = metrics
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve and log one request."""
@@ -48,18 +50,20 @@ class AccessLog:
                 raise
             await Problem(Code.INTERNAL_ERROR).response()(scope, receive, note_status)
         finally:
+            route, seconds = getattr(scope.get("route"), "path", OTHER), time.monotonic() - started_s
+            self._metrics.note(scope["method"], route, status, seconds)
             log.info(
                 "request",
                 method=scope["method"],
-                route=getattr(scope.get("route"), "path", "other"),
+                route=route,
                 status=status,
-                ms=round((time.monotonic() - started_s) * 1000, 1),
+                ms=round(seconds * 1000, 1),
                 request_id=correlation_id.get(),
             )
 
 
-class NoSniff:
-    """Has browsers take every answer for what its Content-Type says."""
+class SafeHeaders:
+    """Has browsers take every answer for what its Content-Type says, and run nothing of it."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -69,7 +73,11 @@ class NoSniff:
 
         async def send_marked(message: Message) -> None:
             if message["type"] == "http.response.start":
-                MutableHeaders(scope=message)["X-Content-Type-Options"] = "nosniff"
+                headers = MutableHeaders(scope=message)
+                headers["X-Content-Type-Options"] = "nosniff"
+                headers.setdefault("Referrer-Policy", "no-referrer")
+                if "json" in headers.get("content-type", ""):
+                    headers.setdefault("Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'")
             await send(message)
 
         await self.app(scope, receive, send_marked)

@@ -17,7 +17,8 @@ from index.answers import Answer
 from index.query import Query
 from models.errors import HereaboutsError
 
-LEARNING = 0.1  # weight of the last batch in what a query is thought to take
+FIRST_S = 0.05  # that a query is thought to take before one was answered
+LEARNING, SLOWER = 0.1, 4.0  # weight of the last batch; what is so much slower than usual is an exception
 
 log = structlog.get_logger()
 
@@ -78,9 +79,10 @@ class InferenceQueue:
         self._changed = Condition()
         self._jobs: deque[_Job] = deque()
         self._computing = 0
-        self._query_s = 0.0  # that a worker takes for a query, a moving average
+        self._query_s = FIRST_S  # that a worker takes for a query, a moving average
         self._localizers: Sequence[LocalizerLike] = ()
         self._failure: str | None = None
+        self._error: Exception | None = None
         self._is_draining = False
         self._is_closed = False
         self._threads: list[Thread] = []
@@ -102,6 +104,21 @@ class InferenceQueue:
     async def opened(self) -> None:
         """Wait until the localizers are there, or cannot be opened."""
         await asyncio.wrap_future(self._opened)
+
+    @property
+    def failure(self) -> Exception | None:
+        """Why the localizers could not be opened, if they could not."""
+        return self._error
+
+    @property
+    def num_waiting(self) -> int:
+        """Queries that wait."""
+        return len(self._jobs)
+
+    @property
+    def num_workers(self) -> int:
+        """Localizers that answer; 0 until they are there."""
+        return len(self._localizers)
 
     @property
     def is_draining(self) -> bool:
@@ -196,6 +213,7 @@ class InferenceQueue:
             localizers = self._open_localizers()
         except HereaboutsError as error:
             log.error("load failed", reason=str(error))
+            self._error = error
             self._failure = "the index or the model cannot be used; the operator finds in the log why"
             return ()
         except Exception:
@@ -243,4 +261,4 @@ class InferenceQueue:
 
     def _learn(self, query_s: float) -> None:
         with self._changed:
-            self._query_s += LEARNING * (query_s - self._query_s) if self._query_s else query_s
+            self._query_s += LEARNING * (min(query_s, SLOWER * self._query_s) - self._query_s)

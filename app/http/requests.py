@@ -1,7 +1,5 @@
 """What the service is asked. Numbers are strict and finite, unknown fields are refused."""
 
-import re
-from collections.abc import Iterable, Sequence
 from typing import Annotated, Any, Self
 
 from pydantic import (
@@ -15,10 +13,22 @@ from pydantic import (
     create_model,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
 
+from app.http.fields import (
+    TOLD,
+    Coordinate,
+    IndexName,
+    Length,
+    Point,
+    check_bbox,
+    check_degrees,
+    check_text,
+    either,
+    join_hints,
+    wrong,
+)
 from app.settings import Settings
-from index.artifact import DEFAULT, NAME
+from index.artifact import DEFAULT
 from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, MOST_REPLIES, Box, Circle, Crs, Prior, Query, Refine, Reply
 from models.errors import DescriptionError
 from models.language.sentences import split_hints
@@ -26,69 +36,6 @@ from models.language.sentences import split_hints
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
 MAX_ID = 1000  # characters; a name, and a question with four colours, are far shorter
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
-# No map is wider than the Earth or finer than a millimetre, and the squares of these stay numbers.
-MAX_METRES = 1e8
-MIN_METRES = 1e-3
-
-Coordinate = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=-MAX_METRES, le=MAX_METRES)]
-Length = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=MIN_METRES, le=MAX_METRES)]
-Point = tuple[Coordinate, Coordinate]
-IndexName = Annotated[
-    str, Strict(), StringConstraints(pattern=NAME), Field(description="which of the indexes that GET /info names")
-]
-
-
-def wrong(message: str, field: str = "") -> PydanticCustomError:
-    """What is wrong with a value, as the client reads it; `field` if it is not the one that is looked at."""
-    return PydanticCustomError("hereabouts", "{message}", {"message": message, "field": field})
-
-
-def check_text(text: str) -> str:
-    """Refuse a text that nobody typed: no words, or control characters.
-
-    Raises:
-        PydanticCustomError: what is wrong, without the text.
-    """
-    if _CONTROL.search(text):
-        raise wrong("holds a control character; send plain text")
-    if not any(character.isalnum() for character in text):
-        raise wrong("has no words; say what is around you")
-    return text
-
-
-def check_bbox(bbox: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
-    """Refuse a box that is inside out.
-
-    Raises:
-        PydanticCustomError: which side is wrong.
-    """
-    west, south, east, north = bbox
-    if west > east:
-        raise wrong("west is greater than east; give [west, south, east, north]")
-    if south > north:
-        raise wrong("south is greater than north; give [west, south, east, north]")
-    return bbox
-
-
-def check_degrees(crs: Crs, points: Iterable[tuple[str, Point]]) -> None:
-    """Refuse degrees that are nowhere on Earth.
-
-    Args:
-        crs: what the coordinates of the points mean.
-        points: (x, y) or (lon, lat), each with the name of its field.
-
-    Raises:
-        PydanticCustomError: which point is wrong.
-    """
-    for field, (lon, lat) in points if crs == "wgs84" else ():
-        if not (-180 <= lon <= 180 and -90 <= lat <= 90):
-            raise wrong("is not [longitude -180..180, latitude -90..90]; or did you mean crs map?", field)
-
-
-def join_hints(hints: Sequence[str]) -> str:
-    """Hints as one description, a line each."""
-    return "\n".join(hints)
 
 
 class Body(BaseModel):
@@ -106,6 +53,8 @@ class WithinCircle(Body):
 
 class Within(Body):
     """A filter: nothing outside it is answered. Give `bbox` or `circle`."""
+
+    model_config = ConfigDict(json_schema_extra=either("bbox", "array", "circle", "object"))
 
     bbox: Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], AfterValidator(check_bbox)] | None = Field(
         None, description="[west, south, east, north] in metres, or in degrees with crs wgs84"
@@ -149,6 +98,8 @@ class GivenAnswer(Body):
 class Told(Body):
     """What somebody says; `told_fields` adds the limits of a service."""
 
+    model_config = ConfigDict(json_schema_extra=TOLD)
+
     description: str | None
     hints: list[str] | None
 
@@ -174,7 +125,7 @@ REFINE: Any = Field(
 class LocalizeRequest(Told):
     """What to localize; `request_model` adds the limits of a service."""
 
-    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE], **TOLD})
 
     top_k: int
     within: Within | None = None

@@ -188,6 +188,7 @@ class Limits(_Out):
     max_evaluate_bytes: int
     max_characters: int
     max_hints: int
+    max_items: int = Field(description="of one POST /localize/batch")
     max_top_k: int
     max_queue: int
     max_wait_ms: int = Field(description="that a request may be expected to wait for the model")

@@ -2,11 +2,13 @@
 
 from importlib.metadata import version
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
+from starlette.responses import PlainTextResponse, Response
 
 from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Code, Problem
 from app.http.keys import OPEN
+from app.http.metrics import Metrics
 from app.http.openapi import problems
 from app.http.responses import Health, IndexInfo, InfoResponse, Limits
 from app.jobs.order import data_sets
@@ -25,6 +27,13 @@ async def readyz(indexes: AllIndexes) -> Health:
     """Whether a description would be answered now."""
     indexes.check_accepting()
     return Health(status="ready")
+
+
+@router.get("/metrics", response_class=PlainTextResponse, openapi_extra=OPEN)
+async def metrics(request: Request) -> Response:
+    """Counts, as Prometheus reads them."""
+    counted: Metrics = request.app.state.metrics
+    return counted.response()
 
 
 @router.get("/info", openapi_extra=OPEN)

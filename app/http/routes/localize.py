@@ -24,7 +24,8 @@ from models.city.frame import Frame
 _NEVER_HERE = {
     *(Code.INVALID_HTTP, Code.NOT_FOUND, Code.CELL_NOT_FOUND, Code.METHOD_NOT_ALLOWED, Code.CONFLICT),
     *(Code.JOB_NOT_FOUND, Code.JOBS_FULL, Code.MAP_NOT_FOUND, Code.KEY_REQUIRED, Code.KEY_WRONG),
-    Code.CLIENT_CLOSED_REQUEST,
+    *(Code.CLIENT_CLOSED_REQUEST, Code.ADMIN_OFF, Code.ADMIN_KEY_REQUIRED, Code.VERSION_NOT_FOUND),
+    *(Code.INDEX_MISMATCH, Code.INDEX_BROKEN),
 }
 ERRORS = tuple(code for code in Code if code not in _NEVER_HERE)
 

@@ -76,6 +76,7 @@ def test_info_shows_limits_and_index(api):
         "max_bytes": 262_144,
         "max_characters": 4000,
         "max_hints": 32,
+        "max_items": 64,
         "max_top_k": 40,
         "max_queue": 256,
         "max_batch": 8,

@@ -140,7 +140,7 @@ def test_a_version_that_cannot_be_opened_leaves_the_old_one_serving():
         async with serving(city) as indexes:
             with pytest.raises(Problem) as refused:
                 await indexes.switch("default", "v2")
-            assert refused.value.code is Code.LOAD_FAILED
+            assert refused.value.code is Code.INDEX_BROKEN
             city.aliases = {"default": "v2"}
             await asyncio.sleep(0.1)
             assert await asked(indexes) == "v1"

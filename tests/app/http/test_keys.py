@@ -15,7 +15,8 @@ from app.settings import Settings
 
 KEY = "correct-horse"
 BEARER = {"Authorization": f"Bearer {KEY}"}
-OPEN_PATHS = {"/", "/healthz", "/readyz", "/info", "/docs", "/docs/oauth2-redirect", "/openapi.json", "/page.js"}
+OPEN_PATHS = {"/", "/page.js", "/docs", "/docs/oauth2-redirect", "/openapi.json"}
+OPEN_PATHS |= {"/healthz", "/readyz", "/info", "/metrics"}
 
 
 @pytest.fixture
@@ -157,7 +158,7 @@ def test_refused_before_the_body_is_read(problem):
         async def send(message):
             sent.append(message)
 
-        await KeyCheck(never, Settings(read_key=KEY).read_key, ())(scope, never, send)
+        await KeyCheck(never, Settings(read_key=KEY).read_key, None, is_local=True, open_routes=())(scope, never, send)
         return sent
 
     headers = [(b"content-length", b"99")]

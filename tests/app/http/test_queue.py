@@ -203,3 +203,74 @@ def test_idle_queue_closes_at_once(fake):
         return time.monotonic() - started
 
     assert asyncio.run(run()) < 1
+
+
+def test_what_would_wait_too_long_is_refused_at_the_door(fake):
+    async def run():
+        queue = InferenceQueue(lambda: [fake], 100, 1, max_wait_s=0.5)
+        queue.start()
+        await queue.opened()
+        for _ in range(200):
+            queue._learn(0.1)
+        first = await busy(queue, fake)
+        rest = await submitted(queue, *"abcdef", deadline_s=soon(60))
+        refused = [task for task in rest if task.done()]
+        assert len(refused) == 1
+        with pytest.raises(Problem) as problem:
+            await refused[0]
+        assert problem.value.code is Code.QUEUE_FULL
+        assert (problem.value.headers or {})["Retry-After"] == "1"
+        fake.gate.set()
+        await asyncio.gather(first, *(task for task in rest if task not in refused))
+        assert (await queue.submit(ask("later"), soon(60))).answer.status == "ok"
+        fake.gate.set()
+        await queue.close()
+
+    asyncio.run(run())
+
+
+def test_a_deadline_that_the_wait_would_pass_is_refused_too(fake):
+    async def run():
+        async with running(fake) as queue:
+            for _ in range(200):
+                queue._learn(0.1)
+            first = await busy(queue, fake)
+            waiting = await submitted(queue, *"abc")
+            with pytest.raises(Problem) as problem:
+                await queue.submit(ask("hurried"), soon(0.2))
+            assert problem.value.code is Code.QUEUE_FULL
+            fake.gate.set()
+            await asyncio.gather(first, *waiting)
+
+    asyncio.run(run())
+
+
+def test_one_slow_query_shuts_no_door(fake):
+    queue = InferenceQueue(lambda: [fake], 100, 1)
+    queue._learn(60.0)
+    assert queue._query_s < 0.1
+
+
+def test_several_workers_share_what_waits(fake):
+    fakes = [fake, type(fake)()]
+
+    async def run():
+        queue = InferenceQueue(lambda: fakes, 100, 8)
+        queue.start()
+        await queue.opened()
+        assert queue.num_workers == 2
+        for one in fakes:
+            one.gate.clear()
+        tasks = await submitted(queue, "first", "second")
+        assert await asyncio.to_thread(fakes[0].entered.acquire, timeout=5)
+        assert await asyncio.to_thread(fakes[1].entered.acquire, timeout=5)
+        tasks += await submitted(queue, *"abcdef")
+        for one in fakes:
+            one.gate.set()
+        await asyncio.gather(*tasks)
+        await queue.close()
+
+    asyncio.run(run())
+    assert [sum(map(len, one.batches)) for one in fakes] == [4, 4] or sum(len(one.batches) for one in fakes) >= 4
+    assert max(len(batch) for one in fakes for batch in one.batches) <= 3
+    assert all(one.is_closed for one in fakes)

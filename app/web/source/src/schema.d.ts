@@ -24,6 +24,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/localize/batch": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Batch
+         * @description Where the speakers of several descriptions are; an item that cannot be answered has an error instead.
+         */
+        post: operations["batch_localize_batch_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/describe": {
         parameters: {
             query?: never;
@@ -108,6 +128,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/search": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Search
+         * @description Where the speaker of a description is, as Nominatim answers; its other parameters are passed over.
+         */
+        get: operations["search_search_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/reverse": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Reverse
+         * @description A position in words, as Nominatim answers; its other parameters are passed over.
+         */
+        get: operations["reverse_reverse_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/cells/{cell_id}": {
         parameters: {
             query?: never;
@@ -142,6 +202,90 @@ export interface paths {
         get: operations["points_maps__name__points_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/indexes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Indexes
+         * @description The versions there are, and the names that serve them.
+         */
+        get: operations["list_indexes_indexes_get"];
+        put?: never;
+        /**
+         * Register Index
+         * @description Take a version that lies in the service's directory, once it is whole; no name serves it yet.
+         */
+        post: operations["register_index_indexes_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/indexes/aliases": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Change Alias
+         * @description Let a name serve another version: it is opened first, no request is dropped, each is answered by one version.
+         */
+        post: operations["change_alias_indexes_aliases_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/indexes/{version}/verify": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Verify
+         * @description Read every file of a version again, and compare it with its manifest.
+         */
+        post: operations["verify_indexes__version__verify_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/indexes/{version}/snapshot": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Take Snapshot
+         * @description Write a version into one file, whole or not at all.
+         */
+        post: operations["take_snapshot_indexes__version__snapshot_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -188,6 +332,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Metrics
+         * @description Counts, as Prometheus reads them.
+         */
+        get: operations["metrics_metrics_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/info": {
         parameters: {
             query?: never;
@@ -212,6 +376,58 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * AliasChange
+         * @description A name, and the version that it is to serve.
+         */
+        AliasChange: {
+            /** Alias */
+            alias: string;
+            /** Version */
+            version: string;
+        };
+        /**
+         * BatchItem
+         * @description The answer to one item: one of the two.
+         */
+        BatchItem: {
+            result?: components["schemas"]["LocalizeResponse"] | null;
+            error?: components["schemas"]["ProblemBody"] | null;
+        };
+        /**
+         * BatchRequest
+         * @description Several descriptions.
+         * @example {
+         *       "items": [
+         *         {
+         *           "description": "I am north of a gray building. A black pole is to my west.",
+         *           "top_k": 3
+         *         },
+         *         {
+         *           "hints": [
+         *             "I stand on a gray road."
+         *           ]
+         *         }
+         *       ]
+         *     }
+         */
+        BatchRequest: {
+            /**
+             * Items
+             * @description each as the body of POST /localize
+             */
+            items: {
+                [key: string]: components["schemas"]["JsonValue"];
+            }[];
+        };
+        /**
+         * BatchResponse
+         * @description An answer an item, in their order.
+         */
+        BatchResponse: {
+            /** Items */
+            items: components["schemas"]["BatchItem"][];
+        };
         /**
          * Candidate
          * @description A cell that may be the right one.
@@ -398,6 +614,12 @@ export interface components {
              * @default 10000
              */
             deadline_ms: number;
+            /**
+             * Index
+             * @description which of the indexes that GET /info names
+             * @default default
+             */
+            index: string;
         };
         /**
          * DescribeResponse
@@ -577,7 +799,13 @@ export interface components {
                 number,
                 number
             ];
-        };
+        } & ({
+            description: string;
+            hints?: null;
+        } | {
+            description?: null;
+            hints: unknown[];
+        });
         /**
          * EvaluateRequest
          * @description Queries with known positions, or a data set of the service by its name.
@@ -639,7 +867,19 @@ export interface components {
              * @enum {string}
              */
             refine: "none" | "matching" | "regressor" | "posterior";
-        };
+            /**
+             * Index
+             * @description which of the indexes that GET /info names
+             * @default default
+             */
+            index: string;
+        } & ({
+            queries: unknown[];
+            data?: null;
+        } | {
+            queries?: null;
+            data: string;
+        });
         /**
          * Evidence
          * @description How one hint was understood, and what on the map explains it.
@@ -854,6 +1094,21 @@ export interface components {
             provenance: components["schemas"]["Provenance"];
         };
         /**
+         * IndexesResponse
+         * @description All versions of the service's directory.
+         */
+        IndexesResponse: {
+            /**
+             * Aliases
+             * @description the version that answers for each name
+             */
+            aliases: {
+                [key: string]: string;
+            };
+            /** Versions */
+            versions: components["schemas"]["VersionInfo"][];
+        };
+        /**
          * InfoResponse
          * @description The service, its limits, and what it serves.
          */
@@ -868,8 +1123,13 @@ export interface components {
              */
             key_required: boolean;
             limits: components["schemas"]["Limits"];
-            /** @description null until it is loaded */
+            /** @description the one that is asked by default; null until it is loaded */
             index: components["schemas"]["IndexInfo"] | null;
+            /**
+             * Indexes
+             * @description names that requests take as index
+             */
+            indexes: string[];
             /**
              * Data Sets
              * @description names that POST /evaluate takes as data
@@ -963,6 +1223,7 @@ export interface components {
             } | null;
             error: components["schemas"]["JobError"] | null;
         };
+        JsonValue: unknown;
         /**
          * LatLon
          * @description WGS84 degrees.
@@ -989,10 +1250,20 @@ export interface components {
             max_characters: number;
             /** Max Hints */
             max_hints: number;
+            /**
+             * Max Items
+             * @description of one POST /localize/batch
+             */
+            max_items: number;
             /** Max Top K */
             max_top_k: number;
             /** Max Queue */
             max_queue: number;
+            /**
+             * Max Wait Ms
+             * @description that a request may be expected to wait for the model
+             */
+            max_wait_ms: number;
             /** Max Batch */
             max_batch: number;
             /**
@@ -1074,11 +1345,17 @@ export interface components {
             deadline_ms: number;
             /**
              * Index
+             * @description which of the indexes that GET /info names
              * @default default
-             * @constant
              */
-            index: "default";
-        };
+            index: string;
+        } & ({
+            description: string;
+            hints?: null;
+        } | {
+            description?: null;
+            hints: unknown[];
+        });
         /**
          * LocalizeResponse
          * @description The answer to one description.
@@ -1309,7 +1586,7 @@ export interface components {
             detail: string;
             /**
              * Code
-             * @description invalid_json (400); key_required (401); key_wrong (401); not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); conflict (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); load_failed (503); deadline_exceeded (504)
+             * @description invalid_http (400); invalid_json (400); key_required (401); key_wrong (401); admin_off (403); admin_key_required (403); not_found (404); index_not_found (404); version_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); conflict (409); index_mismatch (409); index_broken (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); load_failed (503); deadline_exceeded (504)
              */
             code: string;
             /** Request Id */
@@ -1382,6 +1659,61 @@ export interface components {
             p90: number;
         };
         /**
+         * Registration
+         * @description A version that was built elsewhere and copied into the service's index directory.
+         */
+        Registration: {
+            /** Version */
+            version: string;
+        };
+        /**
+         * Snapshot
+         * @description A version in one file.
+         */
+        Snapshot: {
+            /** Version */
+            version: string;
+            /**
+             * File
+             * @description in the service's index directory
+             */
+            file: string;
+            /** Bytes */
+            bytes: number;
+            /** Sha256 */
+            sha256: string;
+        };
+        /**
+         * Verified
+         * @description A version whose files are what its manifest says, all of them.
+         */
+        Verified: {
+            /** Version */
+            version: string;
+            /** Files */
+            files: number;
+            /** Bytes */
+            bytes: number;
+        };
+        /**
+         * VersionInfo
+         * @description A version of an index.
+         */
+        VersionInfo: {
+            /** Version */
+            version: string;
+            /**
+             * Registered
+             * @description whether it may be served; else POST /indexes takes it
+             */
+            registered: boolean;
+            /**
+             * Aliases
+             * @description names that serve it now
+             */
+            aliases: string[];
+        };
+        /**
          * Within
          * @description A filter: nothing outside it is answered. Give `bbox` or `circle`.
          */
@@ -1397,7 +1729,13 @@ export interface components {
                 number
             ] | null;
             circle?: components["schemas"]["WithinCircle"] | null;
-        };
+        } & ({
+            bbox: unknown[];
+            circle?: null;
+        } | {
+            bbox?: null;
+            circle: Record<string, never>;
+        });
         /**
          * WithinCircle
          * @description A circle; `center` is [x, y] in metres, or [lon, lat] with crs wgs84.
@@ -1472,8 +1810,26 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
             /** @description No such format; The map has no latitude and longitude */
             406: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body did not come in time */
+            408: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -1508,7 +1864,130 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many requests wait */
+            /** @description Too many requests wait; Too many large bodies at once */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description A fault in the service */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No answer before the deadline */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    batch_localize_batch_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BatchRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BatchResponse"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such format; The map has no latitude and longitude */
+            406: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body did not come in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is of another type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Too many requests wait; Too many large bodies at once */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -1577,6 +2056,24 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body did not come in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
             /** @description The body is too large */
             413: {
                 headers: {
@@ -1597,6 +2094,15 @@ export interface operations {
             };
             /** @description The request cannot be used */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Too many large bodies at once */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -1664,6 +2170,24 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body did not come in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
             /** @description The body is too large */
             413: {
                 headers: {
@@ -1691,7 +2215,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many evaluations wait */
+            /** @description Too many evaluations wait; Too many large bodies at once */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -1840,9 +2364,206 @@ export interface operations {
             };
         };
     };
+    search_search_get: {
+        parameters: {
+            query: {
+                /** @description what is around the speaker, in plain words */
+                q: string;
+                /** @description as of Nominatim; xml is not spoken */
+                format?: "json" | "jsonv2" | "geojson";
+                limit?: number;
+                /** @description lon,lat,lon,lat: two corners of where to look first */
+                viewbox?: string | null;
+                /** @description look nowhere else */
+                bounded?: boolean;
+                /** @description which of the indexes that /info names */
+                index?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description what Nominatim answers, with the place in words as display_name */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": unknown;
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such format; The map has no latitude and longitude */
+            406: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body did not come in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is of another type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Too many requests wait; Too many large bodies at once */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description A fault in the service */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No answer before the deadline */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    reverse_reverse_get: {
+        parameters: {
+            query: {
+                lat: number;
+                lon: number;
+                /** @description as of Nominatim; xml is not spoken */
+                format?: "json" | "jsonv2" | "geojson";
+                /** @description which of the indexes that /info names */
+                index?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description what Nominatim answers, with the place in words as display_name */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": unknown;
+                };
+            };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The map has no latitude and longitude */
+            406: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
     cell_cells__cell_id__get: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description which of the indexes that /info names */
+                index?: string;
+            };
             header?: never;
             path: {
                 cell_id: string;
@@ -1888,7 +2609,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description No such cell */
+            /** @description No such cell; No such index */
             404: {
                 headers: {
                     [name: string]: unknown;
@@ -1906,7 +2627,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Validation Error */
+            /** @description The request cannot be used */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -1931,6 +2652,8 @@ export interface operations {
             query?: {
                 /** @description the first shows all of the map */
                 part?: number;
+                /** @description which of the indexes that /info names */
+                index?: string;
             };
             header?: never;
             path: {
@@ -1956,7 +2679,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description No such map, or no such part of it */
+            /** @description No such map, or no such part of it; No such index */
             404: {
                 headers: {
                     [name: string]: unknown;
@@ -1976,6 +2699,379 @@ export interface operations {
             };
             /** @description The model is still loading; The index or the model could not be loaded */
             503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    list_indexes_indexes_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["IndexesResponse"];
+                };
+            };
+        };
+    };
+    register_index_indexes_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Registration"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Verified"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Nobody may change this service from outside; This takes the admin key */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such index version */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description That index is broken */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is of another type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    change_alias_indexes_aliases_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AliasChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["IndexesResponse"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Nobody may change this service from outside; This takes the admin key */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such index version */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description That index is broken; Another model built that index */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is of another type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The service is shutting down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    verify_indexes__version__verify_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                version: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Verified"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Nobody may change this service from outside; This takes the admin key */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such index version */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description That index is broken */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is of another type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    take_snapshot_indexes__version__snapshot_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                version: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Snapshot"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Nobody may change this service from outside; This takes the admin key */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such index version */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description That index is broken */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is of another type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2030,6 +3126,26 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    metrics_metrics_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
                 };
             };
         };

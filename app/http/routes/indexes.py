@@ -1,0 +1,141 @@
+"""The index versions of the service's directory, and which of them each name serves; for operators."""
+
+import asyncio
+from pathlib import Path
+from typing import Annotated
+
+from fastapi import APIRouter
+from fastapi import Path as InPath
+from pydantic import BaseModel, Field
+
+from app.http.dependencies import AllIndexes, SettingsNow
+from app.http.errors import Code, Problem
+from app.http.openapi import problems
+from app.http.requests import Body
+from index.artifact import MANIFEST, NAME, Name, open_version, read_aliases, register, set_alias
+from index.snapshot import SNAPSHOTS, snapshot
+from models.errors import IndexBroken
+
+ERRORS = (
+    Code.INVALID_JSON,
+    Code.BODY_TOO_LARGE,
+    Code.UNSUPPORTED_MEDIA_TYPE,
+    Code.INVALID_REQUEST,
+    Code.ADMIN_OFF,
+    Code.ADMIN_KEY_REQUIRED,
+    Code.VERSION_NOT_FOUND,
+    Code.INDEX_BROKEN,
+)
+router = APIRouter(tags=["indexes"])
+Version = Annotated[str, InPath(pattern=NAME)]
+
+
+class VersionInfo(BaseModel):
+    """A version of an index."""
+
+    version: str
+    registered: bool = Field(description="whether it may be served; else POST /indexes takes it")
+    aliases: list[str] = Field(description="names that serve it now")
+
+
+class IndexesResponse(BaseModel):
+    """All versions of the service's directory."""
+
+    aliases: dict[str, str] = Field(description="the version that answers for each name")
+    versions: list[VersionInfo]
+
+
+class Registration(Body):
+    """A version that was built elsewhere and copied into the service's index directory."""
+
+    version: Name
+
+
+class AliasChange(Body):
+    """A name, and the version that it is to serve."""
+
+    alias: Name
+    version: Name
+
+
+class Verified(BaseModel):
+    """A version whose files are what its manifest says, all of them."""
+
+    version: str
+    files: int
+    bytes: int
+
+
+class Snapshot(BaseModel):
+    """A version in one file."""
+
+    version: str
+    file: str = Field(description="in the service's index directory")
+    bytes: int
+    sha256: str
+
+
+@router.get("/indexes")
+def list_indexes(indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
+    """The versions there are, and the names that serve them."""
+    known = read_aliases(settings.index_dir).versions
+    served = indexes.versions()
+    directories = {path.parent.name for path in settings.index_dir.glob(f"[!.]*/{MANIFEST}")}
+    return IndexesResponse(
+        aliases=served,
+        versions=[
+            VersionInfo(
+                version=version,
+                registered=version in known,
+                aliases=sorted(alias for alias, named in served.items() if named == version),
+            )
+            for version in sorted(directories | set(known))
+        ],
+    )
+
+
+@router.post("/indexes", status_code=201, responses=problems(*ERRORS))
+def register_index(asked: Registration, settings: SettingsNow) -> Verified:
+    """Take a version that lies in the service's directory, once it is whole; no name serves it yet."""
+    return _verified(settings.index_dir, asked.version, takes_it=True)
+
+
+@router.post("/indexes/aliases", responses=problems(*ERRORS, Code.INDEX_MISMATCH, Code.DRAINING))
+async def change_alias(asked: AliasChange, indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
+    """Let a name serve another version: it is opened first, no request is dropped, each is answered by one version."""
+    await asyncio.to_thread(_verified, settings.index_dir, asked.version)
+    keep = asyncio.to_thread(set_alias, settings.index_dir, asked.alias, asked.version)
+    await indexes.switch(asked.alias, asked.version, keep)
+    return await asyncio.to_thread(list_indexes, indexes, settings)
+
+
+@router.post("/indexes/{version}/verify", responses=problems(*ERRORS))
+def verify(version: Version, settings: SettingsNow) -> Verified:
+    """Read every file of a version again, and compare it with its manifest."""
+    return _verified(settings.index_dir, version)
+
+
+@router.post("/indexes/{version}/snapshot", status_code=201, responses=problems(*ERRORS))
+def take_snapshot(version: Version, settings: SettingsNow) -> Snapshot:
+    """Write a version into one file, whole or not at all."""
+    _verified(settings.index_dir, version)
+    path, digest = snapshot(settings.index_dir, version)
+    return Snapshot(version=version, file=f"{SNAPSHOTS}/{path.name}", bytes=path.stat().st_size, sha256=digest)
+
+
+def _verified(root: Path, version: str, takes_it: bool = False) -> Verified:
+    """A version of a directory, checked, and registered if that is asked for.
+
+    Raises:
+        Problem: there is none, it is broken, or it is not registered.
+    """
+    if not (root / version / MANIFEST).is_file():
+        raise Problem(Code.VERSION_NOT_FOUND)
+    try:
+        manifest = register(root, version) if takes_it else open_version(root / version)[1]
+    except IndexBroken:
+        raise Problem(Code.INDEX_BROKEN) from None
+    if version not in read_aliases(root).versions:
+        raise Problem(Code.VERSION_NOT_FOUND, "It is not registered; POST /indexes takes it.")
+    files = manifest.files.values()
+    return Verified(version=version, files=len(files), bytes=sum(record.bytes for record in files))

@@ -1,0 +1,64 @@
+from threading import Thread
+
+import pytest
+
+TEXT = "I am north of a gray building. A black pole is to my west."
+
+
+def test_answers_come_in_order_and_a_bad_item_fails_alone(api, fake):
+    items = [
+        {"description": TEXT, "top_k": 1},
+        {"description": ""},
+        {"description": "nowhere"},
+        {"hints": ["a tree"], "top_k": 0},
+        {"description": "a tree", "index": "paris"},
+        {"description": "a tree", "crs": "wgs84", "prior": {"position": [24.9, 95.0], "sigma_m": 5.0}},
+        {"description": "a bank", "unknown": 1},
+        {"description": "a tree"},
+    ]
+    response = api.post("/localize/batch", json={"items": items})
+    assert response.status_code == 200
+    found = response.json()["items"]
+    said = [one["result"]["status"] if one["result"] else one["error"]["code"] for one in found]
+    assert said == [
+        "ok", "invalid_request", "no_match", "invalid_request", "index_not_found", "invalid_request",
+        "invalid_request", "ok",
+    ]  # fmt: skip
+    assert len(found[0]["result"]["candidates"]) == 1
+    assert [one["error"]["errors"][0]["field"] for one in found if one["error"] and one["error"]["errors"]] == [
+        "description", "top_k", "prior.position", "unknown",
+    ]  # fmt: skip
+    assert sorted(query.description for batch in fake.batches for query in batch) == sorted([TEXT, "nowhere", "a tree"])
+
+
+def test_a_fault_is_a_fault_of_all(api, problem):
+    body = {"items": [{"description": "a tree"}, {"description": "bad"}]}
+    problem(api.post("/localize/batch", json=body), 500, "internal_error")
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({}, "items"),
+        ({"items": []}, "items"),
+        ({"items": [{}] * 65}, "items"),
+        ({"items": ["a tree"]}, "items[0]"),
+        ({"items": {"description": "a tree"}}, "items"),
+        ({"items": [{"description": "a tree"}], "more": 1}, "more"),
+    ],
+)
+def test_a_body_that_is_no_batch_is_refused(api, problem, body, field):
+    problem(api.post("/localize/batch", json=body), 422, "invalid_request", field)
+
+
+def test_a_full_batch_does_not_crowd_the_queue(api, fake, until):
+    fake.gate.clear()
+    answers = []
+    body = {"items": [{"description": f"a tree {n}"} for n in range(64)]}
+    thread = Thread(target=lambda: answers.append(api.post("/localize/batch", json=body)))
+    thread.start()
+    queue = api.app.state.indexes.queue()
+    until(lambda: queue.num_waiting + queue._computing == 4)
+    fake.gate.set()
+    thread.join(20)
+    assert all(one["result"] for one in answers[0].json()["items"])
