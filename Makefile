@@ -21,7 +21,7 @@ TOLD_OF := $(if $(MIDTOWN),--data $(MIDTOWN) --texts $(PEOPLE)/manhattan_dev.jso
 	$(HELSINKI) --texts $(PEOPLE)/helsinki_west.jsonl \
 	--data models/maps/alexanderplatz.osm.pbf --texts $(PEOPLE)/alexanderplatz_dev.jsonl
 
-.PHONY: help install run test test-fast check format towns train refit index serve evaluate benchmark web page wheels image clean
+.PHONY: help install run test test-fast fuzz load check format towns train refit index serve evaluate benchmark web page wheels image clean
 
 help:  ## what can be made
 	@sed -n 's/^\([a-z-]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
@@ -48,6 +48,15 @@ test: install  ## the whole test suite
 
 test-fast: install  ## what is quick of it, of every package
 	$(PYTEST) -m 'not slow'
+
+fuzz: install  ## the contract and raw mutations, for much longer than the suite has time
+	FUZZ_EXAMPLES=2000 FUZZ_MUTATIONS=10000 $(PYTEST) tests/app/http/test_contract.py tests/app/http/test_mutations.py
+
+load: install  ## throughput of a running service on PORT with 1, 2, 32 and 96 clients (takes wrk)
+	for clients in 1 2 32 96; do \
+		wrk --threads 1 --connections $$clients --duration 20s --timeout 30s --latency \
+			--script tests/load/localize.lua http://127.0.0.1:$(PORT) || exit 1; \
+	done
 
 check: install  ## ruff and mypy
 	$(BIN)/ruff check .

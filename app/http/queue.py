@@ -17,6 +17,7 @@ from index.answers import Answer
 from index.query import Query
 from models.errors import HereaboutsError
 
+REFUSED_S = 0.2  # before a refusal is said: clients that ask again at once would else take the time of those answered
 FIRST_S = 0.05  # that a query is thought to take before one was answered
 LEARNING, SLOWER = 0.1, 4.0  # weight of the last batch; what is so much slower than usual is an exception
 
@@ -172,7 +173,12 @@ class InferenceQueue:
             Problem: queue full, not accepting, or no answer before the deadline.
         """
         job = _Job(query, deadline_s)
-        self._enqueue(job)
+        try:
+            self._enqueue(job)
+        except Problem as problem:
+            if problem.code is Code.QUEUE_FULL:
+                await asyncio.sleep(REFUSED_S)
+            raise
         try:
             async with asyncio.timeout(deadline_s - time.monotonic()):
                 return await asyncio.wrap_future(job.result)

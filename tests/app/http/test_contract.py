@@ -1,0 +1,35 @@
+"""The service does what its OpenAPI document says, whatever it is sent (schemathesis); FUZZ_EXAMPLES sets how often."""
+
+import os
+
+import pytest
+import schemathesis
+from fake_localizer import FakeLocalizer
+from hypothesis import HealthCheck, settings
+from schemathesis.specs.openapi.checks import negative_data_rejection, positive_data_acceptance
+
+from app.main import create_app
+from app.settings import Settings
+
+EXAMPLES = int(os.environ.get("FUZZ_EXAMPLES", "100"))
+
+
+schema = schemathesis.openapi.from_dict(create_app(Settings(max_deadline_ms=2000, deadline_ms=2000)).openapi())
+
+
+@pytest.fixture(scope="module")
+def url(in_a_thread, tmp_path_factory):
+    given = Settings(index_dir=tmp_path_factory.mktemp("index"), max_deadline_ms=2000, deadline_ms=2000)
+    with in_a_thread(create_app(given, FakeLocalizer)) as port:
+        yield f"http://127.0.0.1:{port}"
+
+
+@pytest.mark.slow
+@schema.parametrize()
+@settings(max_examples=EXAMPLES, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
+def test_every_operation_keeps_its_word(case, url):
+    response = case.call(base_url=url)
+    left_out = [positive_data_acceptance]  # that a text has words, or degrees are on Earth, no schema can say
+    if response.status_code == 413:
+        left_out.append(negative_data_rejection)  # it does not know 413 for a refusal
+    case.validate_response(response, excluded_checks=left_out)
