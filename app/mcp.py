@@ -7,8 +7,9 @@ from mcp.server.mcpserver.exceptions import ToolError
 from pydantic import BaseModel, Field
 
 from app.client import AsyncClient, ServiceError
+from app.http.nominatim import apart
 from app.http.responses import LocalizeResponse
-from index.answers import Evidence, Question
+from index.answers import Candidate, Evidence, Question
 
 INSTRUCTIONS: Final = """Finds where in a city somebody is from what they say is around them.
 Call `localize` with their words. If it is not sure it gives a question: put it to them (or answer it yourself if you
@@ -60,7 +61,7 @@ class Described(BaseModel):
 
 def build_server(client: AsyncClient) -> MCPServer[Any]:
     """The server; its tools ask the service through a client."""
-    server: MCPServer[Any] = MCPServer("hereabouts", instructions=INSTRUCTIONS)
+    server: MCPServer[Any] = MCPServer("hereabouts", instructions=INSTRUCTIONS, log_level="WARNING")
 
     async def locate(words: str, answers: dict[str, str], near: tuple[float, float] | None, near_m: float) -> Found:
         options: dict[str, Any] = {"answers": answers}
@@ -122,11 +123,8 @@ def found_of(said: LocalizeResponse) -> Found:
             probability=said.estimate.probability,
         )  # fmt: skip
         radius_m = said.estimate.radius_m.p90
-    others = [
-        Spot(lat=one.wgs84 and one.wgs84.lat, lon=one.wgs84 and one.wgs84.lon, x=one.position[0], y=one.position[1],
-             probability=one.probability)
-        for one in said.candidates[1 : 1 + ALTERNATIVES]
-    ]  # fmt: skip
+    candidates = [] if said.estimate is None else [said.estimate, *said.candidates]
+    others = [_other(said.candidates[n - 1]) for n in apart([one.position for one in candidates])[1 : 1 + ALTERNATIVES]]
     return Found(
         status=said.status,
         summary=_summary(said, best, radius_m),
@@ -136,6 +134,11 @@ def found_of(said: LocalizeResponse) -> Found:
         question=_question(said.question) if said.question else None,
         understood=[_understood(one) for one in said.evidence],
     )
+
+
+def _other(one: Candidate) -> Spot:
+    at, (x, y) = one.wgs84, one.position
+    return Spot(lat=at and at.lat, lon=at and at.lon, x=x, y=y, probability=one.probability)
 
 
 def _summary(said: LocalizeResponse, best: Spot | None, radius_m: float | None) -> str:

@@ -32,18 +32,21 @@ def places(found: LocalizeResponse, localizer: LocalizerLike, limit: int) -> lis
         return []
     spots = [(found.estimate.position, found.estimate.radius_m.p90, found.estimate.probability)]
     spots += [(one.position, (one.bbox[2] - one.bbox[0]) / 2, one.probability) for one in found.candidates]
-    listed: list[tuple[float, float]] = []
     results: list[Place] = []
-    for position, radius_m, probability in spots:
-        if len(results) == limit:
-            break
-        if all(np.hypot(*np.subtract(position, other)) > APART_M for other in listed):
-            listed.append(position)
-            x, y = position
-            box = (x - radius_m, y - radius_m, x + radius_m, y + radius_m)
-            named = localizer.describe(position)
-            results.append(_place(len(results) + 1, position, box, probability, named, localizer))
+    for n in apart([position for position, _, _ in spots])[:limit]:
+        (x, y), radius_m, probability = spots[n]
+        box = (x - radius_m, y - radius_m, x + radius_m, y + radius_m)
+        results.append(_place(len(results) + 1, (x, y), box, probability, localizer.describe((x, y)), localizer))
     return results
+
+
+def apart(positions: Sequence[tuple[float, float]]) -> list[int]:
+    """Which positions are more than APART_M from all of these before them: candidates overlap."""
+    kept: list[int] = []
+    for n, position in enumerate(positions):
+        if all(np.hypot(*np.subtract(position, positions[k])) > APART_M for k in kept):
+            kept.append(n)
+    return kept
 
 
 def place_of(described: Described, localizer: LocalizerLike) -> Place:

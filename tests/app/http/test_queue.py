@@ -214,6 +214,7 @@ def test_what_would_wait_too_long_is_refused_at_the_door(fake):
             queue._learn(0.1)
         first = await busy(queue, fake)
         rest = await submitted(queue, *"abcdef", deadline_s=soon(60))
+        await asyncio.sleep(0.3)  # a refusal takes its time
         refused = [task for task in rest if task.done()]
         assert len(refused) == 1
         with pytest.raises(Problem) as problem:
