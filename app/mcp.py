@@ -123,8 +123,10 @@ def found_of(said: LocalizeResponse) -> Found:
             probability=said.estimate.probability,
         )  # fmt: skip
         radius_m = said.estimate.radius_m.p90
-    candidates = [] if said.estimate is None else [said.estimate, *said.candidates]
-    others = [_other(said.candidates[n - 1]) for n in apart([one.position for one in candidates])[1 : 1 + ALTERNATIVES]]
+    positions = [one.position for one in said.candidates]
+    if said.estimate is not None:
+        positions.insert(0, said.estimate.position)
+    others = [_other(said.candidates[n - 1]) for n in apart(positions)[1 : 1 + ALTERNATIVES]]
     return Found(
         status=said.status,
         summary=_summary(said, best, radius_m),
