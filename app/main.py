@@ -49,7 +49,7 @@ def create_app(
         indexes = Indexes(partial(_open_workers, settings), partial(_aliases, settings.index_dir), settings)
     else:
         indexes = Indexes(lambda _alias, _version: [open_localizer()], dict, settings)
-    jobs = EvaluationJobs(settings.max_jobs)
+    jobs = EvaluationJobs(settings.max_jobs, settings.jobs_dir)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:

@@ -37,6 +37,7 @@ class Settings(BaseSettings):
     max_bytes: PositiveInt = Field(262_144, description="of a request body")
     max_evaluate_bytes: PositiveInt = Field(16_777_216, description="of the body of POST /evaluate")
     max_queries: PositiveInt = Field(10_000, description="of one evaluation")
+    jobs_dir: Path | None = Field(None, description="keeps evaluations when the service ends; None: they end with it")
     max_jobs: PositiveInt = Field(8, description="evaluations that wait; one more is refused with 429")
     max_characters: PositiveInt = Field(4000, description="of a description, or of all hints together")
     max_hints: PositiveInt = Field(32, description="of one request, given as hints or found in a description")

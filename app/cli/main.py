@@ -88,6 +88,9 @@ def serve(
     index_dir: IndexDir = INDEX_DIR,
     host: Annotated[str, typer.Option(envvar="HEREABOUTS_HOST", help="address to listen on")] = "127.0.0.1",
     port: Annotated[int, typer.Option(envvar="HEREABOUTS_PORT", help="0 takes a free one")] = 8000,
+    jobs: Annotated[
+        Path, typer.Option(envvar="HEREABOUTS_JOBS_DIR", help="keeps evaluations and their reports over restarts")
+    ] = Path("data/jobs"),
 ) -> None:
     """Serve an index over HTTP; the other settings are HEREABOUTS_ variables."""
     from app.logs import configure_logging
@@ -95,7 +98,7 @@ def serve(
     from app.server import serve as serve_app
     from app.settings import load_settings
 
-    settings = load_settings(index_dir=index_dir, host=host, port=port)
+    settings = load_settings(index_dir=index_dir, host=host, port=port, jobs_dir=jobs)
     configure_logging(settings.log_level)
     serve_app(create_app(settings), settings)
 

@@ -75,6 +75,12 @@ class Code(Enum):
         "A file of it is missing, changed or of another format; build it again. What was served still is.",
         None,
     )
+    NOT_WRITABLE = (
+        409,
+        "The index directory cannot be written",
+        "It is read-only, or its disk is full; its operator has to see to that. Nothing was changed.",
+        None,
+    )
     BODY_TOO_LARGE = (413, "The body is too large", "Send less; /info shows the limits.", None)
     UNSUPPORTED_MEDIA_TYPE = (415, "The body is of another type", "Send Content-Type: application/json.", None)
     INVALID_REQUEST = (422, "The request cannot be used", "Correct the fields listed in `errors`.", None)

@@ -12,8 +12,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, Field
 
-Status = Literal["queued", "running", "done", "failed", "cancelled"]
-FINISHED = ("done", "failed", "cancelled")
+Status = Literal["queued", "running", "done", "failed", "cancelled", "interrupted"]
+FINISHED = ("done", "failed", "cancelled", "interrupted")  # interrupted: the service ended; ask again
 
 
 class JobProgress(BaseModel):
@@ -50,7 +50,7 @@ class Job:
     Attributes:
         directory: holds what the worker reads and writes; removed with the job.
         changed: set, and replaced, at every change.
-        stops: whether it was cancelled, be the worker still alive or not.
+        stops: how it is to end, if it was told to, be the worker still alive or not.
     """
 
     directory: Path
@@ -60,11 +60,26 @@ class Job:
     progress: JobProgress = field(default_factory=lambda: JobProgress(stage="queued", done=0, total=0))
     report: dict[str, Any] | None = None
     error: JobError | None = None
-    stops: bool = False
+    stops: Literal["cancelled", "interrupted"] | None = None
     process: Process | None = None
     changed: asyncio.Event = field(default_factory=asyncio.Event)
     _started_s: float | None = None
     _ended_s: float | None = None
+    _ran_s: float = 0.0  # in an earlier life of the service
+
+    @classmethod
+    def of(cls, directory: Path, state: JobState) -> "Job":
+        """A job as it was kept."""
+        return cls(
+            directory,
+            state.job,
+            datetime.fromisoformat(state.created),
+            state.status,
+            state.progress,
+            state.report,
+            state.error,
+            _ran_s=state.seconds,
+        )
 
     @property
     def is_finished(self) -> bool:
@@ -79,7 +94,7 @@ class Job:
             status=self.status,
             progress=self.progress,
             created=self.created.isoformat(timespec="milliseconds"),
-            seconds=0.0 if started_s is None else round(ended_s - started_s, 2),
+            seconds=self._ran_s if started_s is None else round(ended_s - started_s, 2),
             report=self.report,
             error=self.error,
         )

@@ -3,22 +3,22 @@
 import asyncio
 import json
 import os
-import shutil
 import signal
 import sys
+import uuid
 from asyncio.subprocess import PIPE, Process
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, Literal
 
 import structlog
 
 from app.http.errors import Code, Problem
 from app.jobs.job import Job, JobError, JobProgress, Status
 from app.jobs.order import Evaluation
-from app.jobs.worker import ORDER, REPORT
+from app.jobs.store import JobStore
+from app.jobs.worker import REPORT
 
 WORKER = (sys.executable, "-m", "app.jobs.worker")
 ROOT = Path(__file__).parents[2]  # where the worker finds this very code
@@ -35,33 +35,37 @@ class EvaluationJobs:
 
     Args:
         max_waiting: jobs that wait; one more is refused.
+        directory: keeps jobs beyond the end of the service: those that wait are begun at the next start, the one that
+            runs is interrupted, reports stay. None: nothing is kept.
         command: of the worker, which is given the job's directory.
     """
 
-    def __init__(self, max_waiting: int, command: Sequence[str] = WORKER) -> None:
+    def __init__(self, max_waiting: int, directory: Path | None = None, command: Sequence[str] = WORKER) -> None:
         self._max_waiting = max_waiting
         self._command = command
         self._jobs: dict[str, Job] = {}
         self._ready: asyncio.Queue[Job] = asyncio.Queue()
         self._runner: asyncio.Task[None] | None = None
-        self._scratch: TemporaryDirectory[str] | None = None
+        self._store = JobStore(directory)
 
     def start(self) -> None:
-        """Begin to take jobs; called on the event loop that the jobs belong to."""
-        self._jobs, self._ready = {}, asyncio.Queue()
+        """Begin to take jobs, those that were kept first; called on the event loop that the jobs belong to."""
+        self._jobs, self._ready = {job.id: job for job in self._store.open()}, asyncio.Queue()
+        for job in self._jobs.values():
+            if job.status == "queued":
+                self._ready.put_nowait(job)
         self._runner = asyncio.create_task(self._run())
 
     async def close(self) -> None:
-        """Cancel all jobs, wait until no worker is left, remove what they wrote."""
+        """End all jobs, wait until no worker is left; what is not kept is removed."""
         runner, self._runner = self._runner, None
         if runner is None:
             return
-        await asyncio.gather(*(self._stop(job) for job in list(self._jobs.values())))
+        status: Literal["cancelled", "interrupted"] = "interrupted" if self._store.is_kept else "cancelled"
+        await asyncio.gather(*(self._stop(job, status) for job in list(self._jobs.values())))
         runner.cancel()
         await asyncio.gather(runner, return_exceptions=True)
-        if self._scratch is not None:
-            self._scratch.cleanup()
-            self._scratch = None
+        self._store.close()
 
     async def submit(self, evaluation: Evaluation) -> Job:
         """Queue an evaluation.
@@ -73,13 +77,11 @@ class EvaluationJobs:
             raise Problem(Code.DRAINING)
         if sum(job.status == "queued" for job in self._jobs.values()) >= self._max_waiting:
             raise Problem(Code.JOBS_FULL)
-        if self._scratch is None:
-            self._scratch = TemporaryDirectory(prefix="hereabouts-evaluate-", ignore_cleanup_errors=True)
-        job = Job(Path(self._scratch.name))
-        job.directory /= job.id
+        job_id = uuid.uuid4().hex
+        job = Job(self._store.directory_of(job_id), job_id)
         self._jobs[job.id] = job
         try:
-            await asyncio.to_thread(_write, job.directory, evaluation)
+            await asyncio.to_thread(self._store.add, job, evaluation)
         except BaseException:
             self._remove(job)
             raise
@@ -108,15 +110,18 @@ class EvaluationJobs:
         if job.is_finished:
             self._remove(job)
         else:
-            await self._stop(job)
+            await self._stop(job, "cancelled")
         return job
 
-    async def _stop(self, job: Job) -> None:
+    async def _stop(self, job: Job, status: Literal["cancelled", "interrupted"]) -> None:
         if job.is_finished:
             return
-        job.stops = True
+        job.stops = status
         if job.status == "queued":
-            self._finish(job, "cancelled")
+            if status == "interrupted":
+                job.finish(status)  # for who follows it; it is kept as one that waits
+            else:
+                self._finish(job, status)
             return
         _kill(job.process)
         async for _state in job.follow():
@@ -128,6 +133,7 @@ class EvaluationJobs:
             if job.stops:
                 continue
             job.begin()
+            self._store.write(job)
             try:
                 await self._work(job)
             except Exception:
@@ -150,7 +156,7 @@ class EvaluationJobs:
             _kill(process)
         failure = await self._follow(job, process)
         if job.stops:
-            self._finish(job, "cancelled")
+            self._finish(job, job.stops)
         elif failure is not None:
             self._finish(job, "failed", error=JobError(code="evaluation_failed", detail=failure))
         elif process.returncode == 0:
@@ -188,6 +194,7 @@ class EvaluationJobs:
         self, job: Job, status: Status, report: dict[str, Any] | None = None, error: JobError | None = None
     ) -> None:
         job.finish(status, report, error)
+        self._store.write(job)
         log.info("evaluation", job=job.id, status=status, seconds=job.state().seconds)
         finished = [job for job in self._jobs.values() if job.is_finished]
         for old in finished[:-KEPT]:
@@ -195,12 +202,7 @@ class EvaluationJobs:
 
     def _remove(self, job: Job) -> None:
         self._jobs.pop(job.id, None)
-        shutil.rmtree(job.directory, ignore_errors=True)
-
-
-def _write(directory: Path, evaluation: Evaluation) -> None:
-    directory.mkdir()
-    (directory / ORDER).write_text(evaluation.model_dump_json())
+        self._store.remove(job)
 
 
 def _kill(process: Process | None) -> None:

@@ -1,9 +1,12 @@
 """The index versions of the service's directory, and which of them each name serves; for operators."""
 
 import asyncio
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
+import structlog
 from fastapi import APIRouter
 from fastapi import Path as InPath
 from pydantic import BaseModel, Field
@@ -25,7 +28,9 @@ ERRORS = (
     Code.ADMIN_KEY_REQUIRED,
     Code.VERSION_NOT_FOUND,
     Code.INDEX_BROKEN,
+    Code.NOT_WRITABLE,
 )
+log = structlog.get_logger()
 router = APIRouter(tags=["indexes"])
 Version = Annotated[str, InPath(pattern=NAME)]
 
@@ -105,7 +110,8 @@ async def change_alias(asked: AliasChange, indexes: AllIndexes, settings: Settin
     """Let a name serve another version: it is opened first, no request is dropped, each is answered by one version."""
     await asyncio.to_thread(_verified, settings.index_dir, asked.version)
     keep = asyncio.to_thread(set_alias, settings.index_dir, asked.alias, asked.version)
-    await indexes.switch(asked.alias, asked.version, keep)
+    with _writing():
+        await indexes.switch(asked.alias, asked.version, keep)
     return await asyncio.to_thread(list_indexes, indexes, settings)
 
 
@@ -119,7 +125,8 @@ def verify(version: Version, settings: SettingsNow) -> Verified:
 def take_snapshot(version: Version, settings: SettingsNow) -> Snapshot:
     """Write a version into one file, whole or not at all."""
     _verified(settings.index_dir, version)
-    path, digest = snapshot(settings.index_dir, version)
+    with _writing():
+        path, digest = snapshot(settings.index_dir, version)
     return Snapshot(version=version, file=f"{SNAPSHOTS}/{path.name}", bytes=path.stat().st_size, sha256=digest)
 
 
@@ -132,10 +139,25 @@ def _verified(root: Path, version: str, takes_it: bool = False) -> Verified:
     if not (root / version / MANIFEST).is_file():
         raise Problem(Code.VERSION_NOT_FOUND)
     try:
-        manifest = register(root, version) if takes_it else open_version(root / version)[1]
+        with _writing():
+            manifest = register(root, version) if takes_it else open_version(root / version)[1]
     except IndexBroken:
         raise Problem(Code.INDEX_BROKEN) from None
     if version not in read_aliases(root).versions:
         raise Problem(Code.VERSION_NOT_FOUND, "It is not registered; POST /indexes takes it.")
     files = manifest.files.values()
     return Verified(version=version, files=len(files), bytes=sum(record.bytes for record in files))
+
+
+@contextmanager
+def _writing() -> Iterator[None]:
+    """Say so where the directory cannot be written.
+
+    Raises:
+        Problem: it is read-only, or the disk is full.
+    """
+    try:
+        yield
+    except OSError as error:
+        log.error("index directory not written", reason=error.strerror)
+        raise Problem(Code.NOT_WRITABLE) from None

@@ -1,6 +1,8 @@
 """What operators do: keys, versions and the names that serve them, counts."""
 
+import errno
 import hashlib
+import os
 import shutil
 import tarfile
 import threading
@@ -98,6 +100,35 @@ def test_an_index_of_another_model_is_409_with_a_way_out(root, tmp_path, model, 
         until(lambda: api.get("/readyz").json()["code"] == "load_failed", 60)
         response = api.post("/indexes/aliases", json={"alias": "default", "version": default})
         assert "hereabouts index" in problem(response, 409, "index_mismatch")["detail"]
+
+
+@pytest.mark.parametrize("error", [errno.EROFS, errno.ENOSPC])
+def test_a_directory_that_cannot_be_written_is_said_and_nothing_changes(root, fake, start, problem, monkeypatch, error):
+    default = read_aliases(root).aliases["default"]
+    before = (root / "aliases.json").read_bytes()
+
+    def fails(*_arguments, **_more):
+        raise OSError(error, os.strerror(error), str(root))
+
+    monkeypatch.setattr("index.artifact.replace_file", fails)
+    monkeypatch.setattr("index.snapshot.replacing", fails)
+    with start(Settings(index_dir=root), fake) as api:
+        (root / "copied").mkdir()
+        for item in (root / default).iterdir():
+            content = item.read_bytes()
+            copied = content.replace(default.encode(), b"copied") if item.name == "manifest.json" else content
+            (root / "copied" / item.name).write_bytes(copied)
+        for response in (
+            api.post("/indexes/aliases", json={"alias": "another", "version": default}),
+            api.post(f"/indexes/{default}/snapshot", json={}),
+            api.post("/indexes", json={"version": "copied"}),
+        ):
+            assert str(root) not in response.text
+            problem(response, 409, "not_writable")
+        assert (root / "aliases.json").read_bytes() == before
+        assert api.get("/info").json()["indexes"] == ["default"]
+        monkeypatch.undo()
+        assert api.post("/indexes", json={"version": "copied"}).json()["version"] == "copied"
 
 
 MATRIX = [

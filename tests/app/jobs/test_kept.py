@@ -1,0 +1,158 @@
+"""Evaluations that outlive the service."""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+
+import httpx
+import pytest
+from fake_localizer import FakeLocalizer
+from fastapi.testclient import TestClient
+from structlog.testing import capture_logs
+
+from app.jobs.runner import EvaluationJobs
+from app.main import create_app
+from app.settings import Settings
+
+COMMAND = (sys.executable, str(Path(__file__).parent / "fake_worker.py"))
+SERVE = Path(__file__).parents[1] / "serve_fake.py"
+
+pytestmark = pytest.mark.slow
+
+
+def body(hint):
+    return {"queries": [{"hints": [hint], "position": [1, 2]}]}
+
+
+@pytest.fixture
+def service(tmp_path, monkeypatch, until):
+    """A service whose jobs lie in one directory, as often as it is started."""
+    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=COMMAND))
+
+    @contextmanager
+    def run():
+        with TestClient(create_app(Settings(jobs_dir=tmp_path / "jobs"), FakeLocalizer)) as api:
+            until(lambda: api.get("/readyz").status_code == 200)
+            yield api
+
+    return run
+
+
+def begin(api, hint):
+    return api.post("/evaluate", json=body(hint)).json()["job"]
+
+
+def status(api, job):
+    return api.get(f"/evaluate/{job}").json().get("status")
+
+
+def test_reports_stay_what_waits_goes_on_and_what_ran_is_interrupted(service, until, tmp_path):
+    with service() as api:
+        done = begin(api, "a tree")
+        until(lambda: status(api, done) == "done")
+        failed = begin(api, "wrong")
+        until(lambda: status(api, failed) == "failed")
+        before = [api.get(f"/evaluate/{job}").json() for job in (done, failed)]
+        held = begin(api, "held")
+        waiting = [begin(api, "a tree") for _ in range(2)]
+        until(lambda: status(api, held) == "running")
+    with service() as api:
+        assert [api.get(f"/evaluate/{job}").json() for job in (done, failed)] == before
+        assert status(api, held) == "interrupted"
+        for job in waiting:
+            until(lambda job=job: status(api, job) == "done")
+        events = api.get(f"/evaluate/{held}/events").text
+        assert "event: interrupted" in events
+        assert api.delete(f"/evaluate/{done}").status_code == 200
+    with service() as api:
+        assert api.get(f"/evaluate/{done}").status_code == 404
+        assert status(api, failed) == "failed"
+    assert not (tmp_path / "jobs" / done).exists()
+
+
+def test_a_cancelled_job_stays_cancelled(service, until):
+    with service() as api:
+        held, waiting = begin(api, "held"), begin(api, "a tree")
+        until(lambda: status(api, held) == "running")
+        for job in (waiting, held):
+            api.delete(f"/evaluate/{job}")
+    with service() as api:
+        assert [status(api, job) for job in (held, waiting)] == ["cancelled", "cancelled"]
+
+
+def test_what_a_kill_left_in_part_was_never_promised(service, tmp_path):
+    for name, files in {"half": ["evaluation.json"], "empty": [], "torn": ["evaluation.json", "state.json"]}.items():
+        (tmp_path / "jobs" / name).mkdir(parents=True)
+        for file in files:
+            (tmp_path / "jobs" / name / file).write_text("{")
+    with service() as api:
+        assert api.get("/evaluate/torn").status_code == 404
+    assert list((tmp_path / "jobs").iterdir()) == []
+
+
+def test_a_directory_of_another_service_is_not_shared(service, tmp_path):
+    with service() as first, capture_logs() as said, service() as second:
+        assert [line["event"] for line in said if line["log_level"] == "warning"] == ["jobs are not kept"]
+        job = begin(first, "a tree")
+        assert second.get(f"/evaluate/{job}").status_code == 404
+        assert len(list((tmp_path / "jobs").iterdir())) == 1
+
+
+class Killed:
+    """A service in a process that is killed, and started again."""
+
+    def __init__(self, scratch):
+        self.scratch = scratch
+        self.process = None
+
+    def start(self, until):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        environ = os.environ | {"HEREABOUTS_JOBS_DIR": str(self.scratch / "jobs")}
+        self.process = subprocess.Popen([sys.executable, SERVE, str(port)], env=environ, stderr=subprocess.DEVNULL)
+        self.url = f"http://127.0.0.1:{port}"
+
+        def is_ready():
+            try:
+                return httpx.get(f"{self.url}/readyz").status_code == 200
+            except httpx.TransportError:
+                return False
+
+        until(is_ready, 30)
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+
+
+def test_what_was_acknowledged_is_there_after_every_kill(tmp_path, until):
+    service = Killed(tmp_path)
+    acknowledged = set()
+    try:
+        for n in range(4):
+            service.start(until)
+            with httpx.Client(base_url=service.url) as client:
+                for job in acknowledged:
+                    assert client.get(f"/evaluate/{job}").status_code == 200
+                for _ in range(n):
+                    acknowledged.add(client.post("/evaluate", json=body("a tree")).json()["job"])
+                acknowledged.add(client.post("/evaluate", json=body("slow")).json()["job"])
+            service.kill()
+        service.start(until)
+
+        def states():
+            return [httpx.get(f"{service.url}/evaluate/{job}").json()["status"] for job in acknowledged]
+
+        until(lambda: set(states()) <= {"done", "interrupted"})
+        assert states().count("interrupted") <= 4
+    finally:
+        service.kill()
+    kept = [json.loads(path.read_text())["job"] for path in (tmp_path / "jobs").glob("*/state.json")]
+    assert set(kept) == acknowledged
