@@ -63,6 +63,7 @@ class Options(TypedDict, total=False):
     crs: Crs
     refine: Refine
     heat_map: bool
+    ros: bool
     answers: Mapping[str, str]
     deadline_ms: int
     index: str

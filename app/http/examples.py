@@ -17,6 +17,14 @@ _PROVENANCE: JsonValue = {
     "map": "helsinki",
     "attribution": "© OpenStreetMap contributors",
 }
+_COVARIANCE: list[JsonValue] = [
+    *(1444.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    *(0.0, 1444.0, 0.0, 0.0, 0.0, 0.0),
+    *(0.0, 0.0, 1e4, 0.0, 0.0, 0.0),
+    *(0.0, 0.0, 0.0, 3.29, 0.0, 0.0),
+    *(0.0, 0.0, 0.0, 0.0, 3.29, 0.0),
+    *(0.0, 0.0, 0.0, 0.0, 0.0, 0.099),
+]
 ANSWERED: JsonValue = {
     "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
     "status": "ambiguous",
@@ -80,6 +88,16 @@ ANSWERED: JsonValue = {
         },
     ],
     "heat_map": {"spacing_m": 1.5, "points": [[105.0, -35.0, 0.08]]},
+    "ros": {
+        "header": {"stamp": {"sec": 1767268800, "nanosec": 0}, "frame_id": "map"},
+        "pose": {
+            "pose": {
+                "position": {"x": 105.0, "y": -35.0, "z": 0.0},
+                "orientation": {"x": 0.0, "y": 0.0, "z": 1.0, "w": 0.0},
+            },
+            "covariance": _COVARIANCE,
+        },
+    },
     "question": {
         "id": "street",
         "text": "Which street are you on?",

@@ -133,6 +133,7 @@ class LocalizeRequest(Told):
     crs: Crs = Field("map", description="what the coordinates of within and prior mean")
     refine: Refine = REFINE
     heat_map: Annotated[bool, Strict()] = Field(False, description="the distribution behind the answer")
+    ros: Annotated[bool, Strict()] = Field(False, description="the estimate as a pose of ROS too")
     answers: Annotated[list[GivenAnswer], Field(max_length=MOST_REPLIES)] = Field(
         [], description="to questions of earlier answers, all of them each time: the service remembers none"
     )

@@ -6,6 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.http.examples import ANSWERED, DESCRIBED
 from app.http.protocol import LocalizerLike
+from app.http.ros import PoseWithCovarianceStamped
 from index.answers import (
     Answer,
     Candidate,
@@ -90,6 +91,7 @@ class LocalizeResponse(_Out):
     other_probability: float = Field(description="mass outside the listed candidates")
     evidence: tuple[Evidence, ...] = Field(description="one a hint; empty unless refine is posterior")
     heat_map: HeatMap | None = Field(description="if it was asked for")
+    ros: PoseWithCovarianceStamped | None = Field(None, description="if it was asked for, and there is an estimate")
     question: Question | None = Field(
         description="what to ask the speaker, whose answer would narrow this most: send it in `answers`. With status "
         "ambiguous; with no_match on a map with names, if the text is in English and not of a place outside `within`: "

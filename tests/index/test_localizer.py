@@ -177,16 +177,21 @@ def test_an_answer_names_the_model_that_made_it(localizer) -> None:
     assert by_posterior.model.sha256 == localizer.posterior.weights.fingerprint != by_vectors.model.sha256
 
 
-@pytest.mark.parametrize(
-    "number", ["99999999999999999999999999", "9" * 400, "1e309", "0", "0.0000000001", "٣", "1,000"]
-)
-@pytest.mark.parametrize("unit", ["meters", "km", "steps", "m"])
-def test_no_number_in_a_text_breaks_an_answer(localizer, number, unit) -> None:
-    (answer,) = localizer.localize(
-        [Query(f"A building is {number} {unit} north of me. There is a tree {number} m east.")]
-    )
-    json.dumps(dataclasses.asdict(answer), allow_nan=False)
-    assert answer.evidence
+NUMBERS = (
+    "99999999999999999999999999", "9" * 400, "1e309", "1e-400", "0", "-0", "-5", "1,000", "1.2.3", "5-10",
+    "0.0000000001", "٣", "१२", "½", "5½", "NaN", "inf", "Infinity", "0x10", "five hundred million",
+    "a thousand thousand", "one hundred and twenty-three", "twenty twenty", "IV", "²", "1" + "0" * 4000,
+)  # fmt: skip
+UNITS = ("meters", "km", "steps", "m", "miles", "feet", "blocks", "minutes", "light years")
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_no_number_in_a_text_breaks_an_answer(localizer, unit) -> None:
+    texts = [f"A building is {number} {unit} north of me. There is a tree {number} m east." for number in NUMBERS]
+    texts += [f"I am at number {number}, {number} doors down from {number} Main Street." for number in NUMBERS]
+    for text, answer in zip(texts, localizer.localize([Query(text) for text in texts]), strict=True):
+        json.dumps(dataclasses.asdict(answer), allow_nan=False)
+        assert answer.evidence or answer.status == "no_match", text
 
 
 def test_a_cell_in_detail(localizer, cells, city) -> None:

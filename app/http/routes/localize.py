@@ -18,6 +18,7 @@ from app.http.openapi import geojson_content, problems
 from app.http.queue import InferenceQueue, Served
 from app.http.requests import DescribeRequest, LocalizeRequest, request_model
 from app.http.responses import LocalizeResponse
+from app.http.ros import pose_of
 from app.settings import Settings
 from models.city.frame import Frame
 
@@ -63,7 +64,10 @@ async def found_for(request: Request, asked: LocalizeRequest, queue: InferenceQu
     deadline_s = started_s + asked.deadline_ms / 1000
     served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
     timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
-    return LocalizeResponse.of(served.answer, queue.localizer, correlation_id.get() or "", timings_ms, asked.index)
+    found = LocalizeResponse.of(served.answer, queue.localizer, correlation_id.get() or "", timings_ms, asked.index)
+    if asked.ros and found.estimate is not None:
+        found.ros = pose_of(found.estimate, found.crs.frame_id)
+    return found
 
 
 def check_reach(asked: LocalizeRequest | DescribeRequest, frame: Frame) -> None:

@@ -19,7 +19,7 @@ def test_answer_has_exactly_the_names_of_the_api(api, text):
     body = api.post("/localize", json={"description": text, "top_k": 2}).json()
     assert set(body) == {
         *("request_id", "status", "estimate", "candidates", "other_probability"),
-        *("crs", "provenance", "timings_ms", "warnings", "evidence", "heat_map", "question"),
+        *("crs", "provenance", "timings_ms", "warnings", "evidence", "heat_map", "question", "ros"),
     }
     estimate = body["estimate"]
     assert estimate["position"] == [0, 0]

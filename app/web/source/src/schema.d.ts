@@ -1029,6 +1029,15 @@ export interface components {
             choice: string;
         };
         /**
+         * Header
+         * @description std_msgs/Header.
+         */
+        Header: {
+            stamp: components["schemas"]["Stamp"];
+            /** Frame Id */
+            frame_id: string;
+        };
+        /**
          * Heading
          * @description Where the speaker looks, as the text tells it by left, right, ahead and behind.
          */
@@ -1147,7 +1156,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            status: "queued" | "running" | "done" | "failed" | "cancelled" | "interrupted";
             links: components["schemas"]["JobLinks"];
         };
         /**
@@ -1202,7 +1211,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            status: "queued" | "running" | "done" | "failed" | "cancelled" | "interrupted";
             progress: components["schemas"]["JobProgress"];
             /**
              * Created
@@ -1331,6 +1340,12 @@ export interface components {
              * @default false
              */
             heat_map: boolean;
+            /**
+             * Ros
+             * @description the estimate as a pose of ROS too
+             * @default false
+             */
+            ros: boolean;
             /**
              * Answers
              * @description to questions of earlier answers, all of them each time: the service remembers none
@@ -1509,6 +1524,68 @@ export interface components {
          *         "text": "Which street are you on?"
          *       },
          *       "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
+         *       "ros": {
+         *         "header": {
+         *           "frame_id": "map",
+         *           "stamp": {
+         *             "nanosec": 0,
+         *             "sec": 1767268800
+         *           }
+         *         },
+         *         "pose": {
+         *           "covariance": [
+         *             1444,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             1444,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             10000,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             3.29,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             3.29,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0,
+         *             0.099
+         *           ],
+         *           "pose": {
+         *             "orientation": {
+         *               "w": 0,
+         *               "x": 0,
+         *               "y": 0,
+         *               "z": 1
+         *             },
+         *             "position": {
+         *               "x": 105,
+         *               "y": -35,
+         *               "z": 0
+         *             }
+         *           }
+         *         }
+         *       },
          *       "status": "ambiguous",
          *       "timings_ms": {
          *         "encode": 9.1,
@@ -1547,6 +1624,8 @@ export interface components {
             evidence: components["schemas"]["Evidence"][];
             /** @description if it was asked for */
             heat_map: components["schemas"]["HeatMap"] | null;
+            /** @description if it was asked for, and there is an estimate */
+            ros?: components["schemas"]["PoseWithCovarianceStamped"] | null;
             /** @description what to ask the speaker, whose answer would narrow this most: send it in `answers`. With status ambiguous; with no_match on a map with names, if the text is in English and not of a place outside `within`: replies alone then make an answer; with ok once something was replied, until radius_m.p50 is 10 m. Else null, and where nothing is worth asking */
             question: components["schemas"]["Question"] | null;
             crs: components["schemas"]["CrsOut"];
@@ -1557,6 +1636,34 @@ export interface components {
             };
             /** Warnings */
             warnings: string[];
+        };
+        /**
+         * Pose
+         * @description geometry_msgs/Pose.
+         */
+        Pose: {
+            position: components["schemas"]["Vector"];
+            orientation: components["schemas"]["Quaternion"];
+        };
+        /**
+         * PoseWithCovariance
+         * @description geometry_msgs/PoseWithCovariance.
+         */
+        PoseWithCovariance: {
+            pose: components["schemas"]["Pose"];
+            /**
+             * Covariance
+             * @description x, y, z, roll, pitch, yaw; row by row
+             */
+            covariance: number[];
+        };
+        /**
+         * PoseWithCovarianceStamped
+         * @description geometry_msgs/PoseWithCovarianceStamped; its heading is the identity, with a wide variance, if none was told.
+         */
+        PoseWithCovarianceStamped: {
+            header: components["schemas"]["Header"];
+            pose: components["schemas"]["PoseWithCovariance"];
         };
         /**
          * PriorPosition
@@ -1586,7 +1693,7 @@ export interface components {
             detail: string;
             /**
              * Code
-             * @description invalid_http (400); invalid_json (400); key_required (401); key_wrong (401); admin_off (403); admin_key_required (403); not_found (404); index_not_found (404); version_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); conflict (409); index_mismatch (409); index_broken (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); load_failed (503); deadline_exceeded (504)
+             * @description invalid_http (400); invalid_json (400); key_required (401); key_wrong (401); admin_off (403); admin_key_required (403); not_found (404); index_not_found (404); version_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); conflict (409); index_mismatch (409); index_broken (409); not_writable (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); load_failed (503); deadline_exceeded (504)
              */
             code: string;
             /** Request Id */
@@ -1620,6 +1727,20 @@ export interface components {
             map: string;
             /** Attribution */
             attribution: string;
+        };
+        /**
+         * Quaternion
+         * @description geometry_msgs/Quaternion.
+         */
+        Quaternion: {
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+            /** Z */
+            z: number;
+            /** W */
+            w: number;
         };
         /**
          * Question
@@ -1682,6 +1803,28 @@ export interface components {
             bytes: number;
             /** Sha256 */
             sha256: string;
+        };
+        /**
+         * Stamp
+         * @description builtin_interfaces/Time.
+         */
+        Stamp: {
+            /** Sec */
+            sec: number;
+            /** Nanosec */
+            nanosec: number;
+        };
+        /**
+         * Vector
+         * @description geometry_msgs/Point.
+         */
+        Vector: {
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+            /** Z */
+            z: number;
         };
         /**
          * Verified
@@ -2777,7 +2920,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description That index is broken */
+            /** @description That index is broken; The index directory cannot be written */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2864,7 +3007,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description That index is broken; Another model built that index */
+            /** @description That index is broken; The index directory cannot be written; Another model built that index */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2958,7 +3101,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description That index is broken */
+            /** @description That index is broken; The index directory cannot be written */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3043,7 +3186,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description That index is broken */
+            /** @description That index is broken; The index directory cannot be written */
             409: {
                 headers: {
                     [name: string]: unknown;
