@@ -33,7 +33,7 @@ class City:
 
 @asynccontextmanager
 async def serving(city):
-    indexes = Indexes(city.open, lambda: city.aliases, Settings())
+    indexes = Indexes(city.open, lambda: city.aliases, Settings(max_wait_ms=60_000))
     await indexes.start()
     try:
         for alias in indexes.names():
