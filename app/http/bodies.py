@@ -59,12 +59,15 @@ class StrictBody:
             is_read = True
             try:
                 check_headers(RequestHeaders(scope=scope), max_bytes)
+            except Problem as problem:
+                await discard(receive)
+                raise _closing(problem) from None
+            try:
                 async with asyncio.timeout(BODY_S):
                     body = await read_body(receive, max_bytes, share)
             except TimeoutError:
                 raise _closing(Problem(Code.BODY_TOO_SLOW)) from None
             except Problem as problem:
-                await discard(receive)
                 raise _closing(problem) from None
             if body is None:
                 return {"type": "http.disconnect"}
@@ -145,9 +148,14 @@ async def read_body(receive: Receive, max_bytes: int, share: Share) -> bytes | N
         if message["type"] == "http.disconnect":
             return None
         body += message.get("body", b"")
-        if len(body) > max_bytes:
-            raise _too_large(max_bytes)
-        share.grow(len(body))
+        try:
+            if len(body) > max_bytes:
+                raise _too_large(max_bytes)
+            share.grow(len(body))
+        except Problem:
+            if message.get("more_body", False):
+                await discard(receive)
+            raise
         if not message.get("more_body", False):
             return bytes(body)
 

@@ -129,7 +129,8 @@ def test_limit_is_the_last_byte_that_passes(settings, fake, start, problem):
         problem(post(api, iter([body, b" "])), 413, "body_too_large")
 
 
-def test_excess_is_not_read():
+def test_excess_is_not_kept_and_thrown_away_to_a_bound(monkeypatch):
+    monkeypatch.setattr("app.http.bodies.DISCARDED_BYTES", 100)
     reads = 0
 
     async def receive():
@@ -139,7 +140,7 @@ def test_excess_is_not_read():
 
     with pytest.raises(Problem, match="more than 25 bytes"):
         asyncio.run(read_body(receive, 25, Share(LargeBodies(1))))
-    assert reads == 3
+    assert reads == 3 + 10
 
 
 def test_length_that_is_too_great_is_refused_unread():
