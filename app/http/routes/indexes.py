@@ -56,6 +56,10 @@ class Registration(Body):
     version: Name
 
 
+class Nothing(Body):
+    """{}: a body, so that no page of another site can send it unasked."""
+
+
 class AliasChange(Body):
     """A name, and the version that it is to serve."""
 
@@ -116,13 +120,13 @@ async def change_alias(asked: AliasChange, indexes: AllIndexes, settings: Settin
 
 
 @router.post("/indexes/{version}/verify", responses=problems(*ERRORS))
-def verify(version: Version, settings: SettingsNow) -> Verified:
+def verify(version: Version, _body: Nothing, settings: SettingsNow) -> Verified:
     """Read every file of a version again, and compare it with its manifest."""
     return _verified(settings.index_dir, version)
 
 
 @router.post("/indexes/{version}/snapshot", status_code=201, responses=problems(*ERRORS))
-def take_snapshot(version: Version, settings: SettingsNow) -> Snapshot:
+def take_snapshot(version: Version, _body: Nothing, settings: SettingsNow) -> Snapshot:
     """Write a version into one file, whole or not at all."""
     _verified(settings.index_dir, version)
     with _writing():

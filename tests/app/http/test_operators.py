@@ -166,6 +166,15 @@ def test_who_may_ask_and_who_may_change(tmp_path, until, read, admin, host, sent
             assert api.post(path, json=body, headers=headers).status_code == changing, path
 
 
+def test_a_page_of_another_site_changes_nothing_unasked(tmp_path, problem):
+    with TestClient(create_app(Settings(index_dir=tmp_path), FakeLocalizer)) as api:
+        for path in ("/indexes", "/indexes/aliases", "/indexes/v1/verify", "/indexes/v1/snapshot"):
+            for content_type in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"):
+                response = api.post(path, content="{}", headers={"Content-Type": content_type})
+                problem(response, 415, "unsupported_media_type")
+            assert api.post(path).status_code in (415, 422)
+
+
 def test_both_keys_at_once_are_not_more_than_the_lesser(tmp_path):
     settings = Settings(read_key=READ, admin_key=ADMIN, index_dir=tmp_path)
     with TestClient(create_app(settings, FakeLocalizer)) as api:

@@ -1638,6 +1638,11 @@ export interface components {
             warnings: string[];
         };
         /**
+         * Nothing
+         * @description {}: a body, so that no page of another site can send it unasked.
+         */
+        Nothing: Record<string, never>;
+        /**
          * Pose
          * @description geometry_msgs/Pose.
          */
@@ -3063,7 +3068,11 @@ export interface operations {
             };
             cookie?: never;
         };
-        requestBody?: never;
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Nothing"];
+            };
+        };
         responses: {
             /** @description Successful Response */
             200: {
@@ -3148,7 +3157,11 @@ export interface operations {
             };
             cookie?: never;
         };
-        requestBody?: never;
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Nothing"];
+            };
+        };
         responses: {
             /** @description Successful Response */
             201: {
