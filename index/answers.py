@@ -237,6 +237,18 @@ class CellDetail:
 
 
 @dataclass(frozen=True, slots=True)
+class CellSummary:
+    """A cell in a list; metres, map frame."""
+
+    cell_id: str
+    scene: str
+    center: tuple[float, float, float]
+    bbox: Annotated[tuple[float, float, float, float], Field(description="west, south, east, north")]
+    wgs84: LatLon | None
+    instances: Annotated[int, Field(description="how many are in it; GET /cells/{cell_id} has them")]
+
+
+@dataclass(frozen=True, slots=True)
 class Fact:
     """A sentence that is true at a position, and what on the map it tells of."""
 

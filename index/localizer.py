@@ -3,10 +3,11 @@
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from index.answers import Answer, CellDetail, CellInstance, Described, IndexFacts, LatLon, ModelName
+from index.answers import Answer, CellDetail, CellInstance, CellSummary, Described, IndexFacts, LatLon, ModelName
 from index.artifact import ADVICE, Manifest, check_model, open_version
 from index.finding import CellLocalizer, to_answer
 from index.hint_features import load_hint_features
@@ -206,20 +207,20 @@ class Localizer:
     def close(self) -> None:
         """Let go of it; what it holds goes with its process."""
 
+    def cells(self, first: int, count: int) -> list[CellSummary]:
+        """Cells of the map in their order, from row `first` (0 is the first), at most `count`."""
+        rows = range(first, min(first + count, len(self.gallery.cells.ids)))
+        starts = self.gallery.cells.parts.starts
+        return [CellSummary(**self._place(row), instances=int(starts[row + 1] - starts[row])) for row in rows]
+
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""
         row = self._row.get(cell_id)
         if row is None:
             return None
-        cells, gallery = self.gallery.cells, self.gallery
-        parts, half_m = cells.parts, cells.size_m / 2
-        x, y = (float(v) for v in cells.center_m[row, :2])
+        gallery, parts = self.gallery, self.gallery.cells.parts
         return CellDetail(
-            cell_id=cell_id,
-            scene=cells.scenes[row],
-            center=_triple(cells.center_m[row]),
-            bbox=(x - half_m, y - half_m, x + half_m, y + half_m),
-            wgs84=LatLon.of(cells.center_m[row], self.frame),
+            **self._place(row),
             instances=tuple(
                 CellInstance(
                     label=gallery.labels[parts.instance[r]],
@@ -234,6 +235,18 @@ class Localizer:
                 for r in np.arange(parts.starts[row], parts.starts[row + 1])
             ),
         )
+
+    def _place(self, row: int) -> dict[str, Any]:
+        """Where a cell is, as answers say it."""
+        cells, half_m = self.gallery.cells, self.gallery.cells.size_m / 2
+        x, y = (float(v) for v in cells.center_m[row, :2])
+        return {
+            "cell_id": cells.ids[row],
+            "scene": cells.scenes[row],
+            "center": _triple(cells.center_m[row]),
+            "bbox": (x - half_m, y - half_m, x + half_m, y + half_m),
+            "wgs84": LatLon.of(cells.center_m[row], self.frame),
+        }
 
 
 def _triple(values: Floats) -> tuple[float, float, float]:

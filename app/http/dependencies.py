@@ -12,6 +12,8 @@ from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 from index.artifact import DEFAULT, NAME
 
+IndexName = Annotated[str, Query(pattern=NAME, description="which of the indexes that /info names")]
+
 
 async def get_settings(request: Request) -> Settings:
     """The application's settings."""
@@ -27,7 +29,7 @@ async def get_indexes(request: Request) -> Indexes:
 
 async def get_queue(
     request: Request,
-    index: Annotated[str, Query(pattern=NAME, description="which of the indexes that /info names")] = DEFAULT,
+    index: IndexName = DEFAULT,
 ) -> AsyncIterator[InferenceQueue]:
     """The queue of an index, which stays until the request is answered.
 

@@ -8,7 +8,7 @@ import numpy as np
 from geojson_pydantic import Feature, FeatureCollection, Point, Polygon
 from geojson_pydantic.types import Position2D
 
-from app.http.responses import CellResponse, LocalizeResponse, Provenance
+from app.http.responses import CellResponse, CellsResponse, LocalizeResponse, Provenance
 from index.answers import Status
 from models.city.frame import Frame
 
@@ -43,6 +43,14 @@ class CellCollection(FeatureCollection[AnyFeature]):
     provenance: Provenance
 
 
+class CellsCollection(FeatureCollection[AnyFeature]):
+    """Cells: a Polygon each."""
+
+    total: int
+    next: str | None
+    provenance: Provenance
+
+
 def localize_collection(response: LocalizeResponse, frame: Frame) -> LocalizeCollection:
     """An answer in a georeferenced frame as features."""
     features = []
@@ -66,6 +74,15 @@ def cell_collection(cell: CellResponse, frame: Frame) -> CellCollection:
         point = _point(instance.center[:2], frame)
         features.append(_feature(None, point, {"kind": "instance", **asdict(instance)}))
     return CellCollection(type="FeatureCollection", features=features, provenance=cell.provenance)
+
+
+def cells_collection(found: CellsResponse, frame: Frame) -> CellsCollection:
+    """Cells in a georeferenced frame as features."""
+    features = [
+        _feature(cell.cell_id, _polygon(cell.bbox, frame), {"kind": "cell", **asdict(cell)}) for cell in found.cells
+    ]
+    more = {"total": found.total, "next": found.next, "provenance": found.provenance}
+    return CellsCollection(type="FeatureCollection", features=features, **more)
 
 
 def _feature(name: str | None, geometry: Point | Polygon, properties: dict[str, Any]) -> AnyFeature:

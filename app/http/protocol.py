@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Protocol
 
-from index.answers import Answer, CellDetail, Described, IndexFacts
+from index.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
 from index.query import Query
 from models.city.frame import Frame
 from models.city.scenery.files import SceneryPart
@@ -22,6 +22,10 @@ class LocalizerLike(Protocol):
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell of the map; None if there is none of that name. Called from any thread."""
+        ...
+
+    def cells(self, first: int, count: int) -> list[CellSummary]:
+        """Cells in the map's order, from row `first`, at most `count`. Called from any thread."""
         ...
 
     def scenery(self, number: int) -> SceneryPart | None:

@@ -12,6 +12,7 @@ from index.answers import (
     Candidate,
     CellDetail,
     CellInstance,
+    CellSummary,
     Described,
     Estimate,
     Evidence,
@@ -175,6 +176,16 @@ class CellResponse(_Out):
         """Of a localizer's cell."""
         shown = {f.name: getattr(cell, f.name) for f in fields(cell)}
         return cls(crs=CrsOut.of(localizer.frame), provenance=Provenance.of(localizer), **shown)
+
+
+class CellsResponse(_Out):
+    """Some of the map's cells, in its order."""
+
+    cells: tuple[CellSummary, ...]
+    total: int = Field(description="of the map")
+    next: str | None = Field(description="the path of those that follow; null at the end")
+    crs: CrsOut
+    provenance: Provenance
 
 
 class Health(_Out):

@@ -9,7 +9,7 @@ import structlog
 
 from app.workers.order import OpenOrder, WorkerFault
 from app.workers.pool import WorkerPool
-from index.answers import Answer, CellDetail, Described, IndexFacts
+from index.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
 from index.query import Query
 from models.city.frame import Frame
 from models.city.scenery.files import SceneryPart
@@ -61,6 +61,11 @@ class RemoteLocalizer:
     def cell(self, cell_id: str) -> CellDetail | None:
         """See `app.http.protocol.LocalizerLike`."""
         found: CellDetail | None = self._read("cell", cell_id)
+        return found
+
+    def cells(self, first: int, count: int) -> list[CellSummary]:
+        """See `app.http.protocol.LocalizerLike`."""
+        found: list[CellSummary] = self._read("cells", first, count)
         return found
 
     def scenery(self, number: int) -> SceneryPart | None:

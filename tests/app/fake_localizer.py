@@ -7,6 +7,7 @@ from index.answers import (
     Candidate,
     CellDetail,
     CellInstance,
+    CellSummary,
     Described,
     Estimate,
     Fact,
@@ -68,6 +69,15 @@ class FakeLocalizer:
 
     def close(self):
         self.is_closed = True
+
+    def cells(self, first, count):
+        listed = [
+            CellSummary(
+                f"fakeville_0000{n}", "fakeville", (0.0, 0.0, 1.0), (-15.0, -15.0, 15.0, 15.0), self._wgs84(), n
+            )
+            for n in (1, 2)
+        ]
+        return listed[first : first + count]
 
     def scenery(self, number):
         return self.parts[number] if number < len(self.parts) else None

@@ -194,6 +194,14 @@ def test_no_number_in_a_text_breaks_an_answer(localizer, unit) -> None:
         assert answer.evidence or answer.status == "no_match", text
 
 
+def test_cells_a_page_at_a_time(localizer, cells) -> None:
+    listed = [cell for first in range(0, len(cells) + 7, 7) for cell in localizer.cells(first, 7)]
+    assert [cell.cell_id for cell in listed] == list(cells.ids)
+    detail = localizer.cell(listed[3].cell_id)
+    assert (listed[3].center, listed[3].bbox, listed[3].wgs84) == (detail.center, detail.bbox, detail.wgs84)
+    assert listed[3].instances == len(detail.instances)
+
+
 def test_a_cell_in_detail(localizer, cells, city) -> None:
     detail = localizer.cell("tinytown_00003")
     begin, end = cells.parts.starts[3:5]

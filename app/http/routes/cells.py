@@ -1,16 +1,53 @@
 """The cells of the map."""
 
-from fastapi import APIRouter, Request
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
-from app.http.dependencies import Localizer
+from app.http.dependencies import IndexName, Localizer
 from app.http.errors import Code, Problem
-from app.http.geojson import cell_collection
+from app.http.geojson import cell_collection, cells_collection
 from app.http.negotiation import GEOJSON, etag, has_already, negotiate, respond
 from app.http.openapi import geojson_content, problems
-from app.http.responses import CellResponse
+from app.http.responses import CellResponse, CellsResponse, CrsOut, Provenance
+from index.artifact import DEFAULT
 
+MOST_CELLS, LONGEST_PAGE = 1_000_000_000, 1000
 router = APIRouter(tags=["map"])
+
+
+@router.get(
+    "/cells",
+    response_model=CellsResponse,
+    responses={
+        200: geojson_content(),
+        304: {"description": "What the client has (If-None-Match) is still what is served"},
+        **problems(Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST, Code.NOT_ACCEPTABLE, Code.NO_GEOREFERENCE),
+        **problems(Code.NOT_READY, Code.LOAD_FAILED),
+    },
+)
+def cells(
+    request: Request,
+    localizer: Localizer,
+    offset: Annotated[int, Query(ge=0, le=MOST_CELLS, description="cells that are passed over")] = 0,
+    limit: Annotated[int, Query(ge=1, le=LONGEST_PAGE)] = 100,
+    index: IndexName = DEFAULT,
+) -> Response:
+    """The map's cells, some at a time, as JSON, or as GeoJSON if Accept says so."""
+    media_type, facts = negotiate(request, localizer.frame), localizer.facts
+    headers = {"ETag": etag(facts.version, f"{offset} {limit}", media_type), "Cache-Control": "no-cache"}
+    if has_already(request, headers["ETag"]):
+        return Response(status_code=304, headers={"Vary": "Accept", **headers})
+    ends = offset + limit >= facts.num_cells
+    body = CellsResponse(
+        cells=tuple(localizer.cells(offset, limit)),
+        total=facts.num_cells,
+        next=None if ends else f"/cells?offset={offset + limit}&limit={limit}&index={index}",
+        crs=CrsOut.of(localizer.frame),
+        provenance=Provenance.of(localizer, index=index),
+    )
+    return respond(cells_collection(body, localizer.frame) if media_type == GEOJSON else body, media_type, headers)
 
 
 @router.get(

@@ -8,7 +8,7 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 from starlette.responses import JSONResponse, Response
 
-from app.http.dependencies import AllIndexes
+from app.http.dependencies import AllIndexes, IndexName
 from app.http.errors import Code, Problem
 from app.http.negotiation import GEOJSON, JSON
 from app.http.nominatim import NOTHING, Format, formatted, formatted_one, place_of, places
@@ -17,7 +17,7 @@ from app.http.queue import InferenceQueue
 from app.http.requests import request_model
 from app.http.routes.localize import ERRORS, check_reach, found_for
 from app.settings import Settings
-from index.artifact import DEFAULT, NAME
+from index.artifact import DEFAULT
 from models.city.frame import Frame
 
 MOST = 40  # results, as of Nominatim
@@ -29,7 +29,6 @@ REVERSE_ERRORS = (
     Code.DRAINING,
     Code.LOAD_FAILED,
 )
-Index = Annotated[str, Query(pattern=NAME, description="which of the indexes that /info names")]
 Form = Annotated[Format, Query(alias="format", description="as of Nominatim; xml is not spoken")]
 DESCRIBED: dict[str, Any] = {"description": "what Nominatim answers, with the place in words as display_name"}
 
@@ -48,7 +47,7 @@ def build_router(settings: Settings) -> APIRouter:
         limit: Annotated[int, Query(ge=1, le=MOST)] = 10,
         viewbox: Annotated[str | None, Query(description="lon,lat,lon,lat: two corners of where to look first")] = None,
         bounded: Annotated[bool, Query(description="look nowhere else")] = False,
-        index: Index = DEFAULT,
+        index: IndexName = DEFAULT,
     ) -> Response:
         """Where the speaker of a description is, as Nominatim answers; its other parameters are passed over."""
         top_k = min(limit, settings.max_top_k)
@@ -70,7 +69,7 @@ def build_router(settings: Settings) -> APIRouter:
         lat: Annotated[float, Query(ge=-90, le=90, allow_inf_nan=False)],
         lon: Annotated[float, Query(ge=-180, le=180, allow_inf_nan=False)],
         form: Form = "jsonv2",
-        index: Index = DEFAULT,
+        index: IndexName = DEFAULT,
     ) -> Response:
         """A position in words, as Nominatim answers; its other parameters are passed over."""
         async with indexes.lease(index) as queue:

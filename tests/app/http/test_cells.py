@@ -66,3 +66,31 @@ def test_etag_is_of_the_index_the_cell_and_the_format(api, fake):
     response = api.get(PATH, headers={"If-None-Match": etag})
     assert response.status_code == 200
     assert response.headers["etag"] != etag
+
+
+def test_cells_are_listed_a_page_at_a_time(api):
+    first = api.get("/cells?limit=1").json()
+    assert [cell["cell_id"] for cell in first["cells"]] == ["fakeville_00001"]
+    assert first["total"] == 2
+    second = api.get(first["next"]).json()
+    assert [cell["cell_id"] for cell in second["cells"]] == ["fakeville_00002"]
+    assert second["next"] is None
+    beyond = api.get("/cells?offset=99").json()
+    assert (beyond["cells"], beyond["next"]) == ([], None)
+    assert len(api.get("/cells").json()["cells"]) == 2
+
+
+def test_a_page_has_its_etag_and_its_geojson(api):
+    found = api.get("/cells?limit=1")
+    assert api.get("/cells?limit=1", headers={"If-None-Match": found.headers["etag"]}).status_code == 304
+    assert api.get("/cells?limit=2", headers={"If-None-Match": found.headers["etag"]}).status_code == 200
+    drawn = api.get("/cells?limit=1", headers=GEO)
+    assert drawn.headers["etag"] != found.headers["etag"]
+    [feature] = drawn.json()["features"]
+    assert (feature["geometry"]["type"], feature["id"]) == ("Polygon", "fakeville_00001")
+    assert drawn.json()["next"] == found.json()["next"]
+
+
+@pytest.mark.parametrize("query", ["offset=-1", "offset=x", "limit=0", "limit=1001", "offset=1e9", "index=../x"])
+def test_a_page_that_cannot_be_is_refused(api, problem, query):
+    problem(api.get(f"/cells?{query}"), 422, "invalid_request", query.partition("=")[0])

@@ -168,6 +168,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/cells": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Cells
+         * @description The map's cells, some at a time, as JSON, or as GeoJSON if Accept says so.
+         */
+        get: operations["cells_cells_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/cells/{cell_id}": {
         parameters: {
             query?: never;
@@ -541,6 +561,58 @@ export interface components {
             wgs84: components["schemas"]["LatLon"] | null;
             /** Instances */
             instances: components["schemas"]["CellInstance"][];
+            crs: components["schemas"]["CrsOut"];
+            provenance: components["schemas"]["Provenance"];
+        };
+        /**
+         * CellSummary
+         * @description A cell in a list; metres, map frame.
+         */
+        CellSummary: {
+            /** Cell Id */
+            cell_id: string;
+            /** Scene */
+            scene: string;
+            /** Center */
+            center: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Bbox
+             * @description west, south, east, north
+             */
+            bbox: [
+                number,
+                number,
+                number,
+                number
+            ];
+            wgs84: components["schemas"]["LatLon"] | null;
+            /**
+             * Instances
+             * @description how many are in it; GET /cells/{cell_id} has them
+             */
+            instances: number;
+        };
+        /**
+         * CellsResponse
+         * @description Some of the map's cells, in its order.
+         */
+        CellsResponse: {
+            /** Cells */
+            cells: components["schemas"]["CellSummary"][];
+            /**
+             * Total
+             * @description of the map
+             */
+            total: number;
+            /**
+             * Next
+             * @description the path of those that follow; null at the end
+             */
+            next: string | null;
             crs: components["schemas"]["CrsOut"];
             provenance: components["schemas"]["Provenance"];
         };
@@ -2696,6 +2768,96 @@ export interface operations {
                 };
             };
             /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    cells_cells_get: {
+        parameters: {
+            query?: {
+                /** @description cells that are passed over */
+                offset?: number;
+                limit?: number;
+                /** @description which of the indexes that /info names */
+                index?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CellsResponse"];
+                    /** @example {
+                     *       "type": "FeatureCollection",
+                     *       "features": [
+                     *         {
+                     *           "type": "Feature",
+                     *           "id": "estimate",
+                     *           "geometry": {
+                     *             "type": "Point",
+                     *             "coordinates": [
+                     *               24.9384,
+                     *               60.1699
+                     *             ]
+                     *           },
+                     *           "properties": {
+                     *             "kind": "estimate",
+                     *             "probability": 0.62
+                     *           }
+                     *         }
+                     *       ]
+                     *     } */
+                    "application/geo+json": Record<string, never>;
+                };
+            };
+            /** @description What the client has (If-None-Match) is still what is served */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such format; The map has no latitude and longitude */
+            406: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request cannot be used */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The index or the model could not be loaded */
             503: {
                 headers: {
                     [name: string]: unknown;
