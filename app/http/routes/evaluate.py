@@ -34,7 +34,7 @@ POST_ERRORS = (
     Code.LOAD_FAILED,
 )
 EVENT_STREAM: dict[str, Any] = {
-    "description": "server-sent events `progress`, then one of `done`, `failed` and `cancelled`; the data of each is "
+    "description": "server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the service ended); the data of each is "
     "what GET /evaluate/{job} answers. Who comes late is told the state at once; who leaves cancels nothing.",
     "content": {"text/event-stream": {"schema": {"type": "string"}}},
 }

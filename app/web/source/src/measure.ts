@@ -40,10 +40,11 @@ export class Measure {
     try {
       let ended = false;
       for await (const state of api.evaluate(this.asked(), running.signal, (accepted) => (job = accepted))) {
-        ended = ["done", "failed", "cancelled"].includes(state.status);
+        ended = ["done", "failed", "cancelled", "interrupted"].includes(state.status);
         if (state.status === "done") this.report(state.report as unknown as Report);
         else if (state.status === "failed") this.say(state.error?.detail ?? "It failed.");
         else if (state.status === "cancelled") this.say("Cancelled.");
+        else if (state.status === "interrupted") this.say("The service ended meanwhile; measure again.");
         else this.progress(state);
       }
       if (!ended) this.say("The service ended the connection; ask again.");

@@ -2555,7 +2555,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description server-sent events `progress`, then one of `done`, `failed` and `cancelled`; the data of each is what GET /evaluate/{job} answers. Who comes late is told the state at once; who leaves cancels nothing. */
+            /** @description server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the service ended); the data of each is what GET /evaluate/{job} answers. Who comes late is told the state at once; who leaves cancels nothing. */
             200: {
                 headers: {
                     [name: string]: unknown;
