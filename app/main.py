@@ -87,7 +87,8 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     for router in routers:
         app.include_router(router)
     app.state.routes = [route for router in routers for route in router.routes]  # FastAPI hides those it includes
-    app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger={evaluate.PATH: settings.max_evaluate_bytes})
+    larger = {evaluate.PATH: settings.max_evaluate_bytes, batch.PATH: batch.BODIES * settings.max_bytes}
+    app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger=larger)
     app.add_middleware(
         KeyCheck,
         read_key=settings.read_key,

@@ -197,7 +197,7 @@ class Health(_Out):
 class Limits(_Out):
     """What a client can run into."""
 
-    max_bytes: int = Field(description="of a body, but for the one of POST /evaluate")
+    max_bytes: int = Field(description="of a body; POST /localize/batch takes four times as many")
     max_evaluate_bytes: int
     max_characters: int
     max_hints: int

@@ -17,6 +17,8 @@ from app.http.routes.localize import ERRORS, check_reach, found_for
 from app.settings import Settings
 from models.errors import HereaboutsError
 
+PATH = "/localize/batch"
+BODIES = 4  # times as many bytes as one description may have, for all
 AT_ONCE = 4  # items of one request that wait for the model: others ask too
 BATCH_EXAMPLE: JsonValue = {"items": [EXAMPLE, {"hints": ["I stand on a gray road."]}]}
 
@@ -60,7 +62,7 @@ def build_router(settings: Settings) -> APIRouter:
         ),
     )
 
-    @router.post("/localize/batch", responses=problems(*ERRORS))
+    @router.post(PATH, responses=problems(*ERRORS))
     async def batch(
         request: Request,
         body: body_model,

@@ -1322,7 +1322,7 @@ export interface components {
         Limits: {
             /**
              * Max Bytes
-             * @description of a body, but for the one of POST /evaluate
+             * @description of a body; POST /localize/batch takes four times as many
              */
             max_bytes: number;
             /** Max Evaluate Bytes */
