@@ -35,7 +35,8 @@ POST_ERRORS = (
 )
 EVENT_STREAM: dict[str, Any] = {
     "description": "server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the "
-    "service ended); the data of each is what GET /evaluate/{job} answers. Who comes late is told the state at once; who leaves cancels nothing.",
+    "service ended); the data of each is what GET /evaluate/{job} answers. Who comes late is told the state at once; "
+    "who leaves cancels nothing.",
     "content": {"text/event-stream": {"schema": {"type": "string"}}},
 }
 
