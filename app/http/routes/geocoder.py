@@ -12,7 +12,7 @@ from app.http.dependencies import AllIndexes, IndexName
 from app.http.errors import Code, Problem
 from app.http.negotiation import GEOJSON, JSON
 from app.http.nominatim import NOTHING, Format, formatted, formatted_one, place_of, places
-from app.http.openapi import problems
+from app.http.openapi import geojson_content, problems
 from app.http.queue import InferenceQueue
 from app.http.requests import request_model
 from app.http.routes.localize import ERRORS, check_reach, found_for
@@ -30,7 +30,10 @@ REVERSE_ERRORS = (
     Code.LOAD_FAILED,
 )
 Form = Annotated[Format, Query(alias="format", description="as of Nominatim; xml is not spoken")]
-DESCRIBED: dict[str, Any] = {"description": "what Nominatim answers, with the place in words as display_name"}
+DESCRIBED: dict[str, Any] = {
+    "description": "what Nominatim answers, with the place in words as display_name",
+    **geojson_content(),
+}
 
 
 def build_router(settings: Settings) -> APIRouter:

@@ -2612,6 +2612,27 @@ export interface operations {
                 };
                 content: {
                     "application/json": unknown;
+                    /** @example {
+                     *       "type": "FeatureCollection",
+                     *       "features": [
+                     *         {
+                     *           "type": "Feature",
+                     *           "id": "estimate",
+                     *           "geometry": {
+                     *             "type": "Point",
+                     *             "coordinates": [
+                     *               24.9384,
+                     *               60.1699
+                     *             ]
+                     *           },
+                     *           "properties": {
+                     *             "kind": "estimate",
+                     *             "probability": 0.62
+                     *           }
+                     *         }
+                     *       ]
+                     *     } */
+                    "application/geo+json": Record<string, never>;
                 };
             };
             /** @description The body is not JSON */
@@ -2738,6 +2759,27 @@ export interface operations {
                 };
                 content: {
                     "application/json": unknown;
+                    /** @example {
+                     *       "type": "FeatureCollection",
+                     *       "features": [
+                     *         {
+                     *           "type": "Feature",
+                     *           "id": "estimate",
+                     *           "geometry": {
+                     *             "type": "Point",
+                     *             "coordinates": [
+                     *               24.9384,
+                     *               60.1699
+                     *             ]
+                     *           },
+                     *           "properties": {
+                     *             "kind": "estimate",
+                     *             "probability": 0.62
+                     *           }
+                     *         }
+                     *       ]
+                     *     } */
+                    "application/geo+json": Record<string, never>;
                 };
             };
             /** @description No such index */
