@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import log
 from typing import Final
 
@@ -23,6 +23,7 @@ LIKE: Final = 84.0  # of 100, rapidfuzz.fuzz.ratio, from which on a misspelt nam
 SHORTEST_MISSPELT: Final = 5
 LEAST_SHARE: Final = 0.35  # of a name's weight that a part of it must bear
 PART: Final = 0.5  # weight of a part of a name beside whole ones
+KEPT: Final = 8192  # phrases whose kinds are remembered
 EMPTY: Final = ARTICLES | english().list("empty")
 
 
@@ -76,7 +77,7 @@ class Lookup:
         self._postings = {word: frozenset(rows) for word, rows in postings.items()}
         self._nouns = self._plain_nouns(ENGLISH)
         self._spellings = self._other_spellings()
-        self._kinds: dict[tuple[str, tuple[str, ...]], Mapping[str, float]] = {}
+        self._kinds = lru_cache(maxsize=KEPT)(self._kinds_of)
 
     def worth(self, word: str) -> float:
         """How much a word of a name tells: the rarer, the more."""
@@ -202,12 +203,7 @@ class Lookup:
 
     def kinds(self, words: Sequence[str], language: str = ENGLISH) -> Mapping[str, float]:
         """The kinds that a noun means, and how surely; none for many."""
-        key = language, tuple(words)
-        found = self._kinds.get(key)
-        if found is None:
-            nouns = self._nouns if language == ENGLISH else self._plain_nouns(language)
-            found = self._kinds[key] = self._kinds_of(key[1], nouns)
-        return found
+        return self._kinds(tuple(words), language)
 
     def foreign_kinds(self, word: str) -> Mapping[str, float]:
         """The kinds that a word means in some other language: "the Kahvila"."""
@@ -247,7 +243,8 @@ class Lookup:
                     found.setdefault(plain_word(noun), kinds)
         return found
 
-    def _kinds_of(self, words: tuple[str, ...], nouns: Nouns) -> Mapping[str, float]:
+    def _kinds_of(self, words: tuple[str, ...], language: str) -> Mapping[str, float]:
+        nouns = self._nouns if language == ENGLISH else self._plain_nouns(language)
         for last in _singulars(words[-1]):
             found = nouns.get(" ".join((*words[:-1], last)))
             if found:

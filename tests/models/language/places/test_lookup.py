@@ -3,7 +3,7 @@ import pytest
 
 from models.city.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED, STREET, Words, build_gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
-from models.language.places.lookup import Lookup
+from models.language.places.lookup import KEPT, Lookup
 from models.language.places.names import plain_words
 from tests.models.city.gazetteer.made_town import NUMBERS, called, is_common, line, numbered, point
 
@@ -186,3 +186,11 @@ def test_a_chain_is_found_by_its_other_names(text, found) -> None:
     shops = build_gazetteer(given, [np.zeros((1, 4)), np.ones((1, 4))], [False, False])
     match = Lookup(shops, load_vocabulary(), lambda word: word in ("mobile", "chicken")).named(words(text))
     assert (match.objects.tolist() if match else None) == found
+
+
+def test_what_people_say_does_not_pile_up(lookup) -> None:
+    assert lookup.kinds(("pharmacy",))
+    for number in range(2 * KEPT):
+        lookup.kinds((f"x{number}",))
+    assert lookup._kinds.cache_info().currsize <= KEPT
+    assert lookup.kinds(("pharmacy",))
