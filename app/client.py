@@ -19,7 +19,7 @@ from typing import Any, Final, Self, TypedDict, TypeVar, Unpack
 import httpx
 from pydantic import BaseModel
 
-from app.http.responses import DescribeResponse, InfoResponse, LocalizeResponse
+from app.http.schemas.responses import DescribeResponse, InfoResponse, LocalizeResponse
 from index.query import Crs, Refine
 
 URL: Final = "http://127.0.0.1:8000"

@@ -7,8 +7,8 @@ from mcp.server.mcpserver.exceptions import ToolError
 from pydantic import BaseModel, Field
 
 from app.client import AsyncClient, ServiceError
-from app.http.nominatim import apart
-from app.http.responses import LocalizeResponse
+from app.http.formats.nominatim import apart
+from app.http.schemas.responses import LocalizeResponse
 from index.answers import Candidate, Evidence, Question
 
 INSTRUCTIONS: Final = """Finds where in a city somebody is from what they say is around them.

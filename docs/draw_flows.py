@@ -73,7 +73,7 @@ def description(axes: Axes) -> Box:
                "how likely the text is at each node, all hints at once")  # fmt: skip
     answer = box(axes, (x, 14, wide, TALL), "index", "One function makes the Answer", "index/finding.py",
                  "cells, position, radii, evidence, heat map; and which model it was")  # fmt: skip
-    reply = box(axes, (x, 3.6, wide, 5.6), "app", "JSON or GeoJSON", "app/http/responses.py, app/http/geojson.py")
+    reply = box(axes, (x, 3.6, wide, 5.6), "app", "JSON or GeoJSON", "app/http/schemas, app/http/formats")
     frame = (x, (vector[1] + grid[1]) / 2, wide + 4, vector[1] - grid[1] + TALL + 1.6)
     corner = (frame[0] - frame[2] / 2, frame[1] - frame[3] / 2)
     axes.add_patch(Rectangle(corner, frame[2], frame[3], fc="none", ec=SOFT, lw=0.8, ls="--", zorder=0))

@@ -60,11 +60,13 @@ MAY_IMPORT = {
     "index.words": (*SERVED, "index"),
     "index.evaluation": MEASURES,
     "index.reproduction": REPRODUCES,
-    "app": ("app.http", "app.http.routes", "app.jobs", "app.workers", *ANSWERS),
+    "app": ("app.http", "app.http.formats", "app.http.routes", "app.http.schemas", "app.jobs", "app.workers", *ANSWERS),
     "app.workers": ("app", *ANSWERS),
-    "app.http": ("app", "app.jobs", *ANSWERS),
-    "app.http.routes": ("app", "app.http", "app.jobs", *ANSWERS),
-    "app.jobs": ("app", "app.http", *MEASURES),
+    "app.http": ("app", "app.http.formats", "app.http.schemas", "app.jobs", *ANSWERS),
+    "app.http.schemas": ("app", "app.http", *ANSWERS),
+    "app.http.formats": ("app", "app.http", "app.http.schemas", *ANSWERS),
+    "app.http.routes": ("app", "app.http", "app.http.formats", "app.http.schemas", "app.jobs", *ANSWERS),
+    "app.jobs": ("app", "app.http", "app.http.schemas", *MEASURES),
     "app.cli": ("app", "app.http", "app.jobs", *REPRODUCES),
 }
 # Of a package that may be imported, the modules that may be; (importing, imported), sub-packages included.
@@ -91,8 +93,8 @@ ONLY_IN = {
 WITHOUT_TORCH = [
     ROOT / "models/city",
     ROOT / "models/training/metrics.py",
-    ROOT / "app/http/requests.py",
-    ROOT / "app/http/evaluate_requests.py",
+    ROOT / "app/http/schemas/requests.py",
+    ROOT / "app/http/schemas/evaluate_requests.py",
     ROOT / "index/answers.py",
     ROOT / "index/query.py",
 ]

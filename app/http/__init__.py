@@ -1,6 +1,6 @@
-"""The HTTP service: requests and responses, routes/, the queue before the model, errors as problem+json.
+"""The HTTP service: schemas/ of requests and responses, formats/, routes/, the queue before the model, errors.
 
-`negotiation` and `geojson` give other forms of an answer, `keys`, `middleware` and `openapi` what all routes share,
-`protocol` is what a route asks of a localizer, `dependencies` hand it over. May import app.jobs, app.settings, and of
+`keys`, `bodies`, `connection`, `middleware` and `openapi` are what all routes share, `indexes` what is served,
+`protocol` what a route asks of a localizer, `dependencies` hand it over. May import app.jobs, app.settings, and of
 index and models the types of answers, the errors and what splits a text.
 """

@@ -5,10 +5,10 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
-from app.http import geojson
 from app.http.errors import PROBLEM_JSON, Code, Problem, ProblemBody
+from app.http.formats import geojson
+from app.http.formats.negotiation import GEOJSON, JSON
 from app.http.keys import OPEN, SCHEMES
-from app.http.negotiation import GEOJSON, JSON
 
 PROBLEM_SCHEMA = {"$ref": f"#/components/schemas/{ProblemBody.__name__}"}
 Responses = dict[int | str, dict[str, Any]]

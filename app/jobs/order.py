@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from app.http.bodies import check_json
 from app.http.errors import Problem, field_name
-from app.http.evaluate_requests import EvaluateQuery, EvaluateRequest, evaluate_model
+from app.http.schemas.evaluate_requests import EvaluateQuery, EvaluateRequest, evaluate_model
 from app.settings import Settings
 from index.artifact import open_version
 from index.query import DEFAULT_REFINE, Refine

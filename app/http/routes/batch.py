@@ -11,9 +11,9 @@ from app.http.dependencies import AllIndexes
 from app.http.errors import Problem, ProblemBody, as_problem
 from app.http.indexes import Indexes
 from app.http.openapi import problems
-from app.http.requests import EXAMPLE, Body, LocalizeRequest, request_model
-from app.http.responses import LocalizeResponse
 from app.http.routes.localize import ERRORS, check_reach, found_for
+from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest, request_model
+from app.http.schemas.responses import LocalizeResponse
 from app.settings import Settings
 from models.errors import HereaboutsError
 

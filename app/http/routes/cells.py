@@ -7,10 +7,10 @@ from starlette.responses import Response
 
 from app.http.dependencies import IndexName, Localizer
 from app.http.errors import Code, Problem
-from app.http.geojson import cell_collection, cells_collection
-from app.http.negotiation import GEOJSON, etag, has_already, negotiate, respond
+from app.http.formats.geojson import cell_collection, cells_collection
+from app.http.formats.negotiation import GEOJSON, etag, has_already, negotiate, respond
 from app.http.openapi import geojson_content, problems
-from app.http.responses import CellResponse, CellsResponse, CrsOut, Provenance
+from app.http.schemas.responses import CellResponse, CellsResponse, CrsOut, Provenance
 from index.artifact import DEFAULT
 
 MOST_CELLS, LONGEST_PAGE = 1_000_000_000, 1000

@@ -9,9 +9,9 @@ from fastapi import APIRouter
 from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
-from app.http.requests import DescribeRequest, describe_model
-from app.http.responses import DescribeResponse
 from app.http.routes.localize import check_reach
+from app.http.schemas.requests import DescribeRequest, describe_model
+from app.http.schemas.responses import DescribeResponse
 from app.settings import Settings
 from index.filters import position_m
 

@@ -11,8 +11,8 @@ from sse_starlette import EventSourceResponse, ServerSentEvent
 
 from app.http.dependencies import AllIndexes, Jobs
 from app.http.errors import Code
-from app.http.evaluate_requests import EvaluateRequest, evaluate_model
 from app.http.openapi import problems
+from app.http.schemas.evaluate_requests import EvaluateRequest, evaluate_model
 from app.jobs.job import FINISHED, Job, JobState, Status
 from app.jobs.order import to_evaluation
 from app.settings import Settings

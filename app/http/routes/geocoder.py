@@ -10,12 +10,12 @@ from starlette.responses import JSONResponse, Response
 
 from app.http.dependencies import AllIndexes, IndexName
 from app.http.errors import Code, Problem
-from app.http.negotiation import GEOJSON, JSON
-from app.http.nominatim import NOTHING, Format, formatted, formatted_one, place_of, places
+from app.http.formats.negotiation import GEOJSON, JSON
+from app.http.formats.nominatim import NOTHING, Format, formatted, formatted_one, place_of, places
 from app.http.openapi import geojson_content, problems
 from app.http.queue import InferenceQueue
-from app.http.requests import request_model
 from app.http.routes.localize import ERRORS, check_reach, found_for
+from app.http.schemas.requests import request_model
 from app.settings import Settings
 from index.artifact import DEFAULT
 from models.city.frame import Frame

@@ -10,7 +10,7 @@ from app.http.errors import Code, Problem
 from app.http.keys import OPEN
 from app.http.metrics import Metrics
 from app.http.openapi import problems
-from app.http.responses import Health, IndexInfo, InfoResponse, Limits
+from app.http.schemas.responses import Health, IndexInfo, InfoResponse, Limits
 from app.jobs.order import data_sets
 
 router = APIRouter(tags=["service"])

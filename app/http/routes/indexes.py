@@ -14,7 +14,7 @@ from pydantic import BaseModel, Field
 from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
-from app.http.requests import Body
+from app.http.schemas.requests import Body
 from index.artifact import MANIFEST, NAME, Name, open_version, read_aliases, register, set_alias
 from index.snapshot import SNAPSHOTS, snapshot
 from models.errors import IndexBroken

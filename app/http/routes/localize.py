@@ -12,13 +12,13 @@ from starlette.responses import Response
 
 from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
-from app.http.geojson import localize_collection
-from app.http.negotiation import GEOJSON, negotiate, respond
+from app.http.formats.geojson import localize_collection
+from app.http.formats.negotiation import GEOJSON, negotiate, respond
 from app.http.openapi import geojson_content, problems
 from app.http.queue import InferenceQueue, Served
-from app.http.requests import DescribeRequest, LocalizeRequest, request_model
-from app.http.responses import LocalizeResponse
-from app.http.ros import pose_of
+from app.http.schemas.requests import DescribeRequest, LocalizeRequest, request_model
+from app.http.schemas.responses import LocalizeResponse
+from app.http.schemas.ros import pose_of
 from app.settings import Settings
 from models.city.frame import Frame
 

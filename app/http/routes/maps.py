@@ -8,7 +8,7 @@ from starlette.responses import FileResponse, Response
 
 from app.http.dependencies import Localizer
 from app.http.errors import Code, Problem
-from app.http.negotiation import etag, has_already, takes_gzip
+from app.http.formats.negotiation import etag, has_already, takes_gzip
 from app.http.openapi import problems
 
 router = APIRouter(tags=["map"])

@@ -10,8 +10,8 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from app.http.errors import Code, Problem
+from app.http.formats.negotiation import etag, has_already, takes_gzip
 from app.http.keys import OPEN
-from app.http.negotiation import etag, has_already, takes_gzip
 
 PAGE_DIR: Final = Path(__file__).parents[2] / "web" / "page"
 INDEX: Final = "index.html"

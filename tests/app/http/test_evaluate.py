@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from fake_localizer import TRUE_FRAME, FakeLocalizer
 
-from app.http.evaluate_requests import evaluate_model
+from app.http.schemas.evaluate_requests import evaluate_model
 from app.jobs.order import find_data, read_evaluation, to_evaluation
 from app.settings import Settings
 from models.city.frame import Frame

@@ -1,8 +1,8 @@
 import pytest
 from fake_localizer import TRUE_FRAME, FakeLocalizer
 
-from app.http.requests import request_model
 from app.http.routes.localize import check_reach
+from app.http.schemas.requests import request_model
 from app.settings import Settings
 from models.city.frame import Frame
 

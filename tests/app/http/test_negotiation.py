@@ -1,7 +1,7 @@
 import pytest
 from fastapi import Request
 
-from app.http.negotiation import choose, takes_gzip
+from app.http.formats.negotiation import choose, takes_gzip
 
 JSON, GEO = "application/json", "application/geo+json"
 

@@ -4,9 +4,9 @@ from dataclasses import fields
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.http.examples import ANSWERED, DESCRIBED
 from app.http.protocol import LocalizerLike
-from app.http.ros import PoseWithCovarianceStamped
+from app.http.schemas.examples import ANSWERED, DESCRIBED
+from app.http.schemas.ros import PoseWithCovarianceStamped
 from index.answers import (
     Answer,
     Candidate,

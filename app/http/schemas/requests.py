@@ -14,7 +14,7 @@ from pydantic import (
     model_validator,
 )
 
-from app.http.fields import (
+from app.http.schemas.fields import (
     TOLD,
     Coordinate,
     IndexName,

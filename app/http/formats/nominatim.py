@@ -6,7 +6,7 @@ from typing import Any, Final, Literal
 import numpy as np
 
 from app.http.protocol import LocalizerLike
-from app.http.responses import LocalizeResponse
+from app.http.schemas.responses import LocalizeResponse
 from index.answers import Described, LatLon
 from models.city.frame import Frame
 

@@ -4,8 +4,8 @@ from typing import Annotated, Self
 
 from pydantic import ConfigDict, Field, JsonValue, Strict, StringConstraints, create_model, model_validator
 
-from app.http.fields import IndexName, Length, Point, either, wrong
-from app.http.requests import REFINE, Body, Told, told_fields
+from app.http.schemas.fields import IndexName, Length, Point, either, wrong
+from app.http.schemas.requests import REFINE, Body, Told, told_fields
 from app.settings import Settings
 from index.artifact import DEFAULT
 from index.query import Crs, Refine

@@ -8,7 +8,7 @@ import numpy as np
 from geojson_pydantic import Feature, FeatureCollection, Point, Polygon
 from geojson_pydantic.types import Position2D
 
-from app.http.responses import CellResponse, CellsResponse, LocalizeResponse, Provenance
+from app.http.schemas.responses import CellResponse, CellsResponse, LocalizeResponse, Provenance
 from index.answers import Status
 from models.city.frame import Frame
 
