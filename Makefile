@@ -6,6 +6,7 @@ PORT ?= 8000
 MAP ?= models/maps/helsinki.osm.pbf
 INDEX ?= data/index
 IMAGE ?= hereabouts
+KILLS ?= 200
 # Each process takes 1 to 2 GB. Files are shared out in runs, so that a module's fixtures are made by one of them.
 PYTEST := $(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist worksteal
 # What pip is asked for first; set it to choose another build of torch, for example TORCH=./torch-2.13.0+cu130.whl.
@@ -21,7 +22,7 @@ TOLD_OF := $(if $(MIDTOWN),--data $(MIDTOWN) --texts $(PEOPLE)/manhattan_dev.jso
 	$(HELSINKI) --texts $(PEOPLE)/helsinki_west.jsonl \
 	--data models/maps/alexanderplatz.osm.pbf --texts $(PEOPLE)/alexanderplatz_dev.jsonl
 
-.PHONY: help install run test test-fast fuzz load check format towns train refit index serve evaluate benchmark web page wheels image clean
+.PHONY: help install run test test-fast fuzz load soak chaos check format sbom audit towns train refit index serve evaluate benchmark web page wheels image clean
 
 help:  ## what can be made
 	@sed -n 's/^\([a-z-]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
@@ -52,11 +53,14 @@ test-fast: install  ## what is quick of it, of every package
 fuzz: install  ## the contract and raw mutations, for much longer than the suite has time
 	FUZZ_EXAMPLES=2000 FUZZ_MUTATIONS=10000 $(PYTEST) tests/app/http/test_contract.py tests/app/http/test_mutations.py
 
-load: install  ## throughput of a running service on PORT with 1, 2, 32 and 96 clients (takes wrk)
-	for clients in 1 2 32 96; do \
-		wrk --threads 1 --connections $$clients --duration 20s --timeout 30s --latency \
-			--script tests/load/localize.lua http://127.0.0.1:$(PORT) || exit 1; \
-	done
+load: install  ## what the service bears on this machine, which has to be idle: clients, arrivals, three times too much
+	$(BIN)/python tests/load/load.py --index $(INDEX)
+
+soak: install  ## whether memory grows in 100,000 requests
+	$(BIN)/python tests/load/soak.py --index $(INDEX)
+
+chaos: install  ## KILLS kills of builds and of the service at random moments: nothing acknowledged may be lost
+	$(BIN)/python -m tests.load.chaos --kills $(KILLS)
 
 check: install  ## ruff and mypy
 	$(BIN)/ruff check .
@@ -66,6 +70,14 @@ check: install  ## ruff and mypy
 format: install  ## let ruff format and fix
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
+
+sbom: install  ## what is installed, as a CycloneDX bill of materials: reports/sbom.json
+	mkdir -p reports
+	$(BIN)/cyclonedx-py environment --pyproject pyproject.toml --output-reproducible --output-file reports/sbom.json $(BIN)/python
+
+# Strict, or what the registry does not answer for passes as sound.
+audit: install  ## known vulnerabilities of what constraints.txt pins, as PyPI tells them
+	$(BIN)/pip-audit --requirement constraints.txt --no-deps --disable-pip --strict --progress-spinner off
 
 towns: install  ## the made-up towns that weights are trained on, with KITTI-360's numbers and with their own
 	for towns in 0 own-0 own-1; do \

@@ -1,6 +1,10 @@
 """The offline job: map -> cells -> vectors -> an index version on disk."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+
+from safetensors import SafetensorError
 
 from index.artifact import (
     FrameRecord,
@@ -20,7 +24,7 @@ from models.city.kinds.vocabulary import load_vocabulary
 from models.city.scenery.files import save_scenery
 from models.city.source import open_source
 from models.city.types import Progress
-from models.errors import IndexUnusable
+from models.errors import DataError, IndexUnusable
 from models.files import file_records, new_directory
 from models.language.places.lookup import Lookup
 from models.language.text_encoder import load_text_encoder
@@ -54,7 +58,7 @@ def build_index(
         The version's directory.
 
     Raises:
-        MapError, DataError: the map cannot be read or cut.
+        MapError, DataError: the map cannot be read or cut, or the index cannot be written; what is there stays.
         WeightsError: the model cannot be loaded.
     """
     report = progress or (lambda stage, done, total: None)
@@ -73,7 +77,7 @@ def build_index(
     meanings = Meanings.of(Lookup(gazetteer, load_vocabulary(), encoder.is_everyday), encoder.embed)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
-    with new_directory(out_dir / origin["version"]) as directory:
+    with _writing(out_dir), new_directory(out_dir / origin["version"]) as directory:
         ranker.save(directory)
         save_hint_features(directory, retriever, template_hints(data.gallery, data.palette))
         data.gallery.save(directory)
@@ -85,8 +89,18 @@ def build_index(
             **origin, **_describe(data), model=retriever.name, dim=ranker.store.dim, files=file_records(directory)
         )
         write_manifest(directory, manifest)
-    set_alias(out_dir, "default", manifest.version)
+    with _writing(out_dir):
+        set_alias(out_dir, "default", manifest.version)
     return out_dir / manifest.version
+
+
+@contextmanager
+def _writing(out_dir: Path) -> Iterator[None]:
+    """Say so where an index cannot be written."""
+    try:
+        yield
+    except (OSError, SafetensorError) as error:
+        raise DataError(f"{out_dir} cannot be written: {error}; make room, or give another directory") from error
 
 
 def _describe(data: MapData) -> dict[str, object]:

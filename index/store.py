@@ -105,4 +105,4 @@ class FaissStore:
 
     def save(self, path: Path) -> None:
         """See VectorStore."""
-        faiss.write_index(self._index, str(path))
+        path.write_bytes(faiss.serialize_index(self._index).data)  # FAISS itself does not say if the end is not written

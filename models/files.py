@@ -3,19 +3,17 @@
 import fcntl
 import hashlib
 import os
+import secrets
 import shutil
 import tempfile
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from threading import get_ident
 from typing import BinaryIO, Final
 
 from pydantic import BaseModel, ConfigDict
 
-BUILDING: Final = ".building-"  # begins the name of a directory that is being filled
-SETTLING_S: Final = 60.0
+BUILDING: Final = ".building-"  # begins the name of a file or directory that is being filled
 
 
 class FileRecord(BaseModel):
@@ -37,18 +35,30 @@ def replacing(path: Path) -> Iterator[BinaryIO]:
     """A file to write, which takes its place only when all is written; if that fails, nothing is left or changed."""
     path = path.resolve()  # of a link, what it leads to
     path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.name}.{os.getpid()}.{get_ident()}")
+    remove_abandoned(path.parent)
+    file, beside = _begin_file(path.parent)
     try:
-        with beside.open("wb") as file:
+        with file:
             yield file
             file.flush()
             os.fsync(file.fileno())
-        if path.exists():
-            shutil.copymode(path, beside)
-        beside.replace(path)
-        sync(path.parent)
+            if path.exists():
+                shutil.copymode(path, beside)
+            beside.replace(path)
+            sync(path.parent)
     finally:
         beside.unlink(missing_ok=True)
+
+
+def _begin_file(parent: Path) -> tuple[BinaryIO, Path]:
+    """A new file in a directory, locked until it is closed or its process ends, however that may be."""
+    while True:
+        beside = parent / f"{BUILDING}{secrets.token_hex(8)}"
+        file = beside.open("xb")  # and not by mkstemp, whose files only their owner can read
+        fcntl.flock(file, fcntl.LOCK_EX)
+        if beside.exists():  # else somebody took it for abandoned before it was locked
+            return file, beside
+        file.close()
 
 
 def replace_file(path: Path, content: bytes) -> None:
@@ -64,10 +74,8 @@ def new_directory(path: Path) -> Iterator[Path]:
     Whoever may reach it can read what is in it: some libraries write files that only their owner can.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    _remove_abandoned(path.parent)
-    beside = Path(tempfile.mkdtemp(prefix=BUILDING, dir=path.parent))
-    held = os.open(beside, os.O_RDONLY)
-    fcntl.flock(held, fcntl.LOCK_EX)  # until this process ends, however that may be
+    remove_abandoned(path.parent)
+    held, beside = _begin_directory(path.parent)
     try:
         yield beside
         for item in (*beside.rglob("*"), beside):
@@ -80,16 +88,29 @@ def new_directory(path: Path) -> Iterator[Path]:
         shutil.rmtree(beside, ignore_errors=True)
 
 
-def _remove_abandoned(parent: Path) -> None:
-    """Remove directories that were being filled when their process was killed."""
+def _begin_directory(parent: Path) -> tuple[int, Path]:
+    """As `_begin_file`, for a directory; with the descriptor that holds it."""
+    while True:
+        beside = Path(tempfile.mkdtemp(prefix=BUILDING, dir=parent))
+        with suppress(FileNotFoundError):
+            held = os.open(beside, os.O_RDONLY)
+            fcntl.flock(held, fcntl.LOCK_EX)
+            if beside.exists():
+                return held, beside
+            os.close(held)
+
+
+def remove_abandoned(parent: Path) -> None:
+    """Remove from a directory what was being filled when its process was killed."""
     for left in parent.glob(f"{BUILDING}*"):
         with suppress(OSError):  # of somebody else, or somebody else removes it too
-            if time.time() - left.stat().st_mtime < SETTLING_S:
-                continue  # it may be about to be locked
             held = os.open(left, os.O_RDONLY)
             try:
                 fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                shutil.rmtree(left, ignore_errors=True)
+                if left.is_dir():
+                    shutil.rmtree(left, ignore_errors=True)
+                else:
+                    left.unlink()
             finally:
                 os.close(held)
 

@@ -147,29 +147,38 @@ class Indexes:
             Problem: it cannot be opened; the one before keeps answering.
         """
         async with self._switching:
-            if alias in self._served and self._served[alias].version == version and keep is None:
-                return
-            new = self._begin(alias, version)
-            try:
-                await new.queue.opened()
-                if isinstance(new.queue.failure, IndexMismatch):
-                    raise Problem(Code.INDEX_MISMATCH)
-                if new.queue.failure is not None:
-                    raise Problem(Code.INDEX_BROKEN)
-                new.queue.check_accepting()
-                if keep is not None:
-                    await keep
-            except BaseException:
-                if keep is not None:
-                    keep.close()
-                await new.queue.close()
-                raise
-            old, self._served[alias] = self._served.get(alias), new
-            log.info("index switched", alias=alias, index_version=new.queue.localizer.facts.version)
-            if old is not None:
-                task = asyncio.create_task(self._retire(old))
-                self._retiring.add(task)
-                task.add_done_callback(self._retiring.discard)
+            await self._exchange(alias, version, keep)
+
+    async def _follow(self, alias: str, version: str) -> None:
+        """As `switch`, unless the alias has moved on since it was read: a switch may have ended meanwhile."""
+        async with self._switching:
+            if (await self._named()).get(alias) == version:
+                await self._exchange(alias, version)
+
+    async def _exchange(self, alias: str, version: str, keep: Coroutine[None, None, None] | None = None) -> None:
+        if alias in self._served and self._served[alias].version == version and keep is None:
+            return
+        new = self._begin(alias, version)
+        try:
+            await new.queue.opened()
+            if isinstance(new.queue.failure, IndexMismatch):
+                raise Problem(Code.INDEX_MISMATCH)
+            if new.queue.failure is not None:
+                raise Problem(Code.INDEX_BROKEN)
+            new.queue.check_accepting()
+            if keep is not None:
+                await keep
+        except BaseException:
+            if keep is not None:
+                keep.close()
+            await new.queue.close()
+            raise
+        old, self._served[alias] = self._served.get(alias), new
+        log.info("index switched", alias=alias, index_version=new.queue.localizer.facts.version)
+        if old is not None:
+            task = asyncio.create_task(self._retire(old))
+            self._retiring.add(task)
+            task.add_done_callback(self._retiring.discard)
 
     def _begin(self, alias: str, version: str | None) -> _Served:
         limits = self._settings
@@ -190,7 +199,7 @@ class Indexes:
     async def _named(self) -> dict[str, str]:
         try:
             return dict(await asyncio.to_thread(self._read_aliases))
-        except IndexUnusable as error:
+        except (IndexUnusable, OSError) as error:
             if str(error) != self._unreadable:
                 log.error("aliases cannot be read", reason=str(error))
             self._unreadable = str(error)
@@ -206,7 +215,7 @@ class Indexes:
                 if failed.get(alias) == version or (served is not None and served.version == version):
                     continue
                 try:
-                    await self.switch(alias, version)
+                    await self._follow(alias, version)
                     failed.pop(alias, None)
                 except Problem as problem:
                     failed[alias] = version

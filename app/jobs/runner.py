@@ -71,7 +71,7 @@ class EvaluationJobs:
         """Queue an evaluation.
 
         Raises:
-            Problem: shutting down, or too many wait.
+            Problem: shutting down, too many wait, or it cannot be kept.
         """
         if self._runner is None:
             raise Problem(Code.DRAINING)
@@ -82,8 +82,12 @@ class EvaluationJobs:
         self._jobs[job.id] = job
         try:
             await asyncio.to_thread(self._store.add, job, evaluation)
+        except OSError as error:
+            self._forget(job)
+            log.error("job not written", job=job.id, reason=error.strerror)
+            raise Problem(Code.NOT_WRITABLE) from None
         except BaseException:
-            self._remove(job)
+            self._forget(job)
             raise
         if not job.stops:
             self._ready.put_nowait(job)
@@ -108,7 +112,7 @@ class EvaluationJobs:
         """
         job = self.get(job_id)
         if job.is_finished:
-            self._remove(job)
+            self._forget(job)
         else:
             await self._stop(job, "cancelled")
         return job
@@ -198,11 +202,15 @@ class EvaluationJobs:
         log.info("evaluation", job=job.id, status=status, seconds=job.state().seconds)
         finished = [job for job in self._jobs.values() if job.is_finished]
         for old in finished[:-KEPT]:
-            self._remove(old)
+            self._forget(old)
 
-    def _remove(self, job: Job) -> None:
+    def _forget(self, job: Job) -> None:
+        """Remove a job; what cannot be removed of it is there again after a restart."""
         self._jobs.pop(job.id, None)
-        self._store.remove(job)
+        try:
+            self._store.remove(job)
+        except OSError as error:
+            log.error("job not removed", job=job.id, reason=error.strerror)
 
 
 def _kill(process: Process | None) -> None:

@@ -2,6 +2,7 @@
 
 import fcntl
 import os
+import re
 import shutil
 import tempfile
 from pathlib import Path
@@ -13,8 +14,9 @@ from pydantic import ValidationError
 from app.jobs.job import Job, JobState
 from app.jobs.order import Evaluation
 from app.jobs.worker import ORDER
-from models.files import replace_file
+from models.files import remove_abandoned, replace_file, sync
 
+JOB: Final = re.compile(r"[0-9a-f]{32}")  # the name of its directory
 STATE: Final = "state.json"  # written after the order, and at each change; a directory without one was never promised
 
 log = structlog.get_logger()
@@ -36,7 +38,8 @@ class JobStore:
     def open(self) -> list[Job]:
         """The jobs that were kept, oldest first; what was running when the service ended is interrupted."""
         self._root, self.is_kept = self._take()
-        jobs = [job for path in self._root.iterdir() if path.is_dir() and (job := self._load(path)) is not None]
+        ours = [path for path in self._root.iterdir() if JOB.fullmatch(path.name)]  # who knows what else is there
+        jobs = [job for path in ours if (job := self._load(path)) is not None]
         return sorted(jobs, key=lambda job: job.created)
 
     def close(self) -> None:
@@ -55,16 +58,27 @@ class JobStore:
     def add(self, job: Job, evaluation: Evaluation) -> None:
         """Write a new job; once this returns it may be promised."""
         job.directory.mkdir()
+        sync(job.directory.parent)
         replace_file(job.directory / ORDER, evaluation.model_dump_json().encode())
-        self.write(job)
+        self._write(job)
 
     def write(self, job: Job) -> None:
-        """Write a job's state."""
+        """Write a job's state; where that fails, the next start finds it as it was written last."""
+        try:
+            self._write(job)
+        except OSError as error:
+            log.error("job not written", job=job.id, status=job.status, reason=error.strerror)
+
+    def _write(self, job: Job) -> None:
         if self.is_kept and job.directory.is_dir():
             replace_file(job.directory / STATE, job.state().model_dump_json().encode())
 
     def remove(self, job: Job) -> None:
-        """Remove a job, and all that it wrote."""
+        """Remove a job, and all that it wrote.
+
+        Raises:
+            OSError: it cannot be removed.
+        """
         (job.directory / STATE).unlink(missing_ok=True)  # first: what is removed in part was never there
         shutil.rmtree(job.directory, ignore_errors=True)
 
@@ -75,19 +89,24 @@ class JobStore:
                 self._wanted.mkdir(parents=True, exist_ok=True)
                 self._lock = os.open(self._wanted, os.O_RDONLY)
                 fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                (self._wanted / f".{os.getpid()}").touch()
-                (self._wanted / f".{os.getpid()}").unlink()
+                with tempfile.TemporaryFile(dir=self._wanted):
+                    pass
                 return self._wanted.absolute(), True
             except OSError as error:
                 log.warning("jobs are not kept", directory=str(self._wanted), reason=error.strerror)
         return Path(tempfile.mkdtemp(prefix="hereabouts-evaluate-")), False
 
     def _load(self, path: Path) -> Job | None:
+        """A job; None if it was never promised, which is removed, or cannot be read, which the operator looks after."""
         try:
             state = JobState.model_validate_json((path / STATE).read_bytes())
-        except (OSError, ValidationError):
+        except FileNotFoundError:
             shutil.rmtree(path, ignore_errors=True)
             return None
+        except (OSError, ValidationError) as error:
+            log.error("job not read", job=path.name, reason=getattr(error, "strerror", "its state is broken"))
+            return None
+        remove_abandoned(path)
         job = Job.of(path, state)
         if job.status == "running":
             job.finish("interrupted")

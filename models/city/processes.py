@@ -1,6 +1,8 @@
 """Sharing work over forked processes, which see the parent's arrays without a copy."""
 
 import multiprocessing
+import os
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any, TypeVar
@@ -26,10 +28,23 @@ def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterato
         return
     _work = work
     try:
-        with ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as pool:
+        context = multiprocessing.get_context("fork")
+        with ProcessPoolExecutor(mp_context=context, initializer=_watch_parent) as pool:
             yield from pool.map(_call, tasks)
     finally:
         _work = None
+
+
+def _watch_parent() -> None:
+    """Have a worker end when its parent is killed: it has both ends of the pipe at which it waits for tasks."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    parent.join()
+    os._exit(1)
 
 
 def _call(task: Any) -> Any:

@@ -1,13 +1,12 @@
+import fcntl
 import hashlib
-import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import pytest
 
-from models.files import file_records, new_directory, replace_file, replacing
+from models.files import BUILDING, file_records, new_directory, remove_abandoned, replace_file, replacing
 
 
 def mode(path):
@@ -89,21 +88,41 @@ def test_records_are_sizes_and_sums(tmp_path) -> None:
     assert (records["b"].bytes, records["b"].sha256) == (5, hashlib.sha256(b"bytes").hexdigest())
 
 
-def test_what_a_killed_process_left_is_removed_and_what_another_fills_is_not(tmp_path) -> None:
-    script = "import sys, time; from models.files import new_directory\nwith new_directory(Path(sys.argv[1])) as d:\n"
-    script = f"from pathlib import Path\n{script}    (d / 'x').write_text('x'); print(d, flush=True); time.sleep(60)"
-    running = [
-        subprocess.Popen([sys.executable, "-c", script, tmp_path / name], stdout=subprocess.PIPE, text=True)
-        for name in ("killed", "alive")
-    ]
-    killed, alive = (Path(process.stdout.readline().strip()) for process in running)
+@pytest.mark.parametrize("write", ["new_directory(path)", "replacing(path)"])
+def test_what_a_killed_process_left_is_removed_and_what_another_fills_is_not(tmp_path, write) -> None:
+    script = "import sys, time; from pathlib import Path; from models.files import new_directory, replacing\n"
+    script += f"path = Path(sys.argv[1])\nwith {write}:\n    print(flush=True); time.sleep(60)"
+    running = []
+    for name in ("killed", "alive"):
+        command = [sys.executable, "-c", script, tmp_path / name]
+        running.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
+        running[-1].stdout.readline()
+    assert len(list(tmp_path.iterdir())) == 2
     running[0].kill()
-    running[0].wait()
-    for left in (killed, alive):
-        os.utime(left, (0, 0))
-    with new_directory(tmp_path / "own"):
-        assert not killed.exists()
-        assert (alive / "x").read_text() == "x"
+    running[0].communicate()
+    replace_file(tmp_path / "own", b"")
+    [_, alive] = sorted(path.name for path in tmp_path.iterdir())[::-1]
+    assert alive.startswith(BUILDING)
     running[1].kill()
     running[1].communicate()
-    running[0].communicate()
+    with new_directory(tmp_path / "new"):
+        pass
+    assert {path.name for path in tmp_path.iterdir()} == {"own", "new"}
+
+
+@pytest.mark.parametrize("write", [new_directory, replacing])
+def test_what_is_taken_for_abandoned_before_it_was_locked_is_begun_again(tmp_path, monkeypatch, write) -> None:
+    lock, calls = fcntl.flock, []
+
+    def cleaned_first(held, how):
+        if how == fcntl.LOCK_EX:
+            calls.append(held)
+            if len(calls) == 1:
+                remove_abandoned(tmp_path)
+        lock(held, how)
+
+    monkeypatch.setattr("fcntl.flock", cleaned_first)
+    with write(tmp_path / "a"):
+        pass
+    assert len(calls) == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]

@@ -27,6 +27,8 @@ def run(self, report_dir, progress):
         time.sleep(0.3)  # the child has written
         print("secret of the crash", file=sys.stderr, flush=True)
         os.abort()
+    if "fault" in hint:
+        raise KeyError(hint)
     if "slow" in hint:
         time.sleep(0.4)
     progress("ask", 2, 2)

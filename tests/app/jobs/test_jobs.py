@@ -147,6 +147,18 @@ def test_crash_is_told_in_the_log_alone(api):
     assert wait_for(api, begin(api), "done"), "the next one runs"
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("with_words", [True, False])
+def test_a_fault_is_told_in_the_log_and_what_was_said_where_it_is_wanted(api, monkeypatch, with_words):
+    monkeypatch.setenv("HEREABOUTS_LOG_DESCRIPTIONS", str(with_words))
+    with structlog.testing.capture_logs() as logged:
+        wait_for(api, begin(api, "a quixotic fault"), "failed")
+    [told] = [entry["stderr"] for entry in logged if entry["event"] == "evaluation crashed"]
+    assert "fake_worker.py" in told
+    assert "KeyError" in told
+    assert ("quixotic" in told) == with_words
+
+
 @pytest.mark.parametrize("command", [("/nowhere/python",)])
 def test_worker_that_does_not_start_is_a_failure(api):
     assert wait_for(api, begin(api), "failed")["error"]["code"] == "internal_error"

@@ -1,5 +1,6 @@
 """Evaluations that outlive the service."""
 
+import errno
 import json
 import os
 import signal
@@ -19,6 +20,7 @@ from structlog.testing import capture_logs
 from app.jobs.runner import EvaluationJobs
 from app.main import create_app
 from app.settings import Settings
+from models.files import BUILDING
 
 COMMAND = (sys.executable, str(Path(__file__).parent / "fake_worker.py"))
 SERVE = Path(__file__).parents[1] / "serve_fake.py"
@@ -86,14 +88,59 @@ def test_a_cancelled_job_stays_cancelled(service, until):
         assert [status(api, job) for job in (held, waiting)] == ["cancelled", "cancelled"]
 
 
-def test_what_a_kill_left_in_part_was_never_promised(service, tmp_path):
-    for name, files in {"half": ["evaluation.json"], "empty": [], "torn": ["evaluation.json", "state.json"]}.items():
-        (tmp_path / "jobs" / name).mkdir(parents=True)
-        for file in files:
-            (tmp_path / "jobs" / name / file).write_text("{")
+def test_what_a_kill_left_in_part_is_removed(service, until, tmp_path):
+    jobs = tmp_path / "jobs"
     with service() as api:
-        assert api.get("/evaluate/torn").status_code == 404
-    assert list((tmp_path / "jobs").iterdir()) == []
+        done = begin(api, "a tree")
+        until(lambda: status(api, done) == "done")
+    for name, files in {"a" * 32: ["evaluation.json"], "b" * 32: []}.items():
+        (jobs / name).mkdir()
+        for file in files:
+            (jobs / name / file).write_text("{")
+    (jobs / done / f"{BUILDING}0").write_text("{")
+    with service() as api:
+        assert api.get(f"/evaluate/{'a' * 32}").status_code == 404
+        assert status(api, done) == "done"
+    assert [path.name for path in jobs.iterdir()] == [done]
+    assert not (jobs / done / f"{BUILDING}0").exists()
+
+
+def test_a_job_is_promised_once_its_directory_is_on_disk(service, monkeypatch, tmp_path):
+    synced = []
+    monkeypatch.setattr("app.jobs.store.sync", synced.append)
+    with service() as api:
+        begin(api, "a tree")
+        assert synced == [tmp_path / "jobs"]
+
+
+def test_what_cannot_be_read_or_is_no_job_is_left_alone(service, tmp_path):
+    torn, unreadable, other = (tmp_path / "jobs" / name for name in ("a" * 32, "b" * 32, "photographs"))
+    for path in (torn, unreadable / "state.json", other):
+        path.mkdir(parents=True)
+    (torn / "state.json").write_text("{")
+    with capture_logs() as said, service() as api:
+        assert api.get(f"/evaluate/{torn.name}").status_code == 404
+    assert sorted(line["job"] for line in said if line["event"] == "job not read") == [torn.name, unreadable.name]
+    assert all(path.is_dir() for path in (torn, unreadable, other))
+
+
+def test_a_full_disk_stops_no_job_and_takes_no_other(service, until, monkeypatch, problem):
+    def fails(*_):
+        raise OSError(errno.ENOSPC, "full")
+
+    with service() as api, monkeypatch.context() as patch:
+        slow, old, waiting = (begin(api, "slow") for _ in range(3))
+        until(lambda: status(api, slow) == "running")
+        api.delete(f"/evaluate/{old}")
+        patch.setattr("app.jobs.runner.KEPT", 1)
+        patch.setattr("app.jobs.store.replace_file", fails)
+        patch.setattr("app.jobs.store.JobStore.remove", fails)
+        problem(api.post("/evaluate", json=body("a tree")), 409, "not_writable")
+        until(lambda: status(api, waiting) == "done", 60)
+        assert api.get(f"/evaluate/{old}").status_code == 404
+        patch.undo()
+        after = begin(api, "a tree")
+        until(lambda: status(api, after) == "done", 60)
 
 
 def test_a_directory_of_another_service_is_not_shared(service, tmp_path):
@@ -150,7 +197,7 @@ def test_what_was_acknowledged_is_there_after_every_kill(tmp_path, until):
         def states():
             return [httpx.get(f"{service.url}/evaluate/{job}").json()["status"] for job in acknowledged]
 
-        until(lambda: set(states()) <= {"done", "interrupted"})
+        until(lambda: set(states()) <= {"done", "interrupted"}, 60)
         assert states().count("interrupted") <= 4
     finally:
         service.kill()

@@ -1,0 +1,155 @@
+"""Disks that are full or read-only, and two who write at once: processes that build and serve for real."""
+
+import os
+import shutil
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+
+import httpx
+import pytest
+
+from index.artifact import open_version, read_aliases, register
+from models.files import BUILDING
+from tests.mould import Mould
+
+pytestmark = pytest.mark.slow
+
+READ_ONLY = {"is_bound": True}  # as `Mould.serve` takes it
+
+
+@pytest.fixture(scope="module")
+def mould(tmp_path_factory):
+    with Mould(tmp_path_factory.mktemp("mould")) as mould:
+        yield mould
+
+
+@pytest.fixture
+def root(mould, tmp_path):
+    """An index directory with a version that is served."""
+    shutil.copytree(mould.scratch / "index", tmp_path / "index")
+    return tmp_path / "index"
+
+
+@pytest.fixture
+def serve(mould):
+    """A context manager: index directory -> client of a service of its own on it, which is killed in the end."""
+
+    @contextmanager
+    def started(root, jobs="jobs", **limits):
+        pid, url = mould.serve(root, jobs=jobs, **limits)
+        with httpx.Client(base_url=url, timeout=60) as client:
+            try:
+                yield client
+            finally:
+                os.kill(pid, 9)
+                mould.wait(pid)
+
+    return started
+
+
+@contextmanager
+def disk(directory, limits):
+    """Where the limits of a process are permissions, has a directory deny them."""
+    places = [directory, *(path for path in directory.rglob("*") if path.is_dir())]
+    for place in places:
+        place.chmod(0o555 if limits == READ_ONLY else 0o755)
+    try:
+        yield
+    finally:
+        for place in places:
+            place.chmod(0o755)
+
+
+def add(root, version):
+    """Copy the version that is served to another name, as an operator would from elsewhere."""
+    directory, _ = open_version(root)
+    shutil.copytree(directory, root / version, copy_function=os.link)
+    manifest = root / version / "manifest.json"
+    text = manifest.read_text()
+    manifest.unlink()
+    manifest.write_text(text.replace(directory.name, version))
+
+
+def listing(root):
+    """The files there are, and when each was written."""
+    return {str(path): path.stat().st_mtime_ns for path in root.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize("limits", [{"file_bytes": 1_200_000}, READ_ONLY])
+def test_an_index_that_cannot_be_written_is_said_and_what_is_there_stays(mould, root, limits):
+    before = listing(root), open_version(root)
+    with disk(root, limits):
+        status, said = mould.wait(mould.build(root, **limits))
+    assert status == 1
+    assert f"{root} cannot be written" in " ".join(said.split())
+    assert "Traceback" not in said
+    assert (listing(root), open_version(root)) == before
+    assert not list(root.glob(f"{BUILDING}*"))
+
+
+@pytest.mark.parametrize("limits", [{"file_bytes": 0}, READ_ONLY])
+def test_a_service_that_cannot_write_says_so_and_answers_as_before(serve, root, limits, problem, until):
+    default = read_aliases(root).aliases["default"]
+    add(root, "copied")
+    add(root, "another")
+    register(root, "another")
+    evaluation = {"queries": [{"hints": ["held"], "position": [1, 2]}]}
+    with serve(root) as api:
+        held = api.post("/evaluate", json=evaluation).json()["job"]
+        until(lambda: api.get(f"/evaluate/{held}").json()["status"] == "running")
+    changes = (
+        ("/indexes", {"version": "copied"}),
+        ("/indexes/aliases", {"alias": "default", "version": "another"}),
+        (f"/indexes/{default}/snapshot", {}),
+        ("/evaluate", evaluation),
+    )
+    refused = changes[:3] if limits == READ_ONLY else changes  # jobs that cannot be kept are done all the same
+    before = listing(root.parent)
+    with disk(root.parent, limits), serve(root, **limits) as api:
+        indexes = api.get("/indexes").json()
+        assert indexes["aliases"] == {"default": default}
+        for path, body in refused:
+            problem(api.post(path, json=body), 409, "not_writable")
+        answer = api.post("/localize", json={"description": "a tree"})
+        assert (answer.status_code, answer.json()["provenance"]["index_version"]) == (200, default)
+        assert api.get("/indexes").json() == indexes
+    assert listing(root.parent) == before
+    with serve(root) as api:
+        assert api.get(f"/evaluate/{held}").json()["status"] == "interrupted"
+        for path, body in changes:
+            assert api.post(path, json=body).is_success, path
+        assert api.get("/indexes").json()["aliases"] == {"default": "another"}
+
+
+def test_two_builds_at_once_lose_nothing(mould, root):
+    before = set(read_aliases(root).versions)
+    for pid in [mould.build(root) for _ in range(2)]:
+        assert mould.wait(pid)[0] == 0
+    known = read_aliases(root)
+    built = set(known.versions) - before
+    assert len(built) == 2
+    assert known.aliases["default"] in built
+    for version in known.versions:
+        open_version(root / version)
+    assert {path.name for path in root.iterdir()} == {*known.versions, "aliases.json", ".lock"}
+
+
+def test_two_services_that_register_and_switch_at_once_lose_nothing(serve, root, until):
+    default = read_aliases(root).aliases["default"]
+    names = [[f"{service}{n}" for n in range(6)] for service in "ab"]
+    wanted = {"default": default} | {version: version for versions in names for version in versions}
+    for version in {*wanted} - {"default"}:
+        add(root, version)
+
+    def change(api, versions):
+        for version in versions:
+            assert api.post("/indexes", json={"version": version}).status_code == 201
+            assert api.post("/indexes/aliases", json={"alias": version, "version": version}).status_code == 200
+
+    with serve(root) as one, serve(root, jobs="others") as other, ThreadPoolExecutor(2) as pool:
+        list(pool.map(change, (one, other), names))
+        for api in (one, other):
+            until(lambda api=api: api.get("/indexes").json()["aliases"] == wanted)
+    known = read_aliases(root)
+    assert known.aliases == wanted
+    assert set(known.versions) == set(wanted.values())

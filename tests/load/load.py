@@ -1,0 +1,181 @@
+"""What the service bears: run by `make load`, on idle CPUs. Starts it, and prints a line of JSON for each of
+
+1, 2, 32 clients, each asking as soon as it is answered (the last is the knee);
+SECONDS of requests that come by chance, 0.7 of the knee;
+20 s of 3 times the knee, with GET /healthz beside it, and how soon a request is answered at once after that;
+one client beside a process that computes.
+
+Every description is new. Ends with 1 if a bound is not kept.
+"""
+
+import argparse
+import asyncio
+import json
+import random
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Coroutine
+from dataclasses import dataclass, field
+from statistics import quantiles
+from typing import Any
+
+import httpx
+from service import started, text
+
+BUSY = "while True: pass"
+MANY = 32
+
+
+@dataclass
+class Figures:
+    """What came back, from the first request to the last answer."""
+
+    seconds: float = 0.0
+    statuses: Counter[int] = field(default_factory=Counter)
+    good_ms: list[float] = field(default_factory=list)
+
+    @property
+    def goodput(self) -> float:
+        """Descriptions answered a second."""
+        return len(self.good_ms) / self.seconds
+
+    def percentile_ms(self, percent: int) -> float:
+        """Of the answers that are good."""
+        return quantiles(self.good_ms, n=100)[percent - 1]
+
+    def shown(self) -> dict[str, Any]:
+        """As it is printed."""
+        return {
+            "answered_a_second": round(self.goodput, 1),
+            "p50_ms": round(self.percentile_ms(50), 1),
+            "p99_ms": round(self.percentile_ms(99), 1),
+            "statuses": self.statuses,
+        }
+
+
+class Load:
+    """Asks a service.
+
+    Args:
+        url: where it is.
+    """
+
+    def __init__(self, url: str) -> None:
+        self._rng = random.Random("load 1")
+        limits = httpx.Limits(max_connections=None, max_keepalive_connections=None)
+        self._client = httpx.AsyncClient(base_url=url, timeout=60, limits=limits)
+
+    async def clients(self, count: int, seconds: float) -> Figures:
+        """So many clients, each asking again as soon as it is answered."""
+        end = time.monotonic() + seconds
+
+        async def client(into: Figures) -> None:
+            while time.monotonic() < end:
+                await self._ask(into)
+
+        return await self._timed(lambda into: [client(into) for _ in range(count)])
+
+    async def arrivals(self, rate: float, seconds: float) -> Figures:
+        """Requests that come by chance, so many a second, whether the earlier ones are answered or not."""
+
+        async def arrive(into: Figures) -> None:
+            begun = time.monotonic()
+            async with asyncio.TaskGroup() as group:
+                at = 0.0
+                while (at := at + self._rng.expovariate(rate)) < seconds:
+                    await asyncio.sleep(begun + at - time.monotonic())
+                    group.create_task(self._ask(into))
+
+        return await self._timed(lambda into: [arrive(into)])
+
+    async def recovery_s(self, usual_ms: float) -> float:
+        """Seconds until a request is answered in twice the usual time."""
+        begun = time.monotonic()
+        while True:
+            figures = Figures()
+            await self._ask(figures)
+            if figures.good_ms and figures.good_ms[0] < 2 * usual_ms:
+                return time.monotonic() - begun - figures.good_ms[0] / 1000
+
+    @staticmethod
+    async def _timed(work: Any) -> Figures:
+        figures, begun = Figures(), time.monotonic()
+        works: list[Coroutine[Any, Any, None]] = work(figures)
+        await asyncio.gather(*works)
+        figures.seconds = time.monotonic() - begun
+        return figures
+
+    async def _ask(self, into: Figures) -> None:
+        begun = time.monotonic()
+        response = await self._client.post("/localize", json={"description": text(self._rng)})
+        into.statuses[response.status_code] += 1
+        if response.status_code == httpx.codes.OK:
+            into.good_ms.append((time.monotonic() - begun) * 1000)
+
+
+def health_ms(url: str, stop: Any) -> list[float]:
+    """Milliseconds of GET /healthz, twenty times a second until told to stop; for a thread of its own."""
+    found = []
+    with httpx.Client(base_url=url) as client:
+        while not stop.is_set():
+            begun = time.monotonic()
+            client.get("/healthz").raise_for_status()
+            found.append((time.monotonic() - begun) * 1000)
+            time.sleep(0.05)
+    return found
+
+
+async def measure(url: str, seconds: float) -> bool:
+    """All of it; whether every bound is kept."""
+    load, kept = Load(url), True
+
+    def note(name: str, figures: Figures, bounds: dict[str, bool], **more: float) -> None:
+        nonlocal kept
+        kept = kept and all(bounds.values())
+        print(json.dumps({"load": name, **figures.shown(), **more, "kept": bounds}), flush=True)
+
+    await load.clients(2, 10)
+    alone = await load.clients(1, 20)
+    note("1 client", alone, {})
+    note("2 clients", await load.clients(2, 20), {})
+    knee = await load.clients(MANY, 20)
+    times = knee.goodput / alone.goodput
+    note(f"{MANY} clients", knee, {"at least 1.7 times one": times >= 1.7}, times_one=round(times, 2))
+    usual = await load.arrivals(0.7 * knee.goodput, seconds)
+    p50, p99 = usual.percentile_ms(50), usual.percentile_ms(99)
+    note("0.7 of the knee", usual, {"no error": set(usual.statuses) == {200}, "p99 under 5 p50": p99 < 5 * p50})
+    stop = asyncio.Event()
+    health = asyncio.create_task(asyncio.to_thread(health_ms, url, stop))
+    over = await load.arrivals(3 * knee.goodput, 20)
+    recovery_s = await load.recovery_s(alone.percentile_ms(50))
+    stop.set()
+    health_p99 = quantiles(await health, n=100)[98]
+    bounds = {
+        "only 200, 429, 503": set(over.statuses) <= {200, 429, 503},
+        "at least .9 of the knee answered": over.goodput >= 0.9 * knee.goodput,
+        "healthz p99 under 50 ms": health_p99 < 50,
+        "recovery under 2 s": recovery_s < 2,
+    }
+    note("3 times the knee", over, bounds, healthz_p99_ms=round(health_p99, 1), recovery_s=round(recovery_s, 2))
+    with subprocess.Popen((sys.executable, "-c", BUSY)) as busy:
+        beside = await load.clients(1, 20)
+        busy.kill()
+    slower = beside.percentile_ms(50) / alone.percentile_ms(50)
+    note("beside a busy process", beside, {"p50 at most twice": slower <= 2}, times_alone=round(slower, 2))
+    return kept
+
+
+def main() -> int:
+    """Start a service, measure, judge."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--index", default="data/index")
+    parser.add_argument("--seconds", type=float, default=600, help="at 0.7 of the knee")
+    asked = parser.parse_args()
+    with started(asked.index) as (_, url):
+        return int(not asyncio.run(measure(url, asked.seconds)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,61 @@
+"""Whether the service's memory grows: run by `make soak`, which says how many requests.
+
+Starts the service, asks it descriptions, half of them never said before, and prints the memory of all of its processes
+(PSS: what they share is counted once) as it goes. Ends with 1 if it grew by more than allowed in the last half.
+"""
+
+import argparse
+import json
+import random
+import statistics
+import sys
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+
+import httpx
+from service import started, text
+
+ALLOWED_MIB = 1.0  # in 10,000 requests
+STOPS, CLIENTS, SHARE_NEW = 20, 4, 0.5
+
+
+def main() -> int:
+    """Ask, print a line of JSON at each stop, judge."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--index", default="data/index")
+    parser.add_argument("--requests", type=int, default=100_000)
+    asked = parser.parse_args()
+    share = asked.requests // (STOPS * CLIENTS)
+    points = []
+    with started(asked.index) as (pid, url), ThreadPoolExecutor(CLIENTS) as pool:
+        for stop in range(1, STOPS + 1):
+            seeds = [f"{stop} {client}" for client in range(CLIENTS)]
+            statuses = sum(pool.map(partial(ask, url, share), seeds), Counter())
+            points.append((stop * share * CLIENTS, memory_mib(pid)))
+            shown = {"requests": points[-1][0], "mib": round(points[-1][1], 2), "statuses": statuses}
+            print(json.dumps(shown), flush=True)
+    slope = statistics.linear_regression(*zip(*points[STOPS // 2 :], strict=True)).slope * 10_000
+    print(json.dumps({"growth_mib_per_10000_requests": round(slope, 3), "allowed": ALLOWED_MIB}))
+    return int(slope > ALLOWED_MIB)
+
+
+def ask(url: str, count: int, seed: str) -> Counter[int]:
+    """Ask a number of descriptions, one after another; how often each status came."""
+    rng = random.Random(seed)
+    with httpx.Client(base_url=url, timeout=60) as client:
+        asked = (client.post("/localize", json={"description": text(rng, SHARE_NEW)}) for _ in range(count))
+        return Counter(response.status_code for response in asked)
+
+
+def memory_mib(pid: int) -> float:
+    """Memory of a process and of all that it started, what they share counted once."""
+    lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
+    kib = next(int(line.split()[1]) for line in lines if line.startswith("Pss:"))
+    children = Path(f"/proc/{pid}/task").glob("*/children")
+    return kib / 1024 + sum(memory_mib(int(child)) for file in children for child in file.read_text().split())
+
+
+if __name__ == "__main__":
+    sys.exit(main())
