@@ -5,19 +5,23 @@ import sys
 
 import structlog
 
+from app.faults import where
 
-def configure_logging(level: str) -> None:
+
+def configure_logging(level: str, with_words: bool = False) -> None:
     """Send structlog and the standard library's logging to stderr as JSON lines.
 
     Args:
         level: least severe level to show: "debug", "info", "warning" or "error".
+        with_words: whether faults are shown with what they say, which may quote what somebody typed.
     """
+    without_words = structlog.processors.ExceptionRenderer(lambda exc_info: where(exc_info[1]))
     shared: list[structlog.typing.Processor] = [
         structlog.contextvars.merge_contextvars,
         structlog.stdlib.add_log_level,
         structlog.stdlib.add_logger_name,
         structlog.processors.TimeStamper(fmt="iso", utc=True),
-        structlog.processors.format_exc_info,
+        structlog.processors.format_exc_info if with_words else without_words,
     ]
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(

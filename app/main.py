@@ -1,10 +1,13 @@
 """The service: put together here, and nowhere else."""
 
-from collections.abc import AsyncIterator, Callable, Sequence
+import asyncio
+import os
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from asgi_correlation_id import CorrelationIdMiddleware
 from fastapi import FastAPI
@@ -27,7 +30,14 @@ from app.threads import usable_cpus
 from app.workers.order import OpenOrder
 from app.workers.remote import open_workers
 from index.artifact import MANIFEST, read_aliases
+from index.snapshot import SNAPSHOTS
+from models.errors import HereaboutsError
+from models.files import remove_abandoned
 
+if TYPE_CHECKING:
+    from app.http.tracing import Traces
+
+SPANS_WANTED_BY = ("OTEL_EXPORTER_OTLP_ENDPOINT", "OTEL_EXPORTER_OTLP_TRACES_ENDPOINT", "OTEL_TRACES_EXPORTER")
 ABOUT = """Say in plain words what you see around you, and it says where in the city you are.
 
 Errors are problem+json (RFC 9457); `code` is stable:
@@ -50,9 +60,12 @@ def create_app(
     else:
         indexes = Indexes(lambda _alias, _version: [open_localizer()], dict, settings)
     jobs = EvaluationJobs(settings.max_jobs, settings.jobs_dir)
+    traces = _open_traces(os.environ)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        for directory in (settings.index_dir, settings.index_dir / SNAPSHOTS):
+            remove_abandoned(directory)
         await indexes.start()
         jobs.start()
         try:
@@ -60,6 +73,8 @@ def create_app(
         finally:
             await jobs.close()
             await indexes.close()
+            if traces is not None:
+                await asyncio.to_thread(traces.close)
 
     app = FastAPIOffline(
         title="Hereabouts",
@@ -69,18 +84,25 @@ def create_app(
         redoc_url=None,  # its page loads a logo from another origin
         redirect_slashes=False,  # a redirect would repeat the client's Host header
         swagger_ui_parameters={"validatorUrl": None},  # else Swagger shows a badge from swagger.io
+        # Its own spans have the query string and the path, its own logs what faults say.
+        telemetry=dict.fromkeys(("tracing", "metrics", "logs", "auto_configure"), False),
     )
     app.state.settings = settings
     app.state.indexes = indexes
     app.state.metrics = Metrics(indexes)
     app.state.jobs = jobs
     add_error_handlers(app)
-    _add_routes(app, settings, page_dir)
-    app.openapi = partial(describe_app, app, needs_key=settings.read_key is not None)  # type: ignore[method-assign]
+    _add_routes(app, settings, page_dir, traces)
+    app.openapi = partial(  # type: ignore[method-assign]
+        describe_app,
+        app,
+        needs_key=settings.read_key is not None,
+        needs_admin_key=settings.admin_key is not None,
+    )
     return app
 
 
-def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
+def _add_routes(app: FastAPI, settings: Settings, page_dir: Path, traces: "Traces | None") -> None:
     """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
     asked = [routes.build_router(settings) for routes in (localize, batch, describe, evaluate, geocoder)]
     routers = (*asked, cells.router, maps.router, index_routes.router, health.router, page.build_router(page_dir))
@@ -96,9 +118,31 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
         is_local=is_local(settings.host),
         open_routes=open_routes(routers),
     )
-    app.add_middleware(AccessLog, metrics=app.state.metrics)
+    app.add_middleware(AccessLog, metrics=app.state.metrics, log_descriptions=settings.log_descriptions)
+    if traces is not None:
+        app.add_middleware(traces.around)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
     app.add_middleware(SafeHeaders)
+
+
+def _open_traces(environ: Mapping[str, str]) -> "Traces | None":
+    """Where spans go, if the variables of OpenTelemetry want any; else nothing of it is imported.
+
+    Raises:
+        HereaboutsError: what sends them is not installed, or they ask for what is not there.
+    """
+    if environ.get("OTEL_TRACES_EXPORTER") == "none" or environ.get("OTEL_SDK_DISABLED", "").lower() == "true":
+        return None
+    wanted = [name for name in SPANS_WANTED_BY if environ.get(name)]
+    if not wanted:
+        return None
+    try:
+        from app.http.tracing import open_traces  # noqa: PLC0415  # an extra, which few have
+    except ModuleNotFoundError as error:
+        raise HereaboutsError(
+            f"{wanted[0]} asks for spans, which takes {error.name}: pip install 'hereabouts[otel]', or unset it"
+        ) from None
+    return open_traces(environ)
 
 
 def _open_workers(settings: Settings, alias: str, version: str | None) -> Sequence[LocalizerLike]:

@@ -65,6 +65,10 @@ def serve(app: FastAPI, settings: Settings) -> None:
     """Serve an application until a signal ends it."""
     if settings.read_key is None and not is_local(settings.host):
         log.warning("no key", host=settings.host, remedy="whoever reaches this host can ask: set HEREABOUTS_READ_KEY")
+    if settings.log_descriptions:
+        log.warning(
+            "descriptions are logged", remedy="people's texts are in this log: unset HEREABOUTS_LOG_DESCRIPTIONS"
+        )
     config = uvicorn.Config(
         app,
         host=settings.host,

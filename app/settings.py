@@ -52,6 +52,7 @@ class Settings(BaseSettings):
     deadline_ms: PositiveInt = Field(10_000, description="of a request that names none")
     max_deadline_ms: PositiveInt = 60_000
     log_level: Literal["debug", "info", "warning", "error"] = "info"
+    log_descriptions: bool = Field(False, description="writes what people say, and what faults say of it, into the log")
 
     @field_validator("read_key", "admin_key")
     @classmethod

@@ -99,7 +99,7 @@ def serve(
     from app.settings import load_settings
 
     settings = load_settings(index_dir=index_dir, host=host, port=port, jobs_dir=jobs)
-    configure_logging(settings.log_level)
+    configure_logging(settings.log_level, settings.log_descriptions)
     serve_app(create_app(settings), settings)
 
 

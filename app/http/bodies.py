@@ -5,7 +5,7 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import Any, Final
 
 from starlette.datastructures import Headers as RequestHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -18,6 +18,13 @@ LARGE_AT_ONCE = 4  # of the largest bodies
 MAX_VALUES = 400_000  # of one body, commas in its texts among them
 BODY_S = 30.0  # for all of a body to come
 DISCARDED_BYTES, DISCARDING_S = 33_554_432, 5.0  # of a body that is refused
+REFUSALS: Final = (  # of a body, whatever the route
+    Code.INVALID_JSON,
+    Code.BODY_TOO_SLOW,
+    Code.BODY_TOO_LARGE,
+    Code.UNSUPPORTED_MEDIA_TYPE,
+    Code.BODIES_FULL,
+)
 _CONTENT_TYPE = re.compile(
     r"application/json(?P<parameters>(\s*;\s*[\w.+-]+=(\"[\w .+-]*\"|[\w.+-]+))*)\s*;?\s*", re.A | re.I
 )
@@ -183,14 +190,14 @@ def check_json(body: bytes) -> None:
     try:
         value = json.loads(body.decode(), object_pairs_hook=_unique, parse_constant=_refuse_constant)
     except UnicodeDecodeError:
-        raise Problem(Code.INVALID_JSON, "The body is not UTF-8.") from None
+        raise Problem(Code.INVALID_JSON, "The body is not UTF-8; send UTF-8.") from None
     except RecursionError:
         raise _too_deep() from None
     except json.JSONDecodeError as error:
         where = f"line {error.lineno} column {error.colno}"
         raise Problem(Code.INVALID_JSON, f"The body is not JSON at {where}; send one JSON object.") from None
     except ValueError:
-        raise Problem(Code.INVALID_JSON, "A number in the body has too many digits.") from None
+        raise Problem(Code.INVALID_JSON, "A number in the body has too many digits; send fewer.") from None
     level: list[Any] = [value]
     for _ in range(MAX_DEPTH):
         level = [inner for outer in level for inner in _children(outer)]
@@ -208,12 +215,12 @@ def _children(value: object) -> list[Any]:
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     value = dict(pairs)
     if len(value) != len(pairs):
-        raise Problem(Code.INVALID_JSON, "A key occurs twice in one object.")
+        raise Problem(Code.INVALID_JSON, "A key occurs twice in one object; send it once.")
     return value
 
 
 def _refuse_constant(_name: str) -> None:
-    raise Problem(Code.INVALID_JSON, "NaN and Infinity are not JSON.")
+    raise Problem(Code.INVALID_JSON, "NaN and Infinity are not JSON; send a number, or leave the field out.")
 
 
 def _closing(problem: Problem) -> Problem:
@@ -227,4 +234,4 @@ def _too_large(max_bytes: int) -> Problem:
 
 
 def _too_deep() -> Problem:
-    return Problem(Code.INVALID_JSON, f"The body is nested more than {MAX_DEPTH} levels deep.")
+    return Problem(Code.INVALID_JSON, f"The body is nested more than {MAX_DEPTH} levels deep; send it flatter.")

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping, Sequence
 from enum import Enum
+from itertools import islice
 from typing import Any
 
 from asgi_correlation_id import correlation_id
@@ -17,6 +18,11 @@ from models.errors import ReplyError, WeightsError
 
 PROBLEM_JSON = "application/problem+json"
 MAX_LISTED_ERRORS, MAX_BYTES = 20, 1024  # of a problem
+SAID = {  # in place of pydantic's words, which tell nobody what to do
+    "missing": "is missing; give it",
+    "extra_forbidden": "is unknown; leave it out",
+    "int_parsing_size": "has too many digits; send fewer",
+}
 _PLAIN_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 
 
@@ -31,13 +37,14 @@ class Code(Enum):
     KEY_REQUIRED = (
         401,
         "A key is required",
-        "Send the service's read key as `Authorization: Bearer KEY` or `X-API-Key: KEY`; its operator has it.",
+        "Send the service's key as `Authorization: Bearer KEY` or `X-API-Key: KEY`; its operator has it.",
         None,
     )
     KEY_WRONG = (
         401,
         "The key is wrong",
-        "Send the key that the service was started with (HEREABOUTS_READ_KEY), once; ask its operator.",
+        "Send the key that the service was started with (HEREABOUTS_READ_KEY, HEREABOUTS_ADMIN_KEY), once; "
+        "ask its operator.",
         None,
     )
     ADMIN_OFF = (
@@ -77,8 +84,8 @@ class Code(Enum):
     )
     NOT_WRITABLE = (
         409,
-        "The index directory cannot be written",
-        "It is read-only, or its disk is full; its operator has to see to that. Nothing was changed.",
+        "The service cannot write",
+        "Its directory is read-only, or the disk is full; its operator has to see to that. Nothing was changed.",
         None,
     )
     BODY_TOO_LARGE = (413, "The body is too large", "Send less; /info shows the limits.", None)
@@ -230,11 +237,10 @@ def _methods(request: Request) -> set[str]:
 
 
 def _of_fields(error: RequestValidationError) -> Problem:
-    found = error.errors()
-    listed = [
-        FieldError(field=field_name(item["loc"], item.get("ctx", {})), message=item["msg"])
-        for item in found[:MAX_LISTED_ERRORS]
-    ]
+    found = dict.fromkeys(  # one parameter may be read in two places, and so be wrong twice
+        (field_name(item["loc"], item.get("ctx", {})), SAID.get(item["type"], item["msg"])) for item in error.errors()
+    )
+    listed = [FieldError(field=field, message=message) for field, message in islice(found, MAX_LISTED_ERRORS)]
     detail = f"{listed[0].field}: {listed[0].message}"
     if len(found) > 1:
         detail += f" (and {len(found) - 1} more)"

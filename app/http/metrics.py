@@ -15,6 +15,11 @@ OTHER: Final = "other"  # route, of what no route takes; method, of what is no u
 METHODS: Final = frozenset({"GET", "HEAD", "POST", "DELETE", "OPTIONS"})
 
 
+def known(method: str) -> str:
+    """A method as it may be shown: a client may send any word as one."""
+    return method if method in METHODS else OTHER
+
+
 class Metrics:
     """What is counted of one application.
 
@@ -34,7 +39,7 @@ class Metrics:
 
     def note(self, method: str, route: str, status: int, seconds: float) -> None:
         """Count a request."""
-        self._requests.labels(method if method in METHODS else OTHER, route, str(status)).inc()
+        self._requests.labels(known(method), route, str(status)).inc()
         self._seconds.labels(route).observe(seconds)
 
     def response(self) -> Response:

@@ -9,7 +9,8 @@ from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
-from app.http.metrics import OTHER, Metrics
+from app.http.metrics import OTHER, Metrics, known
+from app.http.notes import notes_of
 
 _SANE_ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 
@@ -22,18 +23,25 @@ def is_sane_request_id(value: str) -> bool:
 
 
 class AccessLog:
-    """Writes a line a request (never its text) and counts it, and answers 500 for what nobody else has caught."""
+    """Writes a line a request and counts it, and answers 500 for what nobody else has caught.
 
-    def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
+    Args:
+        app: what is served.
+        metrics: count requests.
+        log_descriptions: whether a line has what was said; never else.
+    """
+
+    def __init__(self, app: ASGIApp, metrics: Metrics, log_descriptions: bool) -> None:
         self.app = app
         self._metrics = metrics
+        self._log_descriptions = log_descriptions
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve and log one request."""
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
-        status = 0
+        status, notes = 0, notes_of(scope)
         started_s = time.monotonic()
 
         async def note_status(message: Message) -> None:
@@ -54,11 +62,12 @@ class AccessLog:
             self._metrics.note(scope["method"], route, status, seconds)
             log.info(
                 "request",
-                method=scope["method"],
+                method=known(scope["method"]),
                 route=route,
                 status=status,
                 ms=round(seconds * 1000, 1),
                 request_id=correlation_id.get(),
+                **({"descriptions": notes.said} if self._log_descriptions and notes.said else {}),
             )
 
 

@@ -8,7 +8,7 @@ from fastapi.openapi.utils import get_openapi
 from app.http.errors import PROBLEM_JSON, Code, Problem, ProblemBody
 from app.http.formats import geojson
 from app.http.formats.negotiation import GEOJSON, JSON
-from app.http.keys import OPEN, SCHEMES
+from app.http.keys import OPEN, SCHEMES, is_admin
 
 PROBLEM_SCHEMA = {"$ref": f"#/components/schemas/{ProblemBody.__name__}"}
 Responses = dict[int | str, dict[str, Any]]
@@ -17,7 +17,7 @@ Responses = dict[int | str, dict[str, Any]]
 def problems(*codes: Code) -> Responses:
     """`responses=` of a route that can fail in these ways."""
     by_status: dict[int, list[Code]] = {}
-    for code in codes:
+    for code in sorted(codes, key=lambda code: code.status):
         by_status.setdefault(code.status, []).append(code)
     return {
         status: {
@@ -35,12 +35,13 @@ def geojson_content() -> dict[str, Any]:
     return {"content": {GEOJSON: {"schema": schema, "example": geojson.EXAMPLE}}}
 
 
-def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
+def describe(app: FastAPI, needs_key: bool, needs_admin_key: bool) -> dict[str, Any]:
     """The OpenAPI document, with errors as problem+json; made once.
 
     Args:
         app: what is described.
         needs_key: whether all that is not open needs a key.
+        needs_admin_key: whether what changes the indexes does.
     """
     if app.openapi_schema is None:
         document = get_openapi(
@@ -48,13 +49,16 @@ def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
         )
         for path in document["paths"].values():
             for operation in path.values():
-                for status, response in operation["responses"].items():
+                responses = operation["responses"]
+                if PROBLEM_JSON not in responses.get("422", {}).get("content", {}):
+                    responses.pop("422", None)  # FastAPI promises one for any parameter, be it one that takes all
+                for status, response in responses.items():
                     if int(status) >= 400:
                         _as_problem(response["content"])
         for unused in ("HTTPValidationError", "ValidationError"):
             document["components"]["schemas"].pop(unused, None)
-        if needs_key:
-            _ask_for_key(document)
+        if needs_key or needs_admin_key:
+            _ask_for_key(document, needs_key)
         app.openapi_schema = document
     return app.openapi_schema
 
@@ -65,15 +69,20 @@ def error_table() -> str:
     return "\n".join(["| code | status | what and what to do |", "|---|---|---|", *rows])
 
 
-def _ask_for_key(document: dict[str, Any]) -> None:
-    """With a global requirement, /docs has a button for the key; open routes lift it for themselves."""
+def _ask_for_key(document: dict[str, Any], everywhere: bool) -> None:
+    """Has /docs show a button for the key, and what needs it say so: all but open routes, or what changes indexes."""
     document["components"]["securitySchemes"] = SCHEMES
-    document["security"] = [{name: []} for name in SCHEMES]
+    either: list[dict[str, list[str]]] = [{name: []} for name in SCHEMES]
+    if everywhere:
+        document["security"] = either  # open routes lift it for themselves
     [(status, refused)] = problems(Code.KEY_REQUIRED, Code.KEY_WRONG).items()
     content = {PROBLEM_JSON: {**refused["content"][PROBLEM_JSON], "schema": PROBLEM_SCHEMA}}
-    for path in document["paths"].values():
-        for operation in path.values():
-            if operation.get("security") != OPEN["security"]:
+    for name, path in document["paths"].items():
+        for method, operation in path.items():
+            changes = is_admin({"path": name, "method": method.upper()})
+            if changes and not everywhere:
+                operation["security"] = either
+            if changes or (everywhere and operation.get("security") != OPEN["security"]):
                 operation["responses"][str(status)] = {"description": refused["description"], "content": content}
 
 

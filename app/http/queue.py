@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from threading import Condition, Thread
+from typing import Final
 
 import structlog
 
@@ -19,6 +20,7 @@ from models.errors import HereaboutsError
 
 REFUSED_S = 0.2  # before a refusal is said: clients that ask again at once would else take the time of those answered
 FIRST_S = 0.05  # that a query is thought to take before one was answered
+UNAVAILABLE: Final = (Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED)  # why a query is not taken
 LEARNING, SLOWER = 0.1, 4.0  # weight of the last batch; what is so much slower than usual is an exception
 
 log = structlog.get_logger()
@@ -222,8 +224,8 @@ class InferenceQueue:
             self._error = error
             self._failure = "the index or the model cannot be used; the operator finds in the log why"
             return ()
-        except Exception:
-            log.exception("load failed")
+        except Exception as error:
+            log.exception("load failed", reason=str(error))  # nobody has said anything yet
             self._failure = "a fault in the service while loading; the operator finds it in the log"
             return ()
         facts = localizers[0].facts

@@ -15,7 +15,9 @@ import time
 from pathlib import Path
 from typing import TextIO
 
+from app.faults import where
 from app.jobs.order import Evaluation
+from app.settings import load_settings
 from app.threads import set_thread_env
 from models.errors import HereaboutsError
 
@@ -60,6 +62,11 @@ def main(job_dir: Path) -> int:
         evaluation.run(job_dir / REPORT, lines.progress)
     except HereaboutsError as error:
         lines.write({"error": evaluation.public(str(error))[:LONGEST_ERROR]})
+        return 1
+    except Exception as error:
+        if load_settings().log_descriptions:
+            raise
+        print(where(error), file=sys.stderr)  # of which the service logs the end
         return 1
     return 0
 

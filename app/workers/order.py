@@ -11,7 +11,15 @@ FORK: Final = "fork"
 
 
 class WorkerFault(Exception):
-    """A fault in a worker, with its traceback."""
+    """A fault in a worker, with its traceback.
+
+    Attributes:
+        where: the same without its words, which may quote a description.
+    """
+
+    def __init__(self, said: str, where: str = "") -> None:
+        super().__init__(said)
+        self.where = where
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from multiprocessing.reduction import recv_handle
 from threading import Thread
 from typing import TYPE_CHECKING, Final
 
+from app.faults import where
 from app.startup import no_collection
 from app.workers.order import FORK, WorkerFault
 from models.errors import HereaboutsError
@@ -78,7 +79,7 @@ def _as_sent(error: Exception) -> Exception:
     """An error that another process can read: those that users meet are themselves, others become text."""
     if isinstance(error, HereaboutsError):
         return error
-    return WorkerFault("".join(traceback.format_exception(error)))
+    return WorkerFault("".join(traceback.format_exception(error)), where(error))
 
 
 if __name__ == "__main__":

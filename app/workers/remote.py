@@ -92,7 +92,8 @@ class RemoteLocalizer:
             except (EOFError, OSError) as error:
                 self._replace(asked, connection)
                 if left == 0:
-                    raise WorkerFault(f"workers die of {name}") from error
+                    said = f"workers die of {name}"
+                    raise WorkerFault(said, said) from error
                 continue
             if isinstance(answer, Exception):
                 raise answer

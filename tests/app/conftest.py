@@ -1,3 +1,4 @@
+import logging
 import sys
 import threading
 import time
@@ -17,6 +18,7 @@ from fake_localizer import FakeLocalizer
 
 from app.http.connection import Connection
 from app.http.errors import Code, Problem, field_name
+from app.logs import configure_logging
 from app.main import create_app
 from app.settings import Settings
 
@@ -116,6 +118,28 @@ def in_a_thread():
 def until():
     """Waits until a condition holds."""
     return wait_until
+
+
+@pytest.fixture
+def logged(capfd):
+    """(level, with words) -> begins to log as the service does, and gives what reads all that was logged since."""
+    root, configured = logging.getLogger(), structlog.get_config()
+    loggers = {name: logging.getLogger(name) for name in ("faiss.loader", "httpx", "httpcore", "httpx2", "httpcore2")}
+    level, handlers = root.level, root.handlers[:]
+    levels = {name: logger.level for name, logger in loggers.items()}
+
+    def begin(level="debug", with_words=False):
+        configure_logging(level, with_words)
+        for name in levels.keys() - {"faiss.loader"}:  # of the tests' own clients
+            loggers[name].setLevel(logging.WARNING)
+        return lambda: capfd.readouterr().err
+
+    yield begin
+    root.setLevel(level)
+    root.handlers[:] = handlers
+    for name, logger in loggers.items():
+        logger.setLevel(levels[name])
+    structlog.configure(**configured)
 
 
 @pytest.fixture

@@ -7,17 +7,20 @@ from fastapi import APIRouter, Request
 from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError, create_model
 
+from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes
-from app.http.errors import Problem, ProblemBody, as_problem
+from app.http.errors import Code, Problem, ProblemBody, as_problem
 from app.http.indexes import Indexes
 from app.http.openapi import problems
-from app.http.routes.localize import ERRORS, check_reach, found_for
+from app.http.queue import UNAVAILABLE
+from app.http.routes.localize import check_reach, found_for
 from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest, request_model
 from app.http.schemas.responses import LocalizeResponse
 from app.settings import Settings
 from models.errors import HereaboutsError
 
 PATH = "/localize/batch"
+ERRORS = (*REFUSALS, Code.INVALID_REQUEST, Code.INTERNAL_ERROR, *UNAVAILABLE)  # others are of an item alone
 BODIES = 4  # times as many bytes as one description may have, for all
 AT_ONCE = 4  # items of one request that wait for the model: others ask too
 BATCH_EXAMPLE: JsonValue = {"items": [EXAMPLE, {"hints": ["I stand on a gray road."]}]}
@@ -89,11 +92,12 @@ async def _answer(
 ) -> BatchItem:
     try:
         asked = item_model.model_validate(item)
-        async with indexes.lease(asked.index) as queue:
-            check_reach(asked, queue.localizer.frame)
-            return BatchItem(result=await found_for(request, asked, queue))
     except ValidationError as error:
         wrong = RequestValidationError([{**each, "loc": ("body", *each["loc"])} for each in error.errors()])
         return BatchItem(error=ProblemBody.model_validate(as_problem(wrong).body()))
+    try:
+        async with indexes.lease(asked.index) as queue:
+            check_reach(asked, queue.localizer.frame)
+            return BatchItem(result=await found_for(request, asked, queue))
     except (Problem, HereaboutsError) as error:
         return BatchItem(error=ProblemBody.model_validate(as_problem(error).body()))

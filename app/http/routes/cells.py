@@ -24,7 +24,7 @@ router = APIRouter(tags=["map"])
         200: geojson_content(),
         304: {"description": "What the client has (If-None-Match) is still what is served"},
         **problems(Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST, Code.NOT_ACCEPTABLE, Code.NO_GEOREFERENCE),
-        **problems(Code.NOT_READY, Code.LOAD_FAILED),
+        **problems(Code.INTERNAL_ERROR, Code.NOT_READY, Code.LOAD_FAILED),
     },
 )
 def cells(
@@ -62,6 +62,7 @@ def cells(
             Code.INVALID_REQUEST,
             Code.NOT_ACCEPTABLE,
             Code.NO_GEOREFERENCE,
+            Code.INTERNAL_ERROR,
             Code.NOT_READY,
             Code.LOAD_FAILED,
         ),

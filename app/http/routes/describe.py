@@ -6,9 +6,11 @@ import time
 from asgi_correlation_id import correlation_id
 from fastapi import APIRouter
 
+from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
+from app.http.queue import UNAVAILABLE
 from app.http.routes.localize import check_reach
 from app.http.schemas.requests import DescribeRequest, describe_model
 from app.http.schemas.responses import DescribeResponse
@@ -16,17 +18,11 @@ from app.settings import Settings
 from index.filters import position_m
 
 ERRORS = (
-    Code.INVALID_JSON,
-    Code.BODY_TOO_LARGE,
-    Code.BODIES_FULL,
-    Code.BODY_TOO_SLOW,
-    Code.UNSUPPORTED_MEDIA_TYPE,
+    *REFUSALS,
     Code.INVALID_REQUEST,
     Code.INDEX_NOT_FOUND,
     Code.INTERNAL_ERROR,
-    Code.NOT_READY,
-    Code.DRAINING,
-    Code.LOAD_FAILED,
+    *UNAVAILABLE,
     Code.DEADLINE_EXCEEDED,
 )
 NOTHING_THERE = "is off the map, or nothing is near it; take a place where one can stand on the map that /info names"

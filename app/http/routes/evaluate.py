@@ -9,9 +9,11 @@ from fastapi import APIRouter, Response
 from pydantic import BaseModel
 from sse_starlette import EventSourceResponse, ServerSentEvent
 
+from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes, Jobs
 from app.http.errors import Code
 from app.http.openapi import problems
+from app.http.queue import UNAVAILABLE
 from app.http.schemas.evaluate_requests import EvaluateRequest, evaluate_model
 from app.jobs.job import FINISHED, Job, JobState, Status
 from app.jobs.order import to_evaluation
@@ -20,18 +22,13 @@ from app.settings import Settings
 PATH = "/evaluate"
 PING_S = 15  # between two signs of life on a stream without news
 POST_ERRORS = (
-    Code.INVALID_JSON,
-    Code.BODY_TOO_LARGE,
-    Code.UNSUPPORTED_MEDIA_TYPE,
+    *REFUSALS,
     Code.INVALID_REQUEST,
     Code.INDEX_NOT_FOUND,
     Code.JOBS_FULL,
-    Code.BODIES_FULL,
-    Code.BODY_TOO_SLOW,
+    Code.NOT_WRITABLE,
     Code.INTERNAL_ERROR,
-    Code.NOT_READY,
-    Code.DRAINING,
-    Code.LOAD_FAILED,
+    *UNAVAILABLE,
 )
 EVENT_STREAM: dict[str, Any] = {
     "description": "server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the "

@@ -1,8 +1,9 @@
 """The two paths of Nominatim that most geocoder clients ask: /search for words, /reverse for a position."""
 
 import asyncio
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
+import numpy as np
 from fastapi import APIRouter, Query, Request
 from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
@@ -13,22 +14,23 @@ from app.http.errors import Code, Problem
 from app.http.formats.negotiation import GEOJSON, JSON
 from app.http.formats.nominatim import NOTHING, Format, formatted, formatted_one, place_of, places
 from app.http.openapi import geojson_content, problems
-from app.http.queue import InferenceQueue
-from app.http.routes.localize import ERRORS, check_reach, found_for
+from app.http.queue import UNAVAILABLE, InferenceQueue
+from app.http.routes.localize import check_reach, found_for
 from app.http.schemas.requests import request_model
 from app.settings import Settings
 from index.artifact import DEFAULT
 from models.city.frame import Frame
 
 MOST = 40  # results, as of Nominatim
+TWO_CORNERS: Final = "takes lon,lat,lon,lat: two corners, longitudes -180..180, latitudes -90..90"
 REVERSE_ERRORS = (
     Code.INVALID_REQUEST,
     Code.INDEX_NOT_FOUND,
     Code.NO_GEOREFERENCE,
-    Code.NOT_READY,
-    Code.DRAINING,
-    Code.LOAD_FAILED,
+    Code.INTERNAL_ERROR,
+    *UNAVAILABLE,
 )
+SEARCH_ERRORS = (*REVERSE_ERRORS, Code.QUEUE_FULL, Code.DEADLINE_EXCEEDED)
 Form = Annotated[Format, Query(alias="format", description="as of Nominatim; xml is not spoken")]
 DESCRIBED: dict[str, Any] = {
     "description": "what Nominatim answers, with the place in words as display_name",
@@ -41,7 +43,7 @@ def build_router(settings: Settings) -> APIRouter:
     router = APIRouter(tags=["geocoder"])
     asked_model = request_model(settings)
 
-    @router.get("/search", responses={200: DESCRIBED, **problems(*ERRORS)})
+    @router.get("/search", responses={200: DESCRIBED, **problems(*SEARCH_ERRORS)})
     async def search(
         request: Request,
         indexes: AllIndexes,
@@ -119,12 +121,16 @@ def _look(viewbox: str | None, bounded: bool, frame: Frame) -> dict[str, Any]:
         return {}
     try:
         west, south, east, north = (float(part) for part in viewbox.split(","))
-        (west, east), (south, north) = sorted((west, east)), sorted((south, north))
-        middle = [(west + east) / 2, (south + north) / 2]
-        corner, centre = frame.from_wgs84(south, west), frame.from_wgs84(middle[1], middle[0])
-        half_m = float(((corner - centre) ** 2).sum() ** 0.5)
     except ValueError:
-        raise Problem.of_field("viewbox", "takes lon,lat,lon,lat: two corners") from None
+        raise Problem.of_field("viewbox", TWO_CORNERS) from None
+    (west, east), (south, north) = sorted((west, east)), sorted((south, north))
+    if not (-180 <= west <= east <= 180 and -90 <= south <= north <= 90):  # nor NaN
+        raise Problem.of_field("viewbox", TWO_CORNERS)
     if bounded:
         return {"within": {"bbox": [west, south, east, north]}, "crs": "wgs84"}
+    middle = [(west + east) / 2, (south + north) / 2]
+    corner, centre = frame.from_wgs84(south, west), frame.from_wgs84(middle[1], middle[0])
+    if not np.isfinite([corner, centre]).all():
+        raise Problem.of_field("viewbox", "reaches too far from the map; give two corners near it")
+    half_m = float(np.hypot(*(corner - centre)))
     return {"prior": {"position": middle, "sigma_m": max(half_m, 1.0)}, "crs": "wgs84"}

@@ -6,10 +6,11 @@ from fastapi import APIRouter, Request
 from starlette.responses import PlainTextResponse, Response
 
 from app.http.dependencies import AllIndexes, SettingsNow
-from app.http.errors import Code, Problem
+from app.http.errors import Problem
 from app.http.keys import OPEN
 from app.http.metrics import Metrics
 from app.http.openapi import problems
+from app.http.queue import UNAVAILABLE
 from app.http.schemas.responses import Health, IndexInfo, InfoResponse, Limits
 from app.jobs.order import data_sets
 
@@ -22,7 +23,7 @@ async def healthz() -> Health:
     return Health(status="ok")
 
 
-@router.get("/readyz", responses=problems(Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED), openapi_extra=OPEN)
+@router.get("/readyz", responses=problems(*UNAVAILABLE), openapi_extra=OPEN)
 async def readyz(indexes: AllIndexes) -> Health:
     """Whether a description would be answered now."""
     indexes.check_accepting()

@@ -1,7 +1,7 @@
 """The index versions of the service's directory, and which of them each name serves; for operators."""
 
 import asyncio
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
@@ -11,6 +11,7 @@ from fastapi import APIRouter
 from fastapi import Path as InPath
 from pydantic import BaseModel, Field
 
+from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
@@ -20,15 +21,12 @@ from index.snapshot import SNAPSHOTS, snapshot
 from models.errors import IndexBroken
 
 ERRORS = (
-    Code.INVALID_JSON,
-    Code.BODY_TOO_LARGE,
-    Code.UNSUPPORTED_MEDIA_TYPE,
+    *REFUSALS,
     Code.INVALID_REQUEST,
     Code.ADMIN_OFF,
     Code.ADMIN_KEY_REQUIRED,
     Code.VERSION_NOT_FOUND,
     Code.INDEX_BROKEN,
-    Code.NOT_WRITABLE,
 )
 log = structlog.get_logger()
 router = APIRouter(tags=["indexes"])
@@ -84,10 +82,10 @@ class Snapshot(BaseModel):
     sha256: str
 
 
-@router.get("/indexes")
+@router.get("/indexes", responses=problems(Code.INDEX_BROKEN))
 def list_indexes(indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
     """The versions there are, and the names that serve them."""
-    known = read_aliases(settings.index_dir).versions
+    known = _registered(settings.index_dir)
     served = indexes.versions()
     directories = {path.parent.name for path in settings.index_dir.glob(f"[!.]*/{MANIFEST}")}
     return IndexesResponse(
@@ -103,13 +101,16 @@ def list_indexes(indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
     )
 
 
-@router.post("/indexes", status_code=201, responses=problems(*ERRORS))
+@router.post("/indexes", status_code=201, responses=problems(*ERRORS, Code.NOT_WRITABLE))
 def register_index(asked: Registration, settings: SettingsNow) -> Verified:
     """Take a version that lies in the service's directory, once it is whole; no name serves it yet."""
     return _verified(settings.index_dir, asked.version, takes_it=True)
 
 
-@router.post("/indexes/aliases", responses=problems(*ERRORS, Code.INDEX_MISMATCH, Code.DRAINING))
+@router.post(
+    "/indexes/aliases",
+    responses=problems(*ERRORS, Code.NOT_WRITABLE, Code.INDEX_MISMATCH, Code.DRAINING, Code.LOAD_FAILED),
+)
 async def change_alias(asked: AliasChange, indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
     """Let a name serve another version: it is opened first, no request is dropped, each is answered by one version."""
     await asyncio.to_thread(_verified, settings.index_dir, asked.version)
@@ -125,7 +126,7 @@ def verify(version: Version, _body: Nothing, settings: SettingsNow) -> Verified:
     return _verified(settings.index_dir, version)
 
 
-@router.post("/indexes/{version}/snapshot", status_code=201, responses=problems(*ERRORS))
+@router.post("/indexes/{version}/snapshot", status_code=201, responses=problems(*ERRORS, Code.NOT_WRITABLE))
 def take_snapshot(version: Version, _body: Nothing, settings: SettingsNow) -> Snapshot:
     """Write a version into one file, whole or not at all."""
     _verified(settings.index_dir, version)
@@ -143,14 +144,29 @@ def _verified(root: Path, version: str, takes_it: bool = False) -> Verified:
     if not (root / version / MANIFEST).is_file():
         raise Problem(Code.VERSION_NOT_FOUND)
     try:
-        with _writing():
-            manifest = register(root, version) if takes_it else open_version(root / version)[1]
-    except IndexBroken:
+        if takes_it:
+            with _writing():
+                manifest = register(root, version)
+        else:
+            manifest = open_version(root / version)[1]
+    except (IndexBroken, OSError):  # a file that cannot be read is as good as none
         raise Problem(Code.INDEX_BROKEN) from None
-    if version not in read_aliases(root).versions:
+    if version not in _registered(root):
         raise Problem(Code.VERSION_NOT_FOUND, "It is not registered; POST /indexes takes it.")
     files = manifest.files.values()
     return Verified(version=version, files=len(files), bytes=sum(record.bytes for record in files))
+
+
+def _registered(root: Path) -> Mapping[str, str]:
+    """The versions that a directory knows.
+
+    Raises:
+        Problem: its aliases cannot be read.
+    """
+    try:
+        return read_aliases(root).versions
+    except IndexBroken:
+        raise Problem(Code.INDEX_BROKEN) from None
 
 
 @contextmanager

@@ -10,25 +10,31 @@ from asgi_correlation_id import correlation_id
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
+from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.formats.geojson import localize_collection
 from app.http.formats.negotiation import GEOJSON, negotiate, respond
+from app.http.notes import notes_of
 from app.http.openapi import geojson_content, problems
-from app.http.queue import InferenceQueue, Served
+from app.http.queue import UNAVAILABLE, InferenceQueue, Served
 from app.http.schemas.requests import DescribeRequest, LocalizeRequest, request_model
 from app.http.schemas.responses import LocalizeResponse
 from app.http.schemas.ros import pose_of
 from app.settings import Settings
 from models.city.frame import Frame
 
-_NEVER_HERE = {
-    *(Code.INVALID_HTTP, Code.NOT_FOUND, Code.CELL_NOT_FOUND, Code.METHOD_NOT_ALLOWED, Code.CONFLICT),
-    *(Code.JOB_NOT_FOUND, Code.JOBS_FULL, Code.MAP_NOT_FOUND, Code.KEY_REQUIRED, Code.KEY_WRONG),
-    *(Code.CLIENT_CLOSED_REQUEST, Code.ADMIN_OFF, Code.ADMIN_KEY_REQUIRED, Code.VERSION_NOT_FOUND),
-    *(Code.INDEX_MISMATCH, Code.INDEX_BROKEN, Code.NOT_WRITABLE),
-}
-ERRORS = tuple(code for code in Code if code not in _NEVER_HERE)
+ERRORS = (
+    *REFUSALS,
+    Code.INVALID_REQUEST,
+    Code.INDEX_NOT_FOUND,
+    Code.NOT_ACCEPTABLE,
+    Code.NO_GEOREFERENCE,
+    Code.QUEUE_FULL,
+    Code.INTERNAL_ERROR,
+    *UNAVAILABLE,
+    Code.DEADLINE_EXCEEDED,
+)
 
 
 def build_router(settings: Settings) -> APIRouter:
@@ -62,11 +68,14 @@ async def found_for(request: Request, asked: LocalizeRequest, queue: InferenceQu
     """
     started_s = time.monotonic()
     deadline_s = started_s + asked.deadline_ms / 1000
+    notes = notes_of(request.scope)
+    notes.said.append(asked.text())
     served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
     timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
     found = LocalizeResponse.of(served.answer, queue.localizer, correlation_id.get() or "", timings_ms, asked.index)
     if asked.ros and found.estimate is not None:
         found.ros = pose_of(found.estimate, found.crs.frame_id)
+    notes.answered(found.timings_ms)
     return found
 
 

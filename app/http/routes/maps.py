@@ -25,7 +25,8 @@ BINARY = "application/octet-stream"
             "content": {BINARY: {"schema": {"type": "string", "format": "binary"}}},
         },
         304: {"description": "What the client has (If-None-Match) is still what is served"},
-        **problems(Code.MAP_NOT_FOUND, Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST, Code.NOT_READY, Code.LOAD_FAILED),
+        **problems(Code.MAP_NOT_FOUND, Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST),
+        **problems(Code.INTERNAL_ERROR, Code.NOT_READY, Code.LOAD_FAILED),
     },
 )
 def points(

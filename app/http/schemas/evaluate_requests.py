@@ -50,9 +50,9 @@ class EvaluateRequest(Body):
         if (self.queries is None) == (self.data is None):
             raise wrong("give either queries or data", "queries")
         if self.queries is not None and self.split is not None:
-            raise wrong("goes with data, not with queries", "split")
+            raise wrong("goes with data, not with queries; leave it out", "split")
         if self.data is not None and "crs" in self.model_fields_set:
-            raise wrong("goes with queries, not with data", "crs")
+            raise wrong("goes with queries, not with data; leave it out", "crs")
         return self
 
 

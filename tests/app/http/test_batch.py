@@ -31,8 +31,9 @@ def test_answers_come_in_order_and_a_bad_item_fails_alone(api, fake):
     assert sorted(query.description for batch in fake.batches for query in batch) == sorted([TEXT, "nowhere", "a tree"])
 
 
-def test_a_fault_is_a_fault_of_all(api, problem):
-    body = {"items": [{"description": "a tree"}, {"description": "bad"}]}
+@pytest.mark.parametrize("fault", ["bad", "nan"])
+def test_a_fault_is_a_fault_of_all(api, problem, fault):
+    body = {"items": [{"description": "a tree"}, {"description": fault}]}
     problem(api.post("/localize/batch", json=body), 500, "internal_error")
 
 

@@ -24,6 +24,10 @@ class Fake:
             raise ReplyError(2, "choice", "another one")
         if said == "fault":
             raise KeyError("what it was")
+        if "quoted" in said:
+            raise ValueError(f"cannot read {said!r}")
+        if "deadly" in said:
+            os._exit(1)
         if said == "slow":
             time.sleep(0.5)
         return [Answer("no_match", FakeLocalizer.facts.model, warnings=(str(os.getpid()), str(os.getppid())))]

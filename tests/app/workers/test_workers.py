@@ -5,11 +5,14 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from fastapi.testclient import TestClient
 
 sys.path.append(str(Path(__file__).parent))
 
 from ordered import Broken, Order
 
+from app.main import create_app
+from app.settings import Settings
 from app.workers.order import WorkerFault
 from app.workers.remote import open_workers
 from index.query import Query
@@ -94,6 +97,24 @@ def test_what_kills_every_worker_is_refused_and_the_next_is_answered(workers):
     with pytest.raises(WorkerFault, match="workers die of scenery"):
         workers[0].scenery(0)
     assert ask(workers[0])
+
+
+@pytest.mark.parametrize(
+    ("text", "faults"),
+    [
+        ("a quoted quixotic tree", ["ordered.py", "ValueError", "WorkerFault"]),
+        ("a deadly quixotic tree", ["worker lost", "workers die of localize"]),
+    ],
+)
+def test_no_line_has_what_was_said_when_a_worker_fails_of_it(logged, until, text, faults):
+    said, body = logged(), {"description": text}
+    with TestClient(create_app(Settings(), lambda: open_workers(Order(), 1)[0])) as api:
+        until(lambda: api.get("/readyz").status_code == 200)
+        assert api.post("/localize", json=body).status_code == 500
+        assert api.post("/localize/batch", json={"items": [body, body]}).status_code == 500
+    lines = said()
+    assert all(fault in lines for fault in faults), "where it happened is told"
+    assert "quixotic" not in lines
 
 
 def test_a_mould_that_is_killed_is_made_again_when_it_is_needed(workers):

@@ -2084,7 +2084,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many requests wait; Too many large bodies at once */
+            /** @description Too many large bodies at once; Too many requests wait */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -2153,24 +2153,6 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description No such index */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
-            /** @description No such format; The map has no latitude and longitude */
-            406: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
             /** @description The body did not come in time */
             408: {
                 headers: {
@@ -2207,7 +2189,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many requests wait; Too many large bodies at once */
+            /** @description Too many large bodies at once */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -2227,15 +2209,6 @@ export interface operations {
             };
             /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
             503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
-            /** @description No answer before the deadline */
-            504: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2408,6 +2381,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description The service cannot write */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
             /** @description The body is too large */
             413: {
                 headers: {
@@ -2435,7 +2417,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many evaluations wait; Too many large bodies at once */
+            /** @description Too many large bodies at once; Too many evaluations wait */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -2493,15 +2475,6 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
         };
     };
     cancel_evaluate__job__delete: {
@@ -2533,15 +2506,6 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
         };
     };
     follow_evaluate__job__events_get: {
@@ -2566,15 +2530,6 @@ export interface operations {
             };
             /** @description No such job */
             404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2635,15 +2590,6 @@ export interface operations {
                     "application/geo+json": Record<string, never>;
                 };
             };
-            /** @description The body is not JSON */
-            400: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
             /** @description No such index */
             404: {
                 headers: {
@@ -2653,35 +2599,8 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description No such format; The map has no latitude and longitude */
+            /** @description The map has no latitude and longitude */
             406: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
-            /** @description The body did not come in time */
-            408: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
-            /** @description The body is too large */
-            413: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemBody"];
-                };
-            };
-            /** @description The body is of another type */
-            415: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2698,7 +2617,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many requests wait; Too many large bodies at once */
+            /** @description Too many requests wait */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -2809,6 +2728,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description A fault in the service */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
             /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
             503: {
                 headers: {
@@ -2892,6 +2820,15 @@ export interface operations {
             };
             /** @description The request cannot be used */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description A fault in the service */
+            500: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2988,6 +2925,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description A fault in the service */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
             /** @description The model is still loading; The index or the model could not be loaded */
             503: {
                 headers: {
@@ -3049,6 +2995,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description A fault in the service */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
             /** @description The model is still loading; The index or the model could not be loaded */
             503: {
                 headers: {
@@ -3076,6 +3031,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["IndexesResponse"];
+                };
+            };
+            /** @description That index is broken */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
         };
@@ -3129,7 +3093,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description That index is broken; The index directory cannot be written */
+            /** @description The body did not come in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description That index is broken; The service cannot write */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3158,6 +3131,15 @@ export interface operations {
             };
             /** @description The request cannot be used */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Too many large bodies at once */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3216,7 +3198,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description That index is broken; The index directory cannot be written; Another model built that index */
+            /** @description The body did not come in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description That index is broken; The service cannot write; Another model built that index */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3252,7 +3243,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The service is shutting down */
+            /** @description Too many large bodies at once */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The service is shutting down; The index or the model could not be loaded */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -3314,7 +3314,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description That index is broken; The index directory cannot be written */
+            /** @description The body did not come in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description That index is broken */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3343,6 +3352,15 @@ export interface operations {
             };
             /** @description The request cannot be used */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Too many large bodies at once */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3403,7 +3421,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description That index is broken; The index directory cannot be written */
+            /** @description The body did not come in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description That index is broken; The service cannot write */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3432,6 +3459,15 @@ export interface operations {
             };
             /** @description The request cannot be used */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Too many large bodies at once */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -1,0 +1,124 @@
+"""Attacks as names on the map leave the service as plain text in JSON, which no browser takes for anything else."""
+
+import asyncio
+import json
+
+import httpx
+import pytest
+from mcp import Client as Agent
+
+from app.client import AsyncClient
+from app.main import create_app
+from app.mcp import build_server
+from app.settings import Settings
+from tests.app.hostile import KINDS, MAP, PLACES, SCRIPT, STREETS, hostile_index
+
+pytestmark = pytest.mark.slow  # the weights that ship
+
+NUMBER = next(tags["addr:housenumber"] for *_, tags in PLACES if "addr:housenumber" in tags)
+
+
+@pytest.fixture(scope="module")
+def url(made_once, in_a_thread):
+    with in_a_thread(create_app(Settings(index_dir=hostile_index(made_once), workers=1))) as port:
+        yield f"http://127.0.0.1:{port}"
+
+
+@pytest.fixture
+def here(url):
+    with httpx.Client(base_url=url, timeout=60) as here:
+        yield here
+
+
+def plain(response):
+    """The body of a response that is nothing but JSON."""
+    kind = response.headers["content-type"]
+    assert kind in ("application/json", "application/geo+json", "application/problem+json")
+    assert response.headers["x-content-type-options"] == "nosniff"
+    assert response.headers["content-security-policy"] == "default-src 'none'; frame-ancestors 'none'"
+    return response.json()
+
+
+@pytest.mark.parametrize(("kind", "name"), KINDS.items())
+def test_answers_in_all_forms_have_the_name_to_the_letter(here, kind, name):
+    text = f"I am on the street, right outside a {kind}."
+    answer = plain(here.post("/localize", json={"description": text}))
+    assert name in answer["estimate"]["place"]
+    assert [one["name"] for one in answer["evidence"]] == [name]
+    [item] = plain(here.post("/localize/batch", json={"items": [{"description": text}]}))["items"]
+    assert item["result"]["estimate"]["place"] == answer["estimate"]["place"]
+    drawn = plain(here.post("/localize", json={"description": text}, headers={"Accept": "application/geo+json"}))
+    assert answer["estimate"]["place"] in [feature["properties"].get("place") for feature in drawn["features"]]
+    for form in ("json", "jsonv2", "geojson"):
+        found = plain(here.get("/search", params={"q": text, "format": form}))
+        first = found["features"][0]["properties"] if form == "geojson" else found[0]
+        assert first["display_name"] == answer["estimate"]["place"]
+
+
+@pytest.mark.parametrize("place", [place for place in PLACES if place[2] in KINDS.values()], ids=lambda place: place[2])
+def test_what_is_said_of_a_place_has_its_name_to_the_letter(here, place):
+    x, y, name, _ = place
+    at = (x - 150, y - 150)
+    said = plain(here.post("/describe", json={"position": at}))
+    assert name in said["description"]
+    assert name in [fact["name"] for fact in said["hints"]]
+    where = {"lat": said["wgs84"]["lat"], "lon": said["wgs84"]["lon"]}
+    found = plain(here.get("/reverse", params=where))
+    assert name in found["display_name"]
+    assert name in found["extratags"]["description"]
+
+
+def test_questions_offer_the_names_to_the_letter_and_take_them(here):
+    told = {"description": "There is a tree to my north. There is a bench to my east."}
+    question = plain(here.post("/localize", json=told))["question"]
+    hostile = [choice for choice in question["choices"] if choice["text"] in STREETS]
+    assert hostile, "else this tests nothing"
+    reply = {"question": question["id"], "choice": hostile[0]["value"]}
+    assert hostile[0]["text"] in plain(here.post("/localize", json=told | {"answers": [reply]}))["estimate"]["place"]
+    house = {"question": "address", "choice": f"{NUMBER} {STREETS[1]}"}
+    assert plain(here.post("/localize", json=told | {"answers": [house]}))["status"] in ("ok", "ambiguous")
+
+
+def test_a_map_with_such_a_name_is_reached_by_it(here):
+    info = plain(here.get("/info"))
+    assert info["index"]["provenance"]["map"] == MAP
+    [cell] = plain(here.get("/cells", params={"limit": 1}))["cells"]
+    assert cell["cell_id"].startswith(MAP)
+    assert plain(here.get(f"/cells/{cell['cell_id']}"))["scene"] == MAP
+    points = here.get(f"/maps/{MAP}/points")
+    assert (points.status_code, points.headers["x-content-type-options"]) == (200, "nosniff")
+    assert "html" not in points.headers["content-type"]
+    assert SCRIPT in points.text, "names come with the map"
+
+
+@pytest.mark.parametrize("attack", KINDS.values())
+def test_a_refusal_says_nothing_of_what_was_sent(here, attack):
+    refusals = [
+        here.post("/localize", json={"description": "a tree", attack: attack, "index": attack, "refine": attack}),
+        here.post("/localize", json={"description": "a tree", "answers": [{"question": attack, "choice": attack}]}),
+        here.get("/search", params={"q": "a tree", "viewbox": attack, "format": attack, "limit": attack}),
+        here.get(f"/cells/{attack}"),
+        here.get("/reverse", params={"lat": attack, "lon": attack, "index": attack}),
+    ]
+    for refusal in refusals:
+        assert refusal.status_code in (404, 422)
+        assert "hacked" not in json.dumps(plain(refusal))
+        assert not any("hacked" in value for value in refusal.headers.values())
+
+
+def test_agents_read_the_names_to_the_letter(url):
+    async def run():
+        async with AsyncClient(url) as client, Agent(build_server(client)) as agent:
+            found, said = [], []
+            for kind in KINDS:
+                arguments = {"description": f"I am on the street, right outside a {kind}."}
+                found.append((await agent.call_tool("localize", arguments)).structured_content)
+                where = {"lat": found[-1]["best"]["lat"], "lon": found[-1]["best"]["lon"]}
+                said.append((await agent.call_tool("describe_place", where)).structured_content)
+            return found, said
+
+    for name, found, said in zip(KINDS.values(), *asyncio.run(run()), strict=True):
+        assert name in found["best"]["place"]
+        assert name in found["summary"]
+        assert found["understood"][0].split(": ", 1)[1].startswith(name)
+        assert name in said["description"]

@@ -1,0 +1,323 @@
+"""Every status and code that the OpenAPI document promises is provoked here, and it promises what is provoked."""
+
+import asyncio
+import errno
+import gzip
+from contextlib import ExitStack
+from functools import partial
+
+import httpx
+import pytest
+from fake_localizer import FakeLocalizer
+from good_requests import GOOD, JSON, WITH_BODY, ask
+from service_states import Services, raises
+
+from app.jobs.runner import EvaluationJobs
+from app.main import create_app
+from app.settings import Settings
+from models.city.frame import Frame
+from models.city.scenery.files import SceneryPart
+from models.errors import IndexMismatch
+
+READ, ADMIN = "read-key-1", "admin-key-1"
+GEO, PICTURE = {"Accept": "application/geo+json"}, {"Accept": "image/png"}
+ASKED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", "GET /search", "GET /reverse")
+DRAWN = ("GET /cells", "GET /cells/{cell_id}")
+OF_MAP = (*DRAWN, "GET /maps/{name}/points")
+OF_ONE_INDEX = (*(operation for operation in ASKED if operation != "POST /localize/batch"), *OF_MAP)
+OF_JOB = ("GET /evaluate/{job}", "DELETE /evaluate/{job}", "GET /evaluate/{job}/events")
+OPEN = ("GET /healthz", "GET /readyz", "GET /metrics", "GET /info")
+CLOSED = tuple(operation for operation in GOOD if operation not in OPEN)
+REGISTER, ALIAS = "POST /indexes", "POST /indexes/aliases"
+VERIFY, SNAPSHOT = "POST /indexes/{version}/verify", "POST /indexes/{version}/snapshot"
+CHANGING = (REGISTER, ALIAS, VERIFY, SNAPSHOT)
+CREATED = (REGISTER, SNAPSHOT)
+WORK = {  # what a localizer does for an operation
+    "POST /localize": "localize",
+    "POST /localize/batch": "localize",
+    "POST /describe": "describe",
+    "GET /search": "localize",
+    "GET /reverse": "describe",
+    "GET /cells": "cells",
+    "GET /cells/{cell_id}": "cell",
+    "GET /maps/{name}/points": "scenery",
+}
+PROVOKED = {}  # (operation, status, code or None) -> what provokes it: (services, operation, monkeypatch) -> response
+
+
+def provokes(status, code, *operations):
+    def note(function):
+        assert not PROVOKED.keys() & {(operation, status, code) for operation in operations}
+        PROVOKED.update({(operation, status, code): function for operation in operations})
+        return function
+
+    return note
+
+
+@pytest.fixture(scope="module")
+def services(until, versions_dir, tmp_path_factory):
+    part = tmp_path_factory.mktemp("parts") / "0.gz"
+    part.write_bytes(gzip.compress(b"geometry", mtime=0))
+    with ExitStack() as stack, pytest.MonkeyPatch.context() as patch:
+        patch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=("true",)))
+        yield Services(stack, until, versions_dir, SceneryPart(part, "ab" * 32))
+
+
+def of_version(api, operation, version):
+    """A request about a version, be it named in the body or in the path."""
+    body = GOOD[operation]["json"]
+    return ask(api, operation, {"version": version}, json=body | {"version": version} if body else body)
+
+
+def of_index(api, operation, name):
+    where = "json" if operation in WITH_BODY else "params"
+    return ask(api, operation, **{where: GOOD[operation].get(where, {}) | {"index": name}})
+
+
+@provokes(202, None, "POST /evaluate")
+@provokes(201, None, *CREATED)
+@provokes(200, None, *(op for op in GOOD if op not in (*CREATED, "POST /evaluate", *OF_JOB)))
+def good_request(services, operation, patch):
+    return ask(services(), operation)
+
+
+@provokes(200, None, *OF_JOB)
+def job_that_is_there(services, operation, patch):
+    job = ask(services(), "POST /evaluate").json()["job"]
+    return ask(services(), operation, {"job": job})
+
+
+@provokes(304, None, *OF_MAP)
+def client_has_it(services, operation, patch):
+    return ask(services(), operation, headers={"If-None-Match": "*"})
+
+
+@provokes(400, "invalid_json", *WITH_BODY)
+def body_cut_short(services, operation, patch):
+    return ask(services(), operation, content=b"{", headers=JSON)
+
+
+@provokes(401, "key_required", *CLOSED)
+def no_key(services, operation, patch):
+    return ask(services(read_key=READ), operation)
+
+
+@provokes(401, "key_wrong", *CLOSED)
+def another_key(services, operation, patch):
+    return ask(services(read_key=READ), operation, headers={"X-API-Key": "another-key"})
+
+
+@provokes(403, "admin_off", *CHANGING)
+def service_that_others_reach(services, operation, patch):
+    return ask(services(host="0.0.0.0"), operation)
+
+
+@provokes(403, "admin_key_required", *CHANGING)
+def read_key_alone(services, operation, patch):
+    return ask(services(read_key=READ, admin_key=ADMIN), operation, headers={"X-API-Key": READ})
+
+
+@provokes(404, "index_not_found", *OF_ONE_INDEX)
+def another_index(services, operation, patch):
+    return of_index(services(), operation, "paris")
+
+
+@provokes(404, "version_not_found", *CHANGING)
+def another_version(services, operation, patch):
+    return of_version(services(), operation, "none")
+
+
+@provokes(404, "cell_not_found", "GET /cells/{cell_id}")
+@provokes(404, "map_not_found", "GET /maps/{name}/points")
+@provokes(404, "job_not_found", *OF_JOB)
+def another_name(services, operation, patch):
+    return ask(services(), operation, {"cell_id": "none", "name": "none", "job": "none"})
+
+
+@provokes(406, "not_acceptable", "POST /localize", *DRAWN)
+def another_format(services, operation, patch):
+    return ask(services(), operation, headers=PICTURE)
+
+
+@provokes(406, "no_georeference", "POST /localize", "GET /search", "GET /reverse", *DRAWN)
+def map_that_is_nowhere(services, operation, patch):
+    return ask(services("nowhere", lambda: FakeLocalizer(Frame())), operation, headers=GEO)
+
+
+@provokes(408, "body_too_slow", *WITH_BODY)
+def body_that_does_not_come(services, operation, patch):
+    patch.setattr("app.http.bodies.BODY_S", 0.01)
+
+    async def late():
+        await asyncio.sleep(60)
+        yield b""
+
+    async def send(app):
+        async with httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://testserver") as client:
+            return await ask(client, operation, content=late(), headers=JSON)
+
+    return asyncio.run(send(services().app))
+
+
+@provokes(409, "index_broken", "GET /indexes")
+def broken_aliases(services, operation, patch):
+    torn = services.root / "torn"
+    torn.mkdir(exist_ok=True)
+    (torn / "aliases.json").write_text("{")
+    return ask(services(index_dir=torn), operation)
+
+
+@provokes(409, "index_broken", *CHANGING)
+def changed_file(services, operation, patch):
+    return of_version(services(), operation, "broken")
+
+
+@provokes(409, "not_writable", REGISTER, ALIAS, SNAPSHOT)
+def full_disk(services, operation, patch):
+    for writer in ("index.artifact.replace_file", "index.snapshot.replacing"):
+        patch.setattr(writer, raises(OSError(errno.ENOSPC, "full")))
+    return of_version(services(), operation, "copied" if operation == REGISTER else "v1")
+
+
+@provokes(409, "not_writable", "POST /evaluate")
+def full_disk_of_jobs(services, operation, patch):
+    patch.setattr("app.jobs.store.JobStore.add", raises(OSError(errno.ENOSPC, "full")))
+    return ask(services(), operation)
+
+
+@provokes(409, "index_mismatch", ALIAS)
+def index_of_another_model(services, operation, patch):
+    api = services()
+    patch.setattr(services, "open", raises(IndexMismatch))
+    return ask(api, operation)
+
+
+@provokes(413, "body_too_large", *WITH_BODY)
+def body_above_the_limit(services, operation, patch):
+    return ask(services(max_bytes=1, max_evaluate_bytes=1), operation)
+
+
+@provokes(415, "unsupported_media_type", *WITH_BODY)
+def body_of_a_form(services, operation, patch):
+    return ask(services(), operation, headers={"Content-Type": "application/x-www-form-urlencoded"})
+
+
+@provokes(422, "invalid_request", *WITH_BODY)
+def unknown_field(services, operation, patch):
+    return ask(services(), operation, json={"unknown": 1})
+
+
+@provokes(422, "invalid_request", "GET /search", "GET /reverse", *OF_MAP)
+def index_that_is_no_name(services, operation, patch):
+    return of_index(services(), operation, "../x")
+
+
+@provokes(429, "queue_full", "POST /localize", "GET /search")
+def queue_without_a_place(services, operation, patch):
+    patch.setattr("app.http.queue.REFUSED_S", 0)
+    patch.setattr(services().app.state.indexes.queue(), "_max_queue", 0)
+    return ask(services(), operation)
+
+
+@provokes(429, "jobs_full", "POST /evaluate")
+def jobs_without_a_place(services, operation, patch):
+    patch.setattr(services().app.state.jobs, "_max_waiting", 0)
+    return ask(services(), operation)
+
+
+@provokes(429, "bodies_full", *WITH_BODY)
+def memory_without_a_place(services, operation, patch):
+    patch.setattr("app.http.bodies.LARGE_AT_ONCE", 0)  # read when the service starts
+    return ask(services("crowded"), operation, content=b" " * 65_536, headers=JSON)
+
+
+@provokes(500, "internal_error", *WORK)
+def fault_of_the_localizer(services, operation, patch):
+    patch.setattr(services.fake, WORK[operation], raises(RuntimeError("a fault")))
+    return ask(services(), operation)
+
+
+@provokes(500, "internal_error", "POST /evaluate")
+def fault_of_the_store(services, operation, patch):
+    patch.setattr("app.jobs.store.JobStore.add", raises(RuntimeError("a fault")))
+    return ask(services(), operation)
+
+
+@provokes(503, "not_ready", *ASKED, *OF_MAP, "GET /readyz")
+def index_that_is_being_opened(services, operation, patch):
+    return ask(services.loading(), operation)
+
+
+@provokes(503, "load_failed", *ASKED, *OF_MAP, "GET /readyz")
+def index_that_cannot_be_opened(services, operation, patch):
+    return ask(services.failed(), operation)
+
+
+@provokes(503, "load_failed", ALIAS)
+def fault_of_what_opens(services, operation, patch):
+    api = services()
+    patch.setattr(services, "open", raises(RuntimeError("a fault")))
+    return ask(api, operation)
+
+
+@provokes(503, "draining", *ASKED, ALIAS, "GET /readyz")
+def service_that_ends(services, operation, patch):
+    return ask(services.draining(), operation)
+
+
+@provokes(504, "deadline_exceeded", "POST /localize", "POST /describe", "GET /search")
+def slow_localizer(services, operation, patch):
+    api = services(deadline_ms=50)
+    services.fake.gate.clear()
+    try:
+        return ask(api, operation)
+    finally:
+        services.fake.gate.set()
+
+
+@pytest.mark.parametrize(
+    ("operation", "status", "code"), PROVOKED, ids=[f"{op} {status} {code}" for op, status, code in PROVOKED]
+)
+def test_it_is_answered(services, monkeypatch, problem, operation, status, code):
+    response = PROVOKED[operation, status, code](services, operation, monkeypatch)
+    if code is None:
+        assert response.status_code == status, response.text
+    else:
+        problem(response, status, code)
+
+
+def promised(**settings):
+    """(operation, status, code or None) of all that a document lists."""
+    found = set()
+    for path, operations in create_app(Settings(**settings)).openapi()["paths"].items():
+        for method, operation in operations.items():
+            for status, response in operation["responses"].items():
+                if int(status) < 400:
+                    codes = [None]
+                else:
+                    codes = response["content"]["application/problem+json"]["examples"]
+                    assert codes, (method, path, status)
+                found |= {(f"{method.upper()} {path}", int(status), code) for code in codes}
+    return found
+
+
+def test_the_document_promises_what_is_provoked_and_nothing_else():
+    assert promised(read_key=READ) == set(PROVOKED)
+    assert promised(read_key=READ, admin_key=ADMIN) == set(PROVOKED)
+    assert promised() == {key for key in PROVOKED if key[1] != 401}
+    assert promised(admin_key=ADMIN) == {key for key in PROVOKED if key[1] != 401 or key[0] in CHANGING}
+
+
+def test_with_an_admin_key_alone_what_changes_indexes_asks_for_it():
+    document = create_app(Settings(admin_key=ADMIN)).openapi()
+    assert set(document["components"]["securitySchemes"]) == {"bearer", "api_key"}
+    assert "security" not in document
+    for path, operations in document["paths"].items():
+        for method, operation in operations.items():
+            assert bool(operation.get("security")) == (f"{method.upper()} {path}" in CHANGING)
+
+
+def test_a_file_that_cannot_be_read_is_a_broken_index(services, monkeypatch, problem):
+    monkeypatch.setattr("index.artifact.sha256", raises(OSError(errno.EIO, "bad disk")))
+    for operation in (ALIAS, VERIFY, SNAPSHOT):
+        problem(ask(services(), operation), 409, "index_broken")

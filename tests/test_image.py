@@ -1,0 +1,170 @@
+"""The image runs as nobody, may write next to nowhere, and ends in time; and the service is content with that."""
+
+import json
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+import yaml
+
+from app.server import CLOSING_S
+from app.settings import Settings
+from tests.app.conftest import wait_until
+
+ROOT = Path(__file__).parent.parent
+COMPOSE = yaml.safe_load((ROOT / "docker/docker-compose.yml").read_text())
+SERVICES = COMPOSE["services"]
+NOBODY = 10_001  # on no machine a user of that number
+TEXT = "I am north of a gray building. A black pole is to my west."
+ANYBODYS = ("/tmp", "/var/tmp", "/dev/shm")
+
+
+def instructions() -> list[tuple[str, str]]:
+    """What the last stage of the Dockerfile does, (instruction, what it is given)."""
+    text = (ROOT / "docker/Dockerfile").read_text().replace("\\\n", " ")
+    lines = [line.split(maxsplit=1) for line in text.splitlines() if line and not line.startswith("#")]
+    last = max(number for number, (name, _) in enumerate(lines) if name == "FROM")
+    return [(name, given) for name, given in lines[last:]]
+
+
+def given(instruction: str) -> str:
+    """What an instruction of the last stage is given the last time."""
+    return [given for name, given in instructions() if name == instruction][-1]
+
+
+def command(text: str) -> list[str]:
+    """A command in its JSON form, for this machine's python."""
+    words: list[str] = json.loads(text[text.index("[") :])
+    return [sys.executable, *words[1:]] if words[0] == "python" else [sys.executable, "-m", "app.cli.main", *words[1:]]
+
+
+def test_the_image_runs_as_a_user_that_is_not_root() -> None:
+    user = given("USER")
+    assert user.partition(":")[0] not in ("root", "0")
+    [made] = [given for name, given in instructions() if name == "RUN" and f" {user} " in f"{given} "]
+    assert "--uid 10001" in made, "a number, by which volumes and clusters know it"
+    order = [name for name, _ in instructions()]
+    assert order.index("USER") > max(number for number, name in enumerate(order) if name in ("RUN", "COPY"))
+
+
+@pytest.mark.parametrize("name", SERVICES)
+def test_a_container_may_do_next_to_nothing(name: str) -> None:
+    service = SERVICES[name]
+    assert service["cap_drop"] == ["ALL"]
+    assert "cap_add" not in service
+    assert not service.get("privileged")
+    assert service["security_opt"] == ["no-new-privileges:true"]
+    assert service["read_only"] is True
+    assert service["tmpfs"] == ["/tmp"]
+    assert "user" not in service, "the image's own"
+
+
+def test_the_service_cannot_write_the_index_and_is_reached_from_this_machine_alone() -> None:
+    api = SERVICES["api"]
+    writable = [volume.split(":")[1] for volume in api["volumes"] if not volume.endswith(":ro")]
+    assert writable == ["/jobs"]
+    assert "index:/data:ro" in api["volumes"]
+    assert api["ports"]
+    assert all(port.startswith("127.0.0.1:") for port in api["ports"])
+    assert not any("ports" in service for name, service in SERVICES.items() if name != "api")
+    assert "/maps:ro" in "".join(SERVICES["index"]["volumes"])
+
+
+def test_a_stop_waits_for_the_longest_request() -> None:
+    grace = SERVICES["api"]["stop_grace_period"]
+    assert grace.endswith("s")
+    assert int(grace[:-1]) > Settings.model_fields["max_deadline_ms"].default / 1000 + CLOSING_S
+    assert given("STOPSIGNAL") == "SIGTERM"
+    assert given("CMD").startswith("["), "through a shell the signal would not reach the service"
+
+
+def test_health_is_asked_for() -> None:
+    assert "/readyz" in given("HEALTHCHECK")
+    assert "healthcheck" not in SERVICES["api"], "the image's own"
+
+
+class Confined:
+    """Runs commands as a user who may read everything and write one directory, with the image's variables."""
+
+    def __init__(self, scratch: Path) -> None:
+        self.scratch = scratch
+        scratch.mkdir()
+        os.chown(scratch, NOBODY, NOBODY)
+        home = scratch.with_name("home")
+        home.mkdir(mode=0o555)
+        image = dict(pair.split("=", 1) for pair in shlex.split(given("ENV")))
+        own = {"TMPDIR": str(scratch), "HOME": str(home), "HEREABOUTS_JOBS_DIR": str(scratch / "jobs")}
+        variables = {name: value.replace("/tmp/", f"{scratch}/") for name, value in image.items() if name != "PATH"}
+        self.environ = variables | own | {"PATH": os.environ["PATH"], "HEREABOUTS_WORKERS": "1"}
+        self.cwd, self.said = home, scratch.with_name("said")
+
+    def start(self, words: list[str], **variables: str) -> "subprocess.Popen[bytes]":
+        """A process; what it says is in `said`."""
+        user = [f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups", "--no-new-privs"]
+        caps = [f"--{kind}-caps=-all,+dac_read_search" for kind in ("inh", "ambient")]
+        # Without the bit access(2), by which options are checked, takes no heed of capabilities.
+        privileges = ["setpriv", *user, *caps, "--securebits=+no_setuid_fixup"]
+        with self.said.open("wb") as said:
+            return subprocess.Popen(
+                [*privileges, *words], env=self.environ | variables, cwd=self.cwd, stdout=said, stderr=said
+            )
+
+    def run(self, words: list[str], **variables: str) -> int:
+        """The exit status of a command."""
+        return self.start(words, **variables).wait(120)
+
+    def lines(self) -> list[dict[str, Any]]:
+        """What a service has logged."""
+        return [json.loads(line) for line in self.said.read_text().splitlines(keepends=True) if line.endswith("\n")]
+
+
+@pytest.fixture
+def confined(tmp_path):
+    if os.geteuid() or shutil.which("setpriv") is None:
+        pytest.skip("takes root and setpriv")
+    confined = Confined(tmp_path / "scratch")
+    if confined.run(["true"]):
+        pytest.skip("setpriv may not set users and capabilities here")
+    assert confined.run(["touch", str(confined.cwd / "file")]), "else this tests nothing"
+    assert confined.run(["touch", str(confined.scratch / "file")]) == 0
+    yield confined
+    left = [entry.path for place in ANYBODYS for entry in os.scandir(place) if entry.stat().st_uid == NOBODY]
+    assert left == []
+
+
+@pytest.mark.slow
+def test_the_service_answers_and_ends_with_one_writable_directory(confined, index_dir, weights_dir) -> None:
+    words = command(given("CMD"))
+    words[words.index("--index") + 1] = str(index_dir)
+    words[words.index("--host") + 1] = "127.0.0.1"
+    words[words.index("--port") + 1] = "0"
+    process = confined.start(words, HEREABOUTS_WEIGHTS_DIR=str(weights_dir))
+    try:
+        wait_until(lambda: any(line["event"] == "page" for line in confined.lines()), 60)
+        [url] = [line["url"] for line in confined.lines() if line["event"] == "page"]
+        health = command(given("HEALTHCHECK").replace("http://127.0.0.1:8000/", url))
+        wait_until(lambda: subprocess.run(health, capture_output=True, check=False).returncode == 0, 60)
+        answer = httpx.post(f"{url}localize", json={"description": TEXT}, timeout=60)
+        assert answer.status_code == 200, answer.text
+        process.terminate()
+        assert process.wait(60) == 0, confined.said.read_text()
+        assert [line for line in confined.lines() if line["level"] != "info"] == []
+    finally:
+        process.kill()
+        process.wait()
+
+
+@pytest.mark.slow
+def test_an_index_is_built_with_one_writable_directory(confined, osm_file, weights_dir) -> None:
+    out = confined.scratch / "index"
+    words = ["hereabouts", *SERVICES["index"]["command"][1:]]
+    words[words.index("--map") + 1], words[words.index("--out") + 1] = str(osm_file), str(out)
+    done = confined.run(command(json.dumps(words)), HEREABOUTS_WEIGHTS_DIR=str(weights_dir))
+    assert done == 0, confined.said.read_text()
+    assert (out / "aliases.json").is_file()
