@@ -14,7 +14,7 @@ from models.language.recent_features import RecentFeatures
 from models.language.spelling import Spelling
 from models.language.text_encoder import OnTextEncoder, TextEncoder
 
-MOST_KEPT = 20_000  # phrases; 30 MB
+MOST_KEPT = 4096  # phrases, the names of labels among them; 6 MB
 READ_AT_ONCE = 64  # names, of like length, so that little is padding
 
 _log = logging.getLogger(__name__)

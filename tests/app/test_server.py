@@ -21,6 +21,7 @@ from app.main import create_app
 from app.server import DrainingServer, page_url, serve
 from app.settings import Settings
 
+IN_FLIGHT = 64  # requests when a signal comes
 SCRIPT = Path(__file__).parent / "serve_fake.py"
 
 pytestmark = pytest.mark.slow  # processes of their own
@@ -35,7 +36,8 @@ class Served:
             self.port = free.getsockname()[1]
         self.url = f"http://127.0.0.1:{self.port}"
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "stdin": subprocess.PIPE, "text": True}
-        environ = os.environ | {"TMPDIR": str(scratch)}  # a service that is killed leaves its files there
+        environ = os.environ | {"HEREABOUTS_MAX_WAIT_MS": "60000"}  # what is held makes the wait seem long
+        environ |= {"TMPDIR": str(scratch)}  # a service that is killed leaves its files there
         self.process = subprocess.Popen([sys.executable, SCRIPT, str(self.port)], env=environ, **pipes)
 
     def is_ready(self):
@@ -84,14 +86,13 @@ def served(until, tmp_path):
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT], ids=lambda number: number.name)
 def test_a_signal_finishes_what_waits_and_exits_with_0(served, problem, until, number):
-    answers = []
-    threads = [
-        threading.Thread(target=lambda word=word: answers.append(served.localize(word))) for word in ("held", "queued")
-    ]
+    answers, words = [], ["held", *["queued"] * (IN_FLIGHT - 1)]
+    threads = [threading.Thread(target=lambda word=word: answers.append(served.localize(word))) for word in words]
     threads[0].start()
     assert served.process.stdout.readline() == "held\n"
-    threads[1].start()
-    until(lambda: served.waiting() == 1)
+    for thread in threads[1:]:
+        thread.start()
+    until(lambda: served.waiting() == IN_FLIGHT - 1)
     served.process.send_signal(number)
     until(lambda: httpx.get(f"{served.url}/readyz").status_code == 503)
     problem(httpx.get(f"{served.url}/readyz"), 503, "draining")
@@ -99,10 +100,10 @@ def test_a_signal_finishes_what_waits_and_exits_with_0(served, problem, until, n
     served.release()
     for thread in threads:
         thread.join(10)
-    assert [answer.status_code for answer in answers] == [200, 200]
+    assert [answer.status_code for answer in answers] == [200] * IN_FLIGHT
     code, computed, lines = served.outcome()
     assert code == 0
-    assert computed == ["queued"]
+    assert computed == words[1:]
     requests = [line for line in lines if line["event"] == "request"]
     assert {line["route"] for line in requests} == {"/readyz", "/localize", "/waiting"}
     assert all(line["level"] == "info" and line["timestamp"] for line in requests)

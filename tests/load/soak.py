@@ -1,7 +1,8 @@
 """Whether the service's memory grows: run by `make soak`, which says how many requests.
 
-Starts the service, asks it descriptions, half of them never said before, and prints the memory of all of its processes
-(PSS: what they share is counted once) as it goes. Ends with 1 if it grew by more than allowed in the last half.
+Starts the service and asks it as users do: descriptions, half of them never said before, and the other things that it
+answers, bad requests among them. Prints the memory of all of its processes (PSS: what they share is counted once) as it
+goes. Ends with 1 if it grew by more than allowed in the last half.
 """
 
 import argparse
@@ -18,7 +19,8 @@ import httpx
 from service import started, text
 
 ALLOWED_MIB = 1.0  # in 10,000 requests
-STOPS, CLIENTS, SHARE_NEW = 20, 4, 0.5
+STOPS, CLIENTS = 20, 4
+SHARE_SAID, SHARE_NEW = 0.4, 0.5  # of descriptions among the requests, of new ones among these
 
 
 def main() -> int:
@@ -45,8 +47,25 @@ def ask(url: str, count: int, seed: str) -> Counter[int]:
     """Ask a number of descriptions, one after another; how often each status came."""
     rng = random.Random(seed)
     with httpx.Client(base_url=url, timeout=60) as client:
-        asked = (client.post("/localize", json={"description": text(rng, SHARE_NEW)}) for _ in range(count))
-        return Counter(response.status_code for response in asked)
+        return Counter(request(client, rng).status_code for _ in range(count))
+
+
+def request(client: httpx.Client, rng: random.Random) -> httpx.Response:
+    """One request at random."""
+    if rng.random() < SHARE_SAID:
+        return client.post("/localize", json={"description": text(rng, SHARE_NEW)})
+    kind = rng.randrange(8)
+    if kind == 0:
+        return client.post("/describe", json={"position": [rng.uniform(-400, 400), rng.uniform(-400, 400)]})
+    if kind == 1:
+        return client.get("/cells", params={"offset": rng.randrange(5000), "limit": 5})
+    if kind == 2:
+        return client.get(f"/cells/{rng.randrange(10**9)}")
+    if kind == 3:
+        return client.post("/localize", json={"description": " ", rng.choice("abcdefgh") * 3: 1})
+    if kind == 4:
+        return client.post("/localize", content=rng.randbytes(200), headers={"Content-Type": "application/json"})
+    return client.get(("/info", "/metrics", "/")[kind - 5])
 
 
 def memory_mib(pid: int) -> float:

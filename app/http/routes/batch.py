@@ -17,6 +17,7 @@ from app.http.routes.localize import check_reach, found_for
 from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest, request_model
 from app.http.schemas.responses import LocalizeResponse
 from app.settings import Settings
+from index.artifact import DEFAULT
 from models.errors import HereaboutsError
 
 PATH = "/localize/batch"
@@ -73,7 +74,8 @@ def build_router(settings: Settings) -> APIRouter:
     ) -> BatchResponse:
         """Where the speakers of several descriptions are; an item that cannot be answered has an error instead."""
         asked: BatchRequest = body
-        indexes.check_accepting()
+        if indexes.is_draining or all(item.get("index", DEFAULT) == DEFAULT for item in asked.items):
+            indexes.check_accepting()
         turn = asyncio.Semaphore(AT_ONCE)
 
         async def answer(item: dict[str, Any]) -> BatchItem:

@@ -13,7 +13,7 @@ SAMPLED_M = 6.0  # between samples of lines
 MARGIN_M = 300.0  # round the cells, in which objects count too
 LARGE_M = 20.0  # areas that reach farther have samples inside
 LATTICE_M = 9.0  # between these
-KEPT = 512
+KEPT_BYTES = 16 * 2**20  # of distances that were asked for lately
 
 
 class Raster:
@@ -47,7 +47,7 @@ class Raster:
         if found is None:
             pixels = self._pixel[ranges(self._starts[objects], self._starts[objects + 1])]
             found = self._lately[key] = self._metres(pixels)
-            while len(self._lately) > KEPT:
+            while len(self._lately) * found.nbytes > max(KEPT_BYTES, found.nbytes):
                 self._lately.popitem(last=False)
         return found
 

@@ -1,6 +1,12 @@
 from threading import Thread
 
 import pytest
+from fake_localizer import FakeLocalizer
+from fastapi.testclient import TestClient
+
+from app.main import create_app
+from app.settings import Settings
+from models.errors import IndexBroken
 
 TEXT = "I am north of a gray building. A black pole is to my west."
 
@@ -63,3 +69,21 @@ def test_a_full_batch_does_not_crowd_the_queue(api, fake, until):
     fake.gate.set()
     thread.join(20)
     assert all(one["result"] for one in answers[0].json()["items"])
+
+
+def test_items_of_an_index_that_answers_do_not_wait_for_one_that_cannot(monkeypatch, until, problem):
+    def open_workers(_settings, alias, _version):
+        if alias == "default":
+            raise IndexBroken("cut short")
+        return [FakeLocalizer()]
+
+    monkeypatch.setattr("app.main._open_workers", open_workers)
+    monkeypatch.setattr("app.main._aliases", lambda _dir: {"default": "v1", "berlin": "v2"})
+    here, there = {"description": TEXT}, {"description": TEXT, "index": "berlin"}
+    with TestClient(create_app(Settings())) as api:
+        until(lambda: api.post("/localize", json=there).status_code == 200)
+        until(lambda: api.get("/readyz").json()["code"] == "load_failed")
+        problem(api.post("/localize/batch", json={"items": [here]}), 503, "load_failed")
+        found = api.post("/localize/batch", json={"items": [here, there]}).json()["items"]
+    assert found[0]["error"]["code"] == "load_failed"
+    assert found[1]["result"]["status"] == "ok"

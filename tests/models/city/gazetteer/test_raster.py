@@ -79,7 +79,7 @@ def test_a_map_where_nothing_is_named() -> None:
 
 
 def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
-    monkeypatch.setattr("models.city.gazetteer.raster.KEPT", 2)
+    monkeypatch.setattr("models.city.gazetteer.raster.KEPT_BYTES", 2 * 4 * len(CENTERS))
     raster = Raster(town, CENTERS, GRID_M)
     first = [raster.metres_to(np.array([n])).copy() for n in range(5)]
     assert all((raster.metres_to(np.array([n])) == was).all() for n, was in enumerate(first))
