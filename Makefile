@@ -54,10 +54,10 @@ fuzz: install  ## the contract and raw mutations, for much longer than the suite
 	FUZZ_EXAMPLES=2000 FUZZ_MUTATIONS=10000 $(PYTEST) tests/app/http/test_contract.py tests/app/http/test_mutations.py
 
 load: install  ## what the service bears on this machine, which has to be idle: clients, arrivals, three times too much
-	$(BIN)/python tests/load/load.py --index $(INDEX)
+	$(BIN)/python -m tests.load.load --index $(INDEX)
 
 soak: install  ## whether memory grows in 100,000 requests
-	$(BIN)/python tests/load/soak.py --index $(INDEX)
+	$(BIN)/python -m tests.load.soak --index $(INDEX)
 
 chaos: install  ## KILLS kills of builds and of the service at random moments: nothing acknowledged may be lost
 	$(BIN)/python -m tests.load.chaos --kills $(KILLS)

@@ -7,7 +7,6 @@ import os
 import select
 import shutil
 import signal
-import statistics
 import tarfile
 import threading
 import time
@@ -21,6 +20,7 @@ from index.artifact import ALIASES, MANIFEST, Aliases, open_version, read_aliase
 from index.snapshot import SNAPSHOTS
 from models.files import BUILDING, replace_file, sha256
 
+SHORTER, LONGER = 0.95, 1.05
 VERSIONS, JOBS = 6, 3  # that are there at once, or checking would take longer and longer
 
 
@@ -122,7 +122,7 @@ class Operation:
     def __init__(self, place):
         self.place = place
         self.count = 0
-        self.lengths_s = []  # when it was acknowledged
+        self.takes_s = 0.0  # as measured, then a little less after a kill that came too late, or more
 
     def prepare(self):
         self.count += 1
@@ -136,9 +136,10 @@ class Operation:
             share: of the time that it takes, after which it is killed; None: it is not.
         """
         started_s = time.monotonic()
-        acknowledged = self.place.post(*self.request(), share and share * statistics.median(self.lengths_s))
-        if acknowledged:
-            self.lengths_s.append(time.monotonic() - started_s)
+        acknowledged = self.place.post(*self.request(), share and share * self.takes_s)
+        if share is None:
+            self.takes_s = time.monotonic() - started_s
+        self.takes_s *= SHORTER if acknowledged else LONGER
         return acknowledged
 
 
@@ -147,22 +148,21 @@ class Build(Operation):
 
     def __init__(self, place):
         super().__init__(place)
-        self.writing_s = []
+        self.writes_s = 0.0
 
     def do(self, share=None):
         """Whether it was acknowledged, by exit status 0; then there is nothing left to kill."""
         started_s = time.monotonic()
         pid = self.place.mould.build(self.place.root)
-        lengths_s = self.lengths_s
+        length_s = self.takes_s
         if share is None or self.count % 2:
             self._wait_until_it_writes(pid)
-            lengths_s, writes_s = self.writing_s, time.monotonic()
-        with killing(pid, share and share * statistics.median(lengths_s)):
+            length_s, begun_s = self.writes_s, time.monotonic()
+        with killing(pid, share and share * length_s):
             status, said = self.place.mould.wait(pid)
         assert status in (0, -signal.SIGKILL), said
         if share is None:
-            self.lengths_s.append(time.monotonic() - started_s)
-            self.writing_s.append(time.monotonic() - writes_s)
+            self.takes_s, self.writes_s = time.monotonic() - started_s, time.monotonic() - begun_s
         return status == 0
 
     def _wait_until_it_writes(self, pid):

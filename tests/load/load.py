@@ -22,7 +22,7 @@ from statistics import quantiles
 from typing import Any
 
 import httpx
-from service import started, text
+from tests.load.service import started, text
 
 BUSY = "while True: pass"
 MANY = 32

@@ -16,7 +16,7 @@ from functools import partial
 from pathlib import Path
 
 import httpx
-from service import started, text
+from tests.load.service import started, text
 
 ALLOWED_MIB = 1.0  # in 10,000 requests
 STOPS, CLIENTS = 20, 4
