@@ -22,6 +22,7 @@ from statistics import quantiles
 from typing import Any
 
 import httpx
+
 from tests.load.service import started, text
 
 BUSY = "while True: pass"
@@ -66,6 +67,12 @@ class Load:
         self._rng = random.Random("load 1")
         limits = httpx.Limits(max_connections=None, max_keepalive_connections=None)
         self._client = httpx.AsyncClient(base_url=url, timeout=60, limits=limits)
+
+    async def __aenter__(self) -> "Load":
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self._client.aclose()
 
     async def clients(self, count: int, seconds: float) -> Figures:
         """So many clients, each asking again as soon as it is answered."""
@@ -127,9 +134,9 @@ def health_ms(url: str, stop: Any) -> list[float]:
     return found
 
 
-async def measure(url: str, seconds: float) -> bool:
+async def measure(load: Load, url: str, seconds: float) -> bool:
     """All of it; whether every bound is kept."""
-    load, kept = Load(url), True
+    kept = True
 
     def note(name: str, figures: Figures, bounds: dict[str, bool], **more: float) -> None:
         nonlocal kept
@@ -174,7 +181,13 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=600, help="at 0.7 of the knee")
     asked = parser.parse_args()
     with started(asked.index) as (_, url):
-        return int(not asyncio.run(measure(url, asked.seconds)))
+        return int(not asyncio.run(measured(url, asked.seconds)))
+
+
+async def measured(url: str, seconds: float) -> bool:
+    """As `measure`, of a service."""
+    async with Load(url) as load:
+        return await measure(load, url, seconds)
 
 
 if __name__ == "__main__":
