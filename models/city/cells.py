@@ -18,7 +18,8 @@ from scipy.spatial import cKDTree
 from models.city.point_sample import Sampler, sample_points, samples
 from models.city.points import Ints, PointTable, ranges
 from models.city.processes import map_forked
-from models.city.types import CutRules, Floats
+from models.city.types import CityMap, CutRules, Floats
+from models.errors import MapError
 
 CHUNK = 128  # cubes a task
 
@@ -103,6 +104,39 @@ class CellTable:
         )
 
 
+def cut_cells(
+    city_map: CityMap, points: PointTable | None = None, progress: Callable[[int, int], None] | None = None
+) -> CellTable:
+    """Cut a map into overlapping cells on a grid over its locations (docs/formats.md, rule 4).
+
+    Args:
+        city_map: the map.
+        points: its point table, if already made.
+        progress: called with (cells cut, cells to cut).
+
+    Raises:
+        MapError: no cell has enough instances.
+    """
+    rules = city_map.rules
+    points = points or PointTable.of(city_map, rules.eps_m)
+    centers = grid_centers(city_map.locations_m, rules)
+    parts = cut_cubes(points, centers, rules, progress)
+    kept = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)
+    if not len(kept):
+        raise MapError(
+            f"map '{city_map.name}': none of {len(centers)} cells has {rules.min_instances} instances, "
+            "too few to tell places apart; take a larger or richer map"
+        )
+    return CellTable(
+        ids=tuple(f"{city_map.name}_{n:05d}" for n in range(len(kept))),
+        scenes=(city_map.name,) * len(kept),
+        center_m=centers[kept],
+        size_m=rules.cell_size_m,
+        parts=parts.take(kept),
+        sample=partial(_sample_cubes, points, rules, centers[kept]),
+    )
+
+
 def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
     """[N, 3] float64 centres of the grid within reach of a location, at that location's height."""
     low = np.floor(locations_m[:, :2].min(axis=0) / rules.grid_m).astype(int)
@@ -141,7 +175,7 @@ def cut_cubes(
     return Parts(np.concatenate([[0], np.cumsum(sizes)]), *columns)
 
 
-def sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
+def _sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
     """[R, 256, 6] points of the parts of some cubes, in order of `Parts`."""
     members = [rows for center in centers_m[cubes].astype(np.float64) for rows in _cut_cube(points, center, rules)]
     return samples([sample_points(points.xyz[rows], points.colours(rows)) for rows in members])

@@ -1,7 +1,6 @@
 """What is known of cells beside their vectors: where they are, what is in them, and what map they are of."""
 
 import json
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import load_file, save_file
-from scipy.spatial import cKDTree
 
 from models.city.cells import CellTable, Parts
 from models.city.colours import Palette
@@ -19,7 +17,6 @@ from models.city.points import Ints
 from models.city.types import CityMap, Floats
 from models.errors import IndexBroken
 
-Finder = Callable[[Floats], tuple[Floats, int]]  # position [2] -> way [2] to the nearest instance, and which it is
 CELLS_FILE = "cells.safetensors"
 NAMES_FILE = "cells.json"
 
@@ -110,15 +107,15 @@ class MapData:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Clouds:
-    """The instances of a scan (or of several scenes) with all their points.
+class Bodies:
+    """The instances of a map (or of several scenes) with all their points.
 
     Attributes:
         xyz: [P, 3] float32 metres, ordered by instance.
         starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
         is_thing: [I] bool, True for what is mentioned only where a share of it is near (`thing_share`).
         scene: [I] number of the scene of each.
-        of_part: [R] instance of each row of the cells' parts.
+        part_instance: [R] instance of each row of the cells' parts.
         thing_share: see `CutRules`.
         min_part_points: see `CutRules`.
     """
@@ -127,22 +124,6 @@ class Clouds:
     starts: Ints
     is_thing: npt.NDArray[np.bool_]
     scene: Ints
-    of_part: Ints
+    part_instance: Ints
     thing_share: float
     min_part_points: int
-
-    def part_instance(self, _cells: CellTable) -> Ints:
-        """[R] instance of each row of the cells' parts."""
-        return self.of_part
-
-    def finder(self, instances: Sequence[int]) -> Finder:
-        """What tells which of some instances is nearest to a position."""
-        spans = [slice(int(self.starts[n]), int(self.starts[n + 1])) for n in instances]
-        tree = cKDTree(np.concatenate([self.xyz[span, :2] for span in spans]).astype(np.float64))
-        owner = np.repeat(instances, [span.stop - span.start for span in spans])
-
-        def find(position: Floats) -> tuple[Floats, int]:
-            row = int(tree.query(position)[1])
-            return tree.data[row] - position, int(owner[row])
-
-        return find

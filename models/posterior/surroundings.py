@@ -5,7 +5,6 @@ within 15 m, the way from the instance's closest point, whether or not the insta
 of things that a cell has cut off. Of an instance that is in several pieces around it, a node knows each.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
 
@@ -15,21 +14,21 @@ from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 from scipy.spatial import cKDTree
 
-from models.city.bodies import PieceBodies
 from models.city.cells import CellTable
-from models.city.gallery import Clouds
+from models.city.gallery import Bodies
 from models.city.hints import BEST_CELL_REACH_M, HINT_REACH_M
 from models.city.points import Ints, ranges
 from models.city.processes import map_forked
 from models.city.types import Floats, Progress
 from models.errors import IndexBroken
-from models.posterior.piece_ways import PieceWays, Rows
-from models.posterior.scan_ways import ScanWays
+from models.posterior.pieces import PieceFinder, Tiles
 
 SPACING_M = 1.5
 STEP_M = HINT_REACH_M / 127  # of the stored ways
 FILE = "surroundings.safetensors"
-CHUNK = 64  # instances or cells a task
+CHUNK = 64  # instances a task
+PIECE = 0.6  # a piece has at least this share of the points that a part has; cubes of nodes and of cells differ
+LARGE_M = 8.0  # things no larger than this are counted as whole wherever they are near
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +42,7 @@ class Surroundings:
         part: [R] int32, row of the cells' parts; that of the owner's cell if it has one of the instance, or of the
             piece where the instance is in several.
         way: [R, 2] int8, node minus the instance's (or piece's) closest point (east, north), in steps of STEP_M.
-        whole: [R] bool, False for a thing of which less than Clouds.thing_share is in the cube around the node.
+        whole: [R] bool, False for a thing of which less than Bodies.thing_share is in the cube around the node.
     """
 
     cell_starts: Ints
@@ -56,7 +55,7 @@ class Surroundings:
     @classmethod
     def of(
         cls,
-        bodies: Clouds | PieceBodies,
+        bodies: Bodies,
         cells: CellTable,
         progress: Progress | None = None,
     ) -> "Surroundings":
@@ -69,21 +68,16 @@ class Surroundings:
         """
         scene = np.unique(cells.scenes, return_inverse=True)[1]
         nodes, owner = _grid(cells, scene)
-        work: Callable[[Ints], Rows]
-        if isinstance(bodies, PieceBodies):
-            work, tasks = PieceWays(bodies, cells, nodes, owner).measure, len(cells)
-        else:
-            work, tasks = ScanWays.of(bodies, cells, nodes, owner, scene).measure, len(bodies.scene)
-        chunks = [np.arange(i, min(i + CHUNK, tasks)) for i in range(0, tasks, CHUNK)]
+        work = _Measuring.of(bodies, cells, nodes, owner, scene).measure
+        chunks = [np.arange(i, min(i + CHUNK, len(bodies.scene))) for i in range(0, len(bodies.scene), CHUNK)]
         found, done = [], 0
         for measured in map_forked(work, chunks):
             found.append(measured)
             done += CHUNK
             if progress:
-                progress("measure surroundings", min(done, tasks), tasks)
-        node, instance, way_m, whole, piece = (np.concatenate(column) for column in zip(*found, strict=True))
-        way = np.round(way_m / STEP_M).astype(np.int8)
-        part = np.where(piece >= 0, piece, _parts_of(cells, bodies.part_instance(cells), owner[node], instance))
+                progress("measure surroundings", min(done, len(bodies.scene)), len(bodies.scene))
+        node, instance, way, whole, piece = (np.concatenate(column) for column in zip(*found, strict=True))
+        part = np.where(piece >= 0, piece, _parts_of(cells, bodies.part_instance, owner[node], instance))
         known = part >= 0
         node, part, way, whole = node[known], part[known], way[known], whole[known]
         # nearest first
@@ -142,6 +136,11 @@ class Surroundings:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
 
+def _of(values: Ints, wanted: int) -> Ints:
+    rows: Ints = np.flatnonzero(values == wanted)
+    return rows
+
+
 def _grid(cells: CellTable, scene: Ints) -> tuple[Floats, Ints]:
     """Nodes [M, 2] within 15 m of a centre, and the cell [M] that owns each, in order of owner."""
     nodes, owners = [], []
@@ -161,6 +160,89 @@ def _grid(cells: CellTable, scene: Ints) -> tuple[Floats, Ints]:
     owner = np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
     return np.concatenate(nodes)[order], owner[order]
+
+
+Rows = tuple[Ints, Ints, npt.NDArray[np.int8], npt.NDArray[np.bool_], Ints]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Measuring:
+    """Bodies and nodes, ready to be measured some instances at a time."""
+
+    bodies: Bodies
+    cells: CellTable
+    nodes_m: Floats  # [M, 3], at the height of their owners
+    trees: dict[int, tuple[Ints, cKDTree]]  # of each scene, its nodes
+    tiles: Tiles
+    shown: Ints  # rows of the cells' parts, by instance
+    shown_starts: Ints
+
+    @classmethod
+    def of(cls, bodies: Bodies, cells: CellTable, nodes: Floats, owner: Ints, scene: Ints) -> "_Measuring":
+        """To measure nodes [M, 2] that are owned by some cells [M], which are in some scenes [N]."""
+        trees = {int(s): (rows, cKDTree(nodes[rows])) for s in np.unique(scene) if len(rows := _of(scene[owner], s))}
+        shown = np.argsort(bodies.part_instance, kind="stable")
+        starts = np.searchsorted(bodies.part_instance[shown], np.arange(len(bodies.scene) + 1))
+        at = np.column_stack([nodes, cells.center_m[owner, 2]])
+        return cls(bodies, cells, at, trees, Tiles.of(nodes, owner, cells), shown, starts)
+
+    def measure(self, instances: Ints) -> Rows:
+        """(node, instance, way, whole, part or -1) of the nodes around some instances."""
+        empty = np.zeros(0, np.int64)
+        found: list[Rows] = [(empty, empty, np.zeros((0, 2), np.int8), np.zeros(0, np.bool_), empty)]
+        for i in instances.tolist():
+            shown = self.shown[self.shown_starts[i] : self.shown_starts[i + 1]]
+            xyz = self.bodies.xyz[self.bodies.starts[i] : self.bodies.starts[i + 1]].astype(np.float64)
+            if not len(xyz) or not len(shown) or int(self.bodies.scene[i]) not in self.trees:
+                continue
+            near, way = self._near(i, xyz)
+            whole, part = np.ones(len(near), np.bool_), np.full(len(near), -1)
+            if len(near) and np.ptp(xyz[:, :2], axis=0).max() > LARGE_M:
+                if self.bodies.is_thing[i]:
+                    whole = self._is_near(near, xyz)
+                else:
+                    near, way, part = self._apart(near, way, xyz, shown)
+                    whole = np.ones(len(near), np.bool_)
+            found.append((near, np.full(len(near), i), np.round(way / STEP_M).astype(np.int8), whole, part))
+        node, instance, ways, wholes, parts = (np.concatenate(column) for column in zip(*found, strict=True))
+        return node, instance, ways, wholes, parts
+
+    def _near(self, i: int, xyz: Floats) -> tuple[Ints, Floats]:
+        """[K] nodes in reach of an instance with points xyz [P, 3], and [K, 2] the way to each."""
+        rows, tree = self.trees[int(self.bodies.scene[i])]
+        low, high = xyz[:, :2].min(axis=0), xyz[:, :2].max(axis=0)
+        reach = np.linalg.norm(high - low) / 2 + HINT_REACH_M
+        near = rows[np.sort(np.array(tree.query_ball_point((low + high) / 2, reach), dtype=np.int64))]
+        if not len(near):
+            return near, np.zeros((0, 2))
+        bound = 2 * HINT_REACH_M
+        distance, closest = cKDTree(xyz, balanced_tree=False).query(self.nodes_m[near], distance_upper_bound=bound)
+        within = np.isfinite(distance)
+        way = self.nodes_m[near[within], :2] - xyz[closest[within], :2]
+        kept = np.hypot(*way.T) <= HINT_REACH_M
+        return near[within][kept], way[kept]
+
+    def _is_near(self, near: Ints, xyz: Floats) -> npt.NDArray[np.bool_]:
+        """[K] whether enough of a thing is in the cube around each of some nodes."""
+        half_m = self.cells.size_m / 2
+        plane = cKDTree(xyz[:, :2], balanced_tree=False)
+        inside = plane.query_ball_point(self.nodes_m[near, :2], half_m, p=np.inf, return_length=True)
+        found: npt.NDArray[np.bool_] = inside >= self.bodies.thing_share * len(xyz)
+        return found
+
+    def _apart(self, near: Ints, way: Floats, xyz: Floats, shown: Ints) -> tuple[Ints, Floats, Ints]:
+        """(node, way, part or -1) of stuff: of each piece where there are several around a node."""
+        finder = PieceFinder(xyz, shown, self.cells, PIECE * self.bodies.min_part_points)
+        pieces = finder.around(self.nodes_m[near], self.tiles.of_node[near], self.tiles)
+        reached = np.hypot(*pieces.way.T) <= HINT_REACH_M
+        node, part = near[pieces.node[reached]], pieces.part[reached]
+        single = np.ones(len(near), np.bool_)
+        single[pieces.node[reached]] = False
+        return (
+            np.concatenate([near[single], node]),
+            np.concatenate([way[single], pieces.way[reached]]),
+            np.concatenate([np.full(single.sum(), -1), part]),
+        )
 
 
 def _parts_of(cells: CellTable, part_instance: Ints, owner: Ints, instance: Ints) -> Ints:

@@ -67,8 +67,8 @@ def test_positions_are_found_again_without_names_too(localizer, nameless, positi
     assert (np.array(errors) <= 10).mean() >= 0.95
 
 
-def test_what_is_said_is_true(localizer, scan, positions):
-    points = {i.source_id: i.points_m[:, :2] for i in scan.instances}
+def test_what_is_said_is_true(localizer, city, positions):
+    points = {i.source_id: i.points_m[:, :2] for i in city.instances}
     checked = 0
     for x, y in positions.tolist():
         for fact in localizer.describe((x, y)).hints:

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.bodies import bodies_of, cut_cells
+from models.city.cells import cut_cells
+from models.city.points import PointTable
 from models.city.source import MapSource
 from models.city.types import CityMap, CutRules, Instance
 from models.posterior.surroundings import STEP_M, Surroundings
@@ -32,15 +33,15 @@ def street(*pieces: tuple[np.ndarray, np.ndarray]) -> tuple[CityMap, MapSource]:
     rules = CutRules(min_instances=1)
     at = np.array([[x, 0.0, 0.0] for x in np.arange(-30, 31, 5)])
     city = CityMap("street", instances, frozenset({"sidewalk"}), at, rules=rules)
-    bodies = bodies_of(city)
-    return city, MapSource(Path("street"), city, bodies, cut_cells(city, bodies))
+    points = PointTable.of(city, rules.eps_m)
+    return city, MapSource(Path("street"), city, points, cut_cells(city, points))
 
 
 def rows_at(around: Surroundings, source: MapSource, x: float, y: float) -> np.ndarray:
     """Rows of the sidewalk at the node nearest to a position."""
     node = ((around.nodes_m - [x, y]) ** 2).sum(axis=1).argmin()
     rows = np.arange(around.starts[node], around.starts[node + 1])
-    is_sidewalk = source.bodies().of_part[around.part[rows]] == 0
+    is_sidewalk = source.bodies().part_instance[around.part[rows]] == 0
     found: np.ndarray = rows[is_sidewalk]
     return found
 

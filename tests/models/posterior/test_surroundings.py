@@ -1,19 +1,9 @@
 import numpy as np
 import pytest
 
-from models.city.bodies import bodies_of, cut_cells
-from models.city.source import MapSource, open_source
+from models.city.source import open_source
 from models.errors import IndexBroken
 from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
-
-
-@pytest.fixture(scope="module")
-def scanned(osm_file, scan, cells):
-    """The town's cells, and what lies around them, from points."""
-    bodies = bodies_of(scan)
-    cells = cut_cells(scan, bodies)
-    clouds = MapSource(osm_file, scan, bodies, cells).bodies()
-    return cells, clouds, Surroundings.of(clouds, cells)
 
 
 @pytest.fixture(scope="module")
@@ -31,32 +21,32 @@ def test_every_node_belongs_to_its_nearest_cell(around, cells) -> None:
     assert len(np.unique(np.round(s.nodes_m / SPACING_M), axis=0)) == len(s.nodes_m)
 
 
-def test_ways_are_those_of_a_naive_search(scanned, scan) -> None:
-    cells, bodies, s = scanned
+def test_ways_are_those_of_a_naive_search(around, cells, city) -> None:
+    bodies, s = around
     owner = np.repeat(np.arange(len(cells)), np.diff(s.cell_starts))
-    shown = set(bodies.of_part.tolist())
+    shown = set(bodies.part_instance.tolist())
     for node in np.random.default_rng(0).choice(len(s.nodes_m), 12, replace=False):
         at = np.array([*s.nodes_m[node], cells.center_m[owner[node], 2]])
         naive = {}
-        for i in range(len(scan.instances)):
+        for i in range(len(city.instances)):
             xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]]
             distance = np.linalg.norm(xyz - at, axis=1)
             way = at[:2] - xyz[distance.argmin(), :2]
             if i in shown and np.hypot(*way) <= 15.0 and distance.min() <= 30.0:
                 inside = (np.abs(xyz[:, :2] - at[:2]) <= cells.size_m / 2).all(axis=1).sum()
                 large = np.ptp(xyz[:, :2], axis=0).max() > 8.0
-                whole = not (bodies.is_thing[i] and large) or inside >= scan.rules.thing_share * len(xyz)
+                whole = not (bodies.is_thing[i] and large) or inside >= city.rules.thing_share * len(xyz)
                 naive[i] = np.hypot(*way), whole
         rows = slice(s.starts[node], s.starts[node + 1])
-        instances = bodies.of_part[s.part[rows]].tolist()
+        instances = bodies.part_instance[s.part[rows]].tolist()
         assert sorted(instances) == sorted(naive)
         for i, way, whole in zip(instances, s.way[rows], s.whole[rows], strict=True):
             assert np.hypot(*(way * STEP_M)) == pytest.approx(naive[i][0], abs=STEP_M)
             assert whole == naive[i][1]
 
 
-def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(scanned) -> None:
-    cells, bodies, s = scanned
+def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(around, cells) -> None:
+    bodies, s = around
     owner = np.repeat(np.arange(len(cells)), np.diff(s.cell_starts))
     cube = cells.parts.cube
     for node in np.random.default_rng(1).choice(len(s.nodes_m), 20, replace=False):
@@ -64,9 +54,9 @@ def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(scanned) -
         radius = (s.way[rows].astype(int) ** 2).sum(axis=1)
         key = list(zip((~s.whole[rows]).tolist(), radius.tolist(), strict=True))
         assert key == sorted(key)
-        in_owner = set(bodies.of_part[cube == owner[node]].tolist())
+        in_owner = set(bodies.part_instance[cube == owner[node]].tolist())
         for part in s.part[rows]:
-            assert cube[part] == owner[node] or bodies.of_part[part] not in in_owner
+            assert cube[part] == owner[node] or bodies.part_instance[part] not in in_owner
 
 
 def test_taking_cells_keeps_their_nodes(around, cells) -> None:
@@ -101,7 +91,7 @@ def test_a_data_set_has_the_points_that_its_cells_show(streets) -> None:
     source = open_source(streets, "train")
     cells, bodies = source.data.cells, source.bodies()
     for part in range(0, len(cells.parts.instance), 17):
-        i = bodies.of_part[part]
+        i = bodies.part_instance[part]
         xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]]
         gap = np.linalg.norm(xyz - cells.parts.closest_m[part], axis=1).min()
         assert gap < 0.4, "one point a voxel of 0.2 m is kept"
