@@ -82,4 +82,5 @@ def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
     monkeypatch.setattr("models.city.gazetteer.raster.KEPT_BYTES", 2 * 4 * len(CENTERS))
     raster = Raster(town, CENTERS, GRID_M)
     first = [raster.metres_to(np.array([n])).copy() for n in range(5)]
+    assert len(raster._lately) == 2, "no more than was allowed"
     assert all((raster.metres_to(np.array([n])) == was).all() for n, was in enumerate(first))
