@@ -47,7 +47,6 @@ class Settings(BaseSettings):
     max_wait_ms: PositiveInt = Field(
         1500, description="that a request may be expected to wait for the model; one that would wait longer gets 429"
     )
-    max_batch: PositiveInt = Field(8, description="requests that a worker computes at once")
     workers: PositiveInt | None = Field(None, description="processes that hold the model; None: as many as CPUs")
     deadline_ms: PositiveInt = Field(10_000, description="of a request that names none")
     max_deadline_ms: PositiveInt = 60_000

@@ -183,7 +183,7 @@ class Indexes:
     def _begin(self, alias: str, version: str | None) -> _Served:
         limits = self._settings
         opener = partial(self._open_index, alias, version)
-        queue = InferenceQueue(opener, limits.max_queue, limits.max_batch, limits.max_wait_ms / 1000)
+        queue = InferenceQueue(opener, limits.max_queue, limits.max_wait_ms / 1000)
         queue.start()
         if self._is_draining:
             queue.drain()

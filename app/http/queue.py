@@ -1,4 +1,4 @@
-"""A bounded queue before the workers that hold the model, and small batches of whatever waits."""
+"""A bounded queue before the workers that hold the model."""
 
 import asyncio
 import math
@@ -21,7 +21,7 @@ from models.errors import HereaboutsError
 REFUSED_S = 0.2  # before a refusal is said: clients that ask again at once would else take the time of those answered
 FIRST_S = 0.05  # that a query is thought to take before one was answered
 UNAVAILABLE: Final = (Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED)  # why a query is not taken
-LEARNING, SLOWER = 0.1, 4.0  # weight of the last batch; what is so much slower than usual is an exception
+LEARNING, SLOWER = 0.1, 4.0  # weight of the last query; what is so much slower than usual is an exception
 
 log = structlog.get_logger()
 
@@ -42,11 +42,9 @@ class _Job:
     result: Future[Served] = field(default_factory=Future)
 
     def begins(self) -> bool:
-        """Whether to compute it; after True it can no longer be cancelled."""
-        return self.result.set_running_or_notify_cancel() and self.is_in_time()
-
-    def is_in_time(self) -> bool:
-        """Whether the deadline is ahead; else the job is answered with that."""
+        """Whether to compute it; after True it can no longer be cancelled. When late, it is answered with that."""
+        if not self.result.set_running_or_notify_cancel():
+            return False
         if time.monotonic() < self.deadline_s:
             return True
         self.result.set_exception(Problem(Code.DEADLINE_EXCEEDED))
@@ -54,17 +52,15 @@ class _Job:
 
 
 class InferenceQueue:
-    """Answers queries on as many threads as there are workers, several at once when several wait.
+    """Answers queries on as many threads as there are workers, one after another as they come.
 
-    A thread opens the localizers, then each of them has a thread that takes its share of what waits, up to
-    `max_batch`, without any artificial delay. A query whose client left or whose deadline has passed is not computed;
-    one that would wait too long is refused at once. When a batch fails, its items are computed one by one, so that a
-    bad one fails alone.
+    A thread opens the localizers, then each of them has a thread that takes what has waited longest. Several at once
+    would be no faster a query on a CPU, and all of them would wait for the last. A query whose client left or whose
+    deadline has passed is not computed; one that would wait too long is refused at once.
 
     Args:
         open_localizers: run once; each of what it gives answers on a thread of its own.
         max_queue: queries that wait.
-        max_batch: queries that are computed at once.
         max_wait_s: that a query may be expected to wait.
     """
 
@@ -72,12 +68,10 @@ class InferenceQueue:
         self,
         open_localizers: Callable[[], Sequence[LocalizerLike]],
         max_queue: int,
-        max_batch: int,
         max_wait_s: float = math.inf,
     ) -> None:
         self._open_localizers = open_localizers
         self._max_queue = max_queue
-        self._max_batch = max_batch
         self._max_wait_s = max_wait_s
         self._changed = Condition()
         self._jobs: deque[_Job] = deque()
@@ -233,39 +227,31 @@ class InferenceQueue:
         return localizers
 
     def _run(self, localizer: LocalizerLike) -> None:
-        while batch := self._take():
-            self._compute(localizer, [job for job in batch if job.begins()])
+        while job := self._take():
+            if job.begins():
+                self._compute(localizer, job)
             with self._changed:
-                self._computing -= len(batch)
+                self._computing -= 1
         localizer.close()
 
-    def _take(self) -> list[_Job]:
-        """A worker's share of what waits; waits for a first one; empty when closed and nothing is left."""
+    def _take(self) -> _Job | None:
+        """What has waited longest; waits for it; None when closed and nothing is left."""
         with self._changed:
             self._changed.wait_for(lambda: self._jobs or self._is_closed)
-            share = math.ceil(len(self._jobs) / len(self._localizers))
-            batch = [self._jobs.popleft() for _ in range(min(self._max_batch, share))]
-            self._computing += len(batch)
-            return batch
+            if not self._jobs:
+                return None
+            self._computing += 1
+            return self._jobs.popleft()
 
-    def _compute(self, localizer: LocalizerLike, jobs: list[_Job]) -> None:
-        if not jobs:
-            return
+    def _compute(self, localizer: LocalizerLike, job: _Job) -> None:
         started_s = time.monotonic()
         try:
-            answers = localizer.localize([job.query for job in jobs])
-            served = list(zip(jobs, answers, strict=True))
+            [answer] = localizer.localize([job.query])
         except Exception as error:
-            if len(jobs) == 1:
-                jobs[0].result.set_exception(error)
-                return
-            log.warning("batch failed, computing one by one", size=len(jobs), error=type(error).__name__)
-            for job in jobs:
-                self._compute(localizer, [job] if job.is_in_time() else [])
+            job.result.set_exception(error)
         else:
-            self._learn((time.monotonic() - started_s) / len(jobs))
-            for job, answer in served:
-                job.result.set_result(Served(answer, (started_s - job.submitted_s) * 1000))
+            self._learn(time.monotonic() - started_s)
+            job.result.set_result(Served(answer, (started_s - job.submitted_s) * 1000))
 
     def _learn(self, query_s: float) -> None:
         with self._changed:

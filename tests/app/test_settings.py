@@ -16,7 +16,7 @@ def test_environment_then_what_is_given(monkeypatch):
 @pytest.mark.parametrize(
     ("given", "named"),
     [
-        ({"max_batch": 0}, "max_batch"),
+        ({"max_hints": 0}, "max_hints"),
         ({"port": 70_000}, "port"),
         ({"log_level": "loud"}, "log_level"),
         *(

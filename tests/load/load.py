@@ -21,6 +21,7 @@ from dataclasses import dataclass, field
 from statistics import quantiles
 from typing import Any
 
+import aiohttp
 import httpx
 
 from tests.load.service import started, text
@@ -65,14 +66,15 @@ class Load:
 
     def __init__(self, url: str) -> None:
         self._rng = random.Random("load 1")
-        limits = httpx.Limits(max_connections=None, max_keepalive_connections=None)
-        self._client = httpx.AsyncClient(base_url=url, timeout=60, limits=limits)
+        self._url = f"{url}/localize"
 
     async def __aenter__(self) -> "Load":
+        # aiohttp, as it takes a third of the time of httpx, and the service is on the same CPUs.
+        self._client = aiohttp.ClientSession(connector=aiohttp.TCPConnector(limit=0))
         return self
 
     async def __aexit__(self, *_: object) -> None:
-        await self._client.aclose()
+        await self._client.close()
 
     async def clients(self, count: int, seconds: float) -> Figures:
         """So many clients, each asking again as soon as it is answered."""
@@ -116,9 +118,10 @@ class Load:
 
     async def _ask(self, into: Figures) -> None:
         begun = time.monotonic()
-        response = await self._client.post("/localize", json={"description": text(self._rng)})
-        into.statuses[response.status_code] += 1
-        if response.status_code == httpx.codes.OK:
+        async with self._client.post(self._url, json={"description": text(self._rng)}) as response:
+            await response.read()
+        into.statuses[response.status] += 1
+        if response.status == httpx.codes.OK:
             into.good_ms.append((time.monotonic() - begun) * 1000)
 
 

@@ -205,7 +205,6 @@ class Limits(_Out):
     max_top_k: int
     max_queue: int
     max_wait_ms: int = Field(description="that a request may be expected to wait for the model")
-    max_batch: int
     max_queries: int = Field(description="of one evaluation")
     max_jobs: int = Field(description="evaluations that wait")
     deadline_ms: int = Field(description="of a request that names none")

@@ -79,7 +79,6 @@ def test_info_shows_limits_and_index(api):
         "max_items": 64,
         "max_top_k": 40,
         "max_queue": 256,
-        "max_batch": 8,
         "max_wait_ms": 1500,
         "max_evaluate_bytes": 16_777_216,
         "max_queries": 10_000,

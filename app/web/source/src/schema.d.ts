@@ -1345,8 +1345,6 @@ export interface components {
              * @description that a request may be expected to wait for the model
              */
             max_wait_ms: number;
-            /** Max Batch */
-            max_batch: number;
             /**
              * Max Queries
              * @description of one evaluation
