@@ -1,8 +1,12 @@
+import ctypes
 import os
 import signal
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from multiprocessing import Pipe
 from pathlib import Path
+from threading import Thread
+from types import SimpleNamespace
 
 import pytest
 from fastapi.testclient import TestClient
@@ -14,6 +18,7 @@ from ordered import Broken, Order
 from app.main import create_app
 from app.settings import Settings
 from app.workers.order import WorkerFault
+from app.workers.process import _answer, give_back
 from app.workers.remote import open_workers
 from index.query import Query
 from models.errors import IndexBroken, ReplyError
@@ -142,3 +147,34 @@ def test_signals_of_a_terminal_or_a_stopping_system_are_for_the_service(workers)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             os.kill(pid, number)
     assert ask(workers[0]) == pids
+
+
+def anonymous_mib():
+    [line] = [line for line in Path("/proc/self/status").read_text().splitlines() if line.startswith("RssAnon")]
+    return int(line.split()[1]) / 1024
+
+
+@pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "malloc_trim"), reason="the C library is not glibc")
+def test_memory_that_is_free_is_given_back_though_some_above_it_is_not() -> None:
+    lists = [bytearray(5000) for _ in range(20_000)]
+    kept = lists[::1000]
+    del lists
+    before = anonymous_mib()
+    give_back()
+    assert anonymous_mib() < before - 50
+    assert len(kept) == 20
+
+
+def test_a_worker_gives_memory_back_now_and_then(monkeypatch):
+    times = []
+    monkeypatch.setattr("app.workers.process.TRIM_EVERY", 3)
+    monkeypatch.setattr("app.workers.process.give_back", lambda: times.append(1))
+    own, other = Pipe()
+    thread = Thread(target=_answer, args=(SimpleNamespace(double=lambda n: 2 * n), other))
+    thread.start()
+    for n in range(7):
+        own.send(("double", (n,)))
+        assert own.recv() == 2 * n
+    own.close()
+    thread.join(5)
+    assert len(times) == 2
