@@ -47,7 +47,8 @@ class MilvusConnection:
             return getattr(self._connected(), method)(*arguments, timeout=timeout_s, **named)
         except (MilvusException, RpcError, ValueError) as error:  # ValueError is a channel that was closed
             self.close()
-            raise StoreUnavailable(f"Milvus cannot {method}: {error}; see to the server that {URI} names") from error
+            said = str(error).replace(os.environ[URI], "the address")  # which may have a password
+            raise StoreUnavailable(f"Milvus cannot {method}: {said}; see to the server that {URI} names") from error
 
     def _connected(self) -> "MilvusClient":
         if self._client is None or self._pid != os.getpid():

@@ -12,12 +12,13 @@ from typer.testing import CliRunner
 from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
-from index.artifact import open_version, read_aliases
+from index.artifact import open_version, read_aliases, set_alias, write_manifest
 from index.build import build_index
 from index.stores.milvus_connection import URI
 from index.stores.milvus_store import MilvusStore
 from models.errors import StoreUnavailable
 
+pytest.importorskip("pymilvus", reason="pymilvus not installed: pip install 'hereabouts[dev]'")
 pytestmark = pytest.mark.slow
 THREADS, BEFORE_S, DOWN_S = 4, 2, 6
 QUERIES = [
@@ -87,12 +88,35 @@ def test_its_rows_are_counted_when_it_is_verified(served, root, tmp_path, weight
 
 
 def test_without_an_address_the_command_says_what_to_set(monkeypatch, osm_file, tmp_path):
-    monkeypatch.delenv(URI)
+    monkeypatch.delenv(URI, raising=False)
     result = CliRunner().invoke(
         cli.app, ["index", "--map", str(osm_file), "--out", str(tmp_path / "i"), "--store", "milvus"]
     )
     assert result.exit_code == 1
     assert URI in " ".join(result.output.split())
+
+
+def test_where_milvus_is_down_the_service_starts_and_what_needs_no_vectors_is_answered(
+    monkeypatch, index_dir, tmp_path, weights_dir, until, problem
+):
+    """Of a version whose manifest says that its vectors are in a Milvus; there is none at that address."""
+    monkeypatch.setenv(URI, "http://127.0.0.1:1")
+    root = tmp_path / "index"
+    shutil.copytree(index_dir, root)
+    directory, manifest = open_version(root)
+    (root / "aliases.json").unlink()
+    moved = manifest.model_copy(update={"store": "milvus", "collection": "hereabouts_none"})
+    write_manifest(directory, moved)
+    set_alias(root, "default", manifest.version)
+    with TestClient(create_app(Settings(index_dir=root, weights_dir=weights_dir, workers=1))) as api:
+        until(lambda: api.get("/readyz").status_code == 200, 60)
+        response = api.post("/localize", json=QUERIES[0])
+        problem(response, 503, "store_unavailable")
+        assert response.headers["Retry-After"] == "2"
+        problem(api.post(f"/indexes/{manifest.version}/verify", json={}), 503, "store_unavailable")
+        batch = api.post("/localize/batch", json={"items": QUERIES[:1]}).json()
+        assert batch["items"][0]["error"]["code"] == "store_unavailable"
+        assert api.get("/cells").status_code == 200
 
 
 def test_a_build_without_milvus_leaves_nothing(monkeypatch, osm_file, weights_dir, tmp_path):

@@ -283,7 +283,7 @@ export interface paths {
         put?: never;
         /**
          * Verify
-         * @description Read every file of a version again, and compare it with its manifest.
+         * @description Read every file of a version again, and compare it with its manifest; rows in Milvus are counted.
          */
         post: operations["verify_indexes__version__verify_post"];
         delete?: never;
@@ -2100,7 +2100,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded; The store of vectors does not answer */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -2633,7 +2633,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded; The store of vectors does not answer */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -3145,6 +3145,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description The store of vectors does not answer */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
         };
     };
     change_alias_indexes_aliases_post: {
@@ -3250,7 +3259,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The service is shutting down; The index or the model could not be loaded */
+            /** @description The store of vectors does not answer; The service is shutting down; The index or the model could not be loaded */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -3366,6 +3375,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description The store of vectors does not answer */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
         };
     };
     take_snapshot_indexes__version__snapshot_post: {
@@ -3466,6 +3484,15 @@ export interface operations {
             };
             /** @description Too many large bodies at once */
             429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The store of vectors does not answer */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };
