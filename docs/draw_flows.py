@@ -65,7 +65,7 @@ def description(axes: Axes) -> Box:
                  "what was understood, rendered")  # fmt: skip
     encode = box(axes, (left, 51, half, TALL), "models", "Retriever encodes", "models/retrieval/",
                  "a unit vector a description")  # fmt: skip
-    vector = box(axes, (left, 39.5, half, TALL), "index", "Vector search", "index/store.py, index/ranking.py",
+    vector = box(axes, (left, 39.5, half, TALL), "index", "Vector search", "index/stores/, index/ranking.py",
                  "FAISS: the 100 nearest cells")  # fmt: skip
     inverted = box(axes, (right, 39.5, half, TALL), "models", "Inverted list", "models/posterior/posterior.py",
                    "class, colour, sector: 100 cells")  # fmt: skip

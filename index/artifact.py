@@ -2,7 +2,7 @@
 
 <root>/aliases.json            {"aliases": {"default": "<version>"}, "versions": {"<version>": "<manifest's sha256>"}}
 <root>/<version>/manifest.json written last; names every other file with its sha256
-<root>/<version>/vectors.faiss                 a vector a cell
+<root>/<version>/vectors.faiss                 a vector a cell; none if they are in Milvus
 <root>/<version>/hints.safetensors             what the retriever makes of every template hint about the map
 <root>/<version>/levels.starts.npy, levels.<level>.npy   the retriever's other levels, if they were asked for
 <root>/<version>/cells.safetensors, cells.json where the cells are and what is in them
@@ -13,11 +13,12 @@
 """
 
 import hashlib
-from contextlib import suppress
+import logging
+from contextlib import closing, suppress
 from datetime import UTC, datetime
 from importlib.metadata import version as package_version
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Annotated, Final, Literal, Self
 
 from filelock import FileLock
 from pydantic import (
@@ -29,11 +30,13 @@ from pydantic import (
     StringConstraints,
     TypeAdapter,
     ValidationError,
+    model_validator,
 )
 
+from index.stores.milvus_store import MilvusStore
 from models.city.kitti360pose.files import list_scenes, select_scenes
 from models.city.store.files import MANIFEST as STORE_MANIFEST
-from models.errors import IndexBroken, IndexMismatch
+from models.errors import IndexBroken, IndexMismatch, StoreUnavailable
 from models.files import FileRecord, replace_file, sha256
 
 MANIFEST: Final = "manifest.json"
@@ -44,8 +47,11 @@ ADVICE: Final = "build it with 'hereabouts index --map MAP --out DIR'"
 LOCK: Final = ".lock"  # held by whoever changes the aliases
 NEEDED: Final = frozenset({"vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "gazetteer.json"})
 
+_log = logging.getLogger(__name__)
+
 NAME: Final = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,127}$"  # of an alias, version or file
 Name = Annotated[str, StringConstraints(pattern=NAME)]
+StoreName = Literal["faiss", "milvus"]
 Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
 
 
@@ -90,6 +96,7 @@ class Manifest(BaseModel):
         model: what the retriever's text encoder is and how wide its vectors are.
         model_fingerprint: sha256 of all its weights.
         dim, metric, cells, instances: of the vectors.
+        store, collection: where the vectors are: in a file, or in Milvus, in this collection.
         files: every other file.
     """
 
@@ -112,7 +119,15 @@ class Manifest(BaseModel):
     metric: Literal["inner_product"] = "inner_product"
     cells: PositiveInt
     instances: PositiveInt
+    store: StoreName = "faiss"
+    collection: Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]{0,254}$")] | None = None
     files: dict[Name, FileRecord]
+
+    @model_validator(mode="after")
+    def _store_is_named(self) -> Self:
+        if (self.store == "milvus") != (self.collection is not None):
+            raise ValueError("collection belongs to store milvus, and to no other")
+        return self
 
 
 class FormatOnly(BaseModel):
@@ -158,10 +173,24 @@ def write_manifest(directory: Path, manifest: Manifest) -> None:
 def set_alias(root: Path, alias: str, version: str) -> None:
     """Let an alias name another version, at once for whoever opens it next; the version is registered, if it is not.
 
+    If its vectors are in Milvus, the alias "default" is moved there too, after that: nothing here reads it.
+
     Raises:
         IndexBroken: the aliases there are cannot be read.
     """
     _change(root, aliases={alias: version}, versions={version: sha256(root / version / MANIFEST)})
+    with suppress(IndexBroken):  # whoever opens it says so
+        manifest = _read_manifest(root / version)
+        if alias == DEFAULT and manifest.collection is not None:
+            _move_in_milvus(alias, manifest)
+
+
+def _move_in_milvus(alias: str, manifest: Manifest) -> None:
+    try:
+        with closing(_store(manifest)) as store:
+            store.move_alias(alias)
+    except StoreUnavailable as error:
+        _log.warning("the alias %s moved to %s, but not in Milvus: %s", alias, manifest.version, error)
 
 
 def register(root: Path, version: str) -> Manifest:
@@ -172,11 +201,13 @@ def register(root: Path, version: str) -> Manifest:
 
     Raises:
         IndexBroken: it is missing, incomplete or changed; one that is registered stays as it is.
+        StoreUnavailable: its vectors are in Milvus, which does not answer.
     """
     if version in read_aliases(root).versions:
-        return open_version(root / version)[1]
+        return verify(root / version)
     manifest = _read_manifest(root / version)
     check_files(root / version, manifest)
+    check_store(manifest)
     _change(root, aliases={}, versions={version: sha256(root / version / MANIFEST)})
     return manifest
 
@@ -258,7 +289,8 @@ def _read_manifest(directory: Path, expected: str | None = None) -> Manifest:
         raise IndexBroken(f"{path} is broken: {field}: {wrong['msg']}; {ADVICE}") from error
     if manifest.version != directory.name:
         raise IndexBroken(f"{path} is of version {manifest.version}; give its directory that name, or {ADVICE}")
-    if missing := NEEDED - set(manifest.files):
+    needed = NEEDED - {"vectors.faiss"} if manifest.store == "milvus" else NEEDED
+    if missing := needed - set(manifest.files):
         raise IndexBroken(f"{path} names no {', '.join(sorted(missing))}; {ADVICE}")
     return manifest
 
@@ -275,6 +307,34 @@ def check_files(directory: Path, manifest: Manifest) -> None:
             raise IndexBroken(f"{file} is missing or cut short; {ADVICE}")
         if sha256(file) != record.sha256:
             raise IndexBroken(f"{file} was changed after it was written; {ADVICE}")
+
+
+def check_store(manifest: Manifest) -> None:
+    """Ask Milvus, if a version's vectors are there, whether it has all of them.
+
+    Raises:
+        IndexBroken: the collection is missing, or has another number of rows.
+        StoreUnavailable: Milvus does not answer.
+    """
+    if manifest.collection is not None:
+        with closing(_store(manifest)) as store:
+            store.check()
+
+
+def _store(manifest: Manifest) -> MilvusStore:
+    assert manifest.collection is not None
+    return MilvusStore(manifest.collection, manifest.dim, manifest.cells)
+
+
+def verify(directory: Path) -> Manifest:
+    """The manifest of a registered version, of which every file and, in Milvus, every row is there.
+
+    Raises:
+        IndexBroken, StoreUnavailable: as `open_version` and `check_store`.
+    """
+    manifest = open_version(directory)[1]
+    check_store(manifest)
+    return manifest
 
 
 def check_model(manifest: Manifest, fingerprint: str) -> None:

@@ -1,15 +1,18 @@
 """The offline job: map -> cells -> vectors -> an index version on disk."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager, nullcontext
 from pathlib import Path
 
+import numpy as np
 from safetensors import SafetensorError
 
 from index.artifact import (
     FrameRecord,
     Manifest,
+    StoreName,
     check_model,
+    check_store,
     fingerprint,
     new_version,
     open_version,
@@ -19,6 +22,10 @@ from index.artifact import (
 from index.hint_features import save_hint_features, template_hints
 from index.posterior.meaning import Meanings
 from index.ranking import Ranker
+from index.stores.faiss_store import FaissStore
+from index.stores.milvus_store import MilvusStore
+from index.stores.opening import VECTORS_FILE
+from index.stores.store import Floats
 from models.city.gallery import MapData
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.scenery.files import save_scenery
@@ -42,6 +49,7 @@ def build_index(
     keep_current: bool = False,
     levels: bool = False,
     progress: Progress | None = None,
+    store: StoreName = "faiss",
 ) -> Path:
     """Build an index version of a map and let the alias "default" name it.
 
@@ -53,6 +61,7 @@ def build_index(
         keep_current: build nothing if the default version is of this map and this model.
         levels: keep the retriever's other levels too: any `refine` but the default ranks by them.
         progress: called as the work goes on.
+        store: where the vectors go: a file of the version, or the Milvus that HEREABOUTS_MILVUS_URI names.
 
     Returns:
         The version's directory.
@@ -60,11 +69,12 @@ def build_index(
     Raises:
         MapError, DataError: the map cannot be read or cut, or the index cannot be written; what is there stays.
         WeightsError: the model cannot be loaded.
+        StoreUnavailable: Milvus does not take the vectors; nothing is left there.
     """
     report = progress or (lambda stage, done, total: None)
     report("load model", 0, 0)
     retriever = load_retriever(weights_dir)
-    current = _current(out_dir, map_path, split, retriever, levels) if keep_current else None
+    current = _current(out_dir, map_path, split, retriever, levels, store) if keep_current else None
     if current:
         return current
     source = open_source(map_path, split, report)
@@ -77,8 +87,15 @@ def build_index(
     meanings = Meanings.of(Lookup(gazetteer, load_vocabulary(), encoder.is_everyday), encoder.embed)
     report("write index", 0, 0)
     origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
-    with _writing(out_dir), new_directory(out_dir / origin["version"]) as directory:
-        ranker.save(directory)
+    vectors = ranker.store.vectors(np.arange(len(data.cells)))
+    with (
+        _writing(out_dir),
+        _in_milvus(origin["version"], vectors, data) if store == "milvus" else nullcontext() as collection,
+        new_directory(out_dir / origin["version"]) as directory,
+    ):
+        if collection is None:
+            FaissStore.of(vectors).save(directory / VECTORS_FILE)
+        ranker.save_levels(directory)
         save_hint_features(directory, retriever, template_hints(data.gallery, data.palette))
         data.gallery.save(directory)
         surroundings.save(directory)
@@ -86,12 +103,26 @@ def build_index(
         meanings.save(directory)
         save_scenery(directory, source.scenery(gazetteer))
         manifest = Manifest(
-            **origin, **_describe(data), model=retriever.name, dim=ranker.store.dim, files=file_records(directory)
+            **origin,
+            **_describe(data),
+            model=retriever.name,
+            dim=ranker.store.dim,
+            store=store,
+            collection=collection,
+            files=file_records(directory),
         )
         write_manifest(directory, manifest)
     with _writing(out_dir):
         set_alias(out_dir, "default", manifest.version)
     return out_dir / manifest.version
+
+
+@contextmanager
+def _in_milvus(version: str, vectors: Floats, data: MapData) -> Iterator[str]:
+    """The collection of a version, which stays if the block ends well."""
+    centers_m = data.cells.center_m[:, :2]
+    with MilvusStore.written(version, vectors, centers_m, data.cells.scenes) as written, closing(written):
+        yield written.collection
 
 
 @contextmanager
@@ -122,12 +153,16 @@ def _describe(data: MapData) -> dict[str, object]:
     }
 
 
-def _current(out_dir: Path, map_path: Path, split: str | None, retriever: Retriever, levels: bool) -> Path | None:
-    """The default version's directory if it is whole, of this map and this model, with levels if they are wanted."""
+def _current(
+    out_dir: Path, map_path: Path, split: str | None, retriever: Retriever, levels: bool, store: StoreName
+) -> Path | None:
+    """The default version's directory if it is whole, of this map, model and store, with levels if they are wanted."""
     try:
         directory, manifest = open_version(out_dir)
         check_model(manifest, retriever.fingerprint)
+        check_store(manifest)
     except IndexUnusable:
         return None
     is_rich = STARTS_FILE in manifest.files or retriever.levels == ("global",) or not levels
-    return directory if is_rich and manifest.map_sha256 == fingerprint(map_path, split) else None
+    is_same = manifest.store == store and manifest.map_sha256 == fingerprint(map_path, split)
+    return directory if is_rich and is_same else None

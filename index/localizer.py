@@ -15,6 +15,8 @@ from index.posterior.localizer import PosteriorLocalizer
 from index.posterior.meaning import Meanings
 from index.query import Query, Refine
 from index.ranking import Ranker
+from index.stores.faiss_store import FaissStore
+from index.stores.opening import open_store
 from index.vector_localizer import VectorLocalizer, raw_sentences
 from index.words.describing import Describer
 from models.city.colours import PALETTES
@@ -59,7 +61,8 @@ class Localizer:
         self._directory, self._load_refiner, self._load_model = directory, load_refiner, load_model
         self._refined: dict[str, VectorLocalizer] = {}
         self.gallery = Gallery.load(directory)
-        self.ranker = Ranker.load(retriever.global_alone(), directory)
+        store = open_store(directory, manifest, self.gallery.cells.center_m)
+        self.ranker = Ranker.load(retriever.global_alone(), directory, store)
         self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
         said = {"dim": manifest.dim, "cells": manifest.cells, "instances": manifest.instances}
         held = {
@@ -92,6 +95,7 @@ class Localizer:
             IndexBroken: the index is missing, incomplete or changed.
             IndexMismatch: another model built it.
             WeightsError: the model cannot be loaded.
+            StoreUnavailable: its vectors are in Milvus, and nothing says where that is.
         """
         directory, manifest = open_version(index_dir)
         retriever = load_retriever(weights_dir)
@@ -121,6 +125,7 @@ class Localizer:
         Raises:
             WeightsError: a query asks for a model that cannot be loaded.
             IndexBroken: what it needs of the index cannot be read.
+            StoreUnavailable: the index's vectors are in Milvus, which does not answer.
         """
         answers: dict[int, Answer] = {}
         for refine in {query.refine for query in queries}:
@@ -130,6 +135,17 @@ class Localizer:
             for n, finding in zip(rows, found, strict=True):
                 answers[n] = to_answer(queries[n], finding, localizer, self.gallery.cells, self.frame)
         return [answers[n] for n in range(len(queries))]
+
+    def warm(self) -> None:
+        """Read what usual queries need, so that the first does not wait and workers that are forked share it.
+
+        A vector stands in for the store: what connects to a server must not do so before the fork.
+        """
+        store, self.ranker.store = self.ranker.store, FaissStore.of(np.zeros((1, self.manifest.dim), np.float32))
+        try:
+            self.localize([Query("I am north of a building.")])
+        finally:
+            self.ranker.store = store
 
     def of(self, refine: Refine) -> CellLocalizer:
         """What answers queries of one kind."""
@@ -168,7 +184,7 @@ class Localizer:
     def _vectors(self) -> VectorLocalizer:
         """Vector search on this gallery, by all levels that the index has."""
         has_levels = STARTS_FILE in self.manifest.files
-        ranker = Ranker.load(self.retriever, self._directory) if has_levels else self.ranker
+        ranker = Ranker.load(self.retriever, self._directory, self.ranker.store) if has_levels else self.ranker
         return VectorLocalizer(ranker, self.gallery, self.frame, self.manifest.grid_m, sentences=self.sentences)
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:

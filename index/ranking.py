@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from index.store import FaissStore, Floats, Rows, VectorStore
+from index.stores.faiss_store import FaissStore
+from index.stores.store import Floats, Rows, VectorStore
 from models.city.cells import CellTable
 from models.city.points import Ints
 from models.retrieval.instance_encoder import CellFeatures
@@ -15,7 +16,6 @@ from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Levels
 from models.retrieval.retriever import Retriever
 
-VECTORS_FILE = "vectors.faiss"
 RERANKED = 100  # cells whose other levels are looked at
 
 
@@ -53,25 +53,25 @@ class Ranker:
         vectors, table = encode_gallery(retriever, features)
         return cls(retriever, FaissStore.of(vectors), table, depth)
 
-    def save(self, directory: Path) -> None:
-        """Write the vectors, and the levels if there are any."""
-        self.store.save(directory / VECTORS_FILE)
+    def save_levels(self, directory: Path) -> None:
+        """Write the levels other than the global one, if there are any; the store keeps that."""
         if not self.table.is_empty:
             self.table.save(directory)
 
     @classmethod
-    def load(cls, retriever: Retriever, directory: Path) -> "Ranker":
-        """Read what `save` wrote.
+    def load(cls, retriever: Retriever, directory: Path, store: VectorStore) -> "Ranker":
+        """Read what `save_levels` wrote.
 
         Args:
             retriever: the model that made it; its levels are read.
             directory: where it is.
+            store: the vectors of the global level.
 
         Raises:
             IndexBroken: it is not an index of this model.
         """
         table = NO_LEVELS if retriever.levels == ("global",) else LevelTable.load(directory, retriever.levels)
-        return cls(retriever, FaissStore.load(directory / VECTORS_FILE), table)
+        return cls(retriever, store, table)
 
     def take(self, rows: Ints) -> "Ranker":
         """The same of some cells of the gallery."""

@@ -6,6 +6,7 @@ HereaboutsError
 ├── DescriptionError     a text that cannot be used as a description
 ├── ReplyError           an answer to a question that the service did not ask
 ├── WeightsError         weights that are missing, broken or of another model
+├── StoreUnavailable     a store of vectors elsewhere that does not answer, or cannot be asked
 ├── TrainingError        settings that cannot be trained with, or a run directory of another run
 └── IndexUnusable         an index directory that cannot be served
     ├── IndexBroken      missing, cut short or changed after it was written
@@ -49,6 +50,10 @@ class ReplyError(HereaboutsError):
 
 class WeightsError(HereaboutsError):
     """Weights that are missing, broken or of another model."""
+
+
+class StoreUnavailable(HereaboutsError):
+    """A store of vectors outside the index directory that does not answer; it may the next time."""
 
 
 class TrainingError(HereaboutsError):

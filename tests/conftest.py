@@ -8,7 +8,7 @@ os.environ["OMP_NUM_THREADS"] = (
 )
 
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +30,7 @@ from models.city.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
 from models.retrieval.mncl import Mncl, MnclConfig
+from tests.milvus_server import SKIPPED, MilvusServer
 from tests.models.city.raw_scenes import TEST_STREET, TRAIN_STREETS, VAL_STREET, write_towns
 
 MadeOnce = Callable[[str, Callable[[Path], object]], Path]
@@ -204,3 +205,16 @@ def streets(made_once: MadeOnce) -> Path:
         prepare_data(out / "raw", out / "prepared")
 
     return made_once("streets", make) / "prepared"
+
+
+@pytest.fixture(scope="session")
+def milvus_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[MilvusServer]:
+    """A real Milvus."""
+    if SKIPPED:
+        pytest.skip(SKIPPED)
+    server = MilvusServer(tmp_path_factory.mktemp("milvus"))
+    try:
+        server.start()
+        yield server
+    finally:
+        server.kill()

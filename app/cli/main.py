@@ -6,7 +6,7 @@ import sys
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 from rich.console import Console
@@ -72,6 +72,10 @@ def index(
         bool,
         typer.Option("--levels", help="keep the retriever's other levels, for any refine but posterior: 6 kB a cell"),
     ] = False,
+    store: Annotated[
+        Literal["faiss", "milvus"],
+        typer.Option(help="where the vectors go: a file, or the Milvus that HEREABOUTS_MILVUS_URI names"),
+    ] = "faiss",
 ) -> None:
     """Build an index of a map."""
     from app.cli.progress import stage_bars
@@ -79,7 +83,7 @@ def index(
     from index.build import build_index
 
     with stage_bars() as show:
-        version_dir = build_index(map_path, out, load_settings().weights_dir, split, keep_current, levels, show)
+        version_dir = build_index(map_path, out, load_settings().weights_dir, split, keep_current, levels, show, store)
     typer.echo(f"index {version_dir.name} is in {version_dir}; serve it with: hereabouts serve --index {out}")
 
 

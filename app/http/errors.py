@@ -6,6 +6,7 @@ from enum import Enum
 from itertools import islice
 from typing import Any
 
+import structlog
 from asgi_correlation_id import correlation_id
 from fastapi import FastAPI, HTTPException, Request
 from fastapi.exceptions import RequestValidationError
@@ -14,7 +15,7 @@ from starlette.exceptions import HTTPException as StarletteHTTPException
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Match, Route
 
-from models.errors import ReplyError, WeightsError
+from models.errors import ReplyError, StoreUnavailable, WeightsError
 
 PROBLEM_JSON = "application/problem+json"
 MAX_LISTED_ERRORS, MAX_BYTES = 20, 1024  # of a problem
@@ -23,6 +24,7 @@ SAID = {  # in place of pydantic's words, which tell nobody what to do
     "extra_forbidden": "is unknown; leave it out",
     "int_parsing_size": "has too many digits; send fewer",
 }
+log = structlog.get_logger()
 _PLAIN_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 
 
@@ -98,6 +100,12 @@ class Code(Enum):
     INTERNAL_ERROR = (500, "A fault in the service", "Report it with the request_id.", None)
     NOT_READY = (503, "The model is still loading", "Ask again after Retry-After seconds.", 2)
     DRAINING = (503, "The service is shutting down", "Ask another replica, or again after Retry-After seconds.", 5)
+    STORE_UNAVAILABLE = (
+        503,
+        "The store of vectors does not answer",
+        "Ask again after Retry-After seconds; its operator sees to Milvus.",
+        2,
+    )
     LOAD_FAILED = (503, "The index or the model could not be loaded", "The operator must correct it.", None)
     DEADLINE_EXCEEDED = (504, "No answer before the deadline", "Allow more deadline_ms, or ask again later.", None)
 
@@ -189,7 +197,7 @@ class Problem(HTTPException):
 
 def add_error_handlers(app: FastAPI) -> None:
     """Make every error of an application a problem."""
-    for kind in (RequestValidationError, WeightsError, ReplyError):
+    for kind in (RequestValidationError, WeightsError, ReplyError, StoreUnavailable):
         app.add_exception_handler(kind, _on_error)
     app.add_exception_handler(StarletteHTTPException, _on_http_exception)
 
@@ -208,6 +216,9 @@ def as_problem(error: Exception) -> "Problem":
         return Problem.of_field("refine", "this service has no usable model for it; leave it out")
     if isinstance(error, ReplyError):  # only the map knows what can be asked, so the model finds it
         return Problem.of_field(f"answers[{error.number}].{error.field}", error.advice)
+    if isinstance(error, StoreUnavailable):
+        log.warning("store unavailable", reason=str(error))
+        return Problem(Code.STORE_UNAVAILABLE)
     raise error
 
 

@@ -34,9 +34,8 @@ class OpenOrder:
     def open(self) -> "Localizer":
         """The localizer, with everything read that its usual queries need."""
         from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
-        from index.query import Query  # noqa: PLC0415
 
         dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
         localizer = Localizer.open(self.index_dir, *dirs)
-        localizer.localize([Query("I am north of a building.")])  # or the first request waits
+        localizer.warm()
         return localizer

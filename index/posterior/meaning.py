@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from torch import Tensor
 
-from index.store import FaissStore, VectorStore
+from index.stores.faiss_store import FaissStore
 from models.errors import IndexBroken
 from models.language.places.lookup import EMPTY, Lookup
 from models.language.places.names import plain_words
@@ -28,7 +28,7 @@ class Meanings:
         embed: gives unit vectors [S, W] of S phrases.
     """
 
-    def __init__(self, phrases: Sequence[str], store: VectorStore, embed: Embed) -> None:
+    def __init__(self, phrases: Sequence[str], store: FaissStore, embed: Embed) -> None:
         self._phrases, self._store, self._embed = phrases, store, embed
 
     @classmethod

@@ -98,6 +98,7 @@ def unregistered(root):
     [
         ("dim", 0), ("dim", -1), ("cells", 0), ("metric", "l2"), ("version", "v9"), ("version", "../v"), ("files", {}),
         ("palette", "grey"), ("model_fingerprint", "0"), ("map_sha256", "z" * 64), ("grid_m", -10), ("created", "now"),
+        ("store", "milvus"), ("store", "elsewhere"), ("collection", "c"),
         ("frame", {"frame_id": "map", "origin_lat": 160.0, "origin_lon": 24.9, "epsg": None}),
     ],
 )  # fmt: skip
@@ -105,6 +106,19 @@ def test_each_field_of_a_manifest_is_checked(copy, field, value) -> None:
     path, manifest = unregistered(copy)
     path.write_text(json.dumps(manifest | {field: value}))
     with pytest.raises(IndexBroken, match=r"manifest.json"):
+        open_version(path.parent)
+
+
+def test_a_manifest_without_a_store_is_of_faiss(copy) -> None:
+    path, manifest = unregistered(copy)
+    path.write_text(json.dumps({key: manifest[key] for key in manifest if key not in ("store", "collection")}))
+    assert open_version(path.parent)[1].store == "faiss"
+
+
+def test_a_collection_has_a_name_that_milvus_takes(copy) -> None:
+    path, manifest = unregistered(copy)
+    path.write_text(json.dumps(manifest | {"store": "milvus", "collection": "a b"}))
+    with pytest.raises(IndexBroken, match="collection"):
         open_version(path.parent)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from index.artifact import open_version, read_aliases
-from index.store import FaissStore
+from index.stores.faiss_store import FaissStore
 from models.errors import IndexBroken
 
 PLACES = 6  # in each file

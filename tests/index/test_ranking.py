@@ -73,15 +73,15 @@ def test_without_weights_z_scores_are_added(mncl, cells, labels) -> None:
 
 def test_saved_and_loaded_ranks_the_same(weighted, cells, labels, tmp_path) -> None:
     ranker = Ranker.of(weighted, cells, labels)
-    ranker.save(tmp_path)
-    again, texts = Ranker.load(weighted, tmp_path), weighted.encode_texts(TEXTS)
+    ranker.save_levels(tmp_path)
+    again, texts = Ranker.load(weighted, tmp_path, ranker.store), weighted.encode_texts(TEXTS)
     assert again.rank(texts, 10)[0] == pytest.approx(ranker.rank(texts, 10)[0], abs=2e-3)
-    lean = Ranker.load(weighted.global_alone(), tmp_path)
+    lean = Ranker.load(weighted.global_alone(), tmp_path, ranker.store)
     assert lean.table.is_empty
     assert np.array_equal(lean.rank(texts, 10)[1], ranker.search(texts, 10)[1]), "the global level alone"
     (tmp_path / "levels.instance.npy").unlink()
     with pytest.raises(IndexBroken, match="levels"):
-        Ranker.load(weighted, tmp_path)
+        Ranker.load(weighted, tmp_path, ranker.store)
 
 
 def test_cells_are_looked_at_once(weighted, cells, labels, monkeypatch) -> None:

@@ -30,7 +30,7 @@ REVERSE_ERRORS = (
     Code.INTERNAL_ERROR,
     *UNAVAILABLE,
 )
-SEARCH_ERRORS = (*REVERSE_ERRORS, Code.QUEUE_FULL, Code.DEADLINE_EXCEEDED)
+SEARCH_ERRORS = (*REVERSE_ERRORS, Code.QUEUE_FULL, Code.STORE_UNAVAILABLE, Code.DEADLINE_EXCEEDED)
 Form = Annotated[Format, Query(alias="format", description="as of Nominatim; xml is not spoken")]
 DESCRIBED: dict[str, Any] = {
     "description": "what Nominatim answers, with the place in words as display_name",

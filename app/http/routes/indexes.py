@@ -16,7 +16,8 @@ from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
 from app.http.schemas.requests import Body
-from index.artifact import MANIFEST, NAME, Name, open_version, read_aliases, register, set_alias
+from index.artifact import MANIFEST, NAME, Name, read_aliases, register, set_alias
+from index.artifact import verify as verify_version
 from index.snapshot import SNAPSHOTS, snapshot
 from models.errors import IndexBroken
 
@@ -27,6 +28,7 @@ ERRORS = (
     Code.ADMIN_KEY_REQUIRED,
     Code.VERSION_NOT_FOUND,
     Code.INDEX_BROKEN,
+    Code.STORE_UNAVAILABLE,
 )
 log = structlog.get_logger()
 router = APIRouter(tags=["indexes"])
@@ -122,7 +124,7 @@ async def change_alias(asked: AliasChange, indexes: AllIndexes, settings: Settin
 
 @router.post("/indexes/{version}/verify", responses=problems(*ERRORS))
 def verify(version: Version, _body: Nothing, settings: SettingsNow) -> Verified:
-    """Read every file of a version again, and compare it with its manifest."""
+    """Read every file of a version again, and compare it with its manifest; rows in Milvus are counted."""
     return _verified(settings.index_dir, version)
 
 
@@ -140,6 +142,7 @@ def _verified(root: Path, version: str, takes_it: bool = False) -> Verified:
 
     Raises:
         Problem: there is none, it is broken, or it is not registered.
+        StoreUnavailable: its vectors are in Milvus, which does not answer.
     """
     if not (root / version / MANIFEST).is_file():
         raise Problem(Code.VERSION_NOT_FOUND)
@@ -148,7 +151,7 @@ def _verified(root: Path, version: str, takes_it: bool = False) -> Verified:
             with _writing():
                 manifest = register(root, version)
         else:
-            manifest = open_version(root / version)[1]
+            manifest = verify_version(root / version)
     except (IndexBroken, OSError):  # a file that cannot be read is as good as none
         raise Problem(Code.INDEX_BROKEN) from None
     if version not in _registered(root):

@@ -17,7 +17,7 @@ from app.main import create_app
 from app.settings import Settings
 from models.city.frame import Frame
 from models.city.scenery.files import SceneryPart
-from models.errors import IndexMismatch
+from models.errors import IndexMismatch, StoreUnavailable
 
 READ, ADMIN = "read-key-1", "admin-key-1"
 GEO, PICTURE = {"Accept": "application/geo+json"}, {"Accept": "image/png"}
@@ -258,6 +258,20 @@ def fault_of_what_opens(services, operation, patch):
     api = services()
     patch.setattr(services, "open", raises(RuntimeError("a fault")))
     return ask(api, operation)
+
+
+@provokes(503, "store_unavailable", "POST /localize", "GET /search")
+def vectors_that_cannot_be_asked(services, operation, patch):
+    patch.setattr(services.fake, "localize", raises(StoreUnavailable("Milvus is down")))
+    response = ask(services(), operation)
+    assert response.headers["Retry-After"] == "2"
+    return response
+
+
+@provokes(503, "store_unavailable", *CHANGING)
+def rows_that_cannot_be_counted(services, operation, patch):
+    patch.setattr("index.artifact.check_store", raises(StoreUnavailable("Milvus is down")))
+    return of_version(services(), operation, "copied" if operation == REGISTER else "v1")
 
 
 @provokes(503, "draining", *ASKED, ALIAS, "GET /readyz")

@@ -283,7 +283,7 @@ export interface paths {
         put?: never;
         /**
          * Verify
-         * @description Read every file of a version again, and compare it with its manifest.
+         * @description Read every file of a version again, and compare it with its manifest; rows in Milvus are counted.
          */
         post: operations["verify_indexes__version__verify_post"];
         delete?: never;
@@ -1768,7 +1768,7 @@ export interface components {
             detail: string;
             /**
              * Code
-             * @description invalid_http (400); invalid_json (400); key_required (401); key_wrong (401); admin_off (403); admin_key_required (403); not_found (404); index_not_found (404); version_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); conflict (409); index_mismatch (409); index_broken (409); not_writable (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); load_failed (503); deadline_exceeded (504)
+             * @description invalid_http (400); invalid_json (400); key_required (401); key_wrong (401); admin_off (403); admin_key_required (403); not_found (404); index_not_found (404); version_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); conflict (409); index_mismatch (409); index_broken (409); not_writable (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); store_unavailable (503); load_failed (503); deadline_exceeded (504)
              */
             code: string;
             /** Request Id */
@@ -2100,7 +2100,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded; The store of vectors does not answer */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -2633,7 +2633,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded; The store of vectors does not answer */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -3145,6 +3145,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description The store of vectors does not answer */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
         };
     };
     change_alias_indexes_aliases_post: {
@@ -3250,7 +3259,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The service is shutting down; The index or the model could not be loaded */
+            /** @description The store of vectors does not answer; The service is shutting down; The index or the model could not be loaded */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -3366,6 +3375,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
+            /** @description The store of vectors does not answer */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
         };
     };
     take_snapshot_indexes__version__snapshot_post: {
@@ -3466,6 +3484,15 @@ export interface operations {
             };
             /** @description Too many large bodies at once */
             429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The store of vectors does not answer */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };

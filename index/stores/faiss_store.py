@@ -1,0 +1,97 @@
+"""Vectors in memory, from a file of the index: FAISS."""
+
+from pathlib import Path
+from typing import Any, Final
+
+import faiss
+import numpy as np
+import numpy.typing as npt
+
+from index.query import Box
+from index.stores.store import Floats, Rows, best_first
+from models.errors import IndexBroken
+
+# From 20 queries on, FAISS multiplies matrices, whose rounding depends on the batch; below, each query is
+# scanned alone, so that it finds the same bits whatever stands beside it.
+QUERIES_PER_CALL: Final = 16
+
+
+class FaissStore:
+    """Exact search in memory (IndexFlatIP).
+
+    Args:
+        index: FAISS's.
+        positions_m: [N, 2] where the cells are, map metres; None if nobody asks by `within`.
+    """
+
+    def __init__(self, index: Any, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> None:
+        self._index, self._positions_m = index, positions_m
+        self.dim = int(index.d)
+        self._vectors = faiss.rev_swig_ptr(index.get_xb(), index.ntotal * self.dim).reshape(index.ntotal, self.dim)
+
+    @classmethod
+    def of(cls, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> "FaissStore":
+        """A store of vectors [N, D]; see the class."""
+        index = faiss.IndexFlatIP(vectors.shape[1])
+        index.add(np.ascontiguousarray(vectors))
+        return cls(index, positions_m)
+
+    @classmethod
+    def load(cls, path: Path, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> "FaissStore":
+        """Read a store.
+
+        Raises:
+            IndexBroken: the file is not an index of this kind.
+        """
+        try:
+            index = faiss.read_index(str(path))
+        except RuntimeError as error:
+            raise IndexBroken(f"{path} cannot be read; rebuild it with 'hereabouts index'") from error
+        if not isinstance(index, faiss.IndexFlatIP):
+            raise IndexBroken(
+                f"{path} holds a {type(index).__name__}, expected IndexFlatIP; rebuild it with 'hereabouts index'"
+            )
+        return cls(index, positions_m)
+
+    def __len__(self) -> int:
+        return int(self._index.ntotal)
+
+    def search(self, queries: Floats, k: int, within: Box | None = None) -> tuple[Floats, Rows]:
+        """See VectorStore."""
+        params, k = None, min(k, len(self))
+        if within is not None:
+            chosen = self._inside(within)
+            params, k = _only(chosen), min(k, len(chosen))
+        if not k:
+            return np.empty((len(queries), 0), np.float32), np.empty((len(queries), 0), np.int64)
+        found = [
+            self._index.search(queries[i : i + QUERIES_PER_CALL], k, params=params)
+            for i in range(0, len(queries), QUERIES_PER_CALL)
+        ]
+        return best_first(np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found]), k)
+
+    def _inside(self, within: Box) -> Rows:
+        """The rows of the cells in a box."""
+        assert self._positions_m is not None, "a store without positions cannot look within"
+        x, y = self._positions_m.T
+        return np.flatnonzero((x >= within.west) & (x <= within.east) & (y >= within.south) & (y <= within.north))
+
+    def score(self, query: Floats, rows: Rows) -> Floats:
+        """See VectorStore."""
+        scores: Floats = self._vectors[rows] @ query
+        return scores
+
+    def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
+        """See VectorStore."""
+        vectors: Floats = self._vectors[rows]
+        return vectors
+
+    def save(self, path: Path) -> None:
+        """Write the vectors to a file, which `load` reads."""
+        path.write_bytes(faiss.serialize_index(self._index).data)  # FAISS itself does not say if the end is not written
+
+
+def _only(rows: Rows) -> Any:
+    """FAISS's parameters of a search in some rows alone."""
+    search: Any = faiss.SearchParameters  # its keywords are added when faiss is imported
+    return search(sel=faiss.IDSelectorBatch(rows))

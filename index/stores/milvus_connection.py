@@ -1,0 +1,67 @@
+"""A connection to Milvus: one a process, with a limit on each call and one kind of error."""
+
+import logging
+import os
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any, Final
+
+from models.errors import StoreUnavailable
+
+if TYPE_CHECKING:
+    from pymilvus import MilvusClient
+
+URI: Final = "HEREABOUTS_MILVUS_URI"
+TOKEN: Final = "HEREABOUTS_MILVUS_TOKEN"
+CONNECT_S: Final = 2.0
+CALL_S: Final = 3.0  # pymilvus tries again until then where a server was lost or is busy, after longer and longer waits
+
+
+class MilvusConnection:
+    """Calls to the Milvus that HEREABOUTS_MILVUS_URI names (http://host:port/database).
+
+    It connects at the first call: channels of gRPC do not outlive a fork, so a process that forks workers must not have
+    called. After a call that failed it connects anew, and so finds a server that was started again.
+
+    Raises:
+        StoreUnavailable: pymilvus is not installed, or nothing says where Milvus is.
+    """
+
+    def __init__(self) -> None:
+        if find_spec("pymilvus") is None:
+            raise StoreUnavailable("this index is in Milvus, which takes pymilvus: pip install 'hereabouts[milvus]'")
+        if not os.environ.get(URI):
+            raise StoreUnavailable(f"this index is in Milvus: say where with {URI}=http://HOST:19530/DATABASE")
+        self._client: MilvusClient | None = None
+        self._pid = 0
+
+    def call(self, method: str, *arguments: Any, timeout_s: float = CALL_S, **named: Any) -> Any:
+        """What a method of pymilvus's MilvusClient gives.
+
+        Raises:
+            StoreUnavailable: Milvus does not answer in time, or refuses.
+        """
+        from grpc import RpcError  # noqa: PLC0415  # an extra, which few have
+        from pymilvus import MilvusException  # noqa: PLC0415
+
+        try:
+            return getattr(self._connected(), method)(*arguments, timeout=timeout_s, **named)
+        except (MilvusException, RpcError, ValueError) as error:  # ValueError is a channel that was closed
+            self.close()
+            said = str(error).replace(os.environ[URI], "the address")  # which may have a password
+            raise StoreUnavailable(f"Milvus cannot {method}: {said}; see to the server that {URI} names") from error
+
+    def _connected(self) -> "MilvusClient":
+        if self._client is None or self._pid != os.getpid():
+            from pymilvus import MilvusClient  # noqa: PLC0415
+
+            logging.getLogger("pymilvus").setLevel(logging.CRITICAL)  # it logs each error that it raises, with a trace
+            uri, token = os.environ[URI], os.environ.get(TOKEN, "")
+            self._client = MilvusClient(uri, token=token, timeout=CONNECT_S, dedicated=True)
+            self._pid = os.getpid()
+        return self._client
+
+    def close(self) -> None:
+        """Hang up; the next call connects again."""
+        if self._client is not None and self._pid == os.getpid():
+            self._client.close()
+        self._client = None

@@ -1,0 +1,29 @@
+"""The store of an index version."""
+
+from pathlib import Path
+from typing import Final
+
+from index.artifact import Manifest
+from index.stores.faiss_store import FaissStore
+from index.stores.milvus_store import MilvusStore
+from index.stores.store import VectorStore
+from models.city.types import Floats
+
+VECTORS_FILE: Final = "vectors.faiss"
+
+
+def open_store(directory: Path, manifest: Manifest, center_m: Floats) -> VectorStore:
+    """The store that a version's manifest names; one in Milvus is not asked yet.
+
+    Args:
+        directory: of the version.
+        manifest: its manifest.
+        center_m: [N, 2 or 3] centres of its cells, map metres.
+
+    Raises:
+        IndexBroken: the file of vectors is not one.
+        StoreUnavailable: it is in Milvus, and nothing says where that is, or pymilvus is not installed.
+    """
+    if manifest.collection is not None:
+        return MilvusStore(manifest.collection, manifest.dim, manifest.cells)
+    return FaissStore.load(directory / VECTORS_FILE, center_m[:, :2])
