@@ -62,6 +62,13 @@ def template(document: Document) -> Document | None:
     return made
 
 
+def pods_of(document: Document) -> Document:
+    """The pods that it makes, which it does."""
+    made = template(document)
+    assert made is not None
+    return made
+
+
 def containers(documents: list[Document]) -> list[Document]:
     """All containers of their pods."""
     templates = [made for made in map(template, documents) if made]

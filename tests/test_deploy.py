@@ -16,7 +16,7 @@ from app.main import create_app
 from app.server import CLOSING_S
 from app.settings import Settings
 from models.errors import IndexMismatch
-from tests.manifests import LAYERS, ROOT, built, containers, kustomization, name, one, template
+from tests.manifests import LAYERS, ROOT, built, containers, kustomization, name, one, pods_of, template
 
 DOCS = Path(__file__).parent.parent / "docs"
 SERVICES = yaml.safe_load((ROOT.parent / "docker-compose.yml").read_text())["services"]
@@ -78,20 +78,22 @@ def test_each_selector_takes_the_pods_that_it_is_for(layer) -> None:
     assert selected(deployment["spec"]["selector"]["matchLabels"], documents) == ["api"]
     assert selected(one(documents, "Service")["spec"]["selector"], documents) == ["api"]
     assert selected(one(documents, "PodDisruptionBudget")["spec"]["selector"]["matchLabels"], documents) == ["api"]
-    [spread] = template(deployment)["spec"]["topologySpreadConstraints"]
+    [spread] = pods_of(deployment)["spec"]["topologySpreadConstraints"]
     assert selected(spread["labelSelector"]["matchLabels"], documents) == ["api"]
     for policy, component in (("hereabouts", "api"), ("hereabouts-index", "index")):
         labels = one(documents, "NetworkPolicy", policy)["spec"]["podSelector"]["matchLabels"]
         assert selected(labels, documents) == [component]
     scaled = one(documents, "HorizontalPodAutoscaler")["spec"]
     assert scaled["scaleTargetRef"] == {"apiVersion": "apps/v1", "kind": "Deployment", "name": name(deployment)}
+    job = one(documents, "CronJob", "hereabouts-index")["spec"]["jobTemplate"]["spec"]
+    assert deployment["spec"]["progressDeadlineSeconds"] >= job["activeDeadlineSeconds"], "new pods wait for its index"
     assert "replicas" not in deployment["spec"], "or each apply would undo the autoscaler"
     assert scaled["minReplicas"] > one(documents, "PodDisruptionBudget")["spec"]["maxUnavailable"]
 
 
 @pytest.mark.parametrize("document", [document for _, document in ALL if template(document)], ids=name)
 def test_a_pod_may_do_next_to_nothing(document) -> None:
-    pods = template(document)["spec"]
+    pods = pods_of(document)["spec"]
     assert pods["enableServiceLinks"] is False, "a service called hereabouts would set HEREABOUTS_PORT=tcp://..."
     assert pods["automountServiceAccountToken"] is False
     assert pods["securityContext"]["runAsNonRoot"] is True
@@ -192,7 +194,7 @@ def test_a_pod_without_an_index_that_it_can_use_gets_no_requests_and_is_left_run
 
 @pytest.mark.parametrize("layer", LAYERS)
 def test_a_stop_waits_for_the_endpoints_and_the_longest_request(layer) -> None:
-    pods = template(one(built(layer), "Deployment"))["spec"]
+    pods = pods_of(one(built(layer), "Deployment"))["spec"]
     waits = api(layer)["lifecycle"]["preStop"]["exec"]["command"]
     composed = int(SERVICES[COMPOSE[layer][1]]["stop_grace_period"].removesuffix("s"))
     assert waits[0] == "sleep"
