@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -20,6 +21,8 @@ from tests.app.conftest import wait_until
 ROOT = Path(__file__).parent.parent
 COMPOSE = yaml.safe_load((ROOT / "docker/docker-compose.yml").read_text())
 SERVICES = COMPOSE["services"]
+OURS = [name for name, service in SERVICES.items() if service["image"] == "hereabouts"]
+APIS = ("api", "api-milvus")
 NOBODY = 10_001  # on no machine a user of that number
 TEXT = "I am north of a gray building. A black pole is to my west."
 ANYBODYS = ("/tmp", "/var/tmp", "/dev/shm")
@@ -60,24 +63,46 @@ def test_a_container_may_do_next_to_nothing(name: str) -> None:
     assert "cap_add" not in service
     assert not service.get("privileged")
     assert service["security_opt"] == ["no-new-privileges:true"]
+
+
+@pytest.mark.parametrize("name", OURS)
+def test_a_container_of_ours_may_write_next_to_nowhere(name: str) -> None:
+    service = SERVICES[name]
     assert service["read_only"] is True
     assert service["tmpfs"] == ["/tmp"]
     assert "user" not in service, "the image's own"
 
 
-def test_the_service_cannot_write_the_index_and_is_reached_from_this_machine_alone() -> None:
-    api = SERVICES["api"]
+@pytest.mark.parametrize(("name", "index"), [("api", "index"), ("api-milvus", "index-milvus")])
+def test_the_service_cannot_write_the_index_and_is_reached_from_this_machine_alone(name: str, index: str) -> None:
+    api = SERVICES[name]
     writable = [volume.split(":")[1] for volume in api["volumes"] if not volume.endswith(":ro")]
     assert writable == ["/jobs"]
-    assert "index:/data:ro" in api["volumes"]
+    assert f"{index}:/data:ro" in api["volumes"]
+    assert f"{index}:/data" in SERVICES[index]["volumes"]
     assert api["ports"]
     assert all(port.startswith("127.0.0.1:") for port in api["ports"])
-    assert not any("ports" in service for name, service in SERVICES.items() if name != "api")
-    assert "/maps:ro" in "".join(SERVICES["index"]["volumes"])
+    assert not any("ports" in service for name, service in SERVICES.items() if name not in APIS)
+    assert "/maps:ro" in "".join(SERVICES[index]["volumes"])
 
 
-def test_a_stop_waits_for_the_longest_request() -> None:
-    grace = SERVICES["api"]["stop_grace_period"]
+def test_milvus_is_there_for_those_alone_who_name_its_profile() -> None:
+    assert {name for name, service in SERVICES.items() if "profiles" not in service} == {"index", "api"}
+    assert {tuple(service["profiles"]) for service in SERVICES.values() if "profiles" in service} == {("milvus",)}
+    volumes = [{volume.split(":")[0] for volume in SERVICES[name]["volumes"]} for name in APIS]
+    assert not volumes[0] & volumes[1], "neither takes the other's index for its own"
+    assert re.fullmatch(r"milvusdb/milvus:v\d+\.\d+\.\d+", SERVICES["milvus"]["image"]), "a pinned version"
+    assert "9091/healthz" in SERVICES["milvus"]["healthcheck"]["test"][-1]
+    for name in ("index-milvus", "api-milvus"):
+        assert "HEREABOUTS_MILVUS_URI=http://milvus:19530" in SERVICES[name]["environment"]
+        assert SERVICES[name]["depends_on"]["milvus"] == {"condition": "service_healthy"}
+    both = [SERVICES[name]["command"] for name in ("index", "index-milvus")]
+    assert both[1] == [*both[0], "--store", "milvus"]
+
+
+@pytest.mark.parametrize("name", APIS)
+def test_a_stop_waits_for_the_longest_request(name: str) -> None:
+    grace = SERVICES[name]["stop_grace_period"]
     assert grace.endswith("s")
     assert int(grace[:-1]) > Settings.model_fields["max_deadline_ms"].default / 1000 + CLOSING_S
     assert given("STOPSIGNAL") == "SIGTERM"
@@ -86,7 +111,7 @@ def test_a_stop_waits_for_the_longest_request() -> None:
 
 def test_health_is_asked_for() -> None:
     assert "/readyz" in given("HEALTHCHECK")
-    assert "healthcheck" not in SERVICES["api"], "the image's own"
+    assert not any("healthcheck" in SERVICES[name] for name in APIS), "the image's own"
 
 
 class Confined:

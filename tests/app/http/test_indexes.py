@@ -159,9 +159,10 @@ def test_a_version_that_cannot_be_opened_leaves_the_old_one_serving():
     asyncio.run(run())
 
 
-def test_an_index_that_is_built_after_the_service_started_is_found():
-    city = City()
-    city.broken = {None}
+@pytest.mark.parametrize("there", [{}, {"default": "of another model"}])
+def test_an_index_that_is_built_after_the_service_started_is_found(there):
+    city = City(**there)
+    city.broken = {None, *there.values()}
 
     async def run():
         async with serving(city) as indexes:
