@@ -10,7 +10,6 @@ import os
 import signal
 import sys
 import traceback
-from itertools import count
 from multiprocessing.connection import Connection
 from multiprocessing.reduction import recv_handle
 from threading import Thread
@@ -24,7 +23,8 @@ from models.errors import HereaboutsError
 if TYPE_CHECKING:
     from index.localizer import Localizer
 
-TRIM_EVERY: Final = 500  # calls; it takes some ten milliseconds
+IDLE_S: Final = 1.0  # without calls, and memory is given back
+MANY: Final = 100  # calls since it was the last time; to take it again costs the next one 30 ms
 SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # are for the service, which drains
 
 
@@ -63,13 +63,16 @@ def _work(localizer: "Localizer", queries: Connection, reads: Connection) -> Non
 
 def _answer(localizer: "Localizer", asked: Connection) -> None:
     """Answer calls (name of a method, arguments), one after another."""
-    for number in count(1):
-        if number % TRIM_EVERY == 0:
-            give_back()
+    answered = 0
+    while True:
         try:
+            if answered >= MANY and not asked.poll(IDLE_S):
+                give_back()
+                answered = 0
             name, arguments = asked.recv()
         except (EOFError, OSError):
             return
+        answered += 1
         try:
             answer = getattr(localizer, name)(*arguments)
         except Exception as error:

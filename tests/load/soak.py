@@ -10,6 +10,7 @@ import json
 import random
 import statistics
 import sys
+import time
 from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -23,6 +24,7 @@ from tests.load.service import started, text
 JSON = {"Content-Type": "application/json"}
 ALLOWED_MIB = 1.0  # in 10,000 requests
 STOPS, CLIENTS = 20, 4
+REST_S = 3.0  # before memory is looked at: what is free between two answers is given back when there are none
 SHARE_SAID, SHARE_NEW = 0.25, 0.5  # of descriptions among the requests, of new ones among these
 
 
@@ -38,6 +40,7 @@ def main() -> int:
         for stop in range(1, STOPS + 1):
             seeds = [f"{stop} {client}" for client in range(CLIENTS)]
             statuses = sum(pool.map(partial(ask, url, share), seeds), Counter())
+            time.sleep(REST_S)
             points.append((stop * share * CLIENTS, memory_mib(pid)))
             shown = {"requests": points[-1][0], "mib": round(points[-1][1], 2), "statuses": statuses}
             print(json.dumps(shown), flush=True)

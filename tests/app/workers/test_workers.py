@@ -2,6 +2,7 @@ import ctypes
 import os
 import signal
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from multiprocessing import Pipe
 from pathlib import Path
@@ -165,16 +166,19 @@ def test_memory_that_is_free_is_given_back_though_some_above_it_is_not() -> None
     assert len(kept) == 20
 
 
-def test_a_worker_gives_memory_back_now_and_then(monkeypatch):
+def test_a_worker_gives_memory_back_when_it_rests_after_many_answers(monkeypatch):
     times = []
-    monkeypatch.setattr("app.workers.process.TRIM_EVERY", 3)
+    monkeypatch.setattr("app.workers.process.MANY", 3)
+    monkeypatch.setattr("app.workers.process.IDLE_S", 0.2)
     monkeypatch.setattr("app.workers.process.give_back", lambda: times.append(1))
     own, other = Pipe()
     thread = Thread(target=_answer, args=(SimpleNamespace(double=lambda n: 2 * n), other))
     thread.start()
-    for n in range(7):
-        own.send(("double", (n,)))
-        assert own.recv() == 2 * n
+    for rest_s, given_back in ((0.0, 0), (0.5, 1), (0.5, 1), (0.0, 1), (0.5, 2)):
+        for n in range(2 if rest_s else 1):
+            own.send(("double", (n,)))
+            assert own.recv() == 2 * n
+        time.sleep(rest_s)
+        assert len(times) == given_back
     own.close()
     thread.join(5)
-    assert len(times) == 2
