@@ -136,8 +136,8 @@ class FormatOnly(BaseModel):
     format: int
 
 
-def fingerprint(data: Path, split: str | None = None) -> str:
-    """sha256 of what a map is read from.
+def fingerprint(data: Path, split: str | None = None, region: str | None = None) -> str:
+    """sha256 of what a map is read from; of a part of it, with what says which.
 
     Raises:
         DataError: there is nothing to read.
@@ -148,7 +148,7 @@ def fingerprint(data: Path, split: str | None = None) -> str:
         files = [data / STORE_MANIFEST]  # has the sums of all others
     else:
         files = [data / "cells" / f"{s}.pkl" for s in select_scenes(list_scenes(data), split, data / "cells")]
-    parts = [f"{split}", *(f"{path.name} {sha256(path)}" for path in files)]
+    parts = [f"{split}", *([region] if region else []), *(f"{path.name} {sha256(path)}" for path in files)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 

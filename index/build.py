@@ -28,8 +28,9 @@ from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats
 from models.city.gallery import MapData
 from models.city.kinds.vocabulary import load_vocabulary
+from models.city.osm.extract import Region, extracted
 from models.city.scenery.files import save_scenery
-from models.city.source import open_source
+from models.city.source import Source, open_source
 from models.city.types import Progress
 from models.errors import DataError, IndexUnusable
 from models.files import file_records, new_directory
@@ -50,6 +51,7 @@ def build_index(
     levels: bool = False,
     progress: Progress | None = None,
     store: StoreName = "faiss",
+    within: Region | None = None,
 ) -> Path:
     """Build an index version of a map and let the alias "default" name it.
 
@@ -62,6 +64,7 @@ def build_index(
         levels: keep the retriever's other levels too: any `refine` but the default ranks by them.
         progress: called as the work goes on.
         store: where the vectors go: a file of the version, or the Milvus that HEREABOUTS_MILVUS_URI names.
+        within: the part of an OpenStreetMap file that is wanted; None for all of it.
 
     Returns:
         The version's directory.
@@ -74,10 +77,27 @@ def build_index(
     report = progress or (lambda stage, done, total: None)
     report("load model", 0, 0)
     retriever = load_retriever(weights_dir)
-    current = _current(out_dir, map_path, split, retriever, levels, store) if keep_current else None
+    map_sha256 = fingerprint(map_path, split, None if within is None else within.shape.wkt)
+    current = _current(out_dir, map_sha256, retriever, levels, store) if keep_current else None
     if current:
         return current
-    source = open_source(map_path, split, report)
+    if within is not None:
+        report("take the region", 0, 0)
+    with extracted(map_path, within) as path:
+        source = open_source(path, split, report)
+        return _build(source, out_dir, new_version(map_sha256, retriever.fingerprint), retriever, levels, report, store)
+
+
+def _build(
+    source: Source,
+    out_dir: Path,
+    origin: dict[str, str],
+    retriever: Retriever,
+    levels: bool,
+    report: Progress,
+    store: StoreName,
+) -> Path:
+    """As `build_index`, of a source."""
     data = source.data
     report("encode cells", 0, 0)
     ranker = Ranker.of(retriever if levels else retriever.global_alone(), data.cells, data.gallery.labels)
@@ -86,7 +106,6 @@ def build_index(
     gazetteer, encoder = source.gazetteer(), load_text_encoder()
     meanings = Meanings.of(Lookup(gazetteer, load_vocabulary(), encoder.is_everyday), encoder.embed)
     report("write index", 0, 0)
-    origin = new_version(fingerprint(map_path, split), retriever.fingerprint)
     vectors = ranker.store.vectors(np.arange(len(data.cells)))
     with (
         _writing(out_dir),
@@ -153,9 +172,7 @@ def _describe(data: MapData) -> dict[str, object]:
     }
 
 
-def _current(
-    out_dir: Path, map_path: Path, split: str | None, retriever: Retriever, levels: bool, store: StoreName
-) -> Path | None:
+def _current(out_dir: Path, map_sha256: str, retriever: Retriever, levels: bool, store: StoreName) -> Path | None:
     """The default version's directory if it is whole, of this map, model and store, with levels if they are wanted."""
     try:
         directory, manifest = open_version(out_dir)
@@ -164,5 +181,5 @@ def _current(
     except IndexUnusable:
         return None
     is_rich = STARTS_FILE in manifest.files or retriever.levels == ("global",) or not levels
-    is_same = manifest.store == store and manifest.map_sha256 == fingerprint(map_path, split)
+    is_same = manifest.store == store and manifest.map_sha256 == map_sha256
     return directory if is_rich and is_same else None

@@ -76,14 +76,22 @@ def index(
         Literal["faiss", "milvus"],
         typer.Option(help="where the vectors go: a file, or the Milvus that HEREABOUTS_MILVUS_URI names"),
     ] = "faiss",
+    within: Annotated[
+        str | None,
+        typer.Option(help="a part of an OpenStreetMap file: west,south,east,north in degrees, or a GeoJSON file"),
+    ] = None,
 ) -> None:
     """Build an index of a map."""
     from app.cli.progress import stage_bars
     from app.settings import load_settings
     from index.build import build_index
+    from models.city.osm.extract import Region
 
+    region = None if within is None else Region.parse(within)
     with stage_bars() as show:
-        version_dir = build_index(map_path, out, load_settings().weights_dir, split, keep_current, levels, show, store)
+        version_dir = build_index(
+            map_path, out, load_settings().weights_dir, split, keep_current, levels, show, store, region
+        )
     typer.echo(f"index {version_dir.name} is in {version_dir}; serve it with: hereabouts serve --index {out}")
 
 

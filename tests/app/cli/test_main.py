@@ -94,10 +94,11 @@ def test_fault_is_not_taken_for_wrong_input(opened):
 
 
 def test_index_builds_and_says_what_next(monkeypatch):
-    calls = []
+    calls, regions = [], []
 
-    def build_index(map_path, out_dir, weights_dir, *_rest):
+    def build_index(map_path, out_dir, weights_dir, *rest):
         calls.append((map_path, out_dir, weights_dir))
+        regions.append(rest[-1])
         if map_path.name == "bad":
             raise MapError("bad map")
         return out_dir / "v1"
@@ -107,6 +108,12 @@ def test_index_builds_and_says_what_next(monkeypatch):
     assert (result.exit_code, calls) == (0, [(Path("a.osm"), Path("o"), None)])
     assert result.stdout == "index v1 is in o/v1; serve it with: hereabouts serve --index o\n"
     assert run("index", "--map", "bad").exit_code == 1
+    assert regions == [None, None]
+    assert run("index", "--map", "a.osm", "--within", "1,2,3,4").exit_code == 0
+    assert regions[-1].shape.bounds == (1, 2, 3, 4)
+    result = run("index", "--map", "a.osm", "--within", "here")
+    assert (result.exit_code, len(calls)) == (1, 3)
+    assert "west,south,east,north" in result.stderr
 
 
 def test_serve_takes_options_then_environment(monkeypatch):

@@ -1,0 +1,30 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import models
+from index.artifact import open_version
+from index.build import build_index
+from index.localizer import Localizer
+from models.city.osm.extract import Region
+
+SHIPPED_PATH = Path(models.__file__).parent / "maps" / "helsinki.osm.pbf"
+
+
+@pytest.mark.slow
+def test_an_index_of_a_part_of_a_file_knows_that_part_alone(weights_dir, tmp_path) -> None:
+    region = Region.parse("24.9440,60.1690,24.9480,60.1710")
+    built = build_index(SHIPPED_PATH, tmp_path, weights_dir, keep_current=True, within=region)
+    localizer = Localizer.open(tmp_path, weights_dir)
+    assert open_version(tmp_path)[1].map_name == "helsinki"
+    centers_m = localizer.gallery.cells.center_m
+    lat, lon = localizer.frame.to_wgs84(centers_m)
+    assert 100 < len(lat) < 2000
+    west, south, east, north = region.shape.bounds
+    inside = (lon >= west) & (lon <= east) & (lat >= south) & (lat <= north)
+    assert np.mean(inside) > 0.8, "cells reach 15 m over the border"
+    again = build_index(SHIPPED_PATH, tmp_path, weights_dir, keep_current=True, within=region)
+    assert again == built
+    other = Region.parse("24.9440,60.1690,24.9480,60.1712")
+    assert build_index(SHIPPED_PATH, tmp_path, weights_dir, keep_current=True, within=other) != built
