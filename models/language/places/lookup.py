@@ -23,7 +23,7 @@ LIKE: Final = 84.0  # of 100, rapidfuzz.fuzz.ratio, from which on a misspelt nam
 SHORTEST_MISSPELT: Final = 5
 LEAST_SHARE: Final = 0.35  # of a name's weight that a part of it must bear
 PART: Final = 0.5  # weight of a part of a name beside whole ones
-KEPT: Final = 8192  # phrases whose kinds are remembered
+KEPT: Final = 4096  # phrases whose kinds are remembered
 EMPTY: Final = ARTICLES | english().list("empty")
 
 

@@ -100,14 +100,14 @@ def _owner(word: str) -> str:
     return _ordinal(_ORDINALS[plain]) if plain in _ORDINALS else plain
 
 
-@lru_cache(maxsize=16_384)
+@lru_cache(maxsize=4096)
 def plain_words(name: str) -> tuple[str, ...]:
     """The words of a name, without a leading article."""
     words = tuple(word.plain for word in words_of(name))
     return words[1:] if len(words) > 1 and words[0] in ARTICLES else words
 
 
-@lru_cache(maxsize=16_384)
+@lru_cache(maxsize=4096)
 def plain_word(word: str) -> str:
     """A word in lower case, without accents and apostrophes."""
     if word in ("&", "+"):
