@@ -14,7 +14,7 @@ from app.settings import Settings
 from index.artifact import open_version, read_aliases, register, set_alias
 
 CLIENTS, SWITCHES, VERSIONS = 64, 200, ("v1", "v2", "v3")
-COMPUTING_S = 0.2  # so that requests wait, are computed, and are answered while an alias moves
+COMPUTING_S = 0.03  # so that requests wait, are computed, and are answered while an alias moves; 64 take two seconds
 
 
 class Versioned(FakeLocalizer):
