@@ -24,8 +24,7 @@ from models.city.points import Ints, ranges
 from models.city.queries import Queries
 from models.city.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
-from models.posterior.surroundings import Surroundings
-from models.posterior.things import Things
+from models.posterior.surroundings import STEP_M, Surroundings
 
 MOST_QUERIES = 300
 SEED = 0
@@ -130,16 +129,16 @@ def nearest_hints(
             found.append(())
             continue
         node = nodes[np.hypot(*(around.nodes_m[nodes] - position).T).argmin()]
-        here = around.around(np.array([node]))
-        offset = position - (around.nodes_m[node] - here.way_m)
+        here = slice(around.starts[node], around.starts[node + 1])
+        offset = position - (around.nodes_m[node] - around.way[here] * STEP_M)
         nearest = np.argsort(np.hypot(*offset.T), kind="stable")[:count]
-        found.append(tuple(_hint(data, around.things, int(here.part[k]), offset[k]) for k in nearest))
+        found.append(tuple(_hint(data, int(around.part[here][k]), offset[k]) for k in nearest))
     return found
 
 
-def _hint(data: MapData, things: Things, part: int, offset_m: Floats) -> Hint:
+def _hint(data: MapData, part: int, offset_m: Floats) -> Hint:
     gallery = data.gallery
-    instance, rgb = things.instance[part], things.rgb[part]
+    instance, rgb = gallery.cells.parts.instance[part], gallery.cells.parts.rgb[part]
     direction: Direction = DIRECTIONS[int(direction_index(offset_m))]
     return Hint(direction, gallery.labels[instance], data.palette.word(rgb))
 
@@ -150,11 +149,11 @@ class Damage:
 
     Attributes:
         data: the map.
-        kept: [R] which parts of the map as it was are still there.
+        part_of: [R] row there of each part of the map as it was, -1 for those that are gone.
     """
 
     data: MapData
-    kept: npt.NDArray[np.bool_]
+    part_of: Ints
 
 
 def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | None:
@@ -171,15 +170,16 @@ def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | N
         names = np.unique(labels)
         changed = np.where(hit[number], names[rng.integers(len(names), size=len(hit))][number], labels)
         relabelled = replace(gallery, labels=tuple(changed.tolist()))
-        return Damage(replace(data, gallery=relabelled), np.ones(len(parts.instance), np.bool_))
+        return Damage(replace(data, gallery=relabelled), np.arange(len(parts.instance)))
     kept = ~hit[number][parts.instance]
     kept[parts.starts[:-1]] = True  # a cell keeps one part at least
     count = np.concatenate([[0], np.cumsum(kept)])
     columns = {f.name: getattr(parts, f.name)[kept] for f in fields(parts) if f.name != "starts"}
     cells = replace(
-        gallery.cells, content=Parts(starts=count[parts.starts], **columns), sample=_sampler_of(gallery.cells, kept)
+        gallery.cells, parts=Parts(starts=count[parts.starts], **columns), sample=_sampler_of(gallery.cells, kept)
     )
-    return Damage(replace(data, gallery=replace(gallery, cells=cells)), kept)
+    part_of = np.where(kept, count[1:] - 1, -1)
+    return Damage(replace(data, gallery=replace(gallery, cells=cells)), part_of)
 
 
 def _sampler_of(cells: CellTable, kept: npt.NDArray[np.bool_]) -> Sampler | None:
@@ -201,9 +201,7 @@ def _localizers(
 ) -> tuple[VectorLocalizer, PosteriorLocalizer]:
     """Retriever and posterior of a map that differs from theirs."""
     data, ranker = damage.data, vectors.ranker
-    around = posterior.surroundings
-    parts = around.things.parts_among(posterior.gallery.cells.parts, damage.kept)
-    surroundings = around.take(np.arange(len(data.cells)), parts)
+    surroundings = posterior.surroundings.take(np.arange(len(data.cells)), damage.part_of)
     encoded = Ranker.of(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
     again = PosteriorLocalizer.of_map(posterior.weights, data, encoded, surroundings)
     return VectorLocalizer.of_map(data, encoded), again

@@ -20,7 +20,7 @@ from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
 from models.posterior.posterior import HintPosterior
-from models.posterior.surroundings import Surroundings, surroundings_of
+from models.posterior.surroundings import Surroundings
 
 READ_AT_ONCE = 16
 SLIPS = 0.15  # share of the texts that say something wrong, as people do
@@ -36,7 +36,7 @@ class Place:
 
     Attributes:
         surroundings, cells: of the gallery.
-        label: [P] number of the label of each of the surroundings' things.
+        label: [R] number of the label of each of the cells' parts.
         labels: all labels.
         palette: colour words.
         hints: Q lists of what was said.
@@ -58,13 +58,12 @@ class Place:
         """A source with what is asked of it."""
         data, hints = source.data, queries.hints
         assert hints is not None
-        surroundings = surroundings_of(source.bodies(), data.cells)
-        labels, label = surroundings.things.labels(data.gallery)
+        labels, number = np.unique(data.gallery.labels, return_inverse=True)
         return cls(
-            surroundings=surroundings,
+            surroundings=Surroundings.of(source.bodies(), data.cells),
             cells=replace(data.cells, sample=None),  # lets go of the map's points
-            label=label,
-            labels=labels,
+            label=number.astype(np.int64)[data.cells.parts.instance],
+            labels=tuple(labels.tolist()),
             palette=data.palette,
             hints=hints,
             positions_m=queries.positions_m,
