@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from index.localizer import Localizer
 
 IDLE_S: Final = 1.0  # without calls, and memory is given back
-MANY: Final = 100  # calls since it was the last time; to take it again costs the next one 30 ms
+MANY: Final = 100  # calls since it was the last time; the next one has to take it again
 SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # are for the service, which drains
 
 
