@@ -9,7 +9,6 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import fields
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -120,10 +119,9 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
         encoded = _timed(steps["encode"], retriever.encode_texts, [text])
         _timed(steps["vector_search"], ranker.rank, encoded, DEPTH)
     surroundings, cells = posterior.surroundings, len(localizer.gallery.cells)
-    held = sum(getattr(surroundings, f.name).nbytes for f in fields(surroundings))
     return {f"{name}_ms": round(1000 * float(np.median(seconds)), 1) for name, seconds in steps.items()} | {
         "cells": cells,
-        "surroundings_bytes_a_cell": round(held / cells),
+        "surroundings_bytes_a_cell": round(surroundings.num_bytes / cells),
         "vectors_bytes_a_cell": round(4 * localizer.facts.dim + ranker.table.bytes_a_cell),
     }
 

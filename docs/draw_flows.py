@@ -97,7 +97,7 @@ def city(axes: Axes) -> Box:
     command = box(axes, (x, 101, wide, TALL), "app", "hereabouts index", "app/cli/main.py", "map, directory, split")
     door = box(axes, (x, 88.5, wide, TALL), "models", "One door to data", "models/city/source.py and a folder a source",
                "OpenStreetMap, KITTI360Pose, a converted store")  # fmt: skip
-    cells = box(axes, (x, 76, wide, TALL), "models", "Cells", "models/city/cells.py",
+    cells = box(axes, (x, 76, wide, TALL), "models", "Cells", "models/city/tiled/ and cells.py",
                 "cubes of 30 m each 10 m; things whole, stuff clipped")  # fmt: skip
     left, right, half = x - 13.5, x + 13.5, 25.0
     encode = box(axes, (left, 62.5, half, TALL), "models", "Retriever encodes", "models/retrieval/",

@@ -6,7 +6,8 @@
 <root>/<version>/hints.safetensors             what the retriever makes of every template hint about the map
 <root>/<version>/levels.starts.npy, levels.<level>.npy   the retriever's other levels, if they were asked for
 <root>/<version>/cells.safetensors, cells.json where the cells are and what is in them
-<root>/<version>/surroundings.safetensors      what lies around every position
+<root>/<version>/pieces.safetensors or surroundings.safetensors   what lies around every position
+<root>/<version>/statements.safetensors        which cells a statement holds in
 <root>/<version>/gazetteer.safetensors, gazetteer.json   what a passer-by could name
 <root>/<version>/meanings.faiss, meanings.json a vector a name or noun of it, to find it by its meaning
 <root>/<version>/scenery.<n>.safetensors.gz    what the map looks like
@@ -42,7 +43,7 @@ from models.files import FileRecord, replace_file, sha256
 MANIFEST: Final = "manifest.json"
 ALIASES: Final = "aliases.json"
 DEFAULT: Final = "default"  # the alias that is served to who names none
-FORMAT: Final = 7
+FORMAT: Final = 8
 ADVICE: Final = "build it with 'hereabouts index --map MAP --out DIR'"
 LOCK: Final = ".lock"  # held by whoever changes the aliases
 NEEDED: Final = frozenset({"vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "gazetteer.json"})

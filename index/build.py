@@ -36,7 +36,10 @@ from models.errors import DataError, IndexUnusable
 from models.files import file_records, new_directory
 from models.language.places.lookup import Lookup
 from models.language.text_encoder import load_text_encoder
-from models.posterior.surroundings import Surroundings
+from models.posterior.model import load_posterior
+from models.posterior.posterior import HintPosterior
+from models.posterior.statements import Statements
+from models.posterior.surroundings import Surroundings, surroundings_of
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever
@@ -101,7 +104,9 @@ def _build(
     data = source.data
     report("encode cells", 0, 0)
     ranker = Ranker.of(retriever if levels else retriever.global_alone(), data.cells, data.gallery.labels)
-    surroundings = Surroundings.of(source.bodies(), data.cells, report)
+    surroundings = surroundings_of(source.bodies(), data.cells, report)
+    report("tabulate statements", 0, 0)
+    statements, posterior = _statements(data, surroundings)
     report("read names", 0, 0)
     gazetteer, encoder = source.gazetteer(), load_text_encoder()
     meanings = Meanings.of(Lookup(gazetteer, load_vocabulary(), encoder.is_everyday), encoder.embed)
@@ -116,8 +121,9 @@ def _build(
             FaissStore.of(vectors).save(directory / VECTORS_FILE)
         ranker.save_levels(directory)
         save_hint_features(directory, retriever, template_hints(data.gallery, data.palette))
-        data.gallery.save(directory)
+        data.gallery.save(directory, with_parts=not surroundings.cuts)
         surroundings.save(directory)
+        statements.save(directory, posterior)
         gazetteer.save(directory)
         meanings.save(directory)
         save_scenery(directory, source.scenery(gazetteer))
@@ -134,6 +140,13 @@ def _build(
     with _writing(out_dir):
         set_alias(out_dir, "default", manifest.version)
     return out_dir / manifest.version
+
+
+def _statements(data: MapData, surroundings: Surroundings) -> tuple[Statements, str]:
+    """The statements about a map, by the hint posterior that ships, and its fingerprint."""
+    model, label = load_posterior(), surroundings.things.labels(data.gallery)[1]
+    posterior = HintPosterior(model.likelihood, surroundings, data.cells, label, data.palette)
+    return posterior.statements, model.fingerprint
 
 
 @contextmanager

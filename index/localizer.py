@@ -19,10 +19,12 @@ from index.stores.faiss_store import FaissStore
 from index.stores.opening import open_store
 from index.vector_localizer import VectorLocalizer, raw_sentences
 from index.words.describing import Describer
+from models.city.cells import Parts
 from models.city.colours import PALETTES
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData
 from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.points import Ints
 from models.city.scenery.files import SceneryPart, file_name, is_scenery
 from models.city.types import Floats
 from models.errors import IndexBroken
@@ -30,7 +32,9 @@ from models.language.text_encoder import load_text_encoder
 from models.localization.checkpoint import load_refiner
 from models.localization.fine_model import FineMethod, FineModel
 from models.posterior.model import PosteriorModel, load_posterior
-from models.posterior.surroundings import Surroundings
+from models.posterior.piece_surroundings import PieceSurroundings
+from models.posterior.statements import Statements
+from models.posterior.surroundings import Surroundings, load_surroundings
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever
@@ -60,7 +64,7 @@ class Localizer:
         self.manifest, self.retriever = manifest, retriever
         self._directory, self._load_refiner, self._load_model = directory, load_refiner, load_model
         self._refined: dict[str, VectorLocalizer] = {}
-        self.gallery = Gallery.load(directory)
+        self.gallery = Gallery.load(directory, self._cut)
         store = open_store(directory, manifest, self.gallery.cells.center_m)
         self.ranker = Ranker.load(retriever.global_alone(), directory, store)
         self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
@@ -163,14 +167,31 @@ class Localizer:
     @cached_property
     def posterior(self) -> PosteriorLocalizer:
         """The hint posterior on this gallery."""
-        given = self._load_model(), self.gallery, self.palette, self.frame, self._surroundings, self.ranker
+        model = self._load_model()
         meanings = Meanings.load(self._directory, load_text_encoder().embed)
-        return PosteriorLocalizer(*given, self._gazetteer, self.manifest.grid_m, meanings)
+        return PosteriorLocalizer(
+            model,
+            self.gallery,
+            self.palette,
+            self.frame,
+            self._surroundings,
+            self.ranker,
+            self._gazetteer,
+            self.manifest.grid_m,
+            meanings,
+            Statements.load(self._directory, model.fingerprint),
+        )
+
+    def _cut(self, cells: Ints) -> Parts:
+        """The parts of some cells, of a map of pieces."""
+        surroundings = self._surroundings
+        assert isinstance(surroundings, PieceSurroundings)
+        return surroundings.cut(self.gallery.cells.center_m[cells])
 
     # The next three are read by `describe` too, on any thread: what two threads read at once is the same.
     @cached_property
     def _surroundings(self) -> Surroundings:
-        return Surroundings.load(self._directory)
+        return load_surroundings(self._directory, self.gallery.cells)
 
     @cached_property
     def _gazetteer(self) -> Gazetteer:
@@ -226,15 +247,16 @@ class Localizer:
     def cells(self, first: int, count: int) -> list[CellSummary]:
         """Cells of the map in their order, from row `first` (0 is the first), at most `count`."""
         rows = range(first, min(first + count, len(self.gallery.cells.ids)))
-        starts = self.gallery.cells.parts.starts
-        return [CellSummary(**self._place(row), instances=int(starts[row + 1] - starts[row])) for row in rows]
+        count_of = np.diff(self.gallery.cells.take(np.array(rows, np.int64)).parts.starts).tolist()
+        return [CellSummary(**self._place(row), instances=n) for row, n in zip(rows, count_of, strict=True)]
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""
         row = self._row.get(cell_id)
         if row is None:
             return None
-        gallery, parts = self.gallery, self.gallery.cells.parts
+        gallery = self.gallery
+        parts = gallery.cells.take(np.array([row])).parts
         return CellDetail(
             **self._place(row),
             instances=tuple(
@@ -248,7 +270,7 @@ class Localizer:
                     size=_triple(parts.high_m[r] - parts.low_m[r]),
                     closest=_triple(parts.closest_m[r]),
                 )
-                for r in np.arange(parts.starts[row], parts.starts[row + 1])
+                for r in range(len(parts.instance))
             ),
         )
 

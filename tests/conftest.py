@@ -9,7 +9,9 @@ os.environ["OMP_NUM_THREADS"] = (
 
 import shutil
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,13 +21,15 @@ from filelock import FileLock
 from index.build import build_index
 from index.localizer import Localizer
 from models.checkpoint import round_weights
-from models.city.cells import CellTable, cut_cells
+from models.city.bodies import Bodies, bodies_of, cut_cells
+from models.city.cells import CellTable
 from models.city.gallery import MapData
 from models.city.kitti360.job import prepare_data
-from models.city.osm.map import load_osm
+from models.city.osm.map import load_osm, read_features
 from models.city.points import PointTable
 from models.city.queries import Queries
 from models.city.source import MapSource
+from models.city.tiled.solids import points_on
 from models.city.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
@@ -127,25 +131,44 @@ def city(osm_file: Path) -> CityMap:
 
 
 @pytest.fixture(scope="session")
-def points(city: CityMap) -> PointTable:
-    return PointTable.of(city, city.rules.eps_m)
+def scan(osm_file: Path, city: CityMap) -> CityMap:
+    """The same town as points."""
+    xyz: dict[str | None, list[Any]] = {}
+    features = read_features(osm_file)[0]
+    sources = {feature.group: feature.source_id for feature in reversed(features)}
+    for feature in features:
+        xyz.setdefault(sources[feature.group], []).append(points_on(feature.solid))
+    instances = tuple(
+        replace(one, points_m=np.concatenate(xyz[one.source_id]).astype(np.float32)) for one in city.instances
+    )
+    return replace(city, instances=instances, pieces=None)
 
 
 @pytest.fixture(scope="session")
-def cells(city: CityMap, points: PointTable) -> CellTable:
-    return cut_cells(city, points)
+def points(scan: CityMap) -> PointTable:
+    return PointTable.of(scan, scan.rules.eps_m)
 
 
 @pytest.fixture(scope="session")
-def source(osm_file: Path, city: CityMap, points: PointTable, cells: CellTable) -> MapSource:
+def bodies(city: CityMap) -> Bodies:
+    return bodies_of(city)
+
+
+@pytest.fixture(scope="session")
+def cells(city: CityMap, bodies: Bodies) -> CellTable:
+    return cut_cells(city, bodies)
+
+
+@pytest.fixture(scope="session")
+def source(osm_file: Path, city: CityMap, bodies: Bodies, cells: CellTable) -> MapSource:
     """As `open_source` gives it."""
-    return MapSource(osm_file, city, points, cells)
+    return MapSource(osm_file, city, bodies, cells)
 
 
 @pytest.fixture(scope="session")
-def regions(osm_file: Path, city: CityMap, points: PointTable, cells: CellTable) -> list[MapSource]:
+def regions(osm_file: Path, city: CityMap, bodies: Bodies, cells: CellTable) -> list[MapSource]:
     """The west to train on, and the strip beside it to choose by."""
-    return [MapSource(osm_file, city, points, cells, split) for split in ("train", "val")]
+    return [MapSource(osm_file, city, bodies, cells, split) for split in ("train", "val")]
 
 
 @pytest.fixture(scope="session")

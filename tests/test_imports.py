@@ -18,7 +18,15 @@ RETRIEVAL = (*LANGUAGE, "models.retrieval")
 SOURCES = ("models.city.osm", "models.city.kitti360", "models.city.kitti360pose", "models.city.store")
 NAMES = ("models.city.gazetteer", "models.city.kinds")
 PLACES = (*NAMES, "models.language.places", "models.posterior.places")
-SERVED = (*RETRIEVAL, *SOURCES, *PLACES, "models.city.scenery", "models.localization", "models.posterior")
+SERVED = (
+    *RETRIEVAL,
+    "models.city.tiled",
+    *SOURCES,
+    *PLACES,
+    "models.city.scenery",
+    "models.localization",
+    "models.posterior",
+)
 TRAINED = (*SERVED, GRAMMAR, "models.city.synthetic", "models.training", "models.training.engine")
 FITTED = (*TRAINED, "models.training.posterior")
 INDEX = ("index", "index.asking", "index.posterior", "index.stores", "index.words")
@@ -28,11 +36,12 @@ REPRODUCES = (*MEASURES, "index.reproduction")
 # A package: whose modules it may import, beside its own. "models" stands for the modules right in models/.
 MAY_IMPORT = {
     "models": ("models.language",),
-    "models.city": ("models",),
+    "models.city": ("models", "models.city.tiled"),
+    "models.city.tiled": CITY,
     "models.city.kinds": ("models",),
     "models.city.gazetteer": CITY,
     "models.city.scenery": CITY,
-    "models.city.osm": (*CITY, *NAMES),
+    "models.city.osm": (*CITY, *NAMES, "models.city.tiled"),
     "models.city.kitti360pose": CITY,
     "models.city.kitti360": (*CITY, "models.city.kitti360pose"),
     "models.city.store": (*CITY, "models.city.kitti360pose"),
@@ -46,6 +55,7 @@ MAY_IMPORT = {
     "models.posterior": (
         *LANGUAGE,
         *SOURCES,
+        "models.city.tiled",
         "models.localization",
         "models.posterior.places",
         "models.language.places",

@@ -96,11 +96,11 @@ class Evaluation(BaseModel):
         """The hint posterior of a data set."""
         from index.posterior.localizer import PosteriorLocalizer  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
-        from models.posterior.surroundings import Surroundings  # noqa: PLC0415
+        from models.posterior.surroundings import surroundings_of  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         ranker = self._ranker(source, load_retriever(self.weights_dir).global_alone(), progress)
-        surroundings = Surroundings.of(source.bodies(), source.data.cells, progress)
+        surroundings = surroundings_of(source.bodies(), source.data.cells, progress)
         model = load_posterior(self.posterior_weights_dir)
         return PosteriorLocalizer.of_map(model, source.data, ranker, surroundings, source.gazetteer())
 

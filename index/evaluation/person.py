@@ -2,16 +2,16 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from index.answers import Question
 from index.asking.asked import OTHER, UNKNOWN, Asked
 from index.query import Reply
+from models.city.bodies import PieceBodies
 from models.city.colours import Palette
-from models.city.gallery import Bodies, Gallery
+from models.city.gallery import Clouds, Finder, Gallery
 from models.city.gazetteer.gazetteer import STREET, Gazetteer
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
 from models.city.points import Ints
@@ -30,7 +30,7 @@ NEARBY_M: Final = 150.0  # from where wrong names are taken
 
 
 class Truth:
-    """What a map has at a position, by its geometry: of all points of its instances, and of its names.
+    """What a map has at a position, by its geometry: of all its instances, and of its names.
 
     Args:
         bodies: what stands in the map.
@@ -39,7 +39,7 @@ class Truth:
         gazetteer: its names.
     """
 
-    def __init__(self, bodies: Bodies, gallery: Gallery, palette: Palette, gazetteer: Gazetteer) -> None:
+    def __init__(self, bodies: Clouds | PieceBodies, gallery: Gallery, palette: Palette, gazetteer: Gazetteer) -> None:
         self._bodies, self._palette, self._gazetteer = bodies, palette, gazetteer
         self._streets = gazetteer.by_kind.get(STREET, np.zeros(0, np.int64))
         kinds = load_asked().kinds
@@ -47,29 +47,23 @@ class Truth:
         self._places = np.array(known, np.int64)
         self._houses = np.array([n for n, w in enumerate(gazetteer.words) if w.street and w.numbers], np.int64)
         parts = gallery.cells.parts
-        instance, first = np.unique(bodies.part_instance, return_index=True)
+        instance, first = np.unique(bodies.part_instance(gallery.cells), return_index=True)
         self._rgb = dict(zip(instance.tolist(), parts.rgb[first], strict=True))
         label = {int(i): gallery.labels[parts.instance[row]] for i, row in zip(instance, first, strict=True)}
         owners: dict[tuple[int, str], list[int]] = {}
         for number, name in label.items():
             owners.setdefault((int(bodies.scene[number]), name), []).append(number)
-        self._owners, self._trees = owners, dict[tuple[int, str], tuple[cKDTree, Any]]()
+        self._owners, self._finders = owners, dict[tuple[int, str], Finder]()
 
     def nearest(self, scene: int, position: Floats, label: str) -> tuple[float, float, int] | None:
         """Metres, degrees clockwise from north, and instance of the nearest of a class; None if the scene has none."""
         key = scene, label
         if key not in self._owners:
             return None
-        if key not in self._trees:
-            some = self._owners[key]
-            spans = [slice(int(self._bodies.starts[n]), int(self._bodies.starts[n + 1])) for n in some]
-            points = np.concatenate([self._bodies.xyz[span, :2] for span in spans]).astype(np.float64)
-            owner = np.repeat(some, [span.stop - span.start for span in spans])
-            self._trees[key] = cKDTree(points), owner
-        tree, owner = self._trees[key]
-        metres, row = tree.query(position)
-        east, north = tree.data[row] - position
-        return float(metres), float(np.degrees(np.arctan2(east, north))), int(owner[row])
+        if key not in self._finders:
+            self._finders[key] = self._bodies.finder(self._owners[key])
+        (east, north), instance = self._finders[key](position)
+        return float(np.hypot(east, north)), float(np.degrees(np.arctan2(east, north))), instance
 
     def colour(self, instance: int) -> str | None:
         """The word for an instance's colour; None if the map does not know it."""

@@ -24,7 +24,8 @@ from models.city.points import Ints, ranges
 from models.city.queries import Queries
 from models.city.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
-from models.posterior.surroundings import STEP_M, Surroundings
+from models.posterior.surroundings import Surroundings
+from models.posterior.things import Things
 
 MOST_QUERIES = 300
 SEED = 0
@@ -129,16 +130,16 @@ def nearest_hints(
             found.append(())
             continue
         node = nodes[np.hypot(*(around.nodes_m[nodes] - position).T).argmin()]
-        here = slice(around.starts[node], around.starts[node + 1])
-        offset = position - (around.nodes_m[node] - around.way[here] * STEP_M)
+        here = around.around(np.array([node]))
+        offset = position - (around.nodes_m[node] - here.way_m)
         nearest = np.argsort(np.hypot(*offset.T), kind="stable")[:count]
-        found.append(tuple(_hint(data, int(around.part[here][k]), offset[k]) for k in nearest))
+        found.append(tuple(_hint(data, around.things, int(here.part[k]), offset[k]) for k in nearest))
     return found
 
 
-def _hint(data: MapData, part: int, offset_m: Floats) -> Hint:
+def _hint(data: MapData, things: Things, part: int, offset_m: Floats) -> Hint:
     gallery = data.gallery
-    instance, rgb = gallery.cells.parts.instance[part], gallery.cells.parts.rgb[part]
+    instance, rgb = things.instance[part], things.rgb[part]
     direction: Direction = DIRECTIONS[int(direction_index(offset_m))]
     return Hint(direction, gallery.labels[instance], data.palette.word(rgb))
 
@@ -149,11 +150,11 @@ class Damage:
 
     Attributes:
         data: the map.
-        part_of: [R] row there of each part of the map as it was, -1 for those that are gone.
+        kept: [R] which parts of the map as it was are still there.
     """
 
     data: MapData
-    part_of: Ints
+    kept: npt.NDArray[np.bool_]
 
 
 def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | None:
@@ -170,16 +171,15 @@ def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | N
         names = np.unique(labels)
         changed = np.where(hit[number], names[rng.integers(len(names), size=len(hit))][number], labels)
         relabelled = replace(gallery, labels=tuple(changed.tolist()))
-        return Damage(replace(data, gallery=relabelled), np.arange(len(parts.instance)))
+        return Damage(replace(data, gallery=relabelled), np.ones(len(parts.instance), np.bool_))
     kept = ~hit[number][parts.instance]
     kept[parts.starts[:-1]] = True  # a cell keeps one part at least
     count = np.concatenate([[0], np.cumsum(kept)])
     columns = {f.name: getattr(parts, f.name)[kept] for f in fields(parts) if f.name != "starts"}
     cells = replace(
-        gallery.cells, parts=Parts(starts=count[parts.starts], **columns), sample=_sampler_of(gallery.cells, kept)
+        gallery.cells, content=Parts(starts=count[parts.starts], **columns), sample=_sampler_of(gallery.cells, kept)
     )
-    part_of = np.where(kept, count[1:] - 1, -1)
-    return Damage(replace(data, gallery=replace(gallery, cells=cells)), part_of)
+    return Damage(replace(data, gallery=replace(gallery, cells=cells)), kept)
 
 
 def _sampler_of(cells: CellTable, kept: npt.NDArray[np.bool_]) -> Sampler | None:
@@ -201,7 +201,9 @@ def _localizers(
 ) -> tuple[VectorLocalizer, PosteriorLocalizer]:
     """Retriever and posterior of a map that differs from theirs."""
     data, ranker = damage.data, vectors.ranker
-    surroundings = posterior.surroundings.take(np.arange(len(data.cells)), damage.part_of)
+    around = posterior.surroundings
+    parts = around.things.parts_among(posterior.gallery.cells.parts, damage.kept)
+    surroundings = around.take(np.arange(len(data.cells)), parts)
     encoded = Ranker.of(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
     again = PosteriorLocalizer.of_map(posterior.weights, data, encoded, surroundings)
     return VectorLocalizer.of_map(data, encoded), again

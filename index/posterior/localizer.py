@@ -22,7 +22,7 @@ from models.city.colours import Palette
 from models.city.frame import Frame
 from models.city.gallery import Gallery, MapData
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
-from models.city.points import Ints, ranges
+from models.city.points import Ints
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.places.contradictions import contradictions
 from models.language.places.languages import ENGLISH, NAMES, language_of
@@ -35,9 +35,10 @@ from models.posterior.likelihood import Reading
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.posterior.places.field import Told
-from models.posterior.posterior import CANDIDATES, HintPosterior
+from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
-from models.posterior.surroundings import STEP_M, Surroundings
+from models.posterior.statements import Statements
+from models.posterior.surroundings import Surroundings
 
 PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
 REPLY_CANDIDATES = 1024  # where replies are all that is known: they may name a street of some kilometres
@@ -65,6 +66,7 @@ class PosteriorLocalizer:
         gazetteer: of the map; empty where nothing has a name.
         grid_m: spacing of the cells.
         meanings: of the gazetteer; None to understand its names and nouns alone.
+        statements: of the gallery; None to make them.
     """
 
     method: Method = "posterior"
@@ -80,21 +82,22 @@ class PosteriorLocalizer:
         gazetteer: Gazetteer = NOTHING_NAMED,
         grid_m: float = 10.0,
         meanings: Meanings | None = None,
+        statements: Statements | None = None,
     ) -> None:
         self.weights, self.gallery, self.frame, self.ranker = model, gallery, frame, ranker
         self.surroundings, self._palette = surroundings, palette
         self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
-        self.labels, number = np.unique(np.array(gallery.labels), return_inverse=True)
-        label = number.astype(np.int64)[gallery.cells.parts.instance]
-        self.nodes = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette)
-        self.binding = Binding(model.matcher, self.labels.tolist(), palette)
+        labels, label = surroundings.things.labels(gallery)
+        self.nodes = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette, statements)
+        self.labels = labels
+        self.binding = Binding(model.matcher, list(labels), palette)
         self._gazetteer, self._grid_m, self._meanings = gazetteer, grid_m, meanings
         self.places: PlaceReader | None = None
         if len(gazetteer):
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
             of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings
             self.places = PlaceReader(model.places, model.cues, *of_map)
-        self.questions = Questions(self.nodes.sights, self.labels.tolist(), palette, gazetteer, gallery.cells)
+        self.questions = Questions(self.nodes.sights, list(self.labels), palette, gazetteer, gallery.cells)
         self.texts = Texts(model.reader)
 
     @classmethod
@@ -112,13 +115,9 @@ class PosteriorLocalizer:
 
     def take(self, rows: Ints) -> "PosteriorLocalizer":
         """See CellLocalizer."""
-        parts = self.gallery.cells.parts
-        kept = ranges(parts.starts[rows], parts.starts[rows + 1])
-        part_of = np.full(len(parts.instance), -1)
-        part_of[kept] = np.arange(len(kept))
         gallery = replace(self.gallery, cells=self.gallery.cells.take(rows))
-        surroundings, ranker = self.surroundings.take(rows, part_of), self.ranker.take(rows)
-        given = self.weights, gallery, self._palette, self.frame, surroundings, ranker
+        surroundings = self.surroundings.take(rows, self.surroundings.things.parts_in(self.gallery.cells, rows))
+        given = self.weights, gallery, self._palette, self.frame, surroundings, self.ranker.take(rows)
         return PosteriorLocalizer(*given, self._gazetteer, self._grid_m, self._meanings)
 
     def find(self, queries: Sequence[Query]) -> list[Finding]:
@@ -138,7 +137,7 @@ class PosteriorLocalizer:
         timings = {"encode": encode_ms + _since(start)}
         warnings += (*_not_found(mentions), *contradictions(mentions))
         reading = self.binding.reading(hints) if hints else None
-        heard = Heard.of(reading, mentions, self.labels.tolist(), self._gazetteer)
+        heard = Heard.of(reading, mentions, list(self.labels), self._gazetteer)
         if not hints and told is None and answered is None:
             said, question = NOTHING_FITS if mentions else NOTHING_SAID, self._rescue(query, language, heard)
             return Finding(None, said, timings_ms=timings, warnings=warnings, question=question)
@@ -256,20 +255,19 @@ class PosteriorLocalizer:
         found = self.nodes.explain(reading, node)
         return tuple(self._explained(node, *row) for row in zip(hints, reading.label, found, strict=True))
 
-    def _explained(self, node: int, hint: ParsedHint, label: Any, found: tuple[int, float]) -> Evidence:
-        row, explained = found
+    def _explained(self, node: int, hint: ParsedHint, label: Any, found: Explained) -> Evidence:
+        explained = found.probability
         colour = int(hint.colour.argmax())
         shown: dict[str, Any] = {}
-        if row >= 0 and explained >= EXPLAINED and hint.absent < EXPLAINED:
-            gallery, s = self.gallery, self.surroundings
-            instance = int(gallery.cells.parts.instance[s.part[row]])
-            way = s.way[row].astype(np.float64) * STEP_M
+        if found.part >= 0 and explained >= EXPLAINED and hint.absent < EXPLAINED:
+            gallery = self.gallery
+            instance = int(self.surroundings.things.instance[found.part])
             shown = {
-                "at": pair(s.nodes_m[node] - way),
+                "at": pair(self.surroundings.nodes_m[node] - found.way_m),
                 "instance": gallery.labels[instance],
                 "name": gallery.names[instance],
                 "source_id": gallery.sources[instance],
-                "away_m": float(np.hypot(*way)),
+                "away_m": float(np.hypot(*found.way_m)),
             }
         fits = float(label.max()) >= EXPLAINED / 2
         return Evidence(

@@ -9,6 +9,7 @@ import numpy as np
 from torch import Tensor
 
 from index.stores.faiss_store import FaissStore
+from models.city.processes import map_forked
 from models.errors import IndexBroken
 from models.language.places.lookup import EMPTY, Lookup
 from models.language.places.names import plain_words
@@ -33,10 +34,10 @@ class Meanings:
 
     @classmethod
     def of(cls, lookup: Lookup, embed: Embed) -> "Meanings":
-        """Those of a map; some hundreds a second."""
+        """Those of a map; some hundreds a second on each CPU."""
         phrases = sorted(lookup.phrases(), key=len)
-        starts = range(0, len(phrases), READ_AT_ONCE)
-        vectors = [embed(phrases[start : start + READ_AT_ONCE]).numpy() for start in starts]
+        parts = [phrases[start : start + READ_AT_ONCE] for start in range(0, len(phrases), READ_AT_ONCE)]
+        vectors = map_forked(lambda some: embed(some).numpy(), parts)
         return cls(phrases, FaissStore.of(np.concatenate([embed(["a"]).numpy()[:0], *vectors])), embed)
 
     def like(self, said: str) -> tuple[str, ...] | None:

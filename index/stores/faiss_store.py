@@ -14,10 +14,11 @@ from models.errors import IndexBroken
 # From 20 queries on, FAISS multiplies matrices, whose rounding depends on the batch; below, each query is
 # scanned alone, so that it finds the same bits whatever stands beside it.
 QUERIES_PER_CALL: Final = 16
+EXACT: Final = 20_000  # vectors; more of them are kept to 8 bits a number, a quarter of the size
 
 
 class FaissStore:
-    """Exact search in memory (IndexFlatIP).
+    """Search of all vectors, in memory (IndexFlatIP; of many IndexScalarQuantizer).
 
     Args:
         index: FAISS's.
@@ -27,12 +28,17 @@ class FaissStore:
     def __init__(self, index: Any, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> None:
         self._index, self._positions_m = index, positions_m
         self.dim = int(index.d)
-        self._vectors = faiss.rev_swig_ptr(index.get_xb(), index.ntotal * self.dim).reshape(index.ntotal, self.dim)
 
     @classmethod
     def of(cls, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> "FaissStore":
         """A store of vectors [N, D]; see the class."""
-        index = faiss.IndexFlatIP(vectors.shape[1])
+        dim = vectors.shape[1]
+        index: Any
+        if len(vectors) > EXACT:
+            index = faiss.IndexScalarQuantizer(dim, faiss.ScalarQuantizer.QT_8bit, faiss.METRIC_INNER_PRODUCT)
+            index.train(np.ascontiguousarray(vectors))
+        else:
+            index = faiss.IndexFlatIP(dim)
         index.add(np.ascontiguousarray(vectors))
         return cls(index, positions_m)
 
@@ -47,10 +53,9 @@ class FaissStore:
             index = faiss.read_index(str(path))
         except RuntimeError as error:
             raise IndexBroken(f"{path} cannot be read; rebuild it with 'hereabouts index'") from error
-        if not isinstance(index, faiss.IndexFlatIP):
-            raise IndexBroken(
-                f"{path} holds a {type(index).__name__}, expected IndexFlatIP; rebuild it with 'hereabouts index'"
-            )
+        if not isinstance(index, faiss.IndexFlatIP | faiss.IndexScalarQuantizer):
+            kind = type(index).__name__
+            raise IndexBroken(f"{path} holds a {kind}, which none of this kind is; rebuild it with 'hereabouts index'")
         return cls(index, positions_m)
 
     def __len__(self) -> int:
@@ -78,12 +83,12 @@ class FaissStore:
 
     def score(self, query: Floats, rows: Rows) -> Floats:
         """See VectorStore."""
-        scores: Floats = self._vectors[rows] @ query
+        scores: Floats = self.vectors(rows) @ query
         return scores
 
     def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
         """See VectorStore."""
-        vectors: Floats = self._vectors[rows]
+        vectors: Floats = self._index.reconstruct_batch(np.asarray(rows, np.int64))
         return vectors
 
     def save(self, path: Path) -> None:

@@ -27,7 +27,7 @@ from models.city.hints import BEST_CELL_REACH_M, direction_index, round_robin
 from models.city.points import Ints
 from models.city.templates import OPPOSITE
 from models.city.types import DIRECTIONS, Floats, Hint
-from models.posterior.surroundings import STEP_M, Surroundings
+from models.posterior.surroundings import Surroundings
 
 MOST_FACTS: Final = 6
 MOST_NAMED: Final = 3
@@ -38,7 +38,6 @@ CROSSING_M: Final = 150.0  # down a street one sees the next corner
 AT_M: Final = 1.0  # nearer than this there is no wind to tell
 NEAR_M: Final = 4.0  # added to distances: what is nearer is no more telling
 RARE_M: Final = 5.0  # as much nearer counts what is rarer by a factor of e
-FLAT_M: Final = 0.5  # what is no higher is ground, on which one can stand
 # Kinds that nobody sees from a street: upstairs, underground, or a mere point of a track.
 UNSEEN: Final = (
     ADDRESS,
@@ -217,13 +216,12 @@ class NearSights:
 
     def __init__(self, gallery: Gallery, palette: Palette, surroundings: Surroundings) -> None:
         self._gallery, self._words, self._surroundings = gallery, palette.words, surroundings
-        parts = gallery.cells.parts
-        self._colour = palette.word_index(parts.rgb)
-        self._is_ground = (parts.high_m - parts.low_m)[:, 2] < FLAT_M
-        label = np.unique(np.array(gallery.labels), return_inverse=True)[1][parts.instance]
+        things = surroundings.things
+        self._colour = palette.word_index(things.rgb)
+        label = things.labels(gallery)[1]
         self._kind = label * (len(palette.words) + 1) + self._colour + 1  # a class in a colour
-        count = np.bincount(self._kind[surroundings.part], minlength=int(self._kind.max(initial=0)) + 1)
-        self._log_share = np.log(np.maximum(count, 1) / max(1, len(surroundings.nodes_m)))
+        count = np.bincount(self._kind, things.parts, int(self._kind.max(initial=0)) + 1)
+        self._log_share = np.log(np.maximum(count, 1) / max(1, things.parts.sum()))
 
     def facts(self, position: Floats, cell: int, told: Set[str], most: int) -> list[Fact]:
         """Sentences about what is near a position [2].
@@ -244,20 +242,20 @@ class NearSights:
     def _sights(self, position: Floats, cell: int, told: Set[str]) -> Iterator[tuple[Hint, bool, Sight]]:
         """What can be told of, from one side after the other, each thing and each hint once."""
         part, offset_m, whole = self._around(position, cell)
-        direction, gallery = direction_index(offset_m), self._gallery
+        direction, gallery, things = direction_index(offset_m), self._gallery, self._surroundings.things
         cost = np.hypot(*offset_m.T) + RARE_M * self._log_share[self._kind[part]]
         order = np.lexsort((cost, ~whole))
         said = set[tuple[int, int] | int]()
         for n in order[round_robin(direction[order])].tolist():
             row, side = int(part[n]), int(direction[n])
-            instance = int(gallery.cells.parts.instance[row])
+            instance = int(things.instance[row])
             name, source_id = gallery.names[instance], gallery.sources[instance]
             if {name, source_id} & told or {instance, (int(self._kind[row]), side)} & said:
                 continue
             said |= {instance, (int(self._kind[row]), side)}
             colour = self._words[self._colour[row]] if self._colour[row] >= 0 else None
             hint = Hint(DIRECTIONS[side], gallery.labels[instance], colour, instance)
-            yield hint, bool(self._is_ground[row]), Sight(hint.label, name, source_id, -offset_m[n])
+            yield hint, bool(things.is_flat[row]), Sight(hint.label, name, source_id, -offset_m[n])
 
     def _around(self, position: Floats, cell: int) -> tuple[Ints, Floats, npt.NDArray[np.bool_]]:
         """Parts [K] around a position [2], the position minus the closest point of each [K, 2], and which are whole."""
@@ -267,9 +265,8 @@ class NearSights:
             return np.zeros(0, np.int64), np.zeros((0, 2)), np.zeros(0, np.bool_)
         nodes_m = s.nodes_m[first:last].astype(np.float64)
         node = first + int(((nodes_m - position) ** 2).sum(axis=1).argmin())
-        rows = slice(int(s.starts[node]), int(s.starts[node + 1]))
-        offset_m = s.way[rows].astype(np.float64) * STEP_M + (position - s.nodes_m[node])
-        return s.part[rows], offset_m, s.whole[rows]
+        around = s.around(np.array([node]))
+        return around.part, around.way_m + (position - s.nodes_m[node]), around.whole
 
 
 def named_text(name: str, way_m: Floats) -> str:

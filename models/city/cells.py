@@ -6,7 +6,7 @@ One function cuts both the cells of the grid and the cell around a pose from whi
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -18,8 +18,7 @@ from scipy.spatial import cKDTree
 from models.city.point_sample import Sampler, sample_points, samples
 from models.city.points import Ints, PointTable, ranges
 from models.city.processes import map_forked
-from models.city.types import CityMap, CutRules, Floats
-from models.errors import MapError
+from models.city.types import CutRules, Floats
 
 CHUNK = 128  # cubes a task
 
@@ -63,7 +62,7 @@ class Parts:
         return Parts(starts=np.concatenate([[0], np.cumsum(end - begin)]), **columns)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class CellTable:
     """The cells of a map, or of several, in columns.
 
@@ -72,7 +71,7 @@ class CellTable:
         scenes: N scene names.
         center_m: [N, 3] float64, map frame.
         size_m: edge of the cubes.
-        parts: what is in them.
+        content: what is in them, or what cuts that of some rows when it is asked for.
         sample: gives points of the parts; None where they are not at hand, as in an index.
     """
 
@@ -80,11 +79,16 @@ class CellTable:
     scenes: tuple[str, ...]
     center_m: Floats
     size_m: float
-    parts: Parts
+    content: Parts | Callable[[Ints], Parts]
     sample: Sampler | None = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.ids)
+
+    @cached_property
+    def parts(self) -> Parts:
+        """What is in them; of a map of pieces it takes seconds to cut that out of a city, of some cells no time."""
+        return self.content if isinstance(self.content, Parts) else self.content(np.arange(len(self)))
 
     @property
     def extent_m(self) -> float:
@@ -93,48 +97,15 @@ class CellTable:
 
     def take(self, rows: Ints) -> "CellTable":
         """Some cells, in the given order."""
-        sample = self.sample
+        sample, content = self.sample, self.content
         return CellTable(
             ids=tuple(self.ids[r] for r in rows),
             scenes=tuple(self.scenes[r] for r in rows),
             center_m=self.center_m[rows],
             size_m=self.size_m,
-            parts=self.parts.take(rows),
+            content=content.take(rows) if isinstance(content, Parts) else (lambda chosen: content(rows[chosen])),
             sample=sample and (lambda chosen: sample(rows[chosen])),
         )
-
-
-def cut_cells(
-    city_map: CityMap, points: PointTable | None = None, progress: Callable[[int, int], None] | None = None
-) -> CellTable:
-    """Cut a map into overlapping cells on a grid over its locations (docs/formats.md, rule 4).
-
-    Args:
-        city_map: the map.
-        points: its point table, if already made.
-        progress: called with (cells cut, cells to cut).
-
-    Raises:
-        MapError: no cell has enough instances.
-    """
-    rules = city_map.rules
-    points = points or PointTable.of(city_map, rules.eps_m)
-    centers = grid_centers(city_map.locations_m, rules)
-    parts = cut_cubes(points, centers, rules, progress)
-    kept = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)
-    if not len(kept):
-        raise MapError(
-            f"map '{city_map.name}': none of {len(centers)} cells has {rules.min_instances} instances, "
-            "too few to tell places apart; take a larger or richer map"
-        )
-    return CellTable(
-        ids=tuple(f"{city_map.name}_{n:05d}" for n in range(len(kept))),
-        scenes=(city_map.name,) * len(kept),
-        center_m=centers[kept],
-        size_m=rules.cell_size_m,
-        parts=parts.take(kept),
-        sample=partial(_sample_cubes, points, rules, centers[kept]),
-    )
 
 
 def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
@@ -175,7 +146,7 @@ def cut_cubes(
     return Parts(np.concatenate([[0], np.cumsum(sizes)]), *columns)
 
 
-def _sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
+def sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
     """[R, 256, 6] points of the parts of some cubes, in order of `Parts`."""
     members = [rows for center in centers_m[cubes].astype(np.float64) for rows in _cut_cube(points, center, rules)]
     return samples([sample_points(points.xyz[rows], points.colours(rows)) for rows in members])

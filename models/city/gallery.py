@@ -1,6 +1,7 @@
 """What is known of cells beside their vectors: where they are, what is in them, and what map they are of."""
 
 import json
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import load_file, save_file
+from scipy.spatial import cKDTree
 
 from models.city.cells import CellTable, Parts
 from models.city.colours import Palette
@@ -17,6 +19,7 @@ from models.city.points import Ints
 from models.city.types import CityMap, Floats
 from models.errors import IndexBroken
 
+Finder = Callable[[Floats], tuple[Floats, int]]  # position [2] -> way [2] to the nearest instance, and which it is
 CELLS_FILE = "cells.safetensors"
 NAMES_FILE = "cells.json"
 
@@ -46,15 +49,19 @@ class Gallery:
             tuple(i.source_id for i in instances),
         )
 
-    def save(self, directory: Path) -> None:
-        """Write cells.safetensors and cells.json."""
-        parts = self.cells.parts
-        arrays = {f.name: np.ascontiguousarray(getattr(parts, f.name)) for f in fields(parts)}
-        save_file(arrays | {"center_m": self.cells.center_m}, directory / CELLS_FILE)
+    def save(self, directory: Path, *, with_parts: bool = True) -> None:
+        """Write cells.safetensors and cells.json; without parts, if something else can cut them."""
+        cells = self.cells
+        arrays = {"center_m": np.ascontiguousarray(cells.center_m)}
+        if with_parts:
+            arrays |= {f.name: np.ascontiguousarray(getattr(cells.parts, f.name)) for f in fields(Parts)}
+        save_file(arrays, directory / CELLS_FILE)
+        scene = cells.scenes[0] if cells.ids == numbered(cells.scenes[0], len(cells)) else None
         names: dict[str, Any] = {
-            "ids": self.cells.ids,
-            "scenes": self.cells.scenes,
-            "size_m": self.cells.size_m,
+            "scene": scene,
+            "ids": None if scene else cells.ids,
+            "scenes": None if scene else cells.scenes,
+            "size_m": cells.size_m,
             "labels": self.labels,
             "names": self.names,
             "sources": self.sources,
@@ -62,8 +69,12 @@ class Gallery:
         (directory / NAMES_FILE).write_text(json.dumps(names, ensure_ascii=False))
 
     @classmethod
-    def load(cls, directory: Path) -> "Gallery":
+    def load(cls, directory: Path, cut: Callable[[Ints], Parts] | None = None) -> "Gallery":
         """Read what `save` wrote.
+
+        Args:
+            directory: where.
+            cut: cuts the parts of some cells, if they were left out.
 
         Raises:
             IndexBroken: the files do not hold a gallery.
@@ -71,11 +82,19 @@ class Gallery:
         try:
             arrays = load_file(directory / CELLS_FILE)
             names = json.loads((directory / NAMES_FILE).read_text())
-            center_m = arrays.pop("center_m")
-            cells = CellTable(tuple(names["ids"]), tuple(names["scenes"]), center_m, names["size_m"], Parts(**arrays))
+            center_m, scene = arrays.pop("center_m"), names["scene"]
+            ids = numbered(scene, len(center_m)) if scene else tuple(names["ids"])
+            scenes = (scene,) * len(center_m) if scene else tuple(names["scenes"])
+            content = Parts(**arrays) if arrays or cut is None else cut
+            cells = CellTable(ids, scenes, center_m, names["size_m"], content)
             return cls(cells, tuple(names["labels"]), tuple(names["names"]), tuple(names["sources"]))
         except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
             raise IndexBroken(f"the cells in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
+
+
+def numbered(scene: str, count: int) -> tuple[str, ...]:
+    """The names of so many cells of one scene."""
+    return tuple(f"{scene}_{n:05d}" for n in range(count))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,15 +126,15 @@ class MapData:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Bodies:
-    """The instances of a map (or of several scenes) with all their points.
+class Clouds:
+    """The instances of a scan (or of several scenes) with all their points.
 
     Attributes:
         xyz: [P, 3] float32 metres, ordered by instance.
         starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
         is_thing: [I] bool, True for what is mentioned only where a share of it is near (`thing_share`).
         scene: [I] number of the scene of each.
-        part_instance: [R] instance of each row of the cells' parts.
+        of_part: [R] instance of each row of the cells' parts.
         thing_share: see `CutRules`.
         min_part_points: see `CutRules`.
     """
@@ -124,6 +143,22 @@ class Bodies:
     starts: Ints
     is_thing: npt.NDArray[np.bool_]
     scene: Ints
-    part_instance: Ints
+    of_part: Ints
     thing_share: float
     min_part_points: int
+
+    def part_instance(self, _cells: CellTable) -> Ints:
+        """[R] instance of each row of the cells' parts."""
+        return self.of_part
+
+    def finder(self, instances: Sequence[int]) -> Finder:
+        """What tells which of some instances is nearest to a position."""
+        spans = [slice(int(self.starts[n]), int(self.starts[n + 1])) for n in instances]
+        tree = cKDTree(np.concatenate([self.xyz[span, :2] for span in spans]).astype(np.float64))
+        owner = np.repeat(instances, [span.stop - span.start for span in spans])
+
+        def find(position: Floats) -> tuple[Floats, int]:
+            row = int(tree.query(position)[1])
+            return tree.data[row] - position, int(owner[row])
+
+        return find

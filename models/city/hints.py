@@ -7,9 +7,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from models.city.cells import CellTable, Parts, cut_cubes
+from models.city.bodies import Bodies
+from models.city.cells import CellTable, Parts
 from models.city.colours import Palette
-from models.city.points import PointTable, thin
+from models.city.points import thin
 from models.city.types import DIRECTIONS, CityMap, Description, Direction, Floats, Hint, Pose
 
 Strategy = Literal["closest", "class", "direction"]
@@ -61,7 +62,7 @@ def hint_table(palette: Palette, parts: Parts, positions_m: Floats) -> HintTable
 
     Args:
         palette: the colour words.
-        parts: the cubes around the positions (`cut_cubes(points, positions_m, rules)`).
+        parts: the cubes around the positions (`Bodies.cut`).
         positions_m: [N, 3] metres.
     """
     cube = parts.cube
@@ -120,13 +121,13 @@ def sample_positions(locations_m: Floats, spacing_m: float, rng: np.random.Gener
 
 
 def describe_poses(
-    city_map: CityMap, points: PointTable, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
+    city_map: CityMap, bodies: Bodies, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
 ) -> list[Pose]:
     """Poses with descriptions at some positions, by each strategy (docs/formats.md, rule 5).
 
     Args:
         city_map: the map.
-        points: its point table.
+        bodies: what stands in it.
         cells: the gallery; a position without a cell centre within 15 m is left out.
         positions_m: [N, 3] metres.
         num_hints: hints a description; a position with fewer things around it is left out.
@@ -138,7 +139,7 @@ def describe_poses(
     distance, best = cKDTree(cells.center_m).query(positions_m)
     reachable = np.flatnonzero(distance <= BEST_CELL_REACH_M)
     positions, best = positions_m[reachable], best[reachable]
-    table = hint_table(city_map.palette, cut_cubes(points, positions, city_map.rules), positions)
+    table = hint_table(city_map.palette, bodies.cut(positions), positions)
     labels = np.unique([i.label for i in city_map.instances], return_inverse=True)[1]
     poses = []
     for n in np.flatnonzero(np.diff(table.starts) >= num_hints):

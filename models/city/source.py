@@ -11,15 +11,16 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from models.city.cells import CellTable, cut_cells, cut_cubes
+from models.city.bodies import Bodies, PieceBodies, PointBodies, bodies_of, cut_cells
+from models.city.cells import CellTable
 from models.city.colours import KITTI360_PALETTE
-from models.city.gallery import Bodies, Gallery, MapData
+from models.city.gallery import Clouds, Gallery, MapData
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
 from models.city.hints import BEST_CELL_REACH_M, HintTable, describe_poses, hint_table, sample_positions
 from models.city.kitti360.rules import CLASSES
 from models.city.osm.gazetteer import load_gazetteer
 from models.city.osm.map import load_osm
-from models.city.points import Ints, PointTable
+from models.city.points import Ints
 from models.city.queries import Queries, Statements
 from models.city.regions import SPLITS, split_regions
 from models.city.scenery.cloud import encode_cloud
@@ -69,8 +70,8 @@ class Source(ABC):
         """
 
     @abstractmethod
-    def bodies(self) -> Bodies:
-        """What its surroundings are measured from: of a map every point, of a data set those its cells show."""
+    def bodies(self) -> Clouds | PieceBodies:
+        """What its surroundings are measured from: of a map everything, of a data set what its cells show."""
 
     @abstractmethod
     def gazetteer(self) -> Gazetteer:
@@ -87,16 +88,16 @@ class MapSource(Source):
     Args:
         path: what was opened, for messages.
         city_map: the map.
-        points: its point table.
+        bodies: what stands in it.
         cells: all its cells.
         split: one of SPLITS; None for the whole map.
     """
 
     def __init__(
-        self, path: Path, city_map: CityMap, points: PointTable, cells: CellTable, split: str | None = None
+        self, path: Path, city_map: CityMap, bodies: Bodies, cells: CellTable, split: str | None = None
     ) -> None:
         regions = split_regions(cells)
-        self._path, self._map, self._points, self._locations_m = path, city_map, points, city_map.locations_m
+        self._path, self._map, self._bodies, self._locations_m = path, city_map, bodies, city_map.locations_m
         if split is not None:
             cells = regions[split].cells(cells)
             self._locations_m = regions[split].locations(city_map.locations_m)
@@ -119,7 +120,7 @@ class MapSource(Source):
         """See Source."""
         cells = self.data.cells
         positions = sample_positions(self._locations_m, spacing_m, np.random.default_rng(seed))
-        poses = describe_poses(self._map, self._points, cells, positions) if len(cells) and len(positions) else []
+        poses = describe_poses(self._map, self._bodies, cells, positions) if len(cells) and len(positions) else []
         if not poses:
             raise MapError(
                 f"{self._path}: no position in split '{self.data.split}' can be described; "
@@ -144,18 +145,21 @@ class MapSource(Source):
         distance, best = cKDTree(gallery.cells.center_m).query(positions_m)
         near = distance <= BEST_CELL_REACH_M
         positions = positions_m[near]
-        table = hint_table(palette, cut_cubes(self._points, positions, self._map.rules), positions)
+        table = hint_table(palette, self._bodies.cut(positions), positions)
         part_number = gallery.cells.parts.instance
         return Statements(
             gallery, positions[:, :2], best[near], table, gallery.labels, palette.words, part_number, table.instance
         )
 
-    def bodies(self) -> Bodies:
+    def bodies(self) -> Clouds | PieceBodies:
         """See Source."""
-        scene, points = np.zeros(len(self._map.instances), dtype=np.int64), self._points
-        part_instance, rules = self.data.cells.parts.instance, self._map.rules
+        if not isinstance(self._bodies, PointBodies):
+            assert isinstance(self._bodies, PieceBodies)
+            return self._bodies
+        points, rules = self._bodies.points, self._map.rules
+        scene, of_part = np.zeros(len(self._map.instances), dtype=np.int64), self.data.cells.parts.instance
         is_thing, least = ~points.is_stuff, rules.min_part_points
-        return Bodies(points.xyz, points.starts, is_thing, scene, part_instance, rules.thing_share, least)
+        return Clouds(points.xyz, points.starts, is_thing, scene, of_part, rules.thing_share, least)
 
     def gazetteer(self) -> Gazetteer:
         """See Source; of the whole file, whatever the split."""
@@ -209,7 +213,7 @@ class StoreSource(Source):
             said_number=np.where(said >= 0, numbers[said], -1),
         )
 
-    def bodies(self) -> Bodies:
+    def bodies(self) -> Clouds:
         """See Source; one point a cube of VOXEL_M."""
         store, cells, cube = self._store, self.data.cells, self.data.cells.parts.cube
         pairs = np.column_stack([self._scene[cube], store.instance_ids])
@@ -224,7 +228,7 @@ class StoreSource(Source):
         labels = np.array(store.labels)[[rows[0] for rows in groups]]
         starts = np.concatenate([[0], np.cumsum([len(points) for points in xyz])])
         is_thing, rules = ~np.isin(labels, STUFF), CutRules()
-        return Bodies(
+        return Clouds(
             np.concatenate(xyz), starts, is_thing, known[:, 0], part_instance, rules.thing_share, rules.min_part_points
         )
 
@@ -278,10 +282,9 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
     report = progress or (lambda stage, done, total: None)
     report("read map", 0, 0)
     city_map = load_osm(path)
-    report("index points", 0, 0)
-    points = PointTable.of(city_map, city_map.rules.eps_m)
-    cells = cut_cells(city_map, points, lambda done, total: report("cut cells", done, total))
-    return [MapSource(path, city_map, points, cells, split) for split in splits]
+    bodies = bodies_of(city_map)
+    cells = cut_cells(city_map, bodies, lambda done, total: report("cut cells", done, total))
+    return [MapSource(path, city_map, bodies, cells, split) for split in splits]
 
 
 def _grid_of(cells: CellTable, scene: Ints) -> float:

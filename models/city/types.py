@@ -17,6 +17,8 @@ from models.city.frame import Frame
 if TYPE_CHECKING:
     import shapely
 
+    from models.city.tiled.pieces import PieceTable
+
 Floats = npt.NDArray[np.floating[Any]]
 Progress = Callable[[str, int, int], None]  # stage, done, to do (0 if that is not known)
 Direction = Literal["north", "south", "east", "west", "on-top"]
@@ -30,10 +32,11 @@ class Instance:
     Attributes:
         id: unique in its map.
         label: class in plain words, open vocabulary ("street lamp").
-        points_m: [P, 3] float32, metres, map frame.
+        points_m: [P, 3] float32, metres, map frame; none where the map is geometry (`CityMap.pieces`).
         rgb: [3] for one colour, [P, 3] for a colour a point, 0..1; None where the source knows none.
         name: what people call it, for display only ("Mannerheimintie").
         source_id: where it comes from ("way/1234").
+        shape: what stands there ("outline"), where the map is geometry.
     """
 
     id: int
@@ -42,6 +45,7 @@ class Instance:
     rgb: Floats | None = None
     name: str | None = None
     source_id: str | None = None
+    shape: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +109,7 @@ class CityMap:
         rules: how to cut it; the least size of a part depends on how dense the points are.
         attribution: what the data's licence asks to show.
         shapes: how it is drawn, what lies on top first; none where it is points.
+        pieces: what stands there, where the map is geometry.
     """
 
     name: str
@@ -116,6 +121,7 @@ class CityMap:
     rules: CutRules = CutRules()
     attribution: str = ""
     shapes: tuple[MapShape, ...] = ()
+    pieces: "PieceTable | None" = None
 
 
 @dataclass(frozen=True, slots=True)

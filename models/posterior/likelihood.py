@@ -8,8 +8,8 @@ import torch
 from torch import Tensor, nn
 
 from models.city.colours import Palette
+from models.posterior.around import STEP_M
 from models.posterior.node_batch import OFFSET, RANKS, NodeBatch, colour_words
-from models.posterior.surroundings import STEP_M
 
 HABITS: Final = 3
 FAINT: Final = 5e-3  # what fits a hint less than this is left to chance
@@ -84,15 +84,20 @@ class Likelihood(nn.Module):
         x = (torch.arange(256) - OFFSET) * STEP_M
         self._way = (x[:, None].expand(256, 256).reshape(-1), x[None].expand(256, 256).reshape(-1))
 
-    def share_of(self, way: Tensor, whole: Tensor, rank: Tensor, node: Tensor, nodes: int) -> Tensor:
-        """[R, 3] pi of each row of M nodes by habit, shared among what is near, of any text; see NodeBatch."""
+    def log_pi(self) -> Tensor:
+        """[65536, 3] log pi of every way by habit, whatever else is near."""
         radius = torch.hypot(*self._way)[:, None]
-        log_pi = (self.distance[0] * radius + self.distance[1] * radius**2 / 10) / 10
-        ranked = torch.stack([weight[rank[:, n]] for n, weight in enumerate(self.ranks)]).sum(dim=0)
-        ranked = ranked - rank[:, len(RANKS) :].float().log() @ self.among
-        pi = (log_pi[way] + torch.where(whole, 0.0, self.partly)[:, None] + ranked).exp()
-        mass = torch.zeros(nodes, HABITS).index_add(0, node, pi) + 1e-3
-        return pi / mass[node] ** self.crowding
+        return (self.distance[0] * radius + self.distance[1] * radius**2 / 10) / 10
+
+    def share_of(self, batch: NodeBatch, log_pi: Tensor) -> Tensor:
+        """[R, 3] pi of each row by habit, shared among what is near, of any text; `log_pi` of the method."""
+        node, rank = batch.node, batch.rank
+        ranked = rank[:, len(RANKS) :].float().log() @ -self.among
+        for n, weight in enumerate(self.ranks):
+            ranked = ranked + weight.index_select(0, rank[:, n])
+        pi = (log_pi.index_select(0, batch.way) + torch.where(batch.whole, 0.0, self.partly)[:, None] + ranked).exp()
+        mass = torch.zeros(batch.nodes, HABITS).index_add(0, node, pi) + 1e-3
+        return pi * (mass**-self.crowding).index_select(0, node)
 
     def words(self, rgb: Tensor, palette: Palette) -> Tensor:
         """[P, W] chance of each of the palette's words for colours [P, 3]."""
@@ -188,7 +193,7 @@ class Likelihood(nn.Module):
     def forward(self, reading: Reading, around: NodeBatch, palette: Palette, usual: Tensor) -> Tensor:
         """[M] log p(T | x), up to a constant; `usual` as `usual_statements`."""
         fits = self.parts(reading, around.label, self.words(around.rgb, palette))
-        share = self.share_of(around.way, around.whole, around.rank, around.node, around.nodes)
+        share = self.share_of(around, self.log_pi())
         pairs = self.pairs(reading, fits, around.part, self.ways(), around.way)
         eps = self.chance(reading, usual)
         return self.combine(reading, around.node, around.nodes, pairs, share.index_select(0, pairs.row), eps)

@@ -8,9 +8,10 @@ import torch
 from torch import Tensor
 
 from models.city.colours import Palette
+from models.city.compiled import compiled
 from models.city.hints import ON_TOP_M
 from models.city.points import Ints
-from models.posterior.surroundings import STEP_M
+from models.posterior.around import STEP_M, Around
 
 RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
 OFFSET: Final = 128  # ways are int8; a pair of them numbers a row of the tables
@@ -23,10 +24,11 @@ class NodeBatch:
     Attributes:
         node: [R] node of each row, ascending.
         way: [R] number of the way from the instance's closest point, see `way_number`.
-        whole: [R] bool, see `models.posterior.surroundings.Surroundings`.
+        whole: [R] bool, see `models.posterior.around.Around`.
         rank: [R, 5] how many nearer instances there are, and how many in all, see `ranks_of`.
-        part: [R] row of `label` and `word`.
-        label: [P] label of each part.
+        part: [R] row of the next three.
+        parts: [P] row of each part in the gallery.
+        label: [P] label of each.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
         nodes: M.
     """
@@ -36,9 +38,20 @@ class NodeBatch:
     whole: Tensor
     rank: Tensor
     part: Tensor
+    parts: Tensor
     label: Tensor
     rgb: Tensor
     nodes: int
+
+    @classmethod
+    def of(cls, around: Around, nodes: int, label: Tensor, rgb: Tensor) -> "NodeBatch":
+        """What is around so many nodes, of parts with labels [P of all] and colours [P of all, 3]."""
+        parts, part = np.unique(around.part, return_inverse=True)
+        node, way = torch.from_numpy(around.node), way_number(torch.from_numpy(around.way))
+        rank = ranks_of(node, way, label[torch.from_numpy(around.part)])
+        chosen = torch.from_numpy(parts)
+        whole = torch.from_numpy(around.whole)
+        return cls(node, way, whole, rank, torch.from_numpy(part), chosen, label[chosen], rgb[chosen], nodes)
 
 
 def way_number(way: Tensor) -> Tensor:
@@ -55,22 +68,32 @@ def ranks_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
         way: [R] of `way_number`.
         label: [R] label of each row.
     """
-    sector = _SECTOR_OF_WAY[way]
-    keys = [node, node * (int(label.max()) + 1) + label if len(label) else node, node * 5 + sector]
-    ranks, numbers = zip(*(_counted(key.numpy()) for key in keys), strict=True)
-    nearer = [np.minimum(c, size - 1) for c, size in zip(ranks, RANKS, strict=True)]
-    return torch.from_numpy(np.stack([*nearer, *numbers[1:]], axis=1))
+    ranks = np.empty((len(node), len(RANKS) + 2), np.int64)
+    _count(node.numpy(), label.numpy(), _SECTOR_OF_WAY[way].numpy(), ranks)
+    ranks[:, : len(RANKS)] = np.minimum(ranks[:, : len(RANKS)], np.array(RANKS) - 1)
+    return torch.from_numpy(ranks)
 
 
-def _counted(key: Ints) -> tuple[Ints, Ints]:
-    """[R] how many earlier rows have the same key, [R] how many rows have it."""
-    # Key and row in one number: sorting plain numbers is an order of magnitude faster than a stable sort of rows.
-    packed = np.sort(key << 32 | np.arange(len(key)))
-    order, first = packed & 0xFFFFFFFF, np.flatnonzero(np.diff(packed >> 32, prepend=-1))
-    size = np.diff(first, append=len(key))
-    earlier, count = np.empty(len(key), np.int64), np.empty(len(key), np.int64)
-    earlier[order], count[order] = np.arange(len(key)) - np.repeat(first, size), np.repeat(size, size)
-    return earlier, count
+@compiled
+def _count(node: Ints, label: Ints, sector: Ints, ranks: Ints) -> None:
+    """Fill `ranks` for rows that are in order of node: there are few of each node, so that any two are compared."""
+    begin, rows = 0, len(node)
+    while begin < rows:
+        end = begin + 1
+        while end < rows and node[end] == node[begin]:
+            end += 1
+        for i in range(begin, end):
+            alike, alike_nearer, beside, beside_nearer = 0, 0, 0, 0
+            for j in range(begin, end):
+                if label[j] == label[i]:
+                    alike += 1
+                    alike_nearer += j < i
+                if sector[j] == sector[i]:
+                    beside += 1
+                    beside_nearer += j < i
+            ranks[i, 0], ranks[i, 1], ranks[i, 2] = i - begin, alike_nearer, beside_nearer
+            ranks[i, 3], ranks[i, 4] = alike, beside
+        begin = end
 
 
 def _sectors_of_ways() -> Tensor:
@@ -84,12 +107,13 @@ def _sectors_of_ways() -> Tensor:
 _SECTOR_OF_WAY = _sectors_of_ways()
 
 
-def usual_statements(label: Tensor, rgb: Tensor, palette: Palette) -> Tensor:
+def usual_statements(label: Tensor, rgb: Tensor, parts: Tensor, palette: Palette) -> Tensor:
     """[L, W + 1] share of a map's parts that have a label and a colour word; last, that have the label.
 
     Args:
-        label: [P] of each part.
+        label: [P] of each thing.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
+        parts: [P] how many parts of cells are of each.
         palette: the map's words.
     """
     names = colour_words(palette)
@@ -97,12 +121,12 @@ def usual_statements(label: Tensor, rgb: Tensor, palette: Palette) -> Tensor:
     column = torch.tensor([names.index(word) for word in palette.words])
     known = ~rgb.isnan().any(dim=1)
     table = torch.zeros(int(label.max()) + 1, len(names) + 1)
-    ones = torch.ones(len(label))
+    many = parts.float()
     table.index_put_(
-        (label[known], column[torch.cdist(rgb[known], centers).argmin(dim=1)]), ones[known], accumulate=True
+        (label[known], column[torch.cdist(rgb[known], centers).argmin(dim=1)]), many[known], accumulate=True
     )
-    table.index_put_((label, torch.tensor(len(names))), ones, accumulate=True)
-    return table / len(label)
+    table.index_put_((label, torch.tensor(len(names))), many, accumulate=True)
+    return table / many.sum()
 
 
 def colour_words(palette: Palette) -> list[str]:

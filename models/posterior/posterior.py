@@ -2,30 +2,28 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 import torch
-from scipy.sparse import csc_array
 from torch import Tensor
 
 from models.city.cells import CellTable
 from models.city.colours import Palette
-from models.city.hints import ON_TOP_M
 from models.city.points import Ints, ranges
 from models.city.types import Floats
+from models.posterior.around import Around
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.node_batch import OFFSET, ranks_of, usual_statements, way_number
+from models.posterior.node_batch import NodeBatch, usual_statements
+from models.posterior.nodes import SPACING_M
 from models.posterior.places.field import Told
 from models.posterior.questions import Answered
 from models.posterior.sights import Sights
-from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
+from models.posterior.statements import Statements
+from models.posterior.surroundings import Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
-SECTORS = 9  # of a statement: the eight winds and "on-top"
-FLOOR = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
-FAINT_STATEMENT = 1e-4  # what no hint says
 LogPrior = Callable[[Floats], Floats]
 
 
@@ -46,6 +44,24 @@ class Field:
     log_p: Floats
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Explained:
+    """What explains a hint at a node.
+
+    Attributes:
+        probability: that something does.
+        part: which of the surroundings' things; -1 for none.
+        way_m: [2] the node minus the closest point of it.
+    """
+
+    probability: float
+    part: int
+    way_m: Floats
+
+
+NOT_EXPLAINED: Final = Explained(0.0, -1, np.zeros(2))
+
+
 class HintPosterior:
     """The posterior of one gallery.
 
@@ -53,8 +69,9 @@ class HintPosterior:
         likelihood: fitted.
         surroundings: of the gallery.
         cells: the gallery.
-        label: [R] label of each of the cells' parts, a number.
+        label: [P] label of each of the surroundings' things, a number.
         palette: the map's colour words.
+        statements: of the gallery, if they are at hand.
     """
 
     @torch.inference_mode()
@@ -65,71 +82,24 @@ class HintPosterior:
         cells: CellTable,
         label: npt.NDArray[np.int64],
         palette: Palette,
+        statements: Statements | None = None,
     ) -> None:
         self.likelihood, self.surroundings, self.cells = likelihood, surroundings, cells
-        s = surroundings
         self._label = torch.from_numpy(label)
-        rgb = torch.from_numpy(cells.parts.rgb.astype(np.float32))
-        self._words = likelihood.words(rgb, palette)
-        self.usual = usual_statements(self._label, rgb, palette)
-        self._way = way_number(torch.from_numpy(s.way)).int()
-        self._ways = likelihood.ways()
-        self._share = self._shares()
-        self._statements, said = self._tabulate()
-        pair, self._sector_said = said // SECTORS, said % SECTORS
-        self._label_said, self._word_said = pair // (self._words.shape[1] + 1), pair % (self._words.shape[1] + 1)
-        self.nodes_m, self.extent_m = s.nodes_m.astype(np.float64), cells.extent_m
+        self._rgb = torch.from_numpy(surroundings.things.rgb.astype(np.float32))
+        self._words = likelihood.words(self._rgb, palette)
+        self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
+        self._ways, self._log_pi = likelihood.ways(), likelihood.log_pi()
+        self.statements = statements or Statements.of(likelihood, surroundings, self._label, self._rgb, self._words)
+        self.nodes_m, self.extent_m = surroundings.nodes_m.astype(np.float64), cells.extent_m
         self.coarse = (np.round(self.nodes_m / SPACING_M) % 2 == 0).all(axis=1)
         self.between = ~self.coarse
-        self.sights = Sights(s, label, self._words.numpy())
-        self._scratch = np.zeros(len(label), np.int64)  # by part; what is in it is overwritten before it is read
-
-    def _shares(self) -> Tensor:
-        """[R, 3] pi of each row, a block of nodes at a time."""
-        s, blocks = self.surroundings, []
-        for begin in range(0, len(s.nodes_m), 100_000):
-            end = min(begin + 100_000, len(s.nodes_m))
-            rows = slice(int(s.starts[begin]), int(s.starts[end]))
-            node = torch.from_numpy(np.repeat(np.arange(end - begin), np.diff(s.starts[begin : end + 1])))
-            way, part = self._way[rows].long(), torch.from_numpy(s.part[rows]).long()
-            rank = ranks_of(node, way, self._label[part])
-            whole = torch.from_numpy(s.whole[rows])
-            blocks.append(self.likelihood.share_of(way, whole, rank, node, end - begin))
-        return torch.cat(blocks)
-
-    def _tabulate(self) -> tuple[csc_array, Tensor]:
-        """[N, F] how much of each cell's nodes a statement (label, colour, sector) holds at, and the F statements."""
-        s = self.surroundings
-        sizes = np.diff(s.starts)
-        cell = np.repeat(np.repeat(np.arange(len(self.cells)), np.diff(s.cell_starts)), sizes)
-        sector = _sectors_of_ways()[self._way.numpy()]
-        word = self._words.argmax(dim=1).numpy()
-        known = (self.cells.parts.rgb == self.cells.parts.rgb).all(axis=1)
-        word = np.where(known, word, self._words.shape[1])
-        key = (self._label.numpy() * (self._words.shape[1] + 1) + word)[s.part] * SECTORS + sector
-        number = np.flatnonzero(np.bincount(key))  # statements that hold anywhere; of some thousands that there are
-        column = np.searchsorted(number, np.arange(key.max() + 1))[key] if len(key) else key
-        value = self._share.mean(dim=1).numpy() / np.maximum(1, np.diff(s.cell_starts))[cell]
-        table = csc_array((value, (cell, column)), shape=(len(self.cells), len(number)), dtype=np.float32)
-        return table, torch.from_numpy(number)
+        self.sights = Sights(surroundings, label, self._words.numpy())
 
     @torch.inference_mode()
     def cell_scores(self, reading: Reading) -> Floats:
-        """[N] about log p(T | cell), of every cell of the gallery: the inverted list over statements."""
-        words = self._words.shape[1]
-        known = (reading.label.amax(dim=0) > FAINT_STATEMENT).index_select(0, self._label_said).nonzero().flatten()
-        place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
-        colour = torch.cat(
-            [reading.colour[:, :words] + reading.colour[:, words:], torch.ones(len(place), 1) * 0.3], dim=1
-        )
-        weight = reading.label.index_select(1, self._label_said.index_select(0, known))  # [H, F]
-        weight = weight * colour.index_select(1, self._word_said.index_select(0, known))
-        weight = weight * place.index_select(1, self._sector_said.index_select(0, known))
-        told = (weight.amax(dim=0) > FAINT_STATEMENT).nonzero().flatten()  # few
-        columns = known.index_select(0, told).numpy()
-        holds = self._statements[:, columns] @ weight.index_select(1, told).T.numpy()
-        scores: Floats = np.log(holds + FLOOR) @ (1 - reading.absent.numpy())
-        return scores
+        """[N] about log p(T | cell), of every cell of the gallery."""
+        return self.statements.scores(reading)
 
     @torch.inference_mode()
     def field(
@@ -168,67 +138,35 @@ class HintPosterior:
 
     def _log_p(self, reading: Reading, nodes: Ints) -> Floats:
         """[M] log p(hints | x) of some nodes."""
-        rows, node, fits, part = self._rows(reading, nodes)
-        model = self.likelihood
-        pairs = model.pairs(reading, fits, part, self._ways, self._way.index_select(0, rows))
-        share, eps = self._share.index_select(0, rows.index_select(0, pairs.row)), model.chance(reading, self.usual)
-        log_p: Floats = model.combine(reading, node, len(nodes), pairs, share, eps).double().numpy()
+        model, batch = self.likelihood, self._batch(self.surroundings.around(nodes), len(nodes))
+        fits = model.parts(reading, batch.label, self._words.index_select(0, batch.parts))
+        pairs = model.pairs(reading, fits, batch.part, self._ways, batch.way)
+        share, eps = self._share_of(batch).index_select(0, pairs.row), model.chance(reading, self.usual)
+        log_p: Floats = model.combine(reading, batch.node, len(nodes), pairs, share, eps).double().numpy()
         return log_p
 
     @torch.inference_mode()
-    def explain(self, reading: Reading, node: int) -> list[tuple[int, float]]:
-        """For each hint the row of the surroundings that explains it best at a node, and how likely one does.
-
-        The row is -1 where nothing is around.
-        """
-        rows, _, fits, part = self._rows(reading, np.array([node]))
-        share = self._share[rows].mean(dim=1, keepdim=True)
-        terms = fits[part] * self.likelihood.places(reading, self._ways[self._way[rows].long()]) * share
-        eps = self.likelihood.chance(reading, self.usual)
-        if not len(rows):
-            return [(-1, 0.0)] * len(reading.label)
+    def explain(self, reading: Reading, node: int) -> list[Explained]:
+        """For each hint what explains it best at a node."""
+        around = self.surroundings.around(np.array([node]))
+        if not len(around.part):
+            return [NOT_EXPLAINED] * len(reading.label)
+        model, batch = self.likelihood, self._batch(around, 1)
+        fits = model.parts(reading, batch.label, self._words.index_select(0, batch.parts))
+        share = self._share_of(batch).mean(dim=1, keepdim=True)
+        terms = fits[batch.part] * model.places(reading, self._ways[batch.way]) * share
+        eps = model.chance(reading, self.usual)
         best, total = terms.argmax(dim=0), terms.sum(dim=0)
-        parts = self.surroundings.part[rows[best].numpy()]
         # What fits only because a label may be wrong does not explain.
-        label = reading.label[torch.arange(len(best)), self._label[torch.from_numpy(parts).long()]]
-        trust = (2 * label).clamp(max=1.0)
-        explained = (total / (total + eps) * trust).tolist()
-        return list(zip(rows[best].tolist(), explained, strict=True))
+        label = reading.label[torch.arange(len(best)), batch.label[batch.part[best]]]
+        explained = (total / (total + eps) * (2 * label).clamp(max=1.0)).tolist()
+        way_m = around.way_m
+        return [
+            Explained(p, int(around.part[row]), way_m[row]) for row, p in zip(best.tolist(), explained, strict=True)
+        ]
 
-    def _rows(self, reading: Reading, nodes: Ints) -> tuple[Tensor, Tensor, Tensor, Tensor]:
-        """Rows of some nodes, the node of each, p(class) p(colour) [P, H] of the parts seen, and each row's part."""
-        s = self.surroundings
-        begin, end = s.starts[nodes], s.starts[nodes + 1]
-        rows = torch.from_numpy(ranges(begin, end))
-        node = torch.from_numpy(np.repeat(np.arange(len(nodes)), end - begin))
-        part, number = s.part[rows.numpy()], self._scratch
-        number[part] = count = np.arange(len(part))
-        different = part[number[part] == count]  # each once
-        number[different] = count[: len(different)]
-        chosen = torch.from_numpy(different.astype(np.int64))
-        label, words = (table.index_select(0, chosen) for table in (self._label, self._words))
-        fits = self.likelihood.parts(reading, label, words)
-        return rows, node, fits, torch.from_numpy(number[part])
+    def _batch(self, around: Around, nodes: int) -> NodeBatch:
+        return NodeBatch.of(around, nodes, self._label, self._rgb)
 
-
-def _sectors_of_ways() -> Ints:
-    """[65536] the eighth of the compass, or "on-top" (8), of each way of `way_number`."""
-    steps = np.arange(256, dtype=np.float32) - OFFSET
-    east, north = np.meshgrid(steps, steps, indexing="ij")
-    sector = np.round(np.arctan2(east, north) / (np.pi / 4)).astype(np.int64) % 8
-    return np.where(np.hypot(east, north) * STEP_M < ON_TOP_M, 8, sector).ravel()
-
-
-def _sectors_of_relations() -> Tensor:
-    """[10, 9] how much of each relation a sector (a wind's eighth, or "on-top") is."""
-    table = torch.zeros(10, SECTORS)
-    for wind in range(8):
-        table[wind, wind] = 1.0
-        if wind % 2 == 0:  # "north" is said of a quarter
-            table[wind, [(wind + 1) % 8, (wind - 1) % 8]] = 0.5
-    table[8, 8] = 1.0
-    table[9] = 1.0
-    return table
-
-
-_SECTOR_OF_RELATION = _sectors_of_relations()
+    def _share_of(self, batch: NodeBatch) -> Tensor:
+        return self.likelihood.share_of(batch, self._log_pi)

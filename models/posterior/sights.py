@@ -7,9 +7,10 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.points import Ints, ranges
+from models.city.points import Ints
 from models.city.types import Floats
-from models.posterior.surroundings import STEP_M, Surroundings
+from models.posterior.around import STEP_M, Around
+from models.posterior.surroundings import Surroundings
 
 NEAR_M, NEAR_SOFT_M = 10.0, 2.0  # what counts as near, and how far people's ideas of that differ
 FAR_M, FAR_SOFT_M = 15.0, 2.0  # beyond, a thing is none that is asked for; surroundings know no farther either
@@ -26,7 +27,7 @@ class Near:
         node: [R] node of each row.
         metres: [R] to its closest point.
         bearing: [R] degrees from the node to it, clockwise from north.
-        part: [R] row of the cells' parts.
+        part: [R] which of the surroundings' things.
         nearest_m: [M] infinite where there is none.
         weight: [R] that it is taken for the nearest; of each node they add up to 1.
     """
@@ -49,7 +50,7 @@ class Sights:
 
     Args:
         surroundings: of the gallery.
-        label: [P] number of the class of each of the cells' parts.
+        label: [P] number of the class of each of the surroundings' things.
         words: [P, W] chance of each colour word, likewise.
     """
 
@@ -59,10 +60,8 @@ class Sights:
 
     def seen(self, nodes: Ints, classes: Sequence[int]) -> "Seen":
         """What is around some nodes [M] of some classes."""
-        s = self.surroundings
-        begin, end = s.starts[nodes], s.starts[nodes + 1]
-        rows, node = ranges(begin, end), np.repeat(np.arange(len(nodes)), end - begin)
-        label = self._label[s.part[rows]]
+        around = self.surroundings.around(nodes)
+        label = self._label[around.part]
         wanted = np.zeros(int(self._label.max(initial=-1)) + 1, np.bool_)
         wanted[list(classes)] = True
         kept = np.flatnonzero(wanted[label])
@@ -71,20 +70,19 @@ class Sights:
             np.searchsorted(label[kept], np.asarray(classes)),
             np.searchsorted(label[kept], np.asarray(classes), "right"),
         )
-        near = {
-            c: self._near(rows[kept[low:high]], node[kept[low:high]], len(nodes))
-            for c, low, high in zip(classes, *starts, strict=True)
-        }
+        near = {c: _near(around, kept[low:high], len(nodes)) for c, low, high in zip(classes, *starts, strict=True)}
         return Seen(near, self._words)
 
-    def _near(self, rows: Ints, node: Ints, nodes: int) -> Near:
-        s = self.surroundings
-        east, north = -s.way[rows].astype(np.float64).T * STEP_M
-        metres, nearest = np.hypot(east, north), np.full(nodes, np.inf)
-        np.minimum.at(nearest, node, metres)
-        weight = np.exp((nearest[node] - metres) / APART_M)
-        weight /= np.bincount(node, weight, nodes)[node]
-        return Near(node, metres, np.degrees(np.arctan2(east, north)) % 360, s.part[rows], nearest, weight)
+
+def _near(around: Around, rows: Ints, nodes: int) -> Near:
+    """Some rows of what is around so many nodes."""
+    node, part = around.node[rows], around.part[rows]
+    east, north = -around.way[rows].astype(np.float64).T * STEP_M
+    metres, nearest = np.hypot(east, north), np.full(nodes, np.inf)
+    np.minimum.at(nearest, node, metres)
+    weight = np.exp((nearest[node] - metres) / APART_M)
+    weight /= np.bincount(node, weight, nodes)[node]
+    return Near(node, metres, np.degrees(np.arctan2(east, north)) % 360, part, nearest, weight)
 
 
 class Seen:
@@ -92,7 +90,7 @@ class Seen:
 
     Args:
         near: the things of each class.
-        words: [P, W] chance of each colour word, of the cells' parts.
+        words: [P, W] chance of each colour word, of the surroundings' things.
     """
 
     def __init__(self, near: Mapping[int, Near], words: Floats) -> None:

@@ -74,7 +74,12 @@ def test_a_map_begins_at_its_command_and_ends_with_files(osm_file, weights_dir):
     files = [row[0] for row in rows]
     [helpers] = [line for line in lines if line.startswith("helpers")]
     assert helpers.split(": ")[1].startswith("app/cli/main.py")
-    order = ["index/build.py", "models/city/osm/map.py", "models/city/cells.py", "models/posterior/surroundings.py"]
+    order = [
+        "index/build.py",
+        "models/city/osm/map.py",
+        "models/city/tiled/cutting.py",
+        "models/posterior/surroundings.py",
+    ]
     assert [name for name in files if name in order] == order
     assert "manifest.json" in lines[-1]
     assert "surroundings.safetensors" in lines[-1]

@@ -1,74 +1,33 @@
 """Reader: OpenStreetMap (.osm.pbf, .osm) -> CityMap.
 
 A real map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): footprints, lines and nodes are read as
-mapped, and points are put on them as `classes.toml` says. Colours come from colour, material and surface tags.
+mapped and raised as `classes.toml` says. Colours come from colour, material and surface tags.
 """
 
-import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
-from functools import cache
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import osmium
 import shapely
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
-from models.city.colours import BASIC_PALETTE, material_colour, parse_colour
+from models.city.colours import BASIC_PALETTE
 from models.city.frame import Frame
-from models.city.osm.sampling import GROUND_SPACING_M, Feature, sample_features
-from models.city.points import thin
-from models.city.types import CityMap, CutRules, Floats, Instance, MapShape
+from models.city.osm.classes import OsmClass, load_classes
+from models.city.osm.features import Feature, as_feature, merge
+from models.city.tiled.pieces import PieceTable
+from models.city.types import CityMap, CutRules, Instance, MapShape
 from models.errors import MapError
 
-Shape = Literal["outline", "wall", "ground", "column", "crown", "box"]
 STUFF_SHAPES = ("outline", "wall", "ground")
 SUFFIXES = (".osm.pbf", ".pbf", ".osm", ".osm.bz2", ".osm.gz")
 ATTRIBUTION = "© OpenStreetMap contributors, ODbL 1.0"
-STOREY_M = 3.2
-MIN_PART_POINTS = 24  # 6 m2 of ground at the sampling's half metre
-UPRIGHT_MERGE_M = 1.0  # a lamp and the sign it carries are mapped this close
+MIN_PART_POINTS = 24  # 6 m2 of ground
+NO_POINTS = np.zeros((0, 3), np.float32)
+LOCATIONS_M = 2.0  # between places to stand, about
 LINEAR_KEYS = ("highway", "railway", "barrier", "tunnel", "bridge")  # closed ways of these are loops, not areas
-COLOUR_KEYS = ("building:colour", "colour")
-MATERIAL_KEYS = ("building:material", "material", "surface")
-
-
-@dataclass(frozen=True, slots=True)
-class OsmClass:
-    """A row of `classes.toml`: which tags make an instance of which label, and its shape."""
-
-    label: str
-    shape: Shape
-    tags: tuple[str, ...]
-    height_m: float = 0.0
-    width_m: float = 2.0
-    walkable: bool = False
-    required: tuple[tuple[str, frozenset[str] | None], ...] = field(init=False)
-    forbidden: tuple[tuple[str, frozenset[str] | None], ...] = field(init=False)
-
-    def __post_init__(self) -> None:
-        """Split the tag lines once, because they are asked for every element of the map."""
-        split = [(line.startswith("!"), line.lstrip("!").partition("=")) for line in self.tags]
-        conditions = [(no, key, None if value == "*" else frozenset(value.split("|"))) for no, (key, _, value) in split]
-        object.__setattr__(self, "required", tuple((key, values) for no, key, values in conditions if not no))
-        object.__setattr__(self, "forbidden", tuple((key, values) for no, key, values in conditions if no))
-
-    def matches(self, tags: dict[str, str]) -> bool:
-        """Whether an element with these tags belongs to this class."""
-        return all(
-            key in tags and (values is None or tags[key] in values) for key, values in self.required
-        ) and not any(key in tags and (values is None or tags[key] in values) for key, values in self.forbidden)
-
-
-@cache
-def load_classes() -> tuple[OsmClass, ...]:
-    """The table tag -> class that ships with the package."""
-    table = tomllib.loads((Path(__file__).parent / "classes.toml").read_text())
-    return tuple(OsmClass(**{**row, "tags": tuple(row["tags"])}) for row in table["class"])
 
 
 def load_osm(path: Path, name: str | None = None) -> CityMap:
@@ -81,6 +40,12 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
     Raises:
         MapError: the file is missing, empty, cut short, no OpenStreetMap, or nothing in it is usable.
     """
+    features, frame = read_features(path)
+    return _city_map(name or path.name.split(".")[0], features, frame)
+
+
+def read_features(path: Path) -> tuple[list[Feature], Frame]:
+    """What a file has, in metres, and the frame of these; arguments and errors as `load_osm`."""
     elements, bounds = _read_elements(path)
     if not elements:
         raise MapError(
@@ -94,10 +59,14 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
     if bounds:
         corners = frame.from_wgs84(np.array([south, north]), np.array([west, east]))
         geometries = shapely.clip_by_rect(geometries, *corners[0], *corners[1])
-    features = _merge([_feature(e, g) for e, g in zip(elements, geometries, strict=True) if not shapely.is_empty(g)])
-    points, starts = sample_features(features, path)
-    city_map = _city_map(name or path.name.split(".")[0], features, points, starts, frame)
-    return replace(city_map, shapes=tuple(_shape(feature) for feature in features))
+    features = merge(
+        [
+            as_feature(e.osm_class, e.order, e.tags, e.source_id, g)
+            for e, g in zip(elements, geometries, strict=True)
+            if not shapely.is_empty(g)
+        ]
+    )
+    return features, frame
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,74 +154,33 @@ def _is_wanted(element: Any, kind: str, row: OsmClass, tags: dict[str, str]) -> 
     return not linear or (row.shape != "wall" and not element.from_way())
 
 
-def _feature(element: _Element, geometry: shapely.Geometry) -> Feature:
-    row, tags = element.osm_class, element.tags
-    colours = (parse_colour(tags[key]) for key in COLOUR_KEYS if key in tags)
-    materials = (material_colour(tags[key]) for key in MATERIAL_KEYS if key in tags)
-    axis, width = None, 0.0
-    if row.shape == "ground" and shapely.get_dimensions(geometry) < 2:
-        axis, width = geometry, _metres(tags.get("width", "")) or row.width_m
-        geometry = shapely.buffer(
-            geometry, width / 2, quad_segs=4, cap_style="flat" if row.label != "crossing" else "round"
-        )
-    return Feature(
-        label=row.label,
-        shape=row.shape,
-        order=element.order,
-        walkable=row.walkable,
-        geometry=geometry,
-        height_m=_height(tags, row.height_m),
-        base_m=_metres(tags.get("min_height", "")) or STOREY_M * (_metres(tags.get("building:min_level", "")) or 0.0),
-        rgb=next((rgb for rgb in (*colours, *materials) if rgb), None),
-        name=tags.get("name:en") or tags.get("name"),
-        source_id=element.source_id,
-        axis=axis,
-        width_m=width,
+def _city_map(name: str, features: list[Feature], frame: Frame) -> CityMap:
+    pieces = PieceTable.of([feature.solid for feature in features])
+    there = np.unique(pieces.instance)  # others are covered by what lies above them
+    pieces = replace(pieces, instance=np.searchsorted(there, pieces.instance).astype(np.int32))
+    first = {feature.group: feature for feature in reversed(features)}
+    instances = tuple(_instance(number, first[group]) for number, group in enumerate(there.tolist()))
+    walkable = np.array([first[group].walkable for group in there.tolist()])
+    locations = pieces.lattice(np.flatnonzero(walkable[pieces.instance]), LOCATIONS_M)
+    if not len(locations):
+        raise MapError(f"{name}: no street, path or square in it, so there is no place to stand; take a larger extract")
+    return CityMap(
+        name=name,
+        instances=instances,
+        stuff=frozenset(row.label for row in load_classes() if row.shape in STUFF_SHAPES),
+        locations_m=np.column_stack([locations, np.zeros(len(locations))]).astype(np.float32),
+        frame=frame,
+        palette=BASIC_PALETTE,
+        rules=CutRules(min_part_points=MIN_PART_POINTS),
+        attribution=ATTRIBUTION,
+        shapes=tuple(_shape(feature) for feature in features),
+        pieces=pieces,
     )
 
 
-def _height(tags: dict[str, str], default_m: float) -> float:
-    levels = _metres(tags.get("building:levels", ""))
-    return _metres(tags.get("height", "")) or (STOREY_M * levels if levels else default_m)
-
-
-def _metres(text: str) -> float | None:
-    """A length as mappers write it ("12", "12 m", "12.5m"); None if it is something else."""
-    try:
-        value = float(text.lower().removesuffix("m").strip())
-    except ValueError:
-        return None
-    return value if 0 < value < 1000 else None
-
-
-def _merge(features: list[Feature]) -> list[Feature]:
-    """Join what OpenStreetMap splits: set `group`, one number an instance.
-
-    Lines and surfaces of one label, name and colour that touch are one (a road in five ways); upright
-    things within a metre are one, named by the first in the table (a lamp and its sign); a crossing
-    mapped as a node is left out where it is also mapped as a way.
-    """
-    crossings = [f.geometry for f in features if f.label == "crossing" and not f.source_id.startswith("node/")]
-    tree = shapely.STRtree(crossings)
-    features = [
-        f
-        for f in features
-        if not (f.label == "crossing" and f.source_id.startswith("node/") and tree.query(f.geometry, "intersects").size)
-    ]
-    features.sort(key=lambda f: f.order)
-    geometries = np.array([f.geometry for f in features], dtype=object)
-    is_upright = np.array([f.shape == "column" for f in features])
-    keys = np.unique([f"{f.label}|{f.name}|{f.rgb}|{f.shape}" for f in features], return_inverse=True)[1]
-    is_joinable = np.array([f.shape in ("wall", "ground") for f in features])
-    left, right = shapely.STRtree(geometries).query(geometries, "dwithin", distance=UPRIGHT_MERGE_M)
-    touches = is_joinable[left] & (keys[left] == keys[right])
-    touches[touches] = shapely.intersects(geometries[left[touches]], geometries[right[touches]])
-    joined = touches | (is_upright[left] & is_upright[right])
-    graph = coo_array((np.ones(joined.sum()), (left[joined], right[joined])), shape=(len(features),) * 2)
-    groups = connected_components(graph, directed=False)[1]
-    first = np.unique(groups, return_index=True)[1]
-    kept = is_upright & (first[groups] != np.arange(len(features)))  # carried by another upright thing
-    return [f.in_group(int(g)) for f, g, drop in zip(features, groups, kept, strict=True) if not drop]
+def _instance(number: int, feature: Feature) -> Instance:
+    rgb = None if feature.rgb is None else np.asarray(feature.rgb, dtype=np.float32)
+    return Instance(number, feature.label, NO_POINTS, rgb, feature.name, feature.source_id, feature.shape)
 
 
 def _shape(feature: Feature) -> MapShape:
@@ -260,34 +188,3 @@ def _shape(feature: Feature) -> MapShape:
     drawn = feature.geometry if feature.axis is None else feature.axis
     heights = feature.base_m, 0.0 if feature.shape == "ground" else max(top_m, feature.base_m)
     return MapShape(feature.label, drawn, *heights, feature.width_m, feature.name, feature.source_id)
-
-
-def _city_map(
-    name: str, features: list[Feature], points: Floats, starts: npt.NDArray[np.intp], frame: Frame
-) -> CityMap:
-    by_group: dict[int, Feature] = {}
-    for feature in features:
-        by_group.setdefault(feature.group, feature)
-    instances: list[Instance] = []
-    walkable = []
-    for feature, start, stop in zip(by_group.values(), starts[:-1], starts[1:], strict=True):
-        if start == stop:
-            continue  # covered by what lies above it
-        rgb = None if feature.rgb is None else np.asarray(feature.rgb, dtype=np.float32)
-        instances.append(
-            Instance(len(instances), feature.label, points[start:stop], rgb, feature.name, feature.source_id)
-        )
-        if feature.walkable:
-            walkable.append(points[start:stop])
-    if not walkable:
-        raise MapError(f"{name}: no street, path or square in it, so there is no place to stand; take a larger extract")
-    return CityMap(
-        name=name,
-        instances=tuple(instances),
-        stuff=frozenset(row.label for row in load_classes() if row.shape in STUFF_SHAPES),
-        locations_m=thin(np.concatenate(walkable), 4 * GROUND_SPACING_M),
-        frame=frame,
-        palette=BASIC_PALETTE,
-        rules=CutRules(min_part_points=MIN_PART_POINTS),
-        attribution=ATTRIBUTION,
-    )

@@ -136,7 +136,7 @@ class PoseStore:
             scenes=tuple(self.all_scenes[n].scene_name for n in self.columns["cell_scene"][self.cell_rows]),
             center_m=(box[:, :3] + box[:, 3:]) / 2,
             size_m=float(sizes[0]),
-            parts=Parts(
+            content=Parts(
                 starts=starts_of(self.columns["cell_objects"][self.cell_rows]),
                 instance=np.arange(len(rows), dtype=np.int32),
                 count=self.columns["object_points"][rows],

@@ -12,7 +12,7 @@ from torch import Tensor
 from models.city.cells import CellTable
 from models.city.points import Ints, ranges
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.node_batch import NodeBatch, ranks_of, way_number
+from models.posterior.node_batch import NodeBatch
 from models.posterior.posterior import HintPosterior
 from models.training.posterior.places import Place
 
@@ -94,23 +94,8 @@ def around_cells(place: Place, cells: Ints) -> tuple[Ints, NodeBatch]:
     """The nodes of some cells, and their surroundings."""
     s = place.surroundings
     nodes = ranges(s.cell_starts[cells], s.cell_starts[cells + 1])
-    rows = ranges(s.starts[nodes], s.starts[nodes + 1])
-    node = torch.from_numpy(np.repeat(np.arange(len(nodes)), np.diff(s.starts)[nodes]))
-    parts, part = np.unique(s.part[rows], return_inverse=True)
-    way, label = way_number(torch.from_numpy(s.way[rows])), torch.from_numpy(place.label)
-    rgb = torch.from_numpy(place.cells.parts.rgb[parts].astype(np.float32))
-    rank = ranks_of(node, way, label[torch.from_numpy(s.part[rows]).long()])
-    around = NodeBatch(
-        node=node,
-        way=way,
-        whole=torch.from_numpy(s.whole[rows]),
-        rank=rank,
-        part=torch.from_numpy(part),
-        label=label[torch.from_numpy(parts).long()],
-        rgb=rgb,
-        nodes=len(nodes),
-    )
-    return nodes, around
+    label, rgb = torch.from_numpy(place.label), torch.from_numpy(s.things.rgb.astype(np.float32))
+    return nodes, NodeBatch.of(s.around(nodes), len(nodes), label, rgb)
 
 
 def _tree(cells: CellTable) -> cKDTree:

@@ -20,7 +20,7 @@ from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
 from models.posterior.posterior import HintPosterior
-from models.posterior.surroundings import Surroundings
+from models.posterior.surroundings import Surroundings, surroundings_of
 
 READ_AT_ONCE = 16
 SLIPS = 0.15  # share of the texts that say something wrong, as people do
@@ -36,7 +36,7 @@ class Place:
 
     Attributes:
         surroundings, cells: of the gallery.
-        label: [R] number of the label of each of the cells' parts.
+        label: [P] number of the label of each of the surroundings' things.
         labels: all labels.
         palette: colour words.
         hints: Q lists of what was said.
@@ -58,12 +58,13 @@ class Place:
         """A source with what is asked of it."""
         data, hints = source.data, queries.hints
         assert hints is not None
-        labels, number = np.unique(data.gallery.labels, return_inverse=True)
+        surroundings = surroundings_of(source.bodies(), data.cells)
+        labels, label = surroundings.things.labels(data.gallery)
         return cls(
-            surroundings=Surroundings.of(source.bodies(), data.cells),
+            surroundings=surroundings,
             cells=replace(data.cells, sample=None),  # lets go of the map's points
-            label=number.astype(np.int64)[data.cells.parts.instance],
-            labels=tuple(labels.tolist()),
+            label=label,
+            labels=labels,
             palette=data.palette,
             hints=hints,
             positions_m=queries.positions_m,

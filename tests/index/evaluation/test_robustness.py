@@ -13,7 +13,7 @@ from index.vector_localizer import VectorLocalizer
 from models.city.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
-from models.posterior.surroundings import Surroundings
+from models.posterior.surroundings import surroundings_of
 
 HINTS = tuple(
     Hint(direction, label, colour)
@@ -41,7 +41,7 @@ def test_trials_say_what_their_name_says(asked):
 def test_hints_about_the_nearest_things_are_true(source, asked):
     data, queries = asked
     some = queries.take(np.arange(0, len(queries), 3))
-    around = Surroundings.of(source.bodies(), data.cells)
+    around = surroundings_of(source.bodies(), data.cells)
     told = nearest_hints(data, some.positions_m, some.truth, around, 12)
     assert 6 < max(map(len, told)) <= 12
     shared = [
@@ -62,7 +62,7 @@ def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_e
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
     untrained.matcher = load_posterior().matcher  # knows the names already
-    posterior = PosteriorLocalizer.of_map(untrained, data, ranker, Surroundings.of(source.bodies(), data.cells))
+    posterior = PosteriorLocalizer.of_map(untrained, data, ranker, surroundings_of(source.bodies(), data.cells))
     vectors = VectorLocalizer.of_map(data, ranker)
     found = robustness(data, some, vectors, posterior, lambda *_: None)
     (head, table), *of_candidates = robustness_tables(found)
@@ -87,6 +87,6 @@ def test_points_of_a_damaged_map_are_those_of_the_parts_that_are_left(asked) -> 
     before, after = data.gallery.cells, damage.data.gallery.cells
     chosen = np.array([3, 0])
     rows = np.concatenate([np.arange(before.parts.starts[n], before.parts.starts[n + 1]) for n in chosen])
-    left = damage.part_of[rows] >= 0
+    left = damage.kept[rows]
     assert 0 < left.sum() < len(left)
     assert np.array_equal(after.sample(chosen), before.sample(chosen)[left])

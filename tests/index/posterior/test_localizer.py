@@ -14,7 +14,7 @@ from index.ranking import Ranker
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
-from models.posterior.surroundings import Surroundings
+from models.posterior.surroundings import surroundings_of
 
 SENTENCE = re.compile(r"The pose is (\S+) of a ([^.]+)\.")
 
@@ -47,7 +47,7 @@ def posterior_model(text_encoder):
 def posterior(posterior_model, model, source):
     data = source.data
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
-    return PosteriorLocalizer.of_map(posterior_model, data, ranker, Surroundings.of(source.bodies(), data.cells))
+    return PosteriorLocalizer.of_map(posterior_model, data, ranker, surroundings_of(source.bodies(), data.cells))
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +71,7 @@ def query(asked, surest):
     return Query(" ".join(asked[1].sentences[surest]))
 
 
-def test_an_answer_is_whole_and_says_why(answer, query, asked, surest, city):
+def test_an_answer_is_whole_and_says_why(answer, query, asked, surest, scan):
     answer = answer(replace(query, heat_map=True, top_k=3))
     truth = asked[1].positions_m[surest]
     assert answer.status == "ok"
@@ -89,7 +89,7 @@ def test_an_answer_is_whole_and_says_why(answer, query, asked, surest, city):
     assert all(hint.away_m <= 15.1 for hint in shown)
     for hint in shown:  # away from the node nearest to the estimate
         assert np.hypot(*np.subtract(hint.at, answer.estimate.position)) == pytest.approx(hint.away_m, abs=1.1)
-    things = {instance.source_id: instance.points_m[:, :2] for instance in city.instances}
+    things = {instance.source_id: instance.points_m[:, :2] for instance in scan.instances}
     for hint in shown:  # stands on the thing itself
         assert np.hypot(*(things[hint.source_id] - hint.at).T).min() < 0.5
     text = query.description

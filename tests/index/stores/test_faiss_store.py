@@ -2,22 +2,37 @@ import faiss
 import numpy as np
 import pytest
 
+from index.query import Box
 from index.stores.faiss_store import FaissStore
 from models.errors import IndexBroken
 
 
-def test_files_that_are_no_store_are_refused(tmp_path) -> None:
-    path = tmp_path / "v.faiss"
-    path.write_bytes(b"junk")
-    with pytest.raises(IndexBroken, match="cannot be read"):
-        FaissStore.load(path)
-    faiss.write_index(faiss.IndexFlatL2(16), str(path))
-    with pytest.raises(IndexBroken, match="IndexFlatL2"):
-        FaissStore.load(path)
+@pytest.fixture
+def vectors():
+    v = np.random.default_rng(1).normal(size=(3000, 64)).astype(np.float32)
+    return v / np.linalg.norm(v, axis=1, keepdims=True)
 
 
-def test_a_store_without_positions_says_so() -> None:
-    from index.query import Box
+def test_many_vectors_take_a_quarter_and_find_nearly_the_same(vectors, tmp_path, monkeypatch) -> None:
+    exact = FaissStore.of(vectors)
+    monkeypatch.setattr("index.stores.faiss_store.EXACT", 2999)
+    FaissStore.of(vectors).save(tmp_path / "small")
+    exact.save(tmp_path / "exact")
+    assert (tmp_path / "small").stat().st_size < 0.27 * (tmp_path / "exact").stat().st_size
+    small = FaissStore.load(tmp_path / "small", positions_m=np.zeros((3000, 2)))
+    assert (len(small), small.dim) == (3000, 64)
+    (scores, rows), (true, best) = small.search(vectors[:50], 20), exact.search(vectors[:50], 20)
+    assert scores == pytest.approx(true, abs=0.01)
+    assert np.mean([len(np.intersect1d(a, b)) / 20 for a, b in zip(rows, best, strict=True)]) > 0.95
+    assert small.vectors(rows[0]) == pytest.approx(vectors[rows[0]], abs=0.01)
+    assert small.score(vectors[0], rows[0]) == pytest.approx(scores[0], abs=1e-5)
+    assert small.vectors(rows[0][:0]).shape == (0, 64)
+    assert small.search(vectors[:1], 5, Box(1, 1, 2, 2))[1].shape == (1, 0)
 
-    with pytest.raises(AssertionError, match="without positions"):
-        FaissStore.of(np.eye(3, dtype=np.float32)).search(np.eye(3, dtype=np.float32), 1, Box(0, 0, 1, 1))
+
+def test_another_kind_of_index_is_refused(vectors, tmp_path) -> None:
+    graph = faiss.IndexHNSWFlat(64, 8)
+    graph.add(vectors[:50])
+    faiss.write_index(graph, str(tmp_path / "graph"))
+    with pytest.raises(IndexBroken, match="hereabouts index"):
+        FaissStore.load(tmp_path / "graph")

@@ -19,7 +19,7 @@ from index.words.describing import (
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
 from models.city.types import Hint
 from models.language.places.cues import WIND_DEGREES
-from models.posterior.surroundings import Surroundings
+from models.posterior.surroundings import surroundings_of
 from tests.models.city.gazetteer.made_town import line, made_gazetteer, point, ring
 
 WIND = re.compile(r"to my (\w+)\.|(\w+) of me\.")
@@ -28,16 +28,13 @@ OFF_M = 1.5  # what is stored of ways is rounded, and of the node beside a posit
 
 @pytest.fixture(scope="module")
 def surroundings(source, cells):
-    return Surroundings.of(source.bodies(), cells)
+    return surroundings_of(source.bodies(), cells)
 
 
 @pytest.fixture(scope="module")
 def bare(surroundings):
     """As if nothing were near any node."""
-    nothing = np.zeros_like(surroundings.starts)
-    return replace(
-        surroundings, starts=nothing, part=surroundings.part[:0], way=surroundings.way[:0], whole=surroundings.whole[:0]
-    )
+    return replace(surroundings, things=replace(surroundings.things, parts=0 * surroundings.things.parts))
 
 
 @pytest.fixture(scope="module")
@@ -67,8 +64,8 @@ def test_positions_are_found_again_without_names_too(localizer, nameless, positi
     assert (np.array(errors) <= 10).mean() >= 0.95
 
 
-def test_what_is_said_is_true(localizer, city, positions):
-    points = {i.source_id: i.points_m[:, :2] for i in city.instances}
+def test_what_is_said_is_true(localizer, scan, positions):
+    points = {i.source_id: i.points_m[:, :2] for i in scan.instances}
     checked = 0
     for x, y in positions.tolist():
         for fact in localizer.describe((x, y)).hints:

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 from sklearn.cluster import DBSCAN
 
-from models.city.cells import cut_cells, cut_cube, cut_cubes, grid_centers
+from models.city.bodies import bodies_of, cut_cells
+from models.city.cells import cut_cube, cut_cubes, grid_centers
 from models.city.points import PointTable
 from models.city.types import CityMap, CutRules, Instance
 from models.errors import MapError
@@ -26,13 +27,13 @@ def naive_parts(city: CityMap, center: np.ndarray) -> list[tuple[int, frozenset]
 
 
 @pytest.mark.parametrize("n", range(8))
-def test_cutting_equals_the_rules_read_literally(city, points, n) -> None:
+def test_cutting_equals_the_rules_read_literally(scan, points, n) -> None:
     center = np.random.default_rng(n).uniform(-140, 140, 3) * [1, 1, 0]
     mine = [
         (int(points.instance[rows[0]]), frozenset((rows - points.starts[points.instance[rows[0]]]).tolist()))
-        for rows in cut_cube(points, center, city.rules)
+        for rows in cut_cube(points, center, scan.rules)
     ]
-    assert sorted(mine, key=repr) == sorted(naive_parts(city, center), key=repr)
+    assert sorted(mine, key=repr) == sorted(naive_parts(scan, center), key=repr)
     assert len(mine) > 3
 
 
@@ -57,10 +58,10 @@ def test_ragged_stuff_is_split_as_scikit_learn_does(seed) -> None:
     assert mine == naive_parts(city, center)
 
 
-def test_the_summary_of_parts(city, points) -> None:
+def test_the_summary_of_parts(scan, points) -> None:
     center = np.array([[7.0, -12.0, 0.0]])
-    parts = cut_cubes(points, center, city.rules)
-    members_of = cut_cube(points, center[0], city.rules)
+    parts = cut_cubes(points, center, scan.rules)
+    members_of = cut_cube(points, center[0], scan.rules)
     assert len(members_of) == len(parts.instance) > 3
     for row, members in zip(np.argsort(parts.instance, kind="stable"), members_of, strict=True):
         xyz = points.xyz[members]
@@ -71,11 +72,11 @@ def test_the_summary_of_parts(city, points) -> None:
         assert np.linalg.norm(parts.closest_m[row] - center[0]) == pytest.approx(closest, abs=1e-4)
 
 
-def test_processes_give_what_one_gives(city, points, monkeypatch) -> None:
-    centers = grid_centers(city.locations_m, city.rules)
-    many = cut_cubes(points, centers, city.rules)
+def test_processes_give_what_one_gives(scan, points, monkeypatch) -> None:
+    centers = grid_centers(scan.locations_m, scan.rules)
+    many = cut_cubes(points, centers, scan.rules)
     monkeypatch.setattr("models.city.cells.CHUNK", 10**6)
-    one = cut_cubes(points, centers, city.rules)
+    one = cut_cubes(points, centers, scan.rules)
     for name in ("starts", "instance", "count", "low_m", "closest_m", "rgb"):
         assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)
 
@@ -114,4 +115,4 @@ def test_a_map_too_poor_for_cells_says_so() -> None:
     city = ragged_city(0)
     poor = CityMap("poor", city.instances[:2], city.stuff, city.locations_m)
     with pytest.raises(MapError, match="has 6 instances"):
-        cut_cells(poor)
+        cut_cells(poor, bodies_of(poor))

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
+import shapely
 
-from models.city.cells import cut_cubes
 from models.city.hints import STRATEGIES, choose_hints, describe_poses, direction_index, hint_table, sample_positions
 from models.city.regions import split_regions
 from models.city.types import DIRECTIONS
@@ -24,23 +24,25 @@ def test_direction(offset, direction) -> None:
 
 
 @pytest.fixture(scope="module")
-def poses(city, points, cells):
+def poses(city, bodies, cells):
     positions = sample_positions(city.locations_m, 25.0, np.random.default_rng(0))
-    return describe_poses(city, points, cells, positions)
+    return describe_poses(city, bodies, cells, positions)
 
 
 def test_hints_are_true(city, poses) -> None:
+    pieces = city.pieces
     for pose in poses:
+        at = shapely.Point(pose.position_m[:2])
         for hint in pose.description.hints:
             instance = city.instances[hint.instance_id]
             assert hint.label == instance.label
-            offset = pose.position_m[None] - instance.points_m
-            near = offset[np.linalg.norm(offset, axis=1) <= 20]
-            # Clipped stuff may be described by another part of it, so any near point may be the closest of its part.
-            assert hint.direction in {DIRECTIONS[d] for d in direction_index(near)}
+            lines = shapely.shortest_line(at, pieces.geometry[pieces.instance == instance.id])
+            offset = pose.position_m[:2] - shapely.get_coordinates(lines)[1::2]
+            metres = np.linalg.norm(offset, axis=1)
+            # Clipped stuff may be described by another part of it, so any near piece may have the closest point.
+            assert hint.direction in {DIRECTIONS[d] for d in direction_index(offset[metres <= 20])}
             if instance.label not in city.stuff:
-                closest = offset[np.linalg.norm(offset, axis=1).argmin()]
-                assert hint.direction == DIRECTIONS[direction_index(closest)]
+                assert hint.direction == DIRECTIONS[direction_index(offset[metres.argmin()])]
             expected = None if instance.rgb is None else city.palette.word(instance.rgb)
             assert hint.colour == expected
 
@@ -65,9 +67,9 @@ def test_descriptions_of_a_position_differ(poses) -> None:
     assert {len(p.description.hints) for p in poses} == {6}
 
 
-def test_strategies_against_a_naive_round_robin(city, points) -> None:
+def test_strategies_against_a_naive_round_robin(city, bodies) -> None:
     positions = sample_positions(city.locations_m, 60.0, np.random.default_rng(1))
-    table = hint_table(city.palette, cut_cubes(points, positions, city.rules), positions)
+    table = hint_table(city.palette, bodies.cut(positions), positions)
     labels = np.unique([i.label for i in city.instances], return_inverse=True)[1]
     assert table.distance_m.max() <= 15
     for n in range(len(positions)):

@@ -25,7 +25,7 @@ def prepared(tmp_path_factory):
 def test_a_map_is_cut_once_for_all_its_splits(osm_file, source, regions, monkeypatch) -> None:
     stages = []
     opened = open_sources(osm_file, (None, "train", "val"), lambda stage, done, total: stages.append((stage, done)))
-    assert [stage for stage in stages if not stage[1]] == [("read map", 0), ("index points", 0)]
+    assert [stage for stage in stages if not stage[1]] == [("read map", 0)]
     for one, other in zip(opened, (source, *regions), strict=True):
         assert one.data.cells.ids == other.data.cells.ids
         assert one.queries().sentences == other.queries().sentences
@@ -91,7 +91,7 @@ def test_an_unknown_split_is_refused_before_a_map_is_read(tmp_path, prepared) ->
 
 
 @pytest.mark.parametrize("elsewhere", [lambda at: at[:0], lambda at: at + 1e4], ids=["nowhere", "far from every cell"])
-def test_a_map_with_nothing_to_describe_says_so(osm_file, city, points, cells, elsewhere) -> None:
-    moved = MapSource(osm_file, replace(city, locations_m=elsewhere(city.locations_m)), points, cells)
+def test_a_map_with_nothing_to_describe_says_so(osm_file, city, bodies, cells, elsewhere) -> None:
+    moved = MapSource(osm_file, replace(city, locations_m=elsewhere(city.locations_m)), bodies, cells)
     with pytest.raises(MapError, match=r"tinytown\.osm: no position in split 'all' can be described; take"):
         moved.queries()

@@ -6,9 +6,9 @@ import torch
 
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.parsed_hint import RELATIONS
+from models.posterior.around import STEP_M
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
 from models.posterior.node_batch import NodeBatch, colour_words, ranks_of, usual_statements, way_number
-from models.posterior.surroundings import STEP_M
 
 WORDS = len(colour_words(KITTI360_PALETTE))
 
@@ -27,6 +27,7 @@ def reading(rng, hints, labels, absent=0.0, distance=math.nan):
 
 
 def around(rng, nodes=5, labels=4, parts=9):
+    """Of all parts, some of which may be nowhere."""
     sizes = rng.integers(0, 5, nodes)
     node = np.repeat(np.arange(nodes), sizes)
     way = torch.from_numpy(rng.integers(-120, 121, (len(node), 2)).astype(np.int8))
@@ -36,7 +37,9 @@ def around(rng, nodes=5, labels=4, parts=9):
     rgb[0] = math.nan
     whole = torch.from_numpy(rng.random(len(node)) < 0.8)
     rank = ranks_of(torch.from_numpy(node), way_number(way), label[part])
-    return NodeBatch(torch.from_numpy(node), way_number(way), whole, rank, part, label, rgb, nodes), way
+    return NodeBatch(
+        torch.from_numpy(node), way_number(way), whole, rank, part, torch.arange(parts), label, rgb, nodes
+    ), way
 
 
 def place_of(model, relation, east, north):
@@ -60,7 +63,7 @@ def place_of(model, relation, east, north):
 
 
 def usual_of(here):
-    return usual_statements(here.label, here.rgb, KITTI360_PALETTE)
+    return usual_statements(here.label, here.rgb, torch.ones(len(here.label)), KITTI360_PALETTE)
 
 
 @torch.no_grad()
@@ -193,7 +196,7 @@ def test_what_is_absent_is_not_near(model):
     label = torch.zeros(1, dtype=torch.long)
     here = NodeBatch(
         node, way_number(way), torch.ones(1, dtype=torch.bool), ranks_of(node, way_number(way), label),
-        torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4), 2,
+        torch.zeros(1, dtype=torch.long), torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4), 2,
     )  # fmt: skip
     relation = torch.zeros(1, len(RELATIONS))
     relation[0, -1] = 1.0
@@ -222,7 +225,7 @@ def test_what_is_usual_in_a_map():
     label = torch.tensor([0, 0, 1, 0])
     rgb = torch.tensor(KITTI360_PALETTE.centers, dtype=torch.float32)[[0, 0, 2, 2]] / 255
     rgb[2] = math.nan
-    usual = usual_statements(label, rgb, KITTI360_PALETTE)
+    usual = usual_statements(label, rgb, torch.ones(len(label)), KITTI360_PALETTE)
     words = colour_words(KITTI360_PALETTE)
     assert usual[0, words.index("dark-green")] == 0.5
     assert usual[0, words.index("gray-green")] == 0.25

@@ -129,7 +129,7 @@ def test_cells_far_behind_may_be_looked_at_roughly(town, monkeypatch):
     assert any(len(a.points) < len(b.points) for a, b in zip(rough, exact, strict=True)), "some cells are left rough"
     for a, b in zip(rough, exact, strict=True):
         assert a.rows[0] == b.rows[0]
-        assert a.probability[0] == pytest.approx(b.probability[0], abs=0.01)
+        assert a.probability[0] == pytest.approx(b.probability[0], abs=0.02)
         assert np.allclose(a.positions[0], b.positions[0], atol=0.01)
 
 
@@ -177,12 +177,10 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
     right = total = 0
     for q in range(0, 60, 3):
         node = int(np.linalg.norm(town.posterior.nodes_m - town.place.positions_m[q], axis=1).argmin())
-        for hint, (row, explained) in zip(
-            town.place.hints[q], town.posterior.explain(town.readings[q], node), strict=True
-        ):
+        for hint, found in zip(town.place.hints[q], town.posterior.explain(town.readings[q], node), strict=True):
             total += 1
-            part = town.place.surroundings.part[row]
-            right += row >= 0 and explained > 0.5 and cells.parts.instance[part] == number[hint.instance_id]
+            meant = found.part >= 0 and town.place.surroundings.things.instance[found.part] == number[hint.instance_id]
+            right += meant and found.probability > 0.5
     assert right / total > 0.7, "things alike stand side by side in this town"
 
 

@@ -1,11 +1,14 @@
 import numpy as np
 import pytest
 
+from models.posterior.around import STEP_M
+from models.posterior.scan_surroundings import ScanSurroundings
 from models.posterior.sights import FAR_M, NEAR_M, Sights
-from models.posterior.surroundings import STEP_M, Surroundings
+from models.posterior.things import Things
 
 TREE, LAMP = 0, 1
 LABEL = np.array([TREE, TREE, LAMP])
+THINGS = Things(np.arange(3), np.zeros((3, 3)), np.ones(3, np.int32), np.zeros(3, np.bool_))
 WORDS = np.array([[0.9, 0.1], [0.2, 0.8], [0.5, 0.5]])
 
 
@@ -13,7 +16,8 @@ def sights(*nodes):
     """Of nodes with (part, metres east, metres north) from the node to the thing."""
     rows = [row for node in nodes for row in node]
     way = np.array([(-east / STEP_M, -north / STEP_M) for _, east, north in rows]).reshape(-1, 2)
-    surroundings = Surroundings(
+    surroundings = ScanSurroundings(
+        things=THINGS,
         cell_starts=np.array([0, len(nodes)]),
         nodes_m=np.zeros((len(nodes), 2), np.float32),
         starts=np.concatenate([[0], np.cumsum([len(node) for node in nodes])]),

@@ -1,19 +1,32 @@
 import numpy as np
 import pytest
 
-from models.city.source import open_source
+from models.city.bodies import bodies_of, cut_cells
+from models.city.source import MapSource, open_source
 from models.errors import IndexBroken
-from models.posterior.surroundings import SPACING_M, STEP_M, Surroundings
+from models.posterior.around import STEP_M
+from models.posterior.nodes import SPACING_M
+from models.posterior.scan_surroundings import ScanSurroundings
+from models.posterior.surroundings import load_surroundings, surroundings_of
+
+
+@pytest.fixture(scope="module")
+def scanned(osm_file, scan, cells):
+    """The town's cells, and what lies around them, from points."""
+    bodies = bodies_of(scan)
+    cells = cut_cells(scan, bodies)
+    clouds = MapSource(osm_file, scan, bodies, cells).bodies()
+    return cells, clouds, ScanSurroundings.of(clouds, cells)
 
 
 @pytest.fixture(scope="module")
 def around(source, cells):
     bodies = source.bodies()
-    return bodies, Surroundings.of(bodies, cells)
+    return cells, bodies, surroundings_of(bodies, cells)
 
 
-def test_every_node_belongs_to_its_nearest_cell(around, cells) -> None:
-    _, s = around
+def test_every_node_belongs_to_its_nearest_cell(around) -> None:
+    cells, _, s = around
     owner = np.repeat(np.arange(len(cells)), np.diff(s.cell_starts))
     distance = np.linalg.norm(s.nodes_m[:, None] - cells.center_m[None, :, :2], axis=2)
     assert distance.min(axis=1).max() <= 15.0 + 1e-3
@@ -21,32 +34,32 @@ def test_every_node_belongs_to_its_nearest_cell(around, cells) -> None:
     assert len(np.unique(np.round(s.nodes_m / SPACING_M), axis=0)) == len(s.nodes_m)
 
 
-def test_ways_are_those_of_a_naive_search(around, cells, city) -> None:
-    bodies, s = around
+def test_ways_are_those_of_a_naive_search(scanned, scan) -> None:
+    cells, bodies, s = scanned
     owner = np.repeat(np.arange(len(cells)), np.diff(s.cell_starts))
-    shown = set(bodies.part_instance.tolist())
+    shown = set(bodies.of_part.tolist())
     for node in np.random.default_rng(0).choice(len(s.nodes_m), 12, replace=False):
         at = np.array([*s.nodes_m[node], cells.center_m[owner[node], 2]])
         naive = {}
-        for i in range(len(city.instances)):
+        for i in range(len(scan.instances)):
             xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]]
             distance = np.linalg.norm(xyz - at, axis=1)
             way = at[:2] - xyz[distance.argmin(), :2]
             if i in shown and np.hypot(*way) <= 15.0 and distance.min() <= 30.0:
                 inside = (np.abs(xyz[:, :2] - at[:2]) <= cells.size_m / 2).all(axis=1).sum()
                 large = np.ptp(xyz[:, :2], axis=0).max() > 8.0
-                whole = not (bodies.is_thing[i] and large) or inside >= city.rules.thing_share * len(xyz)
+                whole = not (bodies.is_thing[i] and large) or inside >= scan.rules.thing_share * len(xyz)
                 naive[i] = np.hypot(*way), whole
         rows = slice(s.starts[node], s.starts[node + 1])
-        instances = bodies.part_instance[s.part[rows]].tolist()
+        instances = bodies.of_part[s.part[rows]].tolist()
         assert sorted(instances) == sorted(naive)
         for i, way, whole in zip(instances, s.way[rows], s.whole[rows], strict=True):
             assert np.hypot(*(way * STEP_M)) == pytest.approx(naive[i][0], abs=STEP_M)
             assert whole == naive[i][1]
 
 
-def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(around, cells) -> None:
-    bodies, s = around
+def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(scanned) -> None:
+    cells, bodies, s = scanned
     owner = np.repeat(np.arange(len(cells)), np.diff(s.cell_starts))
     cube = cells.parts.cube
     for node in np.random.default_rng(1).choice(len(s.nodes_m), 20, replace=False):
@@ -54,46 +67,69 @@ def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(around, ce
         radius = (s.way[rows].astype(int) ** 2).sum(axis=1)
         key = list(zip((~s.whole[rows]).tolist(), radius.tolist(), strict=True))
         assert key == sorted(key)
-        in_owner = set(bodies.part_instance[cube == owner[node]].tolist())
+        in_owner = set(bodies.of_part[cube == owner[node]].tolist())
         for part in s.part[rows]:
-            assert cube[part] == owner[node] or bodies.part_instance[part] not in in_owner
+            assert cube[part] == owner[node] or bodies.of_part[part] not in in_owner
 
 
-def test_taking_cells_keeps_their_nodes(around, cells) -> None:
-    _, s = around
+@pytest.mark.parametrize("kind", ["around", "scanned"])
+def test_taking_cells_keeps_their_nodes_and_what_they_show(kind, request) -> None:
+    cells, s = request.getfixturevalue(kind)[::2]
     chosen = np.array([7, 2, 30])
-    rows = np.concatenate([np.arange(cells.parts.starts[c], cells.parts.starts[c + 1]) for c in chosen])
-    part_of = np.full(len(cells.parts.instance), -1)
-    part_of[rows] = np.arange(len(rows))
-    some = s.take(chosen, part_of)
-    for n, c in enumerate(chosen):
-        ours, theirs = (t.nodes_m[t.cell_starts[i] : t.cell_starts[i + 1]] for t, i in ((some, n), (s, c)))
-        assert (ours == theirs).all()
-    kept = part_of[s.part] >= 0
-    node = np.repeat(np.arange(len(s.nodes_m)), np.diff(s.starts))
+    some = s.take(chosen, s.things.parts_in(cells, chosen))
     of_chosen = np.concatenate([np.arange(s.cell_starts[c], s.cell_starts[c + 1]) for c in chosen])
-    assert np.diff(some.starts).tolist() == [int(kept[node == n].sum()) for n in of_chosen]
+    assert (some.nodes_m == s.nodes_m[of_chosen]).all()
+    assert np.diff(some.cell_starts).tolist() == np.diff(s.cell_starts)[chosen].tolist()
+    before, after = s.around(of_chosen), some.around(np.arange(len(of_chosen)))
+    kept = some.things.parts[before.part] > 0
+    assert 0 < kept.sum() < len(kept)
+    for name in ("node", "part", "way", "whole"):
+        assert (getattr(before, name)[kept] == getattr(after, name)).all()
 
 
-def test_saved_surroundings_come_back_and_broken_ones_are_named(around, tmp_path) -> None:
-    _, s = around
+@pytest.mark.parametrize("kind", ["around", "scanned"])
+def test_saved_surroundings_come_back_and_broken_ones_are_named(kind, request, tmp_path) -> None:
+    cells, s = request.getfixturevalue(kind)[::2]
     s.save(tmp_path)
-    again = Surroundings.load(tmp_path)
-    for name in ("cell_starts", "nodes_m", "starts", "part", "way", "whole"):
-        assert (getattr(again, name) == getattr(s, name)).all()
-    assert 100 < s.bytes_a_cell < 50_000
-    (tmp_path / "surroundings.safetensors").write_bytes(b"no")
+    again = load_surroundings(tmp_path, cells)
+    nodes = np.arange(len(s.nodes_m))
+    assert (again.cell_starts == s.cell_starts).all()
+    assert (again.nodes_m == s.nodes_m).all()
+    for name in ("node", "part", "way", "whole"):
+        assert (getattr(again.around(nodes), name) == getattr(s.around(nodes), name)).all()
+    for name in ("instance", "rgb", "parts", "is_flat"):
+        assert np.array_equal(getattr(again.things, name), getattr(s.things, name), equal_nan=name == "rgb")
+    [file] = tmp_path.iterdir()
+    assert 0.9 * file.stat().st_size < s.num_bytes < file.stat().st_size
+    file.write_bytes(b"no")
     with pytest.raises(IndexBroken, match="hereabouts index"):
-        Surroundings.load(tmp_path)
+        load_surroundings(tmp_path, cells)
+
+
+def test_what_is_around_nodes_does_not_depend_on_which_are_asked_for(around) -> None:
+    cells, _, s = around
+    every = s.around(np.arange(len(s.nodes_m)))
+    rng = np.random.default_rng(2)
+    chosen = np.concatenate(
+        [np.arange(s.cell_starts[c], s.cell_starts[c + 1]) for c in rng.permutation(len(cells))[:9]]
+    )
+    chosen = chosen[rng.random(len(chosen)) < 0.4]
+    some = s.around(chosen)
+    for n, node in enumerate(chosen):
+        ours, theirs = some.node == n, every.node == node
+        for name in ("part", "way"):
+            assert (getattr(some, name)[ours] == getattr(every, name)[theirs]).all()
+    nothing = s.around(chosen[:0])
+    assert len(nothing.node) == 0
 
 
 def test_a_data_set_has_the_points_that_its_cells_show(streets) -> None:
     source = open_source(streets, "train")
     cells, bodies = source.data.cells, source.bodies()
     for part in range(0, len(cells.parts.instance), 17):
-        i = bodies.part_instance[part]
+        i = bodies.of_part[part]
         xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]]
         gap = np.linalg.norm(xyz - cells.parts.closest_m[part], axis=1).min()
         assert gap < 0.4, "one point a voxel of 0.2 m is kept"
-    s = Surroundings.of(bodies, cells)
+    s = ScanSurroundings.of(bodies, cells)
     assert len(s.starts) == len(s.nodes_m) + 1

@@ -3,9 +3,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 from models.city.colours import parse_colour
-from models.city.osm.map import OsmClass, load_classes, load_osm
+from models.city.osm.classes import OsmClass, load_classes
+from models.city.osm.map import load_osm
 from models.errors import MapError
 
 HEADER = "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>"
@@ -23,6 +25,13 @@ def write(tmp_path: Path, body: str) -> Path:
 
 def instances(tmp_path: Path, body: str, label: str):
     return [i for i in load_osm(write(tmp_path, body)).instances if i.label == label]
+
+
+def only(tmp_path: Path, body: str, label: str):
+    """The one instance of a class, what it is made of, and its map."""
+    city = load_osm(write(tmp_path, body))
+    (found,) = (i for i in city.instances if i.label == label)
+    return found, geometry_of(city, found), city
 
 
 def test_reads_all_kinds_of_a_town(city) -> None:
@@ -46,19 +55,27 @@ def test_reads_all_kinds_of_a_town(city) -> None:
     assert "tree" not in city.stuff
 
 
+def geometry_of(city, instance):
+    pieces = city.pieces
+    return shapely.union_all(pieces.geometry[pieces.instance == instance.id])
+
+
+def size_of(city, instance):
+    west, south, east, north = geometry_of(city, instance).bounds
+    return east - west, north - south
+
+
 def test_geometry_is_metric(city) -> None:
     building = next(i for i in city.instances if i.label == "building")
-    size = np.ptp(building.points_m, axis=0)
-    assert size[:2] == pytest.approx([18, 18], abs=0.3)
-    assert size[2] == pytest.approx(3 * 3.2, abs=0.7)
+    assert size_of(city, building) == pytest.approx([18, 18], abs=0.1)
+    assert np.ptp(city.pieces.heights_m[city.pieces.instance == building.id]) == pytest.approx(3 * 3.2, abs=0.7)
     road = next(i for i in city.instances if i.label == "road")
-    assert np.ptp(road.points_m[:, 0]) == pytest.approx(300, abs=2)
-    assert np.ptp(road.points_m[:, 1]) == pytest.approx(6, abs=1.1)
+    assert size_of(city, road) == pytest.approx([300, 6], abs=0.1)
 
 
-def test_ground_points_are_not_shared(city) -> None:
-    ground = np.concatenate([i.points_m for i in city.instances if i.label in ("road", "footpath")])
-    assert len(np.unique(ground, axis=0)) == len(ground)
+def test_ground_is_not_shared(city) -> None:
+    ground = city.pieces.geometry[shapely.area(city.pieces.geometry) > 0]
+    assert shapely.area(ground).sum() == pytest.approx(shapely.area(shapely.union_all(ground)), rel=1e-6)
 
 
 def test_colour_comes_from_tags_or_is_unknown(city) -> None:
@@ -103,9 +120,9 @@ def test_a_closed_path_is_a_loop_and_a_closed_square_an_area(tmp_path) -> None:
     refs = "".join(f'<nd ref="{n}"/>' for n in (20, 21, 22, 23, 20))
     path = f'<way id="5">{refs}<tag k="highway" v="footway"/></way>'
     square = f'<way id="5">{refs}<tag k="highway" v="pedestrian"/><tag k="area" v="yes"/></way>'
-    (loop,) = instances(tmp_path, ring + path, "footpath")
-    (filled,) = instances(tmp_path, ring + square, "square")
-    assert len(filled.points_m) > 5 * len(loop.points_m)
+    _, loop, _ = only(tmp_path, ring + path, "footpath")
+    _, filled, _ = only(tmp_path, ring + square, "square")
+    assert filled.area > 5 * loop.area
 
 
 def test_a_multipolygon_keeps_its_hole(tmp_path) -> None:
@@ -121,9 +138,8 @@ def test_a_multipolygon_keeps_its_hole(tmp_path) -> None:
         '<tag k="type" v="multipolygon"/><tag k="leisure" v="park"/></relation>'
     )
     body = ring(30, 0.001, 0.003) + ring(40, 0.0015, 0.0025) + way(31, 30) + way(32, 40) + relation
-    (park,) = instances(tmp_path, body, "park")
-    middle = park.points_m[:, :2].mean(axis=0)
-    assert np.linalg.norm(park.points_m[:, :2] - middle, axis=1).min() > 20
+    park, geometry, _ = only(tmp_path, body, "park")
+    assert shapely.distance(geometry, geometry.centroid) > 20
     assert park.source_id == "relation/7"
 
 
@@ -134,9 +150,9 @@ def test_names_heights_and_widths_are_read(tmp_path) -> None:
     )
     refs = "".join(f'<nd ref="{n}"/>' for n in (20, 21, 22, 23, 20))
     tags = '<tag k="building" v="yes"/><tag k="height" v="6 m"/><tag k="name" v="Talo"/><tag k="name:en" v="House"/>'
-    (house,) = instances(tmp_path, f'{ring}<way id="5">{refs}{tags}</way>', "building")
+    house, _, city = only(tmp_path, f'{ring}<way id="5">{refs}{tags}</way>', "building")
     assert house.name == "House"
-    assert house.points_m[:, 2].max() == pytest.approx(6, abs=0.7)
+    assert city.pieces.heights_m[city.pieces.instance == house.id].max() == pytest.approx(6, abs=0.7)
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from models.city.kitti360.rules import CLASSES
-from models.city.osm.map import load_classes
+from models.city.osm.classes import load_classes
 from models.language.grammar.files import load_grammar
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.reader import COLOURS

@@ -1,0 +1,273 @@
+"""The ways from positions to what stands around them, by geometry: compiled, since there are millions of them."""
+
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from models.city.compiled import compiled
+from models.city.points import Ints
+from models.city.tiled.pieces import PieceTable
+from models.city.tiled.segments import STEP_M, Steps
+from models.city.tiled.solids import FORMS
+from models.city.tiled.tiling import TILE_M
+from models.city.types import CutRules, Floats
+
+AREA: Final = FORMS.index("area")
+THING: Final = FORMS.index("thing")
+CROWN_M: Final = 3.0  # a crown may reach nearer than the tile that its trunk is in
+LEAST: Final = 0.6  # what hangs together counts by itself if it has at least this share of what a part has
+SLACK_M: Final = 1e-3  # by which a piece that fills its tile may stand over
+USUAL: Final = 16  # things around a position, to begin with
+
+
+def ways_around(
+    table: PieceTable,
+    rules: CutRules,
+    centers_m: Floats,
+    points_m: Floats,
+    point_starts: Ints,
+    reach_m: float,
+    step_m: float,
+) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:
+    """The ways from positions to what is around them.
+
+    Pieces of an instance that hang together in a cell's cube are one thing, with what of the same goes on beside the
+    cube; what is too small to be a part is left out, unless there is no more of its instance.
+
+    Args:
+        table: the map's pieces.
+        rules: of its cells.
+        centers_m: [N, 2 or more] of cells.
+        points_m: [M, 2] metres; cell n owns those from point_starts[n] to point_starts[n + 1].
+        point_starts: [N + 1].
+        reach_m: beyond there are none; of a tree counts its crown where that is nearer than its trunk.
+        step_m: of the ways.
+
+    Returns:
+        [R] point, ascending, [R] instance and [R, 2] point minus the thing's closest point, in steps;
+        the nearest first, (0, 0) inside an area.
+    """
+    found: tuple[Ints, Ints, npt.NDArray[np.int8]] = _all_ways(
+        points_m.astype(np.float64), point_starts.astype(np.int64), centers_m[:, :2].astype(np.float64),
+        rules.cell_size_m / 2 - SLACK_M, float(reach_m), float(step_m), LEAST * rules.min_part_points,
+        table.low, table.shape, table.tile_starts, table.tile, table.instance, table.form, table.worth,
+        table.bounds_m, table.crown_m, table.segment_starts, table.segments, table.link_starts, table.links,
+    )  # fmt: skip
+    return found
+
+
+@compiled
+def _all_ways(
+    points_m: Floats, point_starts: Ints, centers_m: Floats, half_m: float, reach_m: float, step_m: float,
+    least: float, low: Ints, shape: Ints, tile_starts: Ints, tile: Ints, instance: Ints, form: Ints, worth: Floats,
+    bounds_m: Floats, crown_m: Floats, segment_starts: Ints, segments: Steps, link_starts: Ints, links: Ints,
+) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:  # fmt: skip
+    room = USUAL * len(points_m) + 1024
+    point, found, way = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2), np.int8)
+    squares, count = np.empty(room, np.int64), 0
+    for n in range(len(point_starts) - 1):
+        mine = points_m[point_starts[n] : point_starts[n + 1]]
+        if len(mine) == 0:
+            continue
+        pieces = _window(mine, reach_m + CROWN_M, low, shape, tile_starts)
+        order, starts = _groups(pieces, centers_m[n], half_m, least, tile, instance, form, worth, link_starts, links)
+        for m in range(len(mine)):
+            if count + len(starts) > room:
+                room *= 2
+                point, found, way = _longer(point), _longer(found), _longer(way)
+                squares = _longer(squares)
+            begin = count
+            for g in range(len(starts) - 1):
+                square, way_x, way_y = _way_to_group(
+                    mine[m, 0], mine[m, 1], order[starts[g] : starts[g + 1]], reach_m, tile, form, bounds_m, crown_m,
+                    segment_starts, segments,
+                )  # fmt: skip
+                if square < 0.0:
+                    continue
+                x, y = np.rint(way_x / step_m), np.rint(way_y / step_m)
+                key, at = np.int64(x * x + y * y), count
+                while at > begin and squares[at - 1] > key:
+                    squares[at], found[at] = squares[at - 1], found[at - 1]
+                    way[at, 0], way[at, 1] = way[at - 1, 0], way[at - 1, 1]
+                    at -= 1
+                squares[at], found[at] = key, instance[order[starts[g]]]
+                way[at, 0], way[at, 1] = np.int8(x), np.int8(y)
+                point[count] = point_starts[n] + m
+                count += 1
+    return point[:count].copy(), found[:count].copy(), way[:count].copy()
+
+
+@compiled
+def _longer(array: Ints) -> Ints:
+    return np.concatenate((array, np.empty_like(array)))
+
+
+@compiled
+def _window(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts: Ints) -> Ints:
+    """The pieces in tiles within reach of some points, ascending."""
+    first, last = np.empty(2, np.int64), np.empty(2, np.int64)
+    for axis in range(2):
+        first[axis] = max(np.floor((points_m[:, axis].min() - reach_m) / TILE_M + 0.5) - low[axis], 0)
+        last[axis] = min(np.floor((points_m[:, axis].max() + reach_m) / TILE_M + 0.5) - low[axis], shape[axis] - 1)
+    found = np.empty(0, np.int64)
+    if first[1] > last[1]:
+        return found
+    for column in range(first[0], last[0] + 1):
+        begin = tile_starts[column * shape[1] + first[1]]
+        end = tile_starts[column * shape[1] + last[1] + 1]
+        found = np.concatenate((found, np.arange(begin, end)))
+    return found
+
+
+@compiled
+def _groups(
+    pieces: Ints, center_m: Floats, half_m: float, least: float, tile: Ints, instance: Ints, form: Ints, worth: Floats,
+    link_starts: Ints, links: Ints,
+) -> tuple[Ints, Ints]:  # fmt: skip
+    """(pieces by group, where each group begins and, last, their number) of what counts around a cell."""
+    count = len(pieces)
+    kind = np.empty(count, np.int64)  # 0 for what is in the cube, 1 for what is beside it, 2 for things
+    for p in range(count):
+        k = pieces[p]
+        kind[p] = 0
+        for axis in range(2):
+            first = np.floor((center_m[axis] - half_m) / TILE_M + 0.5)
+            last = np.floor((center_m[axis] + half_m) / TILE_M + 0.5)
+            if not first <= tile[k, axis] <= last:
+                kind[p] = 1
+        if form[k] == THING:
+            kind[p] = 2
+    group = _hanging_together(pieces, kind, instance, link_starts, links)
+    size, total = np.zeros(count, np.int64), np.zeros(count)
+    for p in range(count):
+        size[group[p]] += 1
+        total[group[p]] += worth[pieces[p]]
+    place, pieces_kept, groups_kept = np.full(count, -1, np.int64), 0, 0
+    starts = np.empty(count + 1, np.int64)
+    for g in range(count):
+        if size[g] and _counts(g, size, total, least, kind, pieces, instance):
+            place[g], starts[groups_kept] = pieces_kept, pieces_kept
+            pieces_kept += size[g]
+            groups_kept += 1
+    starts[groups_kept] = pieces_kept
+    order = np.empty(pieces_kept, np.int64)
+    for p in range(count):
+        g = group[p]
+        if place[g] >= 0:
+            order[place[g]] = pieces[p]
+            place[g] += 1
+    return order, starts[: groups_kept + 1]
+
+
+@compiled
+def _counts(g: int, size: Ints, total: Floats, least: float, kind: Ints, pieces: Ints, instance: Ints) -> bool:
+    """Whether a group is large enough, a thing, or all that there is of its instance."""
+    if total[g] >= least or kind[g] == 2:
+        return True
+    for other in range(len(size)):
+        if other != g and size[other] and instance[pieces[other]] == instance[pieces[g]]:
+            return False
+    return True
+
+
+@compiled
+def _hanging_together(pieces: Ints, kind: Ints, instance: Ints, link_starts: Ints, links: Ints) -> Ints:
+    """[P] the first piece of what each hangs together with; what is beside a cube with what it goes on in."""
+    count = len(pieces)
+    parent = np.arange(count)
+    for p in range(count):
+        if kind[p] == 2:
+            for q in range(p):
+                if kind[q] == 2 and instance[pieces[q]] == instance[pieces[p]]:
+                    parent[p] = q
+                    break
+            continue
+        for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
+            q = np.searchsorted(pieces, other)
+            if q < count and pieces[q] == other and kind[q] == kind[p]:
+                a, b = _root(parent, p), _root(parent, q)
+                parent[max(a, b)] = min(a, b)
+    inside = np.full(count, -1, np.int64)  # of what is beside the cube
+    for p in range(count):
+        if kind[p] != 1:
+            continue
+        for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
+            q = np.searchsorted(pieces, other)
+            if q < count and pieces[q] == other and kind[q] == 0:
+                inside[_root(parent, p)] = _root(parent, q)
+    group = np.empty(count, np.int64)
+    for p in range(count):
+        root = _root(parent, p)
+        group[p] = inside[root] if inside[root] >= 0 else root
+    named: Ints = _by_first(group)
+    return named
+
+
+@compiled
+def _by_first(group: Ints) -> Ints:
+    """Groups by the first piece of each."""
+    first = np.full(len(group), -1, np.int64)
+    named = np.empty(len(group), np.int64)
+    for p in range(len(group)):
+        if first[group[p]] < 0:
+            first[group[p]] = p
+        named[p] = first[group[p]]
+    return named
+
+
+@compiled
+def _root(parent: Ints, p: int) -> int:
+    while parent[p] != p:
+        parent[p] = parent[parent[p]]
+        p = parent[p]
+    return p
+
+
+@compiled
+def _way_to_group(
+    x: float, y: float, pieces: Ints, reach_m: float, tile: Ints, form: Ints, bounds_m: Floats, crown_m: Floats,
+    segment_starts: Ints, segments: Steps,
+) -> tuple[float, float, float]:  # fmt: skip
+    """Squared distance and way from the closest point of some pieces; (-1, 0, 0) beyond reach."""
+    best, best_x, best_y, is_found = reach_m * reach_m, 0.0, 0.0, False
+    for k in pieces:
+        west, south, east, north = bounds_m[k]
+        away_x, away_y = max(west - x, 0.0, x - east), max(south - y, 0.0, y - north)
+        if away_x * away_x + away_y * away_y > best:
+            continue
+        square, way_x, way_y = _way_to_piece(
+            x - tile[k, 0] * TILE_M, y - tile[k, 1] * TILE_M, segments[segment_starts[k] : segment_starts[k + 1]],
+            form[k] == AREA,
+        )  # fmt: skip
+        if square > 16.0 * crown_m[k] * crown_m[k] > 0.0:  # as `crown_reach_m`
+            nearer = 1.0 - crown_m[k] / np.sqrt(square + 9.0 * crown_m[k] * crown_m[k])
+            square, way_x, way_y = square * nearer * nearer, way_x * nearer, way_y * nearer
+        if square <= best:
+            best, best_x, best_y, is_found = square, way_x, way_y, True
+            if best == 0.0:
+                break
+    return (best, best_x, best_y) if is_found else (-1.0, 0.0, 0.0)
+
+
+@compiled
+def _way_to_piece(x: float, y: float, segments: Steps, is_area: bool) -> tuple[float, float, float]:
+    """Squared distance and way of a point, seen from the middle of a tile, from some segments or what they enclose."""
+    best, best_x, best_y, is_inside = np.inf, 0.0, 0.0, False
+    for s in range(len(segments)):
+        x1, y1 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M
+        x2, y2 = segments[s, 2] * STEP_M, segments[s, 3] * STEP_M
+        along_x, along_y, from_x, from_y = x2 - x1, y2 - y1, x - x1, y - y1
+        length = along_x * along_x + along_y * along_y
+        share = 0.0
+        if length > 0.0:
+            share = min(1.0, max(0.0, (from_x * along_x + from_y * along_y) / length))
+        way_x, way_y = from_x - share * along_x, from_y - share * along_y
+        square = way_x * way_x + way_y * way_y
+        if square < best:
+            best, best_x, best_y = square, way_x, way_y
+        if is_area and (y1 > y) != (y2 > y) and from_x < (y - y1) * along_x / (y2 - y1):
+            is_inside = not is_inside
+    if is_inside:
+        return 0.0, 0.0, 0.0
+    return best, best_x, best_y

@@ -1,0 +1,35 @@
+"""What lies around some positions of a map."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from models.city.hints import HINT_REACH_M
+from models.city.points import Ints
+from models.city.types import Floats
+
+STEP_M: Final = HINT_REACH_M / 127  # of the ways
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Around:
+    """What lies around M nodes, in order of node; of each the whole things first, of these the nearest.
+
+    Attributes:
+        node: [R] int64 which of the nodes.
+        part: [R] int64, which of the surroundings' things.
+        way: [R, 2] int8, node minus the closest point (east, north), in steps of STEP_M.
+        whole: [R] bool, False for a thing of which less than Clouds.thing_share is in the cube around the node.
+    """
+
+    node: Ints
+    part: Ints
+    way: npt.NDArray[np.int8]
+    whole: npt.NDArray[np.bool_]
+
+    @property
+    def way_m(self) -> Floats:
+        """[R, 2] the way in metres."""
+        return self.way.astype(np.float64) * STEP_M

@@ -1,0 +1,148 @@
+"""What lies around every position of a scan, as a table, for it takes minutes to measure."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save_file
+
+from models.city.cells import CellTable
+from models.city.gallery import Clouds
+from models.city.points import Ints, ranges
+from models.city.processes import map_forked
+from models.city.types import Floats, Progress
+from models.errors import IndexBroken
+from models.posterior.around import STEP_M, Around
+from models.posterior.nodes import grid
+from models.posterior.scan_ways import ScanWays
+from models.posterior.things import Things
+
+FILE: Final = "surroundings.safetensors"
+COLUMNS: Final = ("cell_starts", "nodes_m", "starts", "part", "way", "whole")
+CHUNK: Final = 64  # instances a task
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ScanSurroundings:
+    """See `models.posterior.surroundings`; the rows of all nodes.
+
+    Attributes:
+        things: the parts of the cells.
+        cell_starts: [N + 1] int64, cell n owns the nodes cell_starts[n] to cell_starts[n + 1].
+        nodes_m: [M, 2] float32, map frame.
+        starts: [M + 1] int64, node m has the rows starts[m] to starts[m + 1], in order of `Around`.
+        part: [R] int32, which of `things`; that of the owner's cell if it has one of the instance, or of the piece
+            where the instance is in several.
+        way, whole: [R] see `Around`.
+    """
+
+    things: Things
+    cell_starts: Ints
+    nodes_m: Floats
+    starts: Ints
+    part: Ints
+    way: npt.NDArray[np.int8]
+    whole: npt.NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, bodies: Clouds, cells: CellTable, progress: Progress | None = None) -> "ScanSurroundings":
+        """Measure a gallery's surroundings; in several processes when there is much to do.
+
+        Args:
+            bodies: what stands in the map.
+            cells: the gallery.
+            progress: called with instances done and to do.
+        """
+        scene = np.unique(cells.scenes, return_inverse=True)[1]
+        nodes, owner = grid(cells)
+        tasks = len(bodies.scene)
+        chunks = [np.arange(i, min(i + CHUNK, tasks)) for i in range(0, tasks, CHUNK)]
+        found, done = [], 0
+        for measured in map_forked(ScanWays.of(bodies, cells, nodes, owner, scene).measure, chunks):
+            found.append(measured)
+            done += CHUNK
+            if progress:
+                progress("measure surroundings", min(done, tasks), tasks)
+        node, instance, way_m, whole, piece = (np.concatenate(column) for column in zip(*found, strict=True))
+        way = np.round(way_m / STEP_M).astype(np.int8)
+        part = np.where(piece >= 0, piece, _parts_of(cells, bodies.of_part, owner[node], instance))
+        known = part >= 0
+        node, part, way, whole = node[known], part[known], way[known], whole[known]
+        # nearest first
+        order = np.lexsort(((way.astype(np.int32) ** 2).sum(axis=1), ~whole, node))
+        return cls(
+            things=Things.of_parts(cells.parts),
+            cell_starts=np.searchsorted(owner, np.arange(len(cells) + 1)),
+            nodes_m=nodes.astype(np.float32),
+            starts=np.searchsorted(node[order], np.arange(len(nodes) + 1)),
+            part=part[order].astype(np.int32),
+            way=way[order],
+            whole=whole[order],
+        )
+
+    @property
+    def cuts(self) -> bool:
+        """See Surroundings."""
+        return False
+
+    @property
+    def num_bytes(self) -> int:
+        """What it takes on disk."""
+        return sum(getattr(self, name).nbytes for name in COLUMNS)
+
+    def around(self, nodes: Ints) -> Around:
+        """See Surroundings."""
+        begin, end = self.starts[nodes], self.starts[nodes + 1]
+        rows = ranges(begin, end)
+        node = np.repeat(np.arange(len(nodes)), end - begin)
+        return Around(node, self.part[rows].astype(np.int64), self.way[rows], self.whole[rows])
+
+    def take(self, cells: Ints, parts: Ints) -> "ScanSurroundings":
+        """See Surroundings."""
+        nodes = ranges(self.cell_starts[cells], self.cell_starts[cells + 1])
+        rows = ranges(self.starts[nodes], self.starts[nodes + 1])
+        kept = parts[self.part[rows]] > 0
+        node = np.repeat(np.arange(len(nodes)), np.diff(self.starts)[nodes])
+        return ScanSurroundings(
+            things=replace(self.things, parts=parts),
+            cell_starts=np.concatenate([[0], np.cumsum(np.diff(self.cell_starts)[cells])]),
+            nodes_m=self.nodes_m[nodes],
+            starts=np.searchsorted(node[kept], np.arange(len(nodes) + 1)),
+            part=self.part[rows][kept],
+            way=self.way[rows][kept],
+            whole=self.whole[rows][kept],
+        )
+
+    def save(self, directory: Path) -> None:
+        """Write one file; the things are in the gallery's."""
+        save_file({name: np.ascontiguousarray(getattr(self, name)) for name in COLUMNS}, directory / FILE)
+
+    @classmethod
+    def load(cls, directory: Path, cells: CellTable) -> "ScanSurroundings":
+        """Read what `save` wrote.
+
+        Raises:
+            IndexBroken: the file is missing or holds something else.
+        """
+        try:
+            with safe_open(directory / FILE, framework="numpy") as file:
+                return cls(Things.of_parts(cells.parts), *(file.get_tensor(name) for name in COLUMNS))
+        except (OSError, SafetensorError) as error:
+            raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
+
+
+def _parts_of(cells: CellTable, part_instance: Ints, owner: Ints, instance: Ints) -> Ints:
+    """[R] part that shows an instance in a cell; of another cell if that has none; -1 if none has."""
+    count = int(part_instance.max()) + 1 if len(part_instance) else 1
+    known = np.where(instance < count, instance, -1)
+    keys = cells.parts.cube.astype(np.int64) * count + part_instance
+    order = np.lexsort((-cells.parts.count, keys))  # the largest part of an instance first
+    position = np.minimum(np.searchsorted(keys[order], owner * count + known), len(keys) - 1)
+    own = order[position]
+    anywhere = np.full(count + 1, -1, dtype=np.int64)
+    anywhere[part_instance[::-1]] = np.arange(len(part_instance))[::-1]
+    found: Ints = np.where(keys[own] == owner * count + known, own, anywhere[known])
+    return found

@@ -1,0 +1,164 @@
+"""The inverted list over statements: which cells a text may be about, of all cells of a map."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import torch
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save_file
+from scipy.sparse import coo_array, csc_array, csr_array, vstack
+from torch import Tensor
+
+from models.city.hints import ON_TOP_M
+from models.city.points import Ints
+from models.city.processes import map_forked
+from models.city.types import Floats
+from models.errors import IndexBroken
+from models.posterior.around import STEP_M
+from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.node_batch import OFFSET, NodeBatch
+from models.posterior.surroundings import Surroundings
+
+FILE: Final = "statements.safetensors"
+SECTORS: Final = 9  # of a statement: the eight winds and "on-top"
+FLOOR: Final = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
+FAINT: Final = 1e-4  # what no hint says
+BLOCK: Final = 1024  # cells at once
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Statements:
+    """How much of each cell's nodes a statement (label, colour, sector) holds at.
+
+    Attributes:
+        holds: [N, F] float32, to half precision.
+        number: [F] (label * (words + 1) + word) * SECTORS + sector of each statement, ascending.
+        label: [F] its class.
+        word: [F] its colour; beyond the last word is an unknown one.
+        sector: [F] where it is.
+        words: how many colour words there are.
+    """
+
+    holds: csc_array
+    number: Ints
+    label: Tensor
+    word: Tensor
+    sector: Tensor
+    words: int
+
+    @classmethod
+    def of(
+        cls, likelihood: Likelihood, surroundings: Surroundings, label: Tensor, rgb: Tensor, words: Tensor
+    ) -> "Statements":
+        """Those of a gallery; in several processes when there is much to do.
+
+        Args:
+            likelihood: says how much of what is around a node is told of.
+            surroundings: of the gallery.
+            label: [P] of each thing.
+            rgb: [P, 3] colour of each, NaN where unknown.
+            words: [P, W] chance of each colour word.
+        """
+        unknown, count = rgb.isnan().any(dim=1), words.shape[1] + 1
+        pair = (label * count + torch.where(unknown, count - 1, words.argmax(dim=1))).numpy()
+        columns = (int(pair.max(initial=-1)) + 1) * SECTORS
+        starts = surroundings.cell_starts
+
+        def tabulated(first: int) -> csr_array:
+            """Cells from one on."""
+            last = min(first + BLOCK, len(starts) - 1)
+            size = np.diff(starts[first : last + 1])
+            batch = NodeBatch.of(
+                around := surroundings.around(np.arange(starts[first], starts[last])), int(size.sum()), label, rgb
+            )
+            with torch.inference_mode():
+                share = likelihood.share_of(batch, likelihood.log_pi()).mean(dim=1)
+            cell = np.repeat(np.arange(last - first), size)[around.node]
+            said = pair[around.part] * SECTORS + _SECTOR_OF_WAY[batch.way.numpy()]
+            value = share.numpy() / np.maximum(1, size)[cell]
+            return coo_array((value, (cell, said)), (last - first, columns)).tocsr()
+
+        found = list(map_forked(tabulated, range(0, len(starts) - 1, BLOCK)))
+        holds = vstack(found, format="csc") if found else csc_array((0, columns))
+        number = np.flatnonzero(np.diff(holds.indptr))  # of what holds anywhere: some thousands
+        return cls._of(holds[:, number], number, count - 1)
+
+    @classmethod
+    def _of(cls, holds: csc_array, number: Ints, words: int) -> "Statements":
+        holds = holds.astype(np.float32)
+        holds.data = holds.data.astype(np.float16).astype(np.float32)
+        said = torch.from_numpy(number)
+        pair = said // SECTORS
+        return cls(holds, number, pair // (words + 1), pair % (words + 1), said % SECTORS, words)
+
+    def save(self, directory: Path, fingerprint: str) -> None:
+        """Write one file; the fingerprint is that of the model that they were made with."""
+        columns = {
+            "holds": self.holds.data.astype(np.float16),  # as it was rounded
+            "cell": self.holds.indices.astype(np.int32),
+            "starts": self.holds.indptr.astype(np.int64),
+            "number": self.number,
+        }
+        facts = {"cells": str(self.holds.shape[0]), "words": str(self.words), "model": fingerprint}
+        save_file(columns, directory / FILE, facts)
+
+    @classmethod
+    def load(cls, directory: Path, fingerprint: str) -> "Statements | None":
+        """Read what `save` wrote; None if another model made them.
+
+        Raises:
+            IndexBroken: the file is missing or holds something else.
+        """
+        try:
+            with safe_open(directory / FILE, framework="numpy") as file:
+                facts = file.metadata()
+                if facts["model"] != fingerprint:
+                    return None
+                holds, cell, starts, number = (file.get_tensor(name) for name in ("holds", "cell", "starts", "number"))
+            shape = int(facts["cells"]), len(number)
+            return cls._of(csc_array((holds.astype(np.float32), cell, starts), shape), number, int(facts["words"]))
+        except (OSError, SafetensorError, KeyError, TypeError, ValueError) as error:
+            raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
+
+    def scores(self, reading: Reading) -> Floats:
+        """[N] about log p(T | cell)."""
+        words = self.words
+        known = (reading.label.amax(dim=0) > FAINT).index_select(0, self.label).nonzero().flatten()
+        place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
+        colour = torch.cat(
+            [reading.colour[:, :words] + reading.colour[:, words:], torch.ones(len(place), 1) * 0.3], dim=1
+        )
+        weight = reading.label.index_select(1, self.label.index_select(0, known))  # [H, F]
+        weight = weight * colour.index_select(1, self.word.index_select(0, known))
+        weight = weight * place.index_select(1, self.sector.index_select(0, known))
+        told = (weight.amax(dim=0) > FAINT).nonzero().flatten()  # few
+        columns = known.index_select(0, told).numpy()
+        holds = self.holds[:, columns] @ weight.index_select(1, told).T.numpy()
+        scores: Floats = np.log(holds + FLOOR) @ (1 - reading.absent.numpy())
+        return scores
+
+
+def _sectors_of_ways() -> Ints:
+    """[65536] the eighth of the compass, or "on-top" (8), of each way of `way_number`."""
+    steps = np.arange(256, dtype=np.float32) - OFFSET
+    east, north = np.meshgrid(steps, steps, indexing="ij")
+    sector = np.round(np.arctan2(east, north) / (np.pi / 4)).astype(np.int64) % 8
+    return np.where(np.hypot(east, north) * STEP_M < ON_TOP_M, 8, sector).ravel()
+
+
+def _sectors_of_relations() -> Tensor:
+    """[10, 9] how much of each relation a sector (a wind's eighth, or "on-top") is."""
+    table = torch.zeros(10, SECTORS)
+    for wind in range(8):
+        table[wind, wind] = 1.0
+        if wind % 2 == 0:  # "north" is said of a quarter
+            table[wind, [(wind + 1) % 8, (wind - 1) % 8]] = 0.5
+    table[8, 8] = 1.0
+    table[9] = 1.0
+    return table
+
+
+_SECTOR_OF_WAY = _sectors_of_ways()
+_SECTOR_OF_RELATION = _sectors_of_relations()

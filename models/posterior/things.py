@@ -1,0 +1,69 @@
+"""What surroundings tell of: the parts of a scan's cells, the instances of a map of pieces."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from models.city.bodies import PieceBodies
+from models.city.cells import CellTable, Parts
+from models.city.gallery import Gallery
+from models.city.points import Ints, ranges
+from models.city.types import Floats
+
+FLAT_M: Final = 0.5  # what is no higher is ground
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Things:
+    """P things.
+
+    Attributes:
+        instance: [P] int32, row of the gallery's labels, names and sources.
+        rgb: [P, 3] float32 colour, NaN where unknown.
+        parts: [P] int32, how many parts of cells are of each.
+        is_flat: [P] bool, whether one stands on it rather than beside it.
+        are_parts: whether they are parts, not instances.
+    """
+
+    instance: Ints
+    rgb: Floats
+    parts: Ints
+    is_flat: npt.NDArray[np.bool_]
+    are_parts: bool = False
+
+    @classmethod
+    def of_parts(cls, parts: Parts) -> "Things":
+        """The parts of cells."""
+        is_flat = (parts.high_m - parts.low_m)[:, 2] < FLAT_M
+        return cls(parts.instance, parts.rgb, np.ones(len(parts.instance), np.int32), is_flat, are_parts=True)
+
+    @classmethod
+    def of_instances(cls, bodies: PieceBodies, parts: Parts) -> "Things":
+        """The instances of a map, with the parts of its cells."""
+        instances = len(bodies.rgb)
+        high = np.zeros(instances)
+        np.maximum.at(high, bodies.pieces.instance, np.ptp(bodies.pieces.heights_m, axis=1))
+        shown = np.bincount(parts.instance, minlength=instances).astype(np.int32)
+        return cls(np.arange(instances, dtype=np.int32), bodies.rgb, shown, high < FLAT_M)
+
+    def parts_in(self, cells: CellTable, rows: Ints) -> Ints:
+        """[P] how many parts are of each thing in some of the cells."""
+        if self.are_parts:
+            thing = ranges(cells.parts.starts[rows], cells.parts.starts[rows + 1])
+        else:
+            thing = cells.take(rows).parts.instance
+        return np.bincount(thing, minlength=len(self.instance)).astype(np.int32)
+
+    def parts_among(self, parts: Parts, kept: npt.NDArray[np.bool_]) -> Ints:
+        """[P] how many of some of the parts are of each thing; none of an instance of which most parts are gone."""
+        if self.are_parts:
+            return kept.astype(np.int32)
+        left = np.bincount(parts.instance[kept], minlength=len(self.instance))
+        return np.where(2 * left > self.parts, left, 0).astype(np.int32)
+
+    def labels(self, gallery: Gallery) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
+        """The gallery's labels, each once, and which of them each thing has [P]."""
+        labels, number = np.unique(np.array(gallery.labels), return_inverse=True)
+        return tuple(labels.tolist()), number.astype(np.int64)[self.instance]

@@ -1,0 +1,57 @@
+import json
+
+import numpy as np
+import pytest
+
+from models.city.gallery import CELLS_FILE, NAMES_FILE, Gallery
+from models.errors import IndexBroken
+
+
+def test_a_gallery_comes_back(source, tmp_path) -> None:
+    gallery = source.data.gallery
+    gallery.save(tmp_path)
+    again = Gallery.load(tmp_path)
+    assert (again.cells.ids, again.cells.scenes) == (gallery.cells.ids, gallery.cells.scenes)
+    assert (again.labels, again.names, again.sources) == (gallery.labels, gallery.names, gallery.sources)
+    assert (again.cells.parts.closest_m == gallery.cells.parts.closest_m).all()
+
+
+def test_names_that_are_no_numbers_of_one_scene_come_back_too(source, tmp_path) -> None:
+    gallery = source.data.gallery
+    rows = np.array([5, 2])
+    some = Gallery(gallery.cells.take(rows), gallery.labels, gallery.names, gallery.sources)
+    some.save(tmp_path)
+    assert Gallery.load(tmp_path).cells.ids == tuple(gallery.cells.ids[row] for row in rows)
+
+
+def test_parts_are_cut_when_they_are_asked_for(source, bodies, tmp_path) -> None:
+    gallery, asked = source.data.gallery, []
+
+    def cut(rows):
+        asked.append(rows.tolist())
+        return bodies.cut(gallery.cells.center_m[rows])
+
+    gallery.save(tmp_path, with_parts=False)
+    cells = Gallery.load(tmp_path, cut).cells
+    some = cells.take(np.array([9, 4])).take(np.array([1]))
+    assert asked == []
+    begin, end = gallery.cells.parts.starts[4:6]
+    assert (some.parts.instance == gallery.cells.parts.instance[begin:end]).all()
+    assert some.parts is some.parts
+    assert asked == [[4]]
+    assert (cells.parts.starts == gallery.cells.parts.starts).all()
+
+
+def test_what_is_no_gallery_is_named(source, tmp_path) -> None:
+    gallery = source.data.gallery
+    gallery.save(tmp_path, with_parts=False)
+    with pytest.raises(IndexBroken, match="hereabouts index"):
+        Gallery.load(tmp_path)  # nothing can cut them
+    gallery.save(tmp_path)
+    names = json.loads((tmp_path / NAMES_FILE).read_text())
+    (tmp_path / NAMES_FILE).write_text(json.dumps({name: names[name] for name in names if name != "labels"}))
+    with pytest.raises(IndexBroken, match="hereabouts index"):
+        Gallery.load(tmp_path)
+    (tmp_path / CELLS_FILE).write_bytes(b"no")
+    with pytest.raises(IndexBroken, match="hereabouts index"):
+        Gallery.load(tmp_path)

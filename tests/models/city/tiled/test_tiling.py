@@ -1,0 +1,98 @@
+import numpy as np
+import pytest
+import shapely
+
+from models.city.tiled.pieces import PieceTable
+from models.city.tiled.solids import Solid, points_on
+from models.city.tiled.tiling import TILE_M, clip_to_tiles, take_apart, uncovered
+
+
+def array(*geometries):
+    found = np.empty(len(geometries), dtype=object)
+    found[:] = geometries
+    return found
+
+
+def blob(rng, size):
+    """An area with corners at random."""
+    return shapely.convex_hull(shapely.MultiPoint(rng.uniform(-60, 60, 2) + rng.normal(size=(9, 2)) * size))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_in_the_tiles_is_what_there_was(seed):
+    rng = np.random.default_rng(seed)
+    shapes = [blob(rng, size) for size in (2, 15, 40)] + [shapely.LineString(rng.uniform(-50, 50, (6, 2)))]
+    shapes += [
+        shapely.Point(3, 4),
+        shapely.Polygon([(-20, -20), (20, -20), (20, 20), (-20, 20)], [[(-9, -9), (9, -9), (9, 9)]]),
+    ]
+    cut = clip_to_tiles(array(*shapes))
+    middle = np.stack([cut.column, cut.row], axis=1) * TILE_M
+    bounds = shapely.bounds(cut.geometry) - np.tile(middle, 2)
+    assert np.abs(bounds).max() <= TILE_M / 2 + 1e-9
+    for n, shape in enumerate(shapes):
+        pieces = cut.geometry[cut.feature == n]
+        size = shape.area or shape.length
+        assert (shapely.area(pieces).sum() if shape.area else shapely.length(pieces).sum()) == pytest.approx(size)
+        assert shapely.hausdorff_distance(shapely.union_all(pieces), shape) < 1e-6
+    tiles = np.stack([cut.column, cut.row, cut.feature], axis=1)
+    assert (np.lexsort((tiles[:, 2], tiles[:, 1], tiles[:, 0])) == np.arange(len(tiles))).all()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_comes_first_covers_what_comes_later(seed):
+    rng = np.random.default_rng(seed)
+    tile = np.repeat(np.arange(5), rng.integers(1, 6, 5))
+    areas = array(*(blob(rng, 30) for _ in tile))
+    seen = uncovered(tile, areas)
+    for n in range(len(tile)):
+        above = [areas[m] for m in range(n) if tile[m] == tile[n]]
+        naive = areas[n].difference(shapely.union_all(above)) if above else areas[n]
+        assert shapely.area(seen[n]) == pytest.approx(naive.area, abs=1e-6)
+        assert shapely.area(shapely.symmetric_difference(seen[n], naive)) < 1e-6
+
+
+def test_parts_that_nearly_touch_hang_together():
+    square = shapely.box(0, 0, 2, 2)
+    near, far = shapely.box(2.5, 0, 3, 2), shapely.box(6, 0, 7, 2)
+    of, pieces = take_apart(array(shapely.MultiPolygon([far, square, near]), square, shapely.Polygon()), 2)
+    assert of.tolist() == [0, 0, 1]
+    assert sorted(shapely.area(pieces[:2]).tolist()) == [2.0, 5.0]
+    assert take_apart(array(shapely.Point(0, 0)), 2)[0].tolist() == []
+
+
+def test_pieces_of_one_instance_are_linked_across_borders_where_they_touch():
+    road = Solid(0, "ground", shapely.box(-30, -2, 30, 2))
+    side = Solid(0, "ground", shapely.box(-30, 4, 30, 5.5))  # the same instance, as KITTI-360 numbers ground
+    other = Solid(1, "ground", shapely.box(-30, -6, 30, -2))
+    fence = Solid(2, "wall", shapely.LineString([(-30, 8), (30, 8)]), 0.0, 1.5)
+    table = PieceTable.of([road, side, other, fence])
+    middle = (table.bounds_m[:, :2] + table.bounds_m[:, 2:]) / 2
+    for k in range(len(table.instance)):
+        linked = table.links[table.link_starts[k] : table.link_starts[k + 1]]
+        assert (table.instance[linked] == table.instance[k]).all()
+        assert (np.abs(middle[linked, 1] - middle[k, 1]) <= TILE_M / 2).all()
+        expected = 2 if abs(middle[k, 0]) < 25 else 1
+        along = [n for n in linked if abs(middle[n, 0] - middle[k, 0]) > 1]
+        assert len(along) >= (1 if expected == 1 else 2)
+    both_sides = middle[table.instance == 0, 1]
+    assert {round(float(y), 1) for y in both_sides} == {0.0, 4.5, 5.2}, "the side lies in two rows of tiles"
+
+
+@pytest.mark.parametrize(
+    ("shape", "geometry", "height"),
+    [
+        ("column", shapely.Point(1, 2), 6.0), ("crown", shapely.Point(1, 2), 9.0), ("box", shapely.Point(1, 2), 1.4),
+        ("box", shapely.LineString([(0, 0), (4, 0)]), 1.0), ("wall", shapely.LineString([(0, 0), (9, 0)]), 2.0),
+        ("outline", shapely.boundary(shapely.box(0, 0, 12, 9)), 12.0),
+        ("ground", shapely.box(0.1, 0.1, 12.1, 9.1), 0.0),
+    ],
+)  # fmt: skip
+def test_solids_are_worth_their_points(shape, geometry, height):
+    solid = Solid(0, shape, geometry, 0.0, height)
+    size = geometry.area if solid.form == "area" else geometry.length if solid.form == "line" else 1.0
+    points = points_on(solid)
+    assert solid.worth * size == pytest.approx(len(points), rel=0.12)
+    assert points[:, 2].max() == pytest.approx(solid.top_m if shape != "crown" else 9.0, abs=0.3)
+    reach = shapely.distance(shapely.points(points[:, :2]), geometry).max()
+    assert reach <= solid.radius_m * 1.5 + 1e-6

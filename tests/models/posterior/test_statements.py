@@ -1,0 +1,63 @@
+import numpy as np
+import pytest
+import torch
+
+from models.errors import IndexBroken
+from models.posterior.likelihood import Likelihood
+from models.posterior.node_batch import NodeBatch
+from models.posterior.statements import FILE, SECTORS, Statements
+from models.posterior.surroundings import surroundings_of
+
+
+@pytest.fixture(scope="module")
+def given(source):
+    """What statements are made of: surroundings, labels, colours and the words for them."""
+    surroundings = surroundings_of(source.bodies(), source.data.cells)
+    rgb, likelihood = torch.from_numpy(surroundings.things.rgb), Likelihood()
+    label = torch.from_numpy(surroundings.things.labels(source.data.gallery)[1])
+    return likelihood, surroundings, label, rgb, likelihood.words(rgb, source.data.palette)
+
+
+@pytest.fixture(scope="module")
+def statements(given):
+    return Statements.of(*given)
+
+
+@torch.inference_mode()
+def test_a_statement_holds_in_a_cell_as_far_as_what_it_says_is_told_of_there(given, statements) -> None:
+    likelihood, surroundings, label, rgb, words = given
+    for cell in (0, 17, 60):
+        nodes = np.arange(surroundings.cell_starts[cell], surroundings.cell_starts[cell + 1])
+        around = surroundings.around(nodes)
+        batch = NodeBatch.of(around, len(nodes), label, rgb)
+        share = likelihood.share_of(batch, likelihood.log_pi()).mean(dim=1)
+        naive = {}
+        for part, (east, north), p in zip(around.part, around.way_m, share.tolist(), strict=True):
+            word = statements.words if rgb[part].isnan().any() else int(words[part].argmax())
+            sector = 8 if np.hypot(east, north) < 1.5 else round(float(np.degrees(np.arctan2(east, north))) / 45) % 8
+            key = (int(label[part]) * (statements.words + 1) + word) * SECTORS + sector
+            naive[key] = naive.get(key, 0.0) + p / len(nodes)
+        row = statements.holds[[cell]].toarray()[0]
+        assert set(statements.number[row > 0].tolist()) == set(naive)
+        assert row[row > 0] == pytest.approx([naive[int(n)] for n in statements.number[row > 0]], rel=1e-3)
+
+
+def test_several_processes_make_what_one_makes(given, statements, monkeypatch) -> None:
+    monkeypatch.setattr("models.posterior.statements.BLOCK", 20)
+    again = Statements.of(*given)
+    assert (again.number == statements.number).all()
+    assert (again.holds != statements.holds).nnz == 0
+
+
+def test_saved_statements_come_back_for_the_model_that_made_them(statements, tmp_path) -> None:
+    statements.save(tmp_path, "this model")
+    again = Statements.load(tmp_path, "this model")
+    assert again is not None
+    assert (again.holds != statements.holds).nnz == 0
+    assert again.holds.shape == statements.holds.shape
+    for name in ("number", "label", "word", "sector"):
+        assert (getattr(again, name) == getattr(statements, name)).all()
+    assert Statements.load(tmp_path, "another model") is None
+    (tmp_path / FILE).write_bytes(b"no")
+    with pytest.raises(IndexBroken, match="hereabouts index"):
+        Statements.load(tmp_path, "this model")
