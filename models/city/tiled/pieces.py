@@ -10,7 +10,7 @@ import numpy.typing as npt
 import shapely
 
 from models.city.points import Ints, ranges, thin
-from models.city.tiled.segments import Steps, geometry_of, segments_of
+from models.city.tiled.segments import Steps, geometry_of, segments_of, snapped
 from models.city.tiled.solids import FORMS, Solid
 from models.city.tiled.tiling import (
     TILE_M,
@@ -165,10 +165,13 @@ def _lines(solids: Sequence[Solid]) -> _Rows:
 def _things(solids: Sequence[Solid]) -> _Rows:
     chosen = [solid for solid in solids if solid.form == "thing"]
     cut = clip_to_tiles(_array([solid.geometry for solid in chosen]))
-    size = _extent(cut.geometry)
-    whole = np.bincount(cut.feature, size, len(chosen))
-    worth = np.array([solid.worth for solid in chosen])[cut.feature] * size / whole[cut.feature]
-    return _rows(chosen, cut.column, cut.row, cut.feature, cut.geometry, worth)
+    geometry = snapped(cut.geometry)
+    kept = ~shapely.is_empty(geometry)
+    column, row, of, geometry = cut.column[kept], cut.row[kept], cut.feature[kept], geometry[kept]
+    size = _extent(geometry)
+    whole = np.bincount(of, size, len(chosen))
+    worth = np.array([solid.worth for solid in chosen])[of] * size / whole[of]
+    return _rows(chosen, column, row, of, geometry, worth)
 
 
 def _joined(chosen: Sequence[Solid], covers: bool) -> tuple[Ints, Ints, Ints, Geometries]:
@@ -185,7 +188,7 @@ def _joined(chosen: Sequence[Solid], covers: bool) -> tuple[Ints, Ints, Ints, Ge
     at, joined = join_pieces(group, geometry)
     if covers:
         joined = uncovered(tile[at], joined)
-    return column[at], row[at], rank[at], joined
+    return column[at], row[at], rank[at], snapped(joined)
 
 
 def _rows(chosen: Sequence[Solid], column: Ints, row: Ints, of: Ints, pieces: Geometries, worth: Floats) -> _Rows:

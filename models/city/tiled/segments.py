@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
+from models.city.compiled import compiled
 from models.city.points import Ints, ranges
 from models.city.tiled.tiling import TILE_M, Geometries
 from models.city.types import Floats
@@ -14,11 +15,17 @@ STEP_M: Final = 2e-4  # of stored coordinates, which are seen from the middle of
 Steps = npt.NDArray[np.int16]
 
 
+def snapped(geometry: Geometries) -> Geometries:
+    """Geometries whose coordinates are as they are stored, valid still; empty what is too thin for that."""
+    found: Geometries = shapely.set_precision(shapely.set_precision(geometry, STEP_M), 0.0)  # 0: of later results
+    return found
+
+
 def segments_of(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
     """Segments of pieces.
 
     Args:
-        geometry: [K] in its tile each.
+        geometry: [K] in its tile each, `snapped`.
         tile: [K, 2] column and row.
 
     Returns:
@@ -56,7 +63,8 @@ def geometry_of(starts: Ints, segments: Steps, tile: Ints, dimension: Ints, piec
     """
     begin, end = starts[pieces], starts[pieces + 1]
     of = np.repeat(np.arange(len(pieces)), end - begin)
-    ends_m: Floats = segments[ranges(begin, end)] * STEP_M + np.tile(tile[pieces][of] * TILE_M, 2)
+    ends = segments[ranges(begin, end)]
+    ends_m: Floats = ends * STEP_M + np.tile(tile[pieces][of] * TILE_M, 2)
     found = np.empty(len(pieces), dtype=object)
     is_point = dimension[pieces] == 0
     rows = np.flatnonzero(is_point[of])
@@ -65,14 +73,24 @@ def geometry_of(starts: Ints, segments: Steps, tile: Ints, dimension: Ints, piec
     lines = shapely.linestrings(ends_m[rows].reshape(-1, 2, 2))
     shapely.multilinestrings(lines, indices=of[rows], out=found)
     rows = np.flatnonzero(dimension[pieces][of] == 2)
-    _areas(ends_m[rows], of[rows], found)
+    _areas(ends_m[rows], ring_starts(ends[rows]), of[rows], found)
     return found
 
 
-def _areas(ends_m: Floats, of: Ints, found: Geometries) -> None:
+@compiled
+def ring_starts(ends: Steps) -> Ints:
+    """Rows of segments at which rings begin: a ring ends where it began, which others may share."""
+    begins = np.empty(len(ends), np.int64)
+    count, first, is_closed = 0, 0, True
+    for s in range(len(ends)):
+        if is_closed:
+            begins[count], first, count = s, s, count + 1
+        is_closed = ends[s, 2] == ends[first, 0] and ends[s, 3] == ends[first, 1]
+    return begins[:count].copy()
+
+
+def _areas(ends_m: Floats, begins: Ints, of: Ints, found: Geometries) -> None:
     """Fill in areas from their rings: shells turn one way and holes the other, as `segments_of` has them."""
-    goes_on = (of[1:] == of[:-1]) & (ends_m[1:, :2] == ends_m[:-1, 2:]).all(axis=1)
-    begins = np.flatnonzero(np.append(True, ~goes_on)[: len(of)])
     ring = np.repeat(np.arange(len(begins)), np.diff(np.append(begins, len(of))))
     rings = shapely.linearrings(ends_m[:, :2], indices=ring)
     polygons, owner = shapely.polygons(rings), of[begins]

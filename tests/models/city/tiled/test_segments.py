@@ -1,7 +1,8 @@
 import numpy as np
+import pytest
 import shapely
 
-from models.city.tiled.segments import STEP_M
+from models.city.tiled.segments import STEP_M, geometry_of, segments_of, snapped
 
 
 def test_pieces_are_put_together_again_from_their_segments(city) -> None:
@@ -23,3 +24,25 @@ def test_a_table_without_geometry_cuts_the_same_parts(city, bodies, cells) -> No
     assert np.abs(one.count - other.count).max() <= 1
     assert np.allclose(one.closest_m, other.closest_m, atol=2 * STEP_M)
     assert np.allclose(one.low_m, other.low_m, atol=2 * STEP_M)
+
+
+def again(*polygons: shapely.Polygon) -> np.ndarray:
+    geometry = snapped(np.array(polygons, dtype=object))
+    tile, pieces = np.zeros((len(polygons), 2), np.int64), np.arange(len(polygons))
+    return geometry_of(*segments_of(geometry, tile), tile, shapely.get_dimensions(geometry), pieces)
+
+
+def test_rings_that_meet_where_they_begin_are_two() -> None:
+    """A courtyard whose corner is one of the house's, each ring told from there."""
+    house = shapely.Polygon([(0, 0), (4, 0), (4, 4), (0, 4)], [[(0, 0), (1, 2), (2, 1)]])
+    assert house.is_valid
+    [found] = again(house)
+    assert found.area == pytest.approx(house.area)
+
+
+def test_what_is_thinner_than_a_step_is_nothing_and_spoils_nothing() -> None:
+    sliver = shapely.Polygon([(0, 0), (3, 0), (0, STEP_M / 9)])
+    assert shapely.is_empty(snapped(np.array([sliver])))[0]
+    house = shapely.MultiPolygon([sliver, shapely.box(1, 1, 3, 3)])
+    [found] = again(house)
+    assert found.area == pytest.approx(4)
