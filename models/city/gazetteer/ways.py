@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from models.city.compiled import compiled
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.points import Ints, ranges
 from models.city.types import Floats
@@ -68,26 +69,10 @@ def ways_to(around: Around, segments_m: Floats, starts: Ints, is_area: npt.NDArr
         is_area: likewise.
         reach_m: beyond are none.
     """
-    if not len(starts) - 1 or not len(around.points_m):
-        return Ways(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 2)))
-    group, item = _near(around, segments_m, starts, reach_m)
-    # segments of each pair, those alone that may be the closest to a point of the group
-    count = np.diff(starts)[item]
-    segment = ranges(starts[item], starts[item + 1])
-    pair = np.repeat(np.arange(len(item)), count)
-    ends = segments_m[segment].astype(np.float64)
-    metres = np.hypot(*_way(around.centers_m[group[pair]], ends))
-    first = np.cumsum(count) - count
-    nearest = np.minimum.reduceat(metres, first) if len(first) else metres
-    inside = _inside(around.centers_m[group[pair]], ends, first) & is_area[item] if len(first) else np.zeros(0, bool)
-    wanted = (nearest <= reach_m + around.radius_m) | inside
-    kept = wanted[pair] & (metres <= (nearest + 2 * around.radius_m)[pair])
-    point, of_item, way = _exact(around, group, item, pair[kept], segment[kept], segments_m)
-    surely = is_area[of_item]
-    if surely.any():
-        way[surely] = _without_inside(around, point[surely], of_item[surely], way[surely], segments_m, starts)
-    near = np.hypot(*way.T) <= reach_m
-    return Ways(point[near], of_item[near], way[near])
+    return Ways(*_all_ways(
+        around.points_m, around.starts, around.centers_m, around.radius_m,
+        segments_m.astype(np.float64), starts, is_area, float(reach_m),
+    ))  # fmt: skip
 
 
 def cut(gazetteer: Gazetteer, objects: Ints) -> tuple[Floats, Ints, npt.NDArray[np.bool_]]:
@@ -97,72 +82,87 @@ def cut(gazetteer: Gazetteer, objects: Ints) -> tuple[Floats, Ints, npt.NDArray[
     return gazetteer.segments_m[ranges(begin, end)], starts, gazetteer.is_area[objects]
 
 
-def _near(around: Around, segments_m: Floats, starts: Ints, reach_m: float) -> tuple[Ints, Ints]:
-    """(group, object) pairs whose boxes are within reach, in order."""
-    ends = segments_m.reshape(-1, 2, 2)
-    low = np.minimum.reduceat(ends.min(axis=1), starts[:-1]) - reach_m - around.radius_m
-    high = np.maximum.reduceat(ends.max(axis=1), starts[:-1]) + reach_m + around.radius_m
-    groups, items = [], []
-    step = max(1, 2_000_000 // max(1, len(low)))
-    for begin in range(0, len(around.centers_m), step):
-        x, y = around.centers_m[begin : begin + step, :, None].transpose(1, 0, 2)
-        inside = (x >= low[:, 0]) & (x <= high[:, 0]) & (y >= low[:, 1]) & (y <= high[:, 1])
-        group, item = np.nonzero(inside)
-        groups.append(group + begin)
-        items.append(item)
-    return np.concatenate(groups), np.concatenate(items)
+@compiled
+def _all_ways(
+    points_m: Floats, group_starts: Ints, centers_m: Floats, radius_m: float,
+    segments_m: Floats, starts: Ints, is_area: npt.NDArray[np.bool_], reach_m: float,
+) -> tuple[Ints, Ints, Floats]:  # fmt: skip
+    """(point, object, way) in order of group, then object: of a group only the segments that may be the closest."""
+    count, room = 0, len(points_m) + 64
+    point, item, way = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2))
+    boxes_m, metres = _boxes(segments_m, starts, reach_m + radius_m), np.empty(len(segments_m))
+    for c in range(len(centers_m)):
+        x, y = centers_m[c]
+        for i in range(len(starts) - 1):
+            if x < boxes_m[i, 0] or x > boxes_m[i, 2] or y < boxes_m[i, 1] or y > boxes_m[i, 3]:
+                continue
+            ends = segments_m[starts[i] : starts[i + 1]]
+            for s in range(len(ends)):
+                metres[s] = np.hypot(*_way(x, y, ends[s]))
+            nearest = metres[: len(ends)].min()
+            if nearest > reach_m + radius_m and not (is_area[i] and _is_inside(x, y, ends)):
+                continue
+            for p in range(group_starts[c], group_starts[c + 1]):
+                found = _closest(points_m[p, 0], points_m[p, 1], ends, metres, nearest + 2 * radius_m)
+                if is_area[i] and _is_inside(points_m[p, 0], points_m[p, 1], ends):
+                    found = (0.0, 0.0)
+                if np.hypot(*found) > reach_m:
+                    continue
+                if count == room:
+                    room *= 2
+                    point, item, way = _longer(point), _longer(item), _longer(way)
+                point[count], item[count] = p, i
+                way[count, 0], way[count, 1] = found
+                count += 1
+    return point[:count].copy(), item[:count].copy(), way[:count].copy()
 
 
-def _way(points_m: Floats, ends: Floats) -> Floats:
-    """[2, n] from points [n, 2] to the closest points of segments [n, 4]."""
-    x1, y1 = ends[:, 0], ends[:, 1]
-    along_x, along_y = ends[:, 2] - x1, ends[:, 3] - y1
-    x, y = points_m[:, 0] - x1, points_m[:, 1] - y1
+@compiled
+def _longer(array: Ints) -> Ints:
+    return np.concatenate((array, np.empty_like(array)))
+
+
+@compiled
+def _boxes(segments_m: Floats, starts: Ints, margin_m: float) -> Floats:
+    """[objects, 4] of each, wider by a margin."""
+    boxes = np.empty((len(starts) - 1, 4))
+    for i in range(len(starts) - 1):
+        ends = segments_m[starts[i] : starts[i + 1]]
+        for axis in range(2):
+            boxes[i, axis] = min(ends[:, axis].min(), ends[:, axis + 2].min()) - margin_m
+            boxes[i, axis + 2] = max(ends[:, axis].max(), ends[:, axis + 2].max()) + margin_m
+    return boxes
+
+
+@compiled
+def _way(x: float, y: float, ends: Floats) -> tuple[float, float]:
+    """From a point to the closest one of a segment [4]."""
+    along_x, along_y = ends[2] - ends[0], ends[3] - ends[1]
+    away_x, away_y = x - ends[0], y - ends[1]
     square = along_x * along_x + along_y * along_y
-    share = (x * along_x + y * along_y) / np.maximum(square, 1e-9)
-    np.clip(share, 0.0, 1.0, out=share)
-    way: Floats = np.stack([share * along_x - x, share * along_y - y])
-    return way
+    share = min(1.0, max(0.0, (away_x * along_x + away_y * along_y) / max(square, 1e-9)))
+    return share * along_x - away_x, share * along_y - away_y
 
 
-def _inside(points_m: Floats, ends: Floats, first: Ints) -> npt.NDArray[np.bool_]:
-    """[pairs] whether points are inside the rings of segments: a ray to the east crosses an odd number of them."""
-    x, y = points_m.T
-    x1, y1, x2, y2 = ends.T
-    with np.errstate(divide="ignore", invalid="ignore"):
-        crosses = ((y1 > y) != (y2 > y)) & (x < x1 + (y - y1) * (x2 - x1) / (y2 - y1))
-    odd: npt.NDArray[np.bool_] = np.add.reduceat(crosses.astype(np.int64), first) % 2 == 1
-    return odd
-
-
-def _exact(
-    around: Around, group: Ints, item: Ints, pair: Ints, segment: Ints, segments_m: Floats
-) -> tuple[Ints, Ints, Floats]:
-    """(point, object, way) of every point of a pair's group to the closest of the pair's segments."""
-    if not len(pair):
-        return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 2))
-    begin = np.flatnonzero(np.diff(pair, prepend=-1))
-    pairs, sizes = pair[begin], np.diff(np.append(begin, len(pair)))
-    low, high = around.starts[group[pairs]], around.starts[group[pairs] + 1]
-    points = ranges(low, high)  # of each pair
-    of = np.repeat(np.arange(len(pairs)), high - low)
-    rows = ranges(begin[of], begin[of] + sizes[of])
-    owner = np.repeat(np.arange(len(of)), sizes[of])
-    way = _way(around.points_m[points[owner]], segments_m[segment[rows]].astype(np.float64))
-    metres = way[0] * way[0] + way[1] * way[1]
-    first = np.cumsum(sizes[of]) - sizes[of]
-    best = np.minimum.reduceat(metres, first)
-    chosen = np.flatnonzero(metres == np.repeat(best, sizes[of]))
-    chosen = chosen[np.diff(owner[chosen], prepend=-1) > 0]
-    return points, item[pairs][of], way[:, chosen].T
-
-
-def _without_inside(around: Around, point: Ints, item: Ints, way: Floats, segments_m: Floats, starts: Ints) -> Floats:
-    """Ways to areas, none from inside."""
-    count = np.diff(starts)[item]
-    segment = ranges(starts[item], starts[item + 1])
-    first = np.cumsum(count) - count
-    points = np.repeat(around.points_m[point], count, axis=0)
-    inside = _inside(points, segments_m[segment].astype(np.float64), first)
-    found: Floats = np.where(inside[:, None], 0.0, way)
+@compiled
+def _closest(x: float, y: float, ends: Floats, metres: Floats, farthest_m: float) -> tuple[float, float]:
+    """The way to the closest of those segments [n, 4] that are no farther from the group's centre than that."""
+    best, found = np.inf, (0.0, 0.0)
+    for s in range(len(ends)):
+        if metres[s] <= farthest_m:
+            way = _way(x, y, ends[s])
+            square = way[0] * way[0] + way[1] * way[1]
+            if square < best:
+                best, found = square, way
     return found
+
+
+@compiled
+def _is_inside(x: float, y: float, ends: Floats) -> bool:
+    """Whether a point is inside the rings of segments [n, 4]: a ray to the east crosses an odd number of them."""
+    is_odd = False
+    for s in range(len(ends)):
+        x1, y1, x2, y2 = ends[s]
+        if (y1 > y) != (y2 > y) and x < x1 + (y - y1) * (x2 - x1) / (y2 - y1):
+            is_odd = not is_odd
+    return is_odd
