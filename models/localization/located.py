@@ -1,6 +1,7 @@
 """What every localizer finds: cells in order, a position in each, and a distribution over the map."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -12,7 +13,7 @@ SUBSQUARE_M, MOST_SUBSQUARES = 0.75, 5  # a point stands for a square; radii see
 TOLD = (0.5, 0.9)  # the shares that answers give radii of
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Located:
     """What is known of where a description was said.
 
@@ -45,7 +46,7 @@ class Located:
 
     def radii_m(self, *shares: float) -> tuple[float, ...]:
         """Radii round the first position of circles that hold some shares of the distribution, such as .5 and .9."""
-        metres, mass = self._mass_by_distance()
+        metres, mass = self._mass_by_distance
         wanted = np.interp(shares, (0.0, *TOLD, 1.0), (0.0, *self.held, 1.0))
         # The whole map, if what is known holds less.
         found = np.append(metres, self.extent_m)[np.searchsorted(mass, wanted)]
@@ -53,9 +54,10 @@ class Located:
 
     def share_within(self, metres: float) -> float:
         """Share of the distribution that is this near to the first position; what is not known is farther."""
-        known, mass = self._mass_by_distance()
+        known, mass = self._mass_by_distance
         return float(np.append(0.0, mass)[np.searchsorted(known, metres, side="right")])
 
+    @cached_property
     def _mass_by_distance(self) -> tuple[Floats, Floats]:
         """Distances from the first position, ascending, and the mass up to each."""
         side = min(MOST_SUBSQUARES, max(1, round(self.spacing_m / SUBSQUARE_M)))
