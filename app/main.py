@@ -29,7 +29,8 @@ from app.settings import Settings, is_local
 from app.threads import usable_cpus
 from app.workers.order import OpenOrder
 from app.workers.remote import open_workers
-from index.artifact import MANIFEST, read_aliases
+from index.artifact import read_aliases
+from index.manifest import MANIFEST
 from index.snapshot import SNAPSHOTS
 from models.errors import HereaboutsError
 from models.files import remove_abandoned

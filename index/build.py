@@ -7,19 +7,9 @@ from pathlib import Path
 import numpy as np
 from safetensors import SafetensorError
 
-from index.artifact import (
-    FrameRecord,
-    Manifest,
-    StoreName,
-    check_model,
-    check_store,
-    fingerprint,
-    new_version,
-    open_version,
-    set_alias,
-    write_manifest,
-)
+from index.artifact import check_store, open_version, set_alias
 from index.hint_features import save_hint_features, template_hints
+from index.manifest import FrameRecord, Manifest, StoreName, check_model, fingerprint, new_version, write_manifest
 from index.posterior.meaning import Meanings
 from index.ranking import Ranker
 from index.stores.faiss_store import FaissStore

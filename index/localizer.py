@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from index.answers import Answer, CellDetail, CellInstance, CellSummary, Described, IndexFacts, LatLon, ModelName
-from index.artifact import ADVICE, Manifest, check_model, open_version
+from index.artifact import open_version
 from index.finding import CellLocalizer, to_answer
 from index.hint_features import load_hint_features
+from index.manifest import ADVICE, Manifest, check_model
 from index.posterior.localizer import PosteriorLocalizer
 from index.posterior.meaning import Meanings
 from index.query import Query, Refine

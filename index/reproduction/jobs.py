@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import torch
 
-from index.artifact import fingerprint
 from index.evaluation.evaluation import evaluate
+from index.manifest import fingerprint
 from index.ranking import RERANKED, Ranker
 from index.reproduction.figure_3 import draw_figure_3
 from index.vector_localizer import VectorLocalizer

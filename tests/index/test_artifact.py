@@ -4,14 +4,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from index.artifact import (
-    check_model,
-    open_version,
-    read_aliases,
-    register,
-    set_alias,
-)
+from index.artifact import open_version, read_aliases, register, set_alias
 from index.localizer import Localizer
+from index.manifest import check_model
 from models.errors import IndexBroken, IndexMismatch
 from models.files import new_directory
 from models.retrieval.checkpoint import save_retriever

@@ -16,7 +16,8 @@ import httpx
 
 from app.jobs.job import JobState
 from app.jobs.order import Evaluation
-from index.artifact import ALIASES, MANIFEST, Aliases, open_version, read_aliases, register
+from index.artifact import ALIASES, Aliases, open_version, read_aliases, register
+from index.manifest import MANIFEST
 from index.snapshot import SNAPSHOTS
 from models.files import BUILDING, replace_file, sha256
 

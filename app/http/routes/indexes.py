@@ -16,8 +16,9 @@ from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
 from app.http.schemas.requests import Body
-from index.artifact import MANIFEST, NAME, Name, read_aliases, register, set_alias
+from index.artifact import read_aliases, register, set_alias
 from index.artifact import verify as verify_version
+from index.manifest import MANIFEST, NAME, Name
 from index.snapshot import SNAPSHOTS, snapshot
 from models.errors import IndexBroken
 

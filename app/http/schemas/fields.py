@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field, JsonValue, Strict, StringConstraints
 from pydantic_core import PydanticCustomError
 
-from index.artifact import NAME
+from index.manifest import NAME
 from index.query import Crs
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends

@@ -2,7 +2,8 @@ import hashlib
 
 import pytest
 
-from index.artifact import NEEDED, FrameRecord, Manifest, register, write_manifest
+from index.artifact import register
+from index.manifest import NEEDED, FrameRecord, Manifest, write_manifest
 from models.files import FileRecord
 
 
