@@ -84,7 +84,7 @@ MAY_IMPORT = {
 ONLY = {
     ("models.city", "models"): {"models.errors", "models.files"},
     ("models.posterior", "models.localization"): {"models.localization.located"},
-    ("index.stores", "index"): {"index.artifact", "index.query"},  # the manifest, and the box of a filter
+    ("index.stores", "index"): {"index.manifest", "index.query"},  # where they are, and the box of a filter
     ("index.stores", "models.city"): {"models.city.types"},
 }
 EXCEPT = {

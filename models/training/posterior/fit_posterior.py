@@ -1,7 +1,7 @@
 """Training the hint posterior: the reader on the paraphrase grammar, then the likelihood on training towns."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -109,7 +109,8 @@ def refit_posterior(
         trained.text_encoder, trained.config.frozen_layers, "val", VALIDATION_TEXTS, config.seed + 1
     )
     record = json.loads((reader / CONFIG_FILE).read_text())["training"]
-    return fit_and_save(trained, validation, data, splits, out, config, record["best_step"])
+    kept = {name: record[name] for name in ("places",) if name in record}
+    return fit_and_save(trained, validation, data, splits, out, config, record["best_step"], kept)
 
 
 def fit_and_save(
@@ -120,8 +121,12 @@ def fit_and_save(
     out: Path,
     config: TrainingConfig,
     best_step: int,
+    kept: Mapping[str, Any] | None = None,
 ) -> dict[str, float]:
-    """What is left to do when the reader is trained; arguments and return as `train_posterior`."""
+    """What is left to do when the reader is trained; arguments and return as `train_posterior`.
+
+    `kept` is what is known of the training of parts that stay as they are.
+    """
     trained.eval()
     rng = np.random.default_rng(config.seed)
     places = [[Place.of(source, source.queries(CHOSEN_BY)) for source in open_sources(path, splits)] for path in data]
@@ -135,6 +140,7 @@ def fit_and_save(
         "lexicon_sha256": trained.matcher.lexicon.sha256,
         "surprise": fitted,
         "validation": figures,
+        **(kept or {}),
     }
     save_posterior(trained, out, facts)
     return figures

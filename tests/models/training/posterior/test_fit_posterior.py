@@ -49,8 +49,12 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     assert record["training"]["lexicon_sha256"] == load_lexicon().sha256
     assert model.config.grammar_sha256 == load_grammar("train").sha256
     assert len(model.matcher.names), "stored, so that a start embeds none"
+    record["training"]["places"] = {"seed": 3}
+    (tmp_path / "config.json").write_text(json.dumps(record))
     again = fit_posterior.refit_posterior(tmp_path, [osm_file], ("train", "test"), tmp_path / "again", config)
     assert again == pytest.approx(figures, abs=1e-6), "a refit is the end of the training"
+    kept = json.loads((tmp_path / "again" / "config.json").read_text())["training"]["places"]
+    assert kept == {"seed": 3}, "of parts that stay as they are"
     refitted = load_posterior(tmp_path / "again").state_dict()
     for name, tensor in model.state_dict().items():
         assert torch.allclose(tensor, refitted[name], atol=1e-6), name
