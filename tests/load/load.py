@@ -1,9 +1,11 @@
 """What the service bears: run by `make load`, on idle CPUs. Starts it, and prints a line of JSON for each of
 
 1, 2, 32 clients, each asking as soon as it is answered (the last is the knee);
+3 times the knee, with GET /healthz beside it, and how soon a request is answered at once after that;
 SECONDS of requests that come by chance, 0.7 of the knee;
-a minute of 3 times the knee, with GET /healthz beside it, and how soon a request is answered at once after that;
 one client beside a process that computes.
+
+The knee and 3 times the knee are measured in turns, a minute each in all, as a machine is not always as fast.
 
 Every description is new. Ends with 1 if a bound is not kept.
 """
@@ -30,6 +32,7 @@ from tests.load.service import started, text
 
 BUSY = "while True: pass"
 MANY = 32
+TURNS, TURN_S = 3, 20.0
 
 
 @dataclass
@@ -39,6 +42,12 @@ class Figures:
     seconds: float = 0.0
     statuses: Counter[int] = field(default_factory=Counter)
     good_ms: list[float] = field(default_factory=list)
+
+    def add(self, other: "Figures") -> None:
+        """Take what came back at another time to it."""
+        self.seconds += other.seconds
+        self.statuses += other.statuses
+        self.good_ms += other.good_ms
 
     @property
     def goodput(self) -> float:
@@ -142,6 +151,40 @@ def health_ms(url: str, stop: Any) -> list[float]:
     return found
 
 
+@dataclass
+class Overload:
+    """Many clients and far too many requests, in turns."""
+
+    knee: Figures = field(default_factory=Figures)
+    over: Figures = field(default_factory=Figures)
+    health_ms: list[float] = field(default_factory=list)
+    recovery_s: float = 0.0
+
+    async def take_turn(self, load: Load, url: str, usual_ms: float) -> None:
+        """One of each; after the first the rate is three times the knee so far."""
+        self.knee.add(await load.clients(MANY, TURN_S))
+        stop = asyncio.Event()
+        health = asyncio.create_task(asyncio.to_thread(health_ms, url, stop))
+        self.over.add(await load.arrivals(3 * self.knee.goodput, TURN_S))
+        self.recovery_s = max(self.recovery_s, await load.recovery_s(usual_ms))
+        stop.set()
+        self.health_ms += await health
+
+    def bounds(self) -> dict[str, bool]:
+        """What is kept."""
+        return {
+            "only 200, 429, 503": set(self.over.statuses) <= {200, 429, 503},
+            "at least .9 of the knee answered": self.over.goodput >= 0.9 * self.knee.goodput,
+            "healthz p99 under 50 ms": self.health_p99_ms < 50,
+            "recovery under 2 s": self.recovery_s < 2,
+        }
+
+    @property
+    def health_p99_ms(self) -> float:
+        """Of GET /healthz."""
+        return quantiles(self.health_ms, n=100)[98]
+
+
 async def measure(load: Load, url: str, seconds: float) -> bool:
     """All of it; whether every bound is kept."""
     kept = True
@@ -149,36 +192,29 @@ async def measure(load: Load, url: str, seconds: float) -> bool:
     def note(name: str, figures: Figures, bounds: dict[str, bool], **more: float) -> None:
         nonlocal kept
         kept = kept and all(bounds.values())
-        print(json.dumps({"load": name, **figures.shown(), **more, "kept": bounds}), flush=True)
+        rounded = {what: round(value, 2) for what, value in more.items()}
+        print(json.dumps({"load": name, **figures.shown(), **rounded, "kept": bounds}), flush=True)
 
     await load.clients(2, 10)
     alone = await load.clients(1, 20)
     note("1 client", alone, {})
     note("2 clients", await load.clients(2, 20), {})
-    knee = await load.clients(MANY, 60)
-    times = knee.goodput / alone.goodput
-    note(f"{MANY} clients", knee, {"at least 1.7 times one": times >= 1.7}, times_one=round(times, 2))
-    usual = await load.arrivals(0.7 * knee.goodput, seconds)
+    both = Overload()
+    for _ in range(TURNS):
+        await both.take_turn(load, url, alone.percentile_ms(50))
+    times = both.knee.goodput / alone.goodput
+    note(f"{MANY} clients", both.knee, {"at least 1.7 times one": times >= 1.7}, times_one=times)
+    more = {"healthz_p99_ms": both.health_p99_ms, "recovery_s": both.recovery_s}
+    share = both.over.goodput / both.knee.goodput
+    note("3 times the knee", both.over, both.bounds(), share_of_the_knee=share, **more)
+    usual = await load.arrivals(0.7 * both.knee.goodput, seconds)
     p50, p99 = usual.percentile_ms(50), usual.percentile_ms(99)
     note("0.7 of the knee", usual, {"no error": set(usual.statuses) == {200}, "p99 under 5 p50": p99 < 5 * p50})
-    stop = asyncio.Event()
-    health = asyncio.create_task(asyncio.to_thread(health_ms, url, stop))
-    over = await load.arrivals(3 * knee.goodput, 60)
-    recovery_s = await load.recovery_s(alone.percentile_ms(50))
-    stop.set()
-    health_p99 = quantiles(await health, n=100)[98]
-    bounds = {
-        "only 200, 429, 503": set(over.statuses) <= {200, 429, 503},
-        "at least .9 of the knee answered": over.goodput >= 0.9 * knee.goodput,
-        "healthz p99 under 50 ms": health_p99 < 50,
-        "recovery under 2 s": recovery_s < 2,
-    }
-    note("3 times the knee", over, bounds, healthz_p99_ms=round(health_p99, 1), recovery_s=round(recovery_s, 2))
     with subprocess.Popen((sys.executable, "-c", BUSY)) as busy:
         beside = await load.clients(1, 20)
         busy.kill()
     slower = beside.percentile_ms(50) / alone.percentile_ms(50)
-    note("beside a busy process", beside, {"p50 at most twice": slower <= 2}, times_alone=round(slower, 2))
+    note("beside a busy process", beside, {"p50 at most twice": slower <= 2}, times_alone=slower)
     return kept
 
 
