@@ -148,13 +148,13 @@ def strip(strip_file):
 
 
 @pytest.fixture
-def few_points(monkeypatch):
+def coarse(monkeypatch):
     """A point encoder that looks at few points."""
     monkeypatch.setattr(point_encoder, "_LEVELS", ((16, 0.2, 8, (32, 64)), (4, 0.4, 8, (64, 128))))
 
 
 @pytest.mark.slow
-def test_a_point_encoder_is_trained_first_and_saved_along(strip, few_points, tmp_path, monkeypatch) -> None:
+def test_a_point_encoder_is_trained_first_and_saved_along(strip, coarse, tmp_path, monkeypatch) -> None:
     *regions, whole = strip
     few = ("training.steps=40", "training.validate_every=20", "training.batch_size=32")
     monkeypatch.setattr(
@@ -187,7 +187,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(strip, few_points, tmp
 
 
 @pytest.mark.slow
-def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, few_points, tmp_path, monkeypatch) -> None:
+def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, coarse, tmp_path, monkeypatch) -> None:
     *regions, _ = strip
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
