@@ -20,6 +20,7 @@ import tempfile
 import threading
 import time
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
@@ -80,7 +81,7 @@ class Tracer:
         return self._line
 
     def _note(self, code: CodeType) -> Ran:
-        name = Path(code.co_filename).relative_to(ROOT).as_posix()
+        name = _name(code.co_filename)
         if self._starts_at and name.startswith(self._starts_at):
             self._starts_at, self.before, self.files = None, self.files, {}
         ran = self.files.setdefault(name, Ran(code.co_qualname.replace(".<locals>", "")))
@@ -107,6 +108,11 @@ class Tracer:
         parts.append(f"helpers, fewer than {SMALL} lines each: {_listed(small)}")
         only_before = {name: ran for name, ran in self.before.items() if name not in self.files}
         return "\n".join([*parts, f"only before the route: {_listed(only_before)}"] if self.before else parts)
+
+
+@cache
+def _name(filename: str) -> str:
+    return Path(filename).relative_to(ROOT).as_posix()
 
 
 def _is_import(frame: FrameType) -> bool:

@@ -51,9 +51,9 @@ def _own_cache(tmp_path_factory):
         yield
 
 
-def tiny_osm(seed: int = 0) -> str:
+def tiny_osm(seed: int = 0, depth_m: int | None = None) -> str:
     """A made-up town of 300 x 300 m as OSM XML: streets every 60 m, a house a block, things along the streets."""
-    rng = np.random.default_rng(seed)
+    rng, depth_m = np.random.default_rng(seed), depth_m or SIZE_M
     nodes: list[str] = []
     ways: list[str] = []
 
@@ -71,16 +71,17 @@ def tiny_osm(seed: int = 0) -> str:
         ways.append(f'<way id="{len(ways) + 1}" version="1">{body}</way>')
 
     for i, at in enumerate(range(0, SIZE_M + 1, 60)):
-        for half in (0, SIZE_M / 2):  # each street in two ways that touch
-            way(
-                [node(half, at), node(half + SIZE_M / 2, at)],
-                highway="residential",
-                name=f"East Street {i}",
-                surface="asphalt",
-            )
-        way([node(at, 0), node(at, SIZE_M)], highway="footway", name=f"North Path {i}")
+        if at <= depth_m:
+            for half in (0, SIZE_M / 2):  # each street in two ways that touch
+                way(
+                    [node(half, at), node(half + SIZE_M / 2, at)],
+                    highway="residential",
+                    name=f"East Street {i}",
+                    surface="asphalt",
+                )
+        way([node(at, 0), node(at, depth_m)], highway="footway", name=f"North Path {i}")
     for x in range(0, SIZE_M, 60):
-        for y in range(0, SIZE_M, 60):
+        for y in range(0, depth_m, 60):
             colour = ["red", "#ffffff", "brown", ""][rng.integers(4)]
             corners = [node(x + 20 + dx, y + 20 + dy) for dx, dy in ((0, 0), (18, 0), (18, 18), (0, 18))]
             tags = {"building": "yes", "building__levels": "3"} | ({"building__colour": colour} if colour else {})
@@ -93,8 +94,8 @@ def tiny_osm(seed: int = 0) -> str:
         {"amenity": "waste_basket"},
         {"amenity": "post_box", "colour": "yellow"},
     ]
-    for _ in range(500):
-        node(*rng.uniform(0, SIZE_M, 2), **kinds[rng.integers(len(kinds))])
+    for _ in range(500 * depth_m // SIZE_M):
+        node(*rng.uniform(0, (SIZE_M, depth_m)), **kinds[rng.integers(len(kinds))])
     return "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>" + "".join(nodes + ways) + "</osm>"
 
 
@@ -123,6 +124,12 @@ def made_once(tmp_path_factory: pytest.TempPathFactory) -> MadeOnce:
 @pytest.fixture(scope="session")
 def osm_file(made_once: MadeOnce) -> Path:
     return made_once("map", lambda out: (out / "tinytown.osm").write_text(tiny_osm())) / "tinytown.osm"
+
+
+@pytest.fixture(scope="session")
+def strip_file(made_once: MadeOnce) -> Path:
+    """A town with all splits and as little else as can be, for what is trained and measured often."""
+    return made_once("strip", lambda out: (out / "strip.osm").write_text(tiny_osm(depth_m=80))) / "strip.osm"
 
 
 @pytest.fixture(scope="session")

@@ -74,6 +74,7 @@ class MilvusServer:
             "ETCD_CONFIG_PATH": str(self._etcd),
             "DEPLOY_MODE": "STANDALONE",
             "METRICS_PORT": str(free_port()),
+            "COMMON_SESSION_TTL": "10",  # seconds that a killed server holds its place, before the next one's work
             "MILVUS_RUN_DIR": str(self.data / "run"),
             "LD_LIBRARY_PATH": str(self.data / "bin"),
         }

@@ -4,6 +4,7 @@ import hashlib
 import json
 import resource
 import shutil
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -19,7 +20,7 @@ from index.reproduction.figure_3 import draw_figure_3
 from index.vector_localizer import VectorLocalizer
 from models.city.gallery import MapData
 from models.city.queries import Queries
-from models.city.source import CHOSEN_BY, open_source
+from models.city.source import CHOSEN_BY, open_sources
 from models.files import replace_file, sha256
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER
 from models.localization.checkpoint import FINE_METHODS, load_fine
@@ -39,7 +40,7 @@ from models.training.training_data import load_cells, load_training
 _FORMAT = 1  # of results; counted up when what a training or a measurement does changes
 RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
 POINTS_SEED = 0
-TEST, VALIDATION = "test", "val"
+MEASURED = TEST, VALIDATION = "test", "val"
 _TAUGHT = "train", VALIDATION
 ALONE, LISTED, ALL = "global level alone", f"global, then all levels on {RERANKED}", "all levels on all cells"
 Z_SCORES = "all levels on all cells, by z-scores (the code)"
@@ -199,7 +200,7 @@ def _criterion(run: Run) -> str:
 def _of_retriever(job: Job, weights: Path) -> dict[str, Any]:
     """Retrieval on test scenes and on those it was chosen by; of MNCL each ranking; growth where the paper has it."""
     retriever = load_retriever(weights)
-    data, queries = asked(job.data, TEST)
+    [(data, queries)] = asked(job.data, TEST)
     localizer = _localizer(data, retriever)
     grown = job.run in GROWN
     report = evaluate(data, queries, localizer, grow_m=job.scale.growth_radii_m if grown else ())
@@ -222,7 +223,7 @@ def _of_retriever(job: Job, weights: Path) -> dict[str, Any]:
 
 def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
     """Retrieval recall on the validation scenes, by how cells are ranked by one and the same trained model."""
-    given, queries = asked(data, VALIDATION)
+    [(given, queries)] = asked(data, VALIDATION)
     fitted = retriever.config
     found = {}
     for name, depth in ((ALONE, 0), (LISTED, RERANKED), (ALL, len(given.cells)), (Z_SCORES, len(given.cells))):
@@ -242,8 +243,7 @@ def localize(job: Job, fine_job: Job, draw: bool) -> None:
     torch.set_num_threads(1)
     retriever, refiner = load_retriever(job.directory / WEIGHTS_DIR), load_fine(fine_job.directory / WEIGHTS_DIR)
     found = {}
-    for split in (TEST, VALIDATION):
-        data, queries = asked(job.data, split)
+    for split, (data, queries) in zip(MEASURED, asked(job.data, *MEASURED), strict=True):
         localizer = _localizer(data, retriever, refiner=refiner)
         found[split] = evaluate(data, queries, localizer)["localization"]
         if draw and split == TEST:
@@ -269,8 +269,8 @@ def _localizer(
     return VectorLocalizer.of_map(data, ranker, refiner)
 
 
-def asked(data: Path, split: str) -> tuple[MapData, Queries]:
-    """A split without the hints behind its sentences: exact matching is measured once, in `reproduce`."""
-    source = open_source(data, split)
-    queries = source.queries(CHOSEN_BY) if split == VALIDATION else source.queries()
-    return source.data, replace(queries, hints=None)
+def asked(data: Path, *splits: str) -> Iterator[tuple[MapData, Queries]]:
+    """Splits without the hints behind their sentences: exact matching is measured once, in `reproduce`."""
+    for split, source in zip(splits, open_sources(data, splits), strict=True):
+        queries = source.queries(CHOSEN_BY) if split == VALIDATION else source.queries()
+        yield source.data, replace(queries, hints=None)

@@ -69,8 +69,8 @@ def test_few_lines_make_a_helper(description):
     assert f"{len(rows)} files, {functions} functions, {ran} lines" in lines
 
 
-def test_a_map_begins_at_its_command_and_ends_with_files(osm_file, weights_dir):
-    lines, rows = trace(weights_dir, "map", osm_file)
+def test_a_map_begins_at_its_command_and_ends_with_files(strip_file, weights_dir):
+    lines, rows = trace(weights_dir, "map", strip_file)
     files = [row[0] for row in rows]
     [helpers] = [line for line in lines if line.startswith("helpers")]
     assert helpers.split(": ")[1].startswith("app/cli/main.py")

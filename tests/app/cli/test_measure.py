@@ -18,10 +18,8 @@ def run(monkeypatch, weights_dir):
 
 
 @pytest.mark.slow
-@pytest.mark.slow
-@pytest.mark.slow
-def test_evaluate_prints_what_it_writes(run, osm_file, tmp_path) -> None:
-    results = [run("evaluate", "--data", osm_file, "--split", "val", "--report", tmp_path / "r") for _ in range(2)]
+def test_evaluate_prints_what_it_writes(run, strip_file, tmp_path) -> None:
+    results = [run("evaluate", "--data", strip_file, "--split", "val", "--report", tmp_path / "r") for _ in range(2)]
     assert results[0].exit_code == 0, results[0].output
     assert results[0].stdout == results[1].stdout
     report = json.loads((tmp_path / "r" / "report.json").read_text())
@@ -57,10 +55,11 @@ def test_localize_draws_a_picture(run, index_dir, tmp_path) -> None:
 
 
 @pytest.mark.slow
-def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypatch) -> None:
-    monkeypatch.setattr(benchmark, "REQUESTS", 3)
+def test_benchmark_measures_index_and_service(run, strip_file, index_dir, monkeypatch) -> None:
+    for name, few in (("REQUESTS", 3), ("WARM_UP", 2), ("PARTS", 5)):
+        monkeypatch.setattr(benchmark, name, few)
     monkeypatch.setenv("HEREABOUTS_READ_KEY", "of-a-service")
-    result = run("benchmark", "--map", osm_file, "--index", index_dir)
+    result = run("benchmark", "--map", strip_file, "--index", index_dir)
     assert result.exit_code == 0, result.output
     figures = json.loads(result.output[result.output.index("{") :])
     assert figures["index"]["peak_memory_mib"] > 100
@@ -74,7 +73,7 @@ def test_benchmark_measures_index_and_service(run, osm_file, index_dir, monkeypa
 
 @pytest.mark.slow
 def test_benchmark_says_when_the_service_does_not_start(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(benchmark, "START_S", 3)
+    monkeypatch.setattr(benchmark, "START_S", 0.5)
     with (
         pytest.raises(HereaboutsError, match="did not become ready"),
         benchmark.serving(tmp_path / "nothing") as client,

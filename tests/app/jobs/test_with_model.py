@@ -19,8 +19,8 @@ TIMEOUT_S = 120
 
 
 @pytest.fixture(scope="module")
-def served(osm_file, index_dir, weights_dir, until):
-    settings = Settings(index_dir=index_dir, weights_dir=weights_dir, data_dir=osm_file.parent)
+def served(strip_file, index_dir, weights_dir, until):
+    settings = Settings(index_dir=index_dir, weights_dir=weights_dir, data_dir=strip_file.parent)
     with TestClient(create_app(settings)) as served:
         until(lambda: served.get("/readyz").status_code == 200, 60)
         yield served
@@ -55,7 +55,7 @@ def queries(osm_file):
     asked = open_source(osm_file, "test").queries()
     told = [
         {"description": " ".join(asked.sentences[q]), "position": asked.positions_m[q].tolist()}
-        for q in range(0, len(asked), 8)
+        for q in range(0, len(asked), 20)
     ]
     return [*told, {"hints": ["I am nowhere near."], "position": [5000.0, 5000.0]}]
 
@@ -74,10 +74,10 @@ def test_inline_queries_get_the_report_of_the_command_line(served, command_line,
 
 
 @pytest.mark.slow
-def test_data_set_by_name_gets_the_report_of_the_command_line(served, command_line, osm_file):
-    found = evaluate(served, {"data": "tinytown", "split": "val"})
+def test_data_set_by_name_gets_the_report_of_the_command_line(served, command_line, strip_file):
+    found = evaluate(served, {"data": "strip", "split": "val"})
     assert found["status"] == "done", found
-    assert found["report"] == command_line("--data", osm_file, "--split", "val")
+    assert found["report"] == command_line("--data", strip_file, "--split", "val")
 
 
 def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, localizer):
@@ -93,8 +93,8 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
 
 
 @pytest.mark.slow
-def test_what_is_wrong_with_the_data_is_the_jobs_error(served, osm_file):
-    found = evaluate(served, {"data": "tinytown", "split": "north"})
+def test_what_is_wrong_with_the_data_is_the_jobs_error(served, strip_file):
+    found = evaluate(served, {"data": "strip", "split": "north"})
     assert found["status"] == "failed"
     assert "'north' is no split" in found["error"]["detail"]
-    assert str(osm_file.parent) not in found["error"]["detail"]
+    assert str(strip_file.parent) not in found["error"]["detail"]

@@ -57,7 +57,7 @@ def test_hints_about_the_nearest_things_are_true(source, asked):
 def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_encoder):
     torch.manual_seed(0)
     data, queries = asked
-    rows = np.arange(0, len(queries), max(1, len(queries) // 6))
+    rows = np.arange(0, len(queries), max(1, len(queries) // 3))
     some = queries.take(rows)
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()

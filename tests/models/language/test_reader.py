@@ -87,11 +87,11 @@ def test_nouns_are_whole_and_end_where_they_end(reader, text, tags, nouns):
 @pytest.mark.slow
 def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder):
     torch.manual_seed(0)
-    texts = ReadingSet(text_encoder, 5, "train", 96, 0)
+    texts = ReadingSet(text_encoder, 5, "train", 32, 0)
     shape = ReaderConfig(frozen_layers=5, tuned_layers=1, width=64, dropout=0.0)
-    task = ReadingTask(Reader(text_encoder, shape), texts, texts, 32)
+    task = ReadingTask(Reader(text_encoder, shape), texts, texts, 8)
     before = reading_figures(task.model.eval(), texts)
-    run_training(task, LoopConfig(steps=40, batch_size=32, validate_every=40, learning_rate=1e-3))
+    run_training(task, LoopConfig(steps=40, batch_size=8, validate_every=40, learning_rate=2e-3))
     after = reading_figures(task.model, texts)
     assert after["noun"] > max(0.8, before["noun"])
     assert after["relation"] > before["relation"] + 0.1

@@ -200,6 +200,6 @@ def test_fitting_makes_the_truth_likelier(town):
         with torch.no_grad():
             likelihood.border_m.add_(2.0)  # far too soft
         before = surprised(likelihood)
-        fit_likelihood(likelihood, [texts], 8, np.random.default_rng(0))
+        fit_likelihood(likelihood, [texts], 4, np.random.default_rng(0))
     assert all(torch.equal(a, b) for a, b in zip(*(f.parameters() for f in fitted), strict=True)), "seeded"
     assert surprised(fitted[0]) < before - 0.05

@@ -86,9 +86,15 @@ def test_samples_belong_to_their_parts(city, cells) -> None:
     assert np.allclose(extent[whole], size[whole] * ratio[:, None], atol=1e-3)
 
 
-@pytest.mark.slow
+def first_cells(features: CellFeatures, count: int) -> CellFeatures:
+    end = features.starts[count]
+    parts = {name: getattr(features, name)[:end] for name in ("geometry", "label", "shape")}
+    return replace(features, starts=features.starts[: count + 1], **parts)
+
+
 def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
     torch.manual_seed(0)
+    features = first_cells(features, 80)  # more than are looked at together
     model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), inputs=(*OURS, "points"))).eval()
     seen = model.seen(features)
     assert seen.shape.shape == (len(features.label), POINT_WIDTH)
@@ -107,9 +113,7 @@ def test_without_points_the_message_says_what_to_do(features, text_encoder) -> N
 
 def test_what_is_made_of_points_is_kept_and_found_again(features, monkeypatch, tmp_path) -> None:
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
-    some = replace(features, starts=features.starts[:5], **{
-        name: getattr(features, name)[: features.starts[4]] for name in ("geometry", "label", "shape")
-    })  # fmt: skip
+    some = first_cells(features, 4)
     encoder, looked = PointEncoder().eval(), CellFeatures._look
     seen = some.seen(encoder).shape
     monkeypatch.setattr(CellFeatures, "_look", None)

@@ -35,7 +35,7 @@ CONFIG = TrainingConfig(steps=1, batch_size=8, spacing_m=30.0)
 SMALL: dict[Any, dict[str, Any]] = {
     fit_points: {"load_settings": lambda *_: (None, CONFIG), "CELLS_A_SOURCE": 10, "CHOSEN_BY_CELLS": 10},
     point_encoder: {"_LEVELS": ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128)))},
-    validation: {"QUERIES": 20},
+    validation: {"QUERIES": 8},
     fit_posterior: {
         "TEXTS": 33, "VALIDATION_TEXTS": 9, "FITTED_TEXTS": 2, "CALIBRATED_TEXTS": 2, "FIT_STEPS": 1,
         "CALIBRATION_STEPS": 1, "EPOCHS": 1,
@@ -47,7 +47,7 @@ def load(sources: Any, encoder: Any, rng: np.random.Generator) -> list[TrainingD
     assert next(encoder.parameters()).device == FAKE, "frozen features are computed on the device"
     data = TrainingData.of(*sources, encoder, CONFIG, rng)
     assert data.training.vocabulary.mask.device == CPU, "and kept on the CPU"
-    return [replace(data, queries=data.queries.take(np.arange(20)))]
+    return [replace(data, queries=data.queries.take(np.arange(8)))]
 
 
 def retriever(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> None:

@@ -24,11 +24,11 @@ MODELS = [f"{method}-{inputs[0]}" for method in (*METHODS, *FINE_METHODS) for in
 
 
 @pytest.fixture(scope="module")
-def report(made_once, osm_file):
+def report(made_once, strip_file):
     """What went wrong of each; in a process of its own, which no other test shares the device with."""
 
     def make(out: Path) -> None:
-        command = [sys.executable, "-m", "tests.models.training.on_fake_device", str(osm_file), str(out)]
+        command = [sys.executable, "-m", "tests.models.training.on_fake_device", str(strip_file), str(out)]
         subprocess.run(command, cwd=ROOT, check=True)
 
     return json.loads((made_once("devices", make) / "report.json").read_text())

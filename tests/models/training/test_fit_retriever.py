@@ -8,10 +8,12 @@ from safetensors.torch import load_file
 
 from index.ranking import Ranker
 from models.city.hints import direction_index
+from models.city.source import open_sources
 from models.city.types import DIRECTIONS
 from models.errors import DataError, WeightsError
 from models.localization.checkpoint import load_fine
 from models.localization.matching import MatchingConfig
+from models.retrieval import point_encoder
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.instance_encoder import PAPERS, CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
@@ -139,8 +141,21 @@ def test_a_run_directory_goes_on(regions, tmp_path) -> None:
     assert json.loads((tmp_path / "run" / "config.json").read_text())["model"]["levels"] == ["global", "instance"]
 
 
+@pytest.fixture(scope="module")
+def strip(strip_file):
+    """As `regions`, and all of the strip."""
+    return open_sources(strip_file, ("train", "val", None))
+
+
+@pytest.fixture
+def coarse(monkeypatch):
+    """A point encoder that looks at few points."""
+    monkeypatch.setattr(point_encoder, "_LEVELS", ((16, 0.2, 8, (32, 64)), (4, 0.4, 8, (64, 128))))
+
+
 @pytest.mark.slow
-def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, tmp_path, monkeypatch) -> None:
+def test_a_point_encoder_is_trained_first_and_saved_along(strip, coarse, tmp_path, monkeypatch) -> None:
+    *regions, whole = strip
     few = ("training.steps=40", "training.validate_every=20", "training.batch_size=32")
     monkeypatch.setattr(
         "models.training.fit_points.load_settings", lambda name, said: load_settings(name, [*few, *said])
@@ -157,7 +172,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, 
     model = MnclConfig(width=32, levels=("global",), inputs=PAPERS)
     train_retriever(load, tmp_path / "a", Mncl, model, config)
     figures = json.loads((tmp_path / "a" / "config.json").read_text())["training"]["point_encoder"]
-    labels = np.array([i.label for i in city.instances])
+    cells, labels = whole.data.cells, np.array(whole.data.gallery.labels)
     commonest = np.unique(labels[cells.parts.instance], return_counts=True)[1].max() / len(cells.parts.instance)
     assert figures["label"] > commonest
     with pytest.raises(KeyboardInterrupt):
@@ -172,7 +187,8 @@ def test_a_point_encoder_is_trained_first_and_saved_along(city, cells, regions, 
 
 
 @pytest.mark.slow
-def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(regions, tmp_path, monkeypatch) -> None:
+def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, coarse, tmp_path, monkeypatch) -> None:
+    *regions, _ = strip
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):

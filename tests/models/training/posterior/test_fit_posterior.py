@@ -22,21 +22,21 @@ from models.training.settings import TrainingConfig
 
 
 @pytest.mark.slow
-def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monkeypatch):
-    small = {"TEXTS": 48, "VALIDATION_TEXTS": 16, "FITTED_TEXTS": 8, "CALIBRATED_TEXTS": 8}
+def test_the_posterior_is_trained_calibrated_and_saved(strip_file, tmp_path, monkeypatch):
+    small = {"TEXTS": 24, "VALIDATION_TEXTS": 8, "FITTED_TEXTS": 4, "CALIBRATED_TEXTS": 4}
     for name, value in (small | {"FIT_STEPS": 1, "CALIBRATION_STEPS": 1}).items():
         monkeypatch.setattr(fit_posterior, name, value)
-    labelled = fit_posterior.labelled_texts()[:32]
+    labelled = fit_posterior.labelled_texts()[:16]
     monkeypatch.setattr(fit_posterior, "labelled_texts", lambda: labelled)
     monkeypatch.setattr(fit_posterior, "EPOCHS", 1)
     calibrate, places = fit_posterior.calibrate_places, []
     monkeypatch.setattr(
         fit_posterior, "calibrate_places", lambda m, some, rng: (places.append(len(some)), calibrate(m, some, rng))[1]
     )
-    config = TrainingConfig(steps=2, batch_size=16, validate_every=2)
+    config = TrainingConfig(steps=2, batch_size=8, validate_every=2)
     seen = []
     figures = fit_posterior.train_posterior(
-        [osm_file], ("train", "test"), tmp_path, PosteriorConfig(width=32), config, progress=seen.append
+        [strip_file], ("train", "test"), tmp_path, PosteriorConfig(width=32), config, progress=seen.append
     )
     assert [p.step for p in seen] == [1, 2]
     assert places == [2], "calibrated on the place that was fitted to and on the other"
@@ -51,7 +51,7 @@ def test_the_posterior_is_trained_calibrated_and_saved(osm_file, tmp_path, monke
     assert len(model.matcher.names), "stored, so that a start embeds none"
     record["training"]["places"] = {"seed": 3}
     (tmp_path / "config.json").write_text(json.dumps(record))
-    again = fit_posterior.refit_posterior(tmp_path, [osm_file], ("train", "test"), tmp_path / "again", config)
+    again = fit_posterior.refit_posterior(tmp_path, [strip_file], ("train", "test"), tmp_path / "again", config)
     assert again == pytest.approx(figures, abs=1e-6), "a refit is the end of the training"
     kept = json.loads((tmp_path / "again" / "config.json").read_text())["training"]["places"]
     assert kept == {"seed": 3}, "of parts that stay as they are"
