@@ -45,10 +45,16 @@ LAT_M, LON_M = 1 / 111_412.0, 1 / 55_800.0  # degrees a metre, near enough at 60
 
 @pytest.fixture(scope="session", autouse=True)
 def _own_cache(tmp_path_factory):
-    """What is made of sentences and points is cached here and not in the home directory."""
+    """What is made of sentences and points is cached here and not in the home directory, for all processes of a run."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("HEREABOUTS_CACHE_DIR", str(_of_the_run(tmp_path_factory) / "cache"))
         yield
+
+
+def _of_the_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A directory that all processes of a run share."""
+    root = tmp_path_factory.getbasetemp()
+    return root.parent if "PYTEST_XDIST_WORKER" in os.environ else root
 
 
 def tiny_osm(seed: int = 0, depth_m: int | None = None) -> str:
@@ -102,9 +108,7 @@ def tiny_osm(seed: int = 0, depth_m: int | None = None) -> str:
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory: pytest.TempPathFactory) -> MadeOnce:
     """(name, make) -> a directory that `make` has filled, once for all processes of a run; nobody writes to it."""
-    root = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        root = root.parent  # that of the process which started the workers
+    root = _of_the_run(tmp_path_factory)
 
     def made(name: str, make: Callable[[Path], object]) -> Path:
         path = root / "made-once" / name

@@ -75,6 +75,7 @@ class MilvusServer:
             "DEPLOY_MODE": "STANDALONE",
             "METRICS_PORT": str(free_port()),
             "COMMON_SESSION_TTL": "10",  # seconds that a killed server holds its place, before the next one's work
+            "DATACOORD_SEGMENT_ASSIGNMENTEXPIRATION": "200",  # ms that every flush waits for
             "MILVUS_RUN_DIR": str(self.data / "run"),
             "LD_LIBRARY_PATH": str(self.data / "bin"),
         }
