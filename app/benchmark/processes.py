@@ -134,12 +134,13 @@ def _memory_mib(pid: int) -> int:
 def _tree(pid: int) -> Iterator[int]:
     """A process and its descendants (Linux)."""
     yield pid
-    try:
-        children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-    except OSError:
-        return
-    for child in children:
-        yield from _tree(int(child))
+    for file in Path(f"/proc/{pid}/task").glob("*/children"):  # any thread may have forked: workers are of another one
+        try:
+            children = file.read_text().split()
+        except OSError:
+            continue
+        for child in children:
+            yield from _tree(int(child))
 
 
 def _pss_bytes(pid: int) -> int:
