@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+import models
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Seed, Split
 from index.query import Refine
 from models.city.told_texts import SUFFIXES as TOLD_SUFFIXES
@@ -18,6 +19,8 @@ from models.errors import DataError
 if TYPE_CHECKING:
     from app.settings import Settings
     from index.evaluation.report import Table as Rows
+
+SHIPPED_MAP = Path(models.__file__).parent / "maps" / "helsinki.osm.pbf"
 
 
 def evaluate(
@@ -177,11 +180,33 @@ def descriptions(
 
 
 def benchmark(
-    map_path: Annotated[Path, typer.Option("--map", help="map to index")],
+    map_path: Annotated[
+        Path | None, typer.Option("--map", help="map to index; with --cells the shipped one if it is left out")
+    ] = None,
     index_dir: IndexDir = INDEX_DIR,
+    cells: Annotated[
+        str | None,
+        typer.Option(help="sizes of a city made of copies of the map, about so many cells each: 1e4,1e5,1e6"),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="with --cells, directory for benchmark.json and plots")] = None,
 ) -> None:
-    """Seconds, memory and latency on this machine."""
-    from app.benchmark import run_benchmark
+    """Seconds, memory and latency on this machine, of an index or, with --cells, as a city grows."""
+    if cells is None:
+        if map_path is None:
+            raise typer.BadParameter("missing; only with --cells it may be left out", param_hint="'--map'")
+        if out is not None:
+            raise DataError("--out is for the figures of --cells; give that too, or leave --out out")
+        from app.benchmark.service import run_benchmark
 
-    json.dump(run_benchmark(map_path, index_dir), sys.stdout, indent=2)
-    sys.stdout.write("\n")
+        found = run_benchmark(map_path, index_dir)
+    else:
+        from app.benchmark.growth import parse_sizes, run_growth
+
+        found = run_growth(map_path or SHIPPED_MAP, parse_sizes(cells), out)
+    if out is None:
+        json.dump(found, sys.stdout, indent=2)
+        sys.stdout.write("\n")
+    else:
+        typer.echo(f"figures and plots are in {out}")
+    if "failed" in found:
+        raise DataError(f"{found['failed']['cells']} cells were not measured: {found['failed']['why']}")

@@ -5,7 +5,7 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from app import benchmark
+from app.benchmark import processes, service
 from app.cli.main import app
 from models.errors import HereaboutsError
 
@@ -57,7 +57,7 @@ def test_localize_draws_a_picture(run, index_dir, tmp_path) -> None:
 @pytest.mark.slow
 def test_benchmark_measures_index_and_service(run, strip_file, index_dir, monkeypatch) -> None:
     for name, few in (("REQUESTS", 3), ("WARM_UP", 2), ("PARTS", 5)):
-        monkeypatch.setattr(benchmark, name, few)
+        monkeypatch.setattr(service, name, few)
     monkeypatch.setenv("HEREABOUTS_READ_KEY", "of-a-service")
     result = run("benchmark", "--map", strip_file, "--index", index_dir)
     assert result.exit_code == 0, result.output
@@ -73,12 +73,12 @@ def test_benchmark_measures_index_and_service(run, strip_file, index_dir, monkey
 
 @pytest.mark.slow
 def test_benchmark_says_when_the_service_does_not_start(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(benchmark, "START_S", 0.5)
+    monkeypatch.setattr(processes, "START_S", 0.5)
     with (
         pytest.raises(HereaboutsError, match="did not become ready"),
-        benchmark.serving(tmp_path / "nothing") as client,
+        processes.serving(tmp_path / "nothing") as served,
     ):
-        client.get("/healthz")
+        served.client.get("/healthz")
 
 
 def test_people_s_texts_are_asked_of_an_index(run, index_dir, tmp_path) -> None:

@@ -1,14 +1,9 @@
 """How fast and how large, on this machine: building an index, and answering over HTTP."""
 
 import itertools
-import shutil
-import socket
-import subprocess
-import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import httpx
 import numpy as np
 
+from app.benchmark.processes import busy_process, measure_index, serving, timed_run
 from app.settings import load_settings
-from models.errors import HereaboutsError
 
 if TYPE_CHECKING:  # so that the command line starts without torch
     from index.localizer import Localizer
@@ -26,8 +21,6 @@ REQUESTS = 200
 WARM_UP = 10  # requests that are not counted
 HINTS = 6
 PARTS = 100  # descriptions whose parts are measured in one thread
-POLL_S = 0.1
-START_S = 120.0
 
 
 def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
@@ -46,14 +39,13 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
     """
     with tempfile.TemporaryDirectory() as scratch:
         index = measure_index(map_path, Path(scratch) / "index")
-    settings = load_settings(index_dir=index_dir)
-    localizer = _open(index_dir, settings.weights_dir, settings.posterior_weights_dir)
+    localizer = open_index(index_dir)
     texts = descriptions(localizer, 2 * (WARM_UP + REQUESTS))
     a_text = ["localize", "--index", str(index_dir), " ".join(texts[0])]
-    localize_s = _timed_run(a_text)
+    localize_s = timed_run(a_text)
     start = time.perf_counter()
-    with serving(index_dir) as client:
-        ready_s = time.perf_counter() - start
+    with serving(index_dir) as service:
+        ready_s, client = time.perf_counter() - start, service.client
         new, number = iter(texts), itertools.count()
         fresh = latencies(lambda: _localize(client, next(new)))
         with busy_process():
@@ -126,10 +118,12 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
     }
 
 
-def _open(index_dir: Path, weights_dir: Path | None, posterior_weights_dir: Path | None) -> "Localizer":
+def open_index(index_dir: Path) -> "Localizer":
+    """An index with the weights of the settings."""
     from index.localizer import Localizer  # noqa: PLC0415 - heavy
 
-    return Localizer.open(index_dir, weights_dir, posterior_weights_dir=posterior_weights_dir)
+    settings = load_settings(index_dir=index_dir)
+    return Localizer.open(index_dir, settings.weights_dir, posterior_weights_dir=settings.posterior_weights_dir)
 
 
 def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:
@@ -137,61 +131,6 @@ def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:
     done = work(*given)
     seconds.append(time.perf_counter() - start)
     return done
-
-
-def _timed_run(arguments: Sequence[str]) -> float:
-    start = time.perf_counter()
-    subprocess.run([*_hereabouts(), *arguments], stdout=subprocess.DEVNULL, check=True)
-    return time.perf_counter() - start
-
-
-def measure_index(map_path: Path, out: Path) -> dict[str, float]:
-    """Seconds, peak memory of all its processes together (PSS), and size of one `hereabouts index`."""
-    start = time.perf_counter()
-    job = subprocess.Popen(
-        [*_hereabouts(), "index", "--map", str(map_path), "--out", str(out)], stdout=subprocess.DEVNULL
-    )
-    peak = 0
-    while job.poll() is None:
-        peak = max(peak, sum(_pss_bytes(pid) for pid in _tree(job.pid)))
-        time.sleep(POLL_S)
-    if job.returncode:
-        raise subprocess.CalledProcessError(job.returncode, "hereabouts index")
-    seconds = time.perf_counter() - start
-    size = sum(path.stat().st_size for path in out.rglob("*") if path.is_file())
-    shutil.rmtree(out)
-    return {"seconds": round(seconds, 1), "peak_memory_mib": round(peak / 2**20), "size_mib": round(size / 2**20, 1)}
-
-
-@contextmanager
-def busy_process() -> Iterator[None]:
-    """A neighbour that keeps one CPU busy."""
-    process = subprocess.Popen([sys.executable, "-c", "while True: pass"])
-    try:
-        yield
-    finally:
-        process.kill()
-        process.wait()
-
-
-@contextmanager
-def serving(index_dir: Path) -> Iterator[httpx.Client]:
-    """A service of an index on a free local port, ready to answer."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    key = load_settings().read_key
-    headers = {} if key is None else {"Authorization": f"Bearer {key.get_secret_value()}"}
-    command = [*_hereabouts(), "serve", "--index", str(index_dir), "--port", str(port)]
-    server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        url = f"http://127.0.0.1:{port}"
-        with httpx.Client(base_url=url, headers=headers, timeout=30, trust_env=False) as client:
-            _wait_until_ready(client, server)
-            yield client
-    finally:
-        server.terminate()
-        server.wait(timeout=30)
 
 
 def latencies(request: Callable[[], Any]) -> dict[str, float]:
@@ -202,6 +141,11 @@ def latencies(request: Callable[[], Any]) -> dict[str, float]:
         request()
         if n >= WARM_UP:
             seconds.append(time.perf_counter() - start)
+    return percentiles(seconds)
+
+
+def percentiles(seconds: Sequence[float]) -> dict[str, float]:
+    """p50 and p99 in milliseconds of some durations; at least one."""
     p50, p99 = np.percentile(seconds, [50, 99]) * 1000
     return {"p50": round(float(p50), 1), "p99": round(float(p99), 1)}
 
@@ -214,39 +158,3 @@ def _vague_hint(n: int) -> str:
     """A sentence that no one has sent before and that fits many places."""
     direction = ("north", "south", "east", "west")[n % 4]
     return f"I am {direction} of a gray building with the number {n}."
-
-
-def _wait_until_ready(client: httpx.Client, server: "subprocess.Popen[bytes]") -> None:
-    deadline = time.monotonic() + START_S
-    while time.monotonic() < deadline and server.poll() is None:
-        try:
-            if client.get("/readyz").status_code == httpx.codes.OK:
-                return
-        except httpx.TransportError:
-            pass
-        time.sleep(POLL_S)
-    raise HereaboutsError("the service did not become ready; try 'hereabouts serve' to see why")
-
-
-def _hereabouts() -> list[str]:
-    return [sys.executable, "-m", "app.cli.main"]
-
-
-def _tree(pid: int) -> Iterator[int]:
-    """A process and its descendants (Linux)."""
-    yield pid
-    try:
-        children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-    except OSError:
-        return
-    for child in children:
-        yield from _tree(int(child))
-
-
-def _pss_bytes(pid: int) -> int:
-    """Memory of a process, with what it shares split among those that share it; 0 if it is gone."""
-    try:
-        lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
-    except OSError:
-        return 0
-    return next((int(line.split()[1]) * 1024 for line in lines if line.startswith("Pss:")), 0)
