@@ -76,7 +76,7 @@ def listing(root):
     return {str(path): path.stat().st_mtime_ns for path in files}
 
 
-@pytest.mark.parametrize("limits", [{"file_bytes": 1_200_000}, READ_ONLY])
+@pytest.mark.parametrize("limits", [{"file_bytes": 50_000}, READ_ONLY])
 def test_an_index_that_cannot_be_written_is_said_and_what_is_there_stays(mould, root, limits):
     before = listing(root), open_version(root)
     with disk(root, limits):

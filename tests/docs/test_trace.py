@@ -78,8 +78,8 @@ def test_a_map_begins_at_its_command_and_ends_with_files(strip_file, weights_dir
         "index/build.py",
         "models/city/osm/map.py",
         "models/city/tiled/cutting.py",
-        "models/posterior/surroundings.py",
+        "models/city/osm/gazetteer.py",
     ]
     assert [name for name in files if name in order] == order
     assert "manifest.json" in lines[-1]
-    assert "surroundings.safetensors" in lines[-1]
+    assert "pieces.safetensors" in lines[-1]

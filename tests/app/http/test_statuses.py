@@ -332,6 +332,6 @@ def test_with_an_admin_key_alone_what_changes_indexes_asks_for_it():
 
 
 def test_a_file_that_cannot_be_read_is_a_broken_index(services, monkeypatch, problem):
-    monkeypatch.setattr("index.artifact.sha256", raises(OSError(errno.EIO, "bad disk")))
+    monkeypatch.setattr("index.manifest.sha256", raises(OSError(errno.EIO, "bad disk")))
     for operation in (ALIAS, VERIFY, SNAPSHOT):
         problem(ask(services(), operation), 409, "index_broken")

@@ -154,7 +154,7 @@ def with_house_numbers(posterior):
         starts=np.concatenate([gazetteer.starts, gazetteer.starts[-1] + 1 + np.arange(len(at))]),
         is_area=np.concatenate([gazetteer.is_area, np.zeros(len(at), bool)]),
     )
-    return Questions(sights, posterior.labels.tolist(), posterior._palette, town, posterior.gallery.cells)
+    return Questions(sights, list(posterior.labels), posterior._palette, town, posterior.gallery.cells)
 
 
 def test_what_the_text_says_is_not_asked(posterior, asked):
