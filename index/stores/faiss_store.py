@@ -15,6 +15,7 @@ from models.errors import IndexBroken
 # scanned alone, so that it finds the same bits whatever stands beside it.
 QUERIES_PER_CALL: Final = 16
 EXACT: Final = 20_000  # vectors; more of them are kept to 8 bits a number, a quarter of the size
+QUANTIZED: Final = {8: faiss.ScalarQuantizer.QT_8bit, 16: faiss.ScalarQuantizer.QT_fp16}
 
 
 class FaissStore:
@@ -30,15 +31,15 @@ class FaissStore:
         self.dim = int(index.d)
 
     @classmethod
-    def of(cls, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> "FaissStore":
-        """A store of vectors [N, D]; see the class."""
-        dim = vectors.shape[1]
-        index: Any
-        if len(vectors) > EXACT:
-            index = faiss.IndexScalarQuantizer(dim, faiss.ScalarQuantizer.QT_8bit, faiss.METRIC_INNER_PRODUCT)
+    def of(
+        cls, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]] | None = None, bits: int | None = None
+    ) -> "FaissStore":
+        """A store of vectors [N, D]; see the class. `bits` of each number: 32, 16 or 8, None by how many there are."""
+        dim, bits = vectors.shape[1], bits or (8 if len(vectors) > EXACT else 32)
+        index: Any = faiss.IndexFlatIP(dim)
+        if bits in QUANTIZED:
+            index = faiss.IndexScalarQuantizer(dim, QUANTIZED[bits], faiss.METRIC_INNER_PRODUCT)
             index.train(np.ascontiguousarray(vectors))
-        else:
-            index = faiss.IndexFlatIP(dim)
         index.add(np.ascontiguousarray(vectors))
         return cls(index, positions_m)
 

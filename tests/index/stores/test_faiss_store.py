@@ -30,6 +30,16 @@ def test_many_vectors_take_a_quarter_and_find_nearly_the_same(vectors, tmp_path,
     assert small.search(vectors[:1], 5, Box(1, 1, 2, 2))[1].shape == (1, 0)
 
 
+def test_a_store_of_sixteen_bits_takes_half_and_scores_alike(vectors, tmp_path) -> None:
+    exact = FaissStore.of(vectors)
+    FaissStore.of(vectors, bits=16).save(tmp_path / "half")
+    exact.save(tmp_path / "exact")
+    assert (tmp_path / "half").stat().st_size < 0.52 * (tmp_path / "exact").stat().st_size
+    half = FaissStore.load(tmp_path / "half")
+    assert half.search(vectors[:50], 20)[0] == pytest.approx(exact.search(vectors[:50], 20)[0], abs=1e-3)
+    assert len(FaissStore.of(vectors[:0], bits=16)) == 0
+
+
 def test_another_kind_of_index_is_refused(vectors, tmp_path) -> None:
     graph = faiss.IndexHNSWFlat(64, 8)
     graph.add(vectors[:50])
