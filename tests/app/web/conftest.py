@@ -103,7 +103,7 @@ class Visitor:
         self.page, self.url = page, url
         self.wrong = []
         self.asked = []
-        page.set_default_timeout(20_000)
+        page.set_default_timeout(60_000)
         page.on("request", self._note)
         page.on("pageerror", lambda error: self.wrong.append(str(error)))
         page.on("console", self._hear)
