@@ -3,6 +3,8 @@
 from typing import Any
 
 import numba
+import numpy as np
+import numpy.typing as npt
 
 
 def compiled(function: Any) -> Any:
@@ -11,3 +13,9 @@ def compiled(function: Any) -> Any:
         return numba.njit(cache=True)(function)
     except RuntimeError:  # a read-only installation, and no home
         return numba.njit(function)
+
+
+@compiled
+def longer(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """An array with room for as many rows again."""
+    return np.concatenate((array, np.empty_like(array)))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from models.city.compiled import compiled
+from models.city.compiled import compiled, longer
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.points import Ints, ranges
 from models.city.types import Floats
@@ -110,16 +110,11 @@ def _all_ways(
                     continue
                 if count == room:
                     room *= 2
-                    point, item, way = _longer(point), _longer(item), _longer(way)
+                    point, item, way = longer(point), longer(item), longer(way)
                 point[count], item[count] = p, i
                 way[count, 0], way[count, 1] = found
                 count += 1
     return point[:count].copy(), item[:count].copy(), way[:count].copy()
-
-
-@compiled
-def _longer(array: Ints) -> Ints:
-    return np.concatenate((array, np.empty_like(array)))
 
 
 @compiled

@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.compiled import compiled
+from models.city.compiled import compiled, longer
 from models.city.points import Ints
 from models.city.tiled.pieces import PieceTable
 from models.city.tiled.segments import STEP_M, Steps
@@ -75,8 +75,8 @@ def _all_ways(
         for m in range(len(mine)):
             if count + len(starts) > room:
                 room *= 2
-                point, found, way = _longer(point), _longer(found), _longer(way)
-                squares = _longer(squares)
+                point, found, way = longer(point), longer(found), longer(way)
+                squares = longer(squares)
             begin = count
             for g in range(len(starts) - 1):
                 square, way_x, way_y = _way_to_group(
@@ -96,11 +96,6 @@ def _all_ways(
                 point[count] = point_starts[n] + m
                 count += 1
     return point[:count].copy(), found[:count].copy(), way[:count].copy()
-
-
-@compiled
-def _longer(array: Ints) -> Ints:
-    return np.concatenate((array, np.empty_like(array)))
 
 
 @compiled
