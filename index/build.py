@@ -29,7 +29,7 @@ from models.language.text_encoder import load_text_encoder
 from models.posterior.model import load_posterior
 from models.posterior.posterior import HintPosterior
 from models.posterior.statements import Statements
-from models.posterior.surroundings import Surroundings, surroundings_of
+from models.posterior.surroundings.surroundings import Surroundings, surroundings_of
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever

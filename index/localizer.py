@@ -33,9 +33,9 @@ from models.language.text_encoder import load_text_encoder
 from models.localization.checkpoint import load_refiner
 from models.localization.fine_model import FineMethod, FineModel
 from models.posterior.model import PosteriorModel, load_posterior
-from models.posterior.piece_surroundings import PieceSurroundings
 from models.posterior.statements import Statements
-from models.posterior.surroundings import Surroundings, load_surroundings
+from models.posterior.surroundings.piece_surroundings import PieceSurroundings
+from models.posterior.surroundings.surroundings import Surroundings, load_surroundings
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever

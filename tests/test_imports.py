@@ -26,6 +26,7 @@ SERVED = (
     "models.city.scenery",
     "models.localization",
     "models.posterior",
+    "models.posterior.surroundings",
 )
 TRAINED = (*SERVED, GRAMMAR, "models.city.synthetic", "models.training", "models.training.engine")
 FITTED = (*TRAINED, "models.training.posterior")
@@ -58,8 +59,10 @@ MAY_IMPORT = {
         "models.city.tiled",
         "models.localization",
         "models.posterior.places",
+        "models.posterior.surroundings",
         "models.language.places",
     ),
+    "models.posterior.surroundings": (*CITY, "models.city.tiled"),
     "models.posterior.places": (*LANGUAGE, "models.city.gazetteer", "models.language.places"),
     "models.training": TRAINED,
     "models.training.posterior": FITTED,

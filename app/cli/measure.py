@@ -186,7 +186,9 @@ def benchmark(
     index_dir: IndexDir = INDEX_DIR,
     cells: Annotated[
         str | None,
-        typer.Option(help="sizes of a city made of copies of the map, about so many cells each: 1e4,1e5,1e6"),
+        typer.Option(
+            help="sizes of a city made of copies of the map, about so many cells each: 1e4,1e5,1e6; --index is not used"
+        ),
     ] = None,
     out: Annotated[Path | None, typer.Option(help="with --cells, directory for benchmark.json and plots")] = None,
 ) -> None:

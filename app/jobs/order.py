@@ -96,7 +96,7 @@ class Evaluation(BaseModel):
         """The hint posterior of a data set."""
         from index.posterior.localizer import PosteriorLocalizer  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
-        from models.posterior.surroundings import surroundings_of  # noqa: PLC0415
+        from models.posterior.surroundings.surroundings import surroundings_of  # noqa: PLC0415
         from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         ranker = self._ranker(source, load_retriever(self.weights_dir).global_alone(), progress)

@@ -24,8 +24,8 @@ from models.city.points import Ints, ranges
 from models.city.queries import Queries
 from models.city.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
-from models.posterior.surroundings import Surroundings
-from models.posterior.things import Things
+from models.posterior.surroundings.surroundings import Surroundings
+from models.posterior.surroundings.things import Things
 
 MOST_QUERIES = 300
 SEED = 0

@@ -38,7 +38,7 @@ from models.posterior.places.field import Told
 from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
-from models.posterior.surroundings import Surroundings
+from models.posterior.surroundings.surroundings import Surroundings
 
 PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
 REPLY_CANDIDATES = 1024  # where replies are all that is known: they may name a street of some kilometres

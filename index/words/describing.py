@@ -27,7 +27,7 @@ from models.city.hints import BEST_CELL_REACH_M, direction_index, round_robin
 from models.city.points import Ints
 from models.city.templates import OPPOSITE
 from models.city.types import DIRECTIONS, Floats, Hint
-from models.posterior.surroundings import Surroundings
+from models.posterior.surroundings.surroundings import Surroundings
 
 MOST_FACTS: Final = 6
 MOST_NAMED: Final = 3

@@ -11,7 +11,7 @@ from models.city.colours import Palette
 from models.city.compiled import compiled
 from models.city.hints import ON_TOP_M
 from models.city.points import Ints
-from models.posterior.around import STEP_M, Around
+from models.posterior.surroundings.around import STEP_M, Around
 
 RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
 OFFSET: Final = 128  # ways are int8; a pair of them numbers a row of the tables
@@ -24,7 +24,7 @@ class NodeBatch:
     Attributes:
         node: [R] node of each row, ascending.
         way: [R] number of the way from the instance's closest point, see `way_number`.
-        whole: [R] bool, see `models.posterior.around.Around`.
+        whole: [R] bool, see `models.posterior.surroundings.around.Around`.
         rank: [R, 5] how many nearer instances there are, and how many in all, see `ranks_of`.
         part: [R] row of the next three.
         parts: [P] row of each part in the gallery.

@@ -13,15 +13,15 @@ from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.points import Ints, ranges
 from models.city.types import Floats
-from models.posterior.around import Around
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import NodeBatch, usual_statements
-from models.posterior.nodes import SPACING_M
 from models.posterior.places.field import Told
 from models.posterior.questions import Answered
 from models.posterior.sights import Sights
 from models.posterior.statements import Statements
-from models.posterior.surroundings import Surroundings
+from models.posterior.surroundings.around import Around
+from models.posterior.surroundings.nodes import SPACING_M
+from models.posterior.surroundings.surroundings import Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
 LogPrior = Callable[[Floats], Floats]

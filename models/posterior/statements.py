@@ -16,10 +16,10 @@ from models.city.points import Ints
 from models.city.processes import map_forked
 from models.city.types import Floats
 from models.errors import IndexBroken
-from models.posterior.around import STEP_M
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, NodeBatch
-from models.posterior.surroundings import Surroundings
+from models.posterior.surroundings.around import STEP_M
+from models.posterior.surroundings.surroundings import Surroundings
 
 FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"

@@ -1,6 +1,6 @@
 """The table of pieces: what of each instance of a map lies in each tile, and which pieces hang together."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
@@ -62,7 +62,11 @@ class PieceTable:
     @classmethod
     def of(cls, solids: Sequence[Solid]) -> "PieceTable":
         """The pieces of a map's features."""
-        parts = [_areas(solids), _lines(solids), _things(solids)]
+        parts = [
+            _stuff(solids, "area", 2, shapely.area),
+            _stuff(solids, "line", 1, shapely.length),
+            _things(solids),
+        ]
         rows = _Rows(*(np.concatenate([getattr(some, f.name) for some in parts]) for f in fields(_Rows)))
         low = np.array([rows.column.min(), rows.row.min()])
         shape = np.array([rows.column.max(), rows.row.max()]) - low + 1
@@ -146,19 +150,12 @@ class _Rows:
     worth: Floats
 
 
-def _areas(solids: Sequence[Solid]) -> _Rows:
-    chosen = [solid for solid in solids if solid.form == "area"]
-    column, row, of, geometry = _joined(chosen, covers=True)
-    of_piece, pieces = take_apart(geometry, 2)
-    worth = np.array([solid.worth for solid in chosen])[of[of_piece]] * shapely.area(pieces)
-    return _rows(chosen, column[of_piece], row[of_piece], of[of_piece], pieces, worth)
-
-
-def _lines(solids: Sequence[Solid]) -> _Rows:
-    chosen = [solid for solid in solids if solid.form == "line"]
-    column, row, of, geometry = _joined(chosen, covers=False)
-    of_piece, pieces = take_apart(geometry, 1)
-    worth = np.array([solid.worth for solid in chosen])[of[of_piece]] * shapely.length(pieces)
+def _stuff(solids: Sequence[Solid], form: str, dimensions: int, size: Callable[[Geometries], Floats]) -> _Rows:
+    """Pieces of areas (of what nothing covers) or of lines; `size` is what their worth is of."""
+    chosen = [solid for solid in solids if solid.form == form]
+    column, row, of, geometry = _joined(chosen, covers=form == "area")
+    of_piece, pieces = take_apart(geometry, dimensions)
+    worth = np.array([solid.worth for solid in chosen])[of[of_piece]] * size(pieces)
     return _rows(chosen, column[of_piece], row[of_piece], of[of_piece], pieces, worth)
 
 

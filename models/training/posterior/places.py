@@ -20,7 +20,7 @@ from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
 from models.posterior.posterior import HintPosterior
-from models.posterior.surroundings import Surroundings, surroundings_of
+from models.posterior.surroundings.surroundings import Surroundings, surroundings_of
 
 READ_AT_ONCE = 16
 SLIPS = 0.15  # share of the texts that say something wrong, as people do

@@ -19,7 +19,7 @@ from index.words.describing import (
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
 from models.city.types import Hint
 from models.language.places.cues import WIND_DEGREES
-from models.posterior.surroundings import surroundings_of
+from models.posterior.surroundings.surroundings import surroundings_of
 from tests.models.city.gazetteer.made_town import line, made_gazetteer, point, ring
 
 WIND = re.compile(r"to my (\w+)\.|(\w+) of me\.")

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from models.posterior.around import STEP_M
-from models.posterior.scan_surroundings import ScanSurroundings
 from models.posterior.sights import FAR_M, NEAR_M, Sights
-from models.posterior.things import Things
+from models.posterior.surroundings.around import STEP_M
+from models.posterior.surroundings.scan_surroundings import ScanSurroundings
+from models.posterior.surroundings.things import Things
 
 TREE, LAMP = 0, 1
 LABEL = np.array([TREE, TREE, LAMP])

@@ -6,7 +6,7 @@ from models.errors import IndexBroken
 from models.posterior.likelihood import Likelihood
 from models.posterior.node_batch import NodeBatch
 from models.posterior.statements import FILE, SECTORS, Statements
-from models.posterior.surroundings import surroundings_of
+from models.posterior.surroundings.surroundings import surroundings_of
 
 
 @pytest.fixture(scope="module")

@@ -17,9 +17,9 @@ from models.city.tiled.pieces import PieceTable
 from models.city.tiled.ways import ways_around
 from models.city.types import CutRules, Floats
 from models.errors import IndexBroken
-from models.posterior.around import STEP_M, Around
-from models.posterior.nodes import SPACING_M, grid
-from models.posterior.things import Things
+from models.posterior.surroundings.around import STEP_M, Around
+from models.posterior.surroundings.nodes import SPACING_M, grid
+from models.posterior.surroundings.things import Things
 
 FILE: Final = "pieces.safetensors"
 THINGS: Final = ("instance", "rgb", "parts", "is_flat")
@@ -27,7 +27,7 @@ THINGS: Final = ("instance", "rgb", "parts", "is_flat")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PieceSurroundings:
-    """See `models.posterior.surroundings`.
+    """See `models.posterior.surroundings.surroundings`.
 
     Attributes:
         things: the map's instances.

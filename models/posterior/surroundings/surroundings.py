@@ -13,10 +13,10 @@ from models.city.cells import CellTable
 from models.city.gallery import Clouds
 from models.city.points import Ints
 from models.city.types import Floats, Progress
-from models.posterior.around import Around
-from models.posterior.piece_surroundings import FILE, PieceSurroundings
-from models.posterior.scan_surroundings import ScanSurroundings
-from models.posterior.things import Things
+from models.posterior.surroundings.around import Around
+from models.posterior.surroundings.piece_surroundings import FILE, PieceSurroundings
+from models.posterior.surroundings.scan_surroundings import ScanSurroundings
+from models.posterior.surroundings.things import Things
 
 
 class Surroundings(Protocol):

@@ -4,10 +4,10 @@ import pytest
 from models.city.bodies import bodies_of, cut_cells
 from models.city.source import MapSource, open_source
 from models.errors import IndexBroken
-from models.posterior.around import STEP_M
-from models.posterior.nodes import SPACING_M
-from models.posterior.scan_surroundings import ScanSurroundings
-from models.posterior.surroundings import load_surroundings, surroundings_of
+from models.posterior.surroundings.around import STEP_M
+from models.posterior.surroundings.nodes import SPACING_M
+from models.posterior.surroundings.scan_surroundings import ScanSurroundings
+from models.posterior.surroundings.surroundings import load_surroundings, surroundings_of
 
 
 @pytest.fixture(scope="module")

@@ -15,10 +15,10 @@ from models.city.points import Ints, ranges
 from models.city.processes import map_forked
 from models.city.types import Floats, Progress
 from models.errors import IndexBroken
-from models.posterior.around import STEP_M, Around
-from models.posterior.nodes import grid
-from models.posterior.scan_ways import ScanWays
-from models.posterior.things import Things
+from models.posterior.surroundings.around import STEP_M, Around
+from models.posterior.surroundings.nodes import grid
+from models.posterior.surroundings.scan_ways import ScanWays
+from models.posterior.surroundings.things import Things
 
 FILE: Final = "surroundings.safetensors"
 COLUMNS: Final = ("cell_starts", "nodes_m", "starts", "part", "way", "whole")
@@ -27,7 +27,7 @@ CHUNK: Final = 64  # instances a task
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScanSurroundings:
-    """See `models.posterior.surroundings`; the rows of all nodes.
+    """See `models.posterior.surroundings.surroundings`; the rows of all nodes.
 
     Attributes:
         things: the parts of the cells.

@@ -9,8 +9,8 @@ import pytest
 from models.city.bodies import bodies_of, cut_cells
 from models.city.source import MapSource
 from models.city.types import CityMap, CutRules, Instance
-from models.posterior.around import STEP_M
-from models.posterior.scan_surroundings import ScanSurroundings
+from models.posterior.surroundings.around import STEP_M
+from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 
 LEFT, RIGHT = np.array([0.2, 0.2, 0.2]), np.array([0.8, 0.8, 0.8])
 ROAD_M = 8.0  # between the sidewalks
