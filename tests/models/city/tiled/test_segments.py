@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.tiled.segments import STEP_M, geometry_of, segments_of, snapped
+from models.city.tiled.segments import STEP_M, geometry_of, ring_starts, segments_of, snapped
 
 
 def test_pieces_are_put_together_again_from_their_segments(city) -> None:
@@ -34,10 +34,11 @@ def again(*polygons: shapely.Polygon) -> np.ndarray:
 
 def test_rings_that_meet_where_they_begin_are_two() -> None:
     """A courtyard whose corner is one of the house's, each ring told from there."""
-    house = shapely.Polygon([(0, 0), (4, 0), (4, 4), (0, 4)], [[(0, 0), (1, 2), (2, 1)]])
-    assert house.is_valid
-    [found] = again(house)
-    assert found.area == pytest.approx(house.area)
+    house, yard = [(0, 0), (4, 0), (4, 4)], [(0, 0), (1, 2), (2, 1)]
+    ends = [[*a, *b] for ring in (house, yard) for a, b in zip(ring, ring[1:] + ring[:1], strict=True)]
+    assert ring_starts(np.array(ends, np.int16)).tolist() == [0, 3]
+    touching = shapely.Polygon([(0, 0), (4, 0), (4, 4), (0, 4)], [yard])
+    assert again(touching)[0].area == pytest.approx(touching.area)
 
 
 def test_what_is_thinner_than_a_step_is_nothing_and_spoils_nothing() -> None:
