@@ -99,6 +99,7 @@ EXCEPT = {
     ),  # the one door to data; the rest of models/city knows no source
 }
 ONLY_IN = {
+    "transformers": "models/language/text_encoder.py",
     "faiss": "index/stores",
     "pymilvus": "index/stores",
     "grpc": "index/stores",
@@ -159,6 +160,15 @@ def test_imports_run_one_way(path: Path) -> None:
         assert library not in libraries or place.is_relative_to(layer), f"{library} belongs in {layer}/"
     if any(path == p or p in path.parents for p in WITHOUT_TORCH):
         assert "torch" not in libraries
+
+
+def test_transformers_are_imported_when_they_are_asked_for() -> None:
+    for path in FILES:
+        for node in ast.parse(path.read_text()).body:
+            names = [a.name for a in node.names] if isinstance(node, ast.Import) else [getattr(node, "module", None)]
+            assert not any((name or "").startswith("transformers") for name in names), (
+                f"{path}: seven seconds a process"
+            )
 
 
 def test_the_city_model_loads_without_torch() -> None:

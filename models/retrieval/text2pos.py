@@ -36,7 +36,8 @@ class WordEncoder(nn.Module):
     def __init__(self, text_encoder: TextEncoder, width: int) -> None:
         super().__init__()
         tokenizer = text_encoder.tokenizer
-        self.words = nn.Embedding(len(tokenizer), width, padding_idx=tokenizer.pad_token_id)
+        assert tokenizer.padding is not None
+        self.words = nn.Embedding(tokenizer.get_vocab_size(), width, padding_idx=tokenizer.padding["pad_id"])
         self.lstm = nn.LSTM(width, width, batch_first=True, bidirectional=True)
 
     def forward(self, ids: Tensor, mask: Tensor) -> Tensor:

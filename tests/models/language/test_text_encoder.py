@@ -4,7 +4,7 @@ import types
 import pytest
 import torch
 from tokenizers import Tokenizer, models, pre_tokenizers
-from transformers import PreTrainedTokenizerFast, T5Config, T5EncoderModel
+from transformers import AutoModel, AutoTokenizer, PreTrainedTokenizerFast, T5Config, T5EncoderModel
 
 from models.errors import WeightsError
 from models.language import text_encoder as module
@@ -25,6 +25,18 @@ def test_a_sentence_alone_and_in_a_batch(text_encoder) -> None:
     together = text_encoder(SENTENCES)
     alone = text_encoder(SENTENCES[1:])
     assert torch.allclose(together.values[1, :5], alone.values[0], atol=1e-5)
+
+
+def test_minilm_is_what_transformers_make_of_its_files(text_encoder) -> None:
+    path = str(module._minilm_directory())
+    texts = [*SENTENCES, "word " * 90]
+    tokens = AutoTokenizer.from_pretrained(path)(texts, padding=True, truncation=True, max_length=64)
+    ids, mask = torch.tensor(tokens["input_ids"]), torch.tensor(tokens["attention_mask"])
+    with torch.inference_mode():
+        expected = AutoModel.from_pretrained(path)(input_ids=ids, attention_mask=mask).last_hidden_state
+    found = text_encoder(texts)
+    assert found.ids.tolist() == ids.tolist()
+    assert torch.allclose(found.values, expected * mask[..., None], atol=1e-6)
 
 
 def test_it_is_frozen(text_encoder) -> None:
