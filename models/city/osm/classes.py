@@ -1,6 +1,7 @@
 """The table tag -> class of instance (classes.toml)."""
 
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -28,7 +29,7 @@ class OsmClass:
         object.__setattr__(self, "required", tuple((key, values) for no, key, values in conditions if not no))
         object.__setattr__(self, "forbidden", tuple((key, values) for no, key, values in conditions if no))
 
-    def matches(self, tags: dict[str, str]) -> bool:
+    def matches(self, tags: Mapping[str, str]) -> bool:
         """Whether an element with these tags belongs to this class."""
         return all(
             key in tags and (values is None or tags[key] in values) for key, values in self.required
@@ -40,3 +41,19 @@ def load_classes() -> tuple[OsmClass, ...]:
     """The table tag -> class that ships with the package."""
     table = tomllib.loads((Path(__file__).parent / "classes.toml").read_text())
     return tuple(OsmClass(**{**row, "tags": tuple(row["tags"])}) for row in table["class"])
+
+
+def class_of(tags: Mapping[str, str]) -> tuple[int, OsmClass] | None:
+    """The first row of the table that an element with these tags belongs to, and its number; None if there is none."""
+    rows, numbers = load_classes(), _rows_by_key()
+    asked = sorted({number for key in tags for number in numbers.get(key, ())})
+    return next(((number, rows[number]) for number in asked if rows[number].matches(tags)), None)
+
+
+@cache
+def _rows_by_key() -> dict[str, list[int]]:
+    """Which rows ask for each key first: most elements have none of most keys."""
+    found: dict[str, list[int]] = {}
+    for number, row in enumerate(load_classes()):
+        found.setdefault(row.required[0][0], []).append(number)
+    return found

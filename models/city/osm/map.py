@@ -15,7 +15,7 @@ import shapely
 
 from models.city.colours import BASIC_PALETTE
 from models.city.frame import Frame
-from models.city.osm.classes import OsmClass, load_classes
+from models.city.osm.classes import OsmClass, class_of, load_classes
 from models.city.osm.features import Feature, as_feature, merge
 from models.city.tiled.pieces import PieceTable
 from models.city.types import CityMap, CutRules, Instance, MapShape
@@ -124,15 +124,14 @@ def _classify(processor: Any) -> Iterator[_Element]:
         tags = {tag.k: tag.v for tag in element.tags}
         if not _is_visible(tags):
             continue
-        for order, row in enumerate(load_classes()):
-            if row.matches(tags):
-                if _is_wanted(element, kind, row, tags):
-                    try:
-                        wkb = create[kind](element)
-                    except (osmium.InvalidLocationError, RuntimeError):
-                        break  # nodes left out by the extract, or a broken ring: this element has no geometry here
-                    yield _Element(wkb, row, order, tags, source_id(element, kind))
-                break
+        found = class_of(tags)
+        if found is None or not _is_wanted(element, kind, found[1], tags):
+            continue
+        try:
+            wkb = create[kind](element)
+        except (osmium.InvalidLocationError, RuntimeError):
+            continue  # nodes left out by the extract, or a broken ring: this element has no geometry here
+        yield _Element(wkb, found[1], found[0], tags, source_id(element, kind))
 
 
 def _is_visible(tags: dict[str, str]) -> bool:

@@ -6,7 +6,7 @@ import pytest
 import shapely
 
 from models.city.colours import parse_colour
-from models.city.osm.classes import OsmClass, load_classes
+from models.city.osm.classes import OsmClass, class_of, load_classes
 from models.city.osm.map import load_osm
 from models.errors import MapError
 
@@ -220,3 +220,16 @@ def test_tag_conditions() -> None:
 )
 def test_written_colours(text, rgb) -> None:
     assert parse_colour(text) == (None if rgb is None else pytest.approx(rgb))
+
+
+def test_the_class_of_tags_is_the_first_row_that_they_match() -> None:
+    rows, rng = load_classes(), np.random.default_rng(0)
+    conditions = [condition for row in rows for condition in (*row.required, *row.forbidden)]
+    found = set()
+    for _ in range(3000):
+        some = [conditions[n] for n in rng.integers(len(conditions), size=rng.integers(6))]
+        tags = {key: str(rng.choice(sorted(values or {"yes"}))) for key, values in some}
+        expected = next(((n, row) for n, row in enumerate(rows) if row.matches(tags)), None)
+        assert class_of(tags) == expected
+        found.add(expected and expected[0])
+    assert len(found) > len(rows) / 2
