@@ -38,7 +38,7 @@ class Bert(nn.Module):
 
     @classmethod
     def load(cls, directory: Path) -> Self:
-        """Read config.json and model.safetensors.
+        """Map config.json and model.safetensors into memory: rows of words that nobody says are never read.
 
         Raises:
             OSError, ValueError: they are missing, or of another kind of model.
@@ -48,7 +48,7 @@ class Bert(nn.Module):
             wanted = model.state_dict()
             if missing := set(wanted) - set(file.keys()):
                 raise ValueError(f"{directory / 'model.safetensors'} has no {min(missing)}")
-            model.load_state_dict({name: file.get_tensor(name) for name in wanted})
+            model.load_state_dict({name: file.get_tensor(name) for name in wanted}, assign=True)
         return model
 
 

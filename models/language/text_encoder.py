@@ -184,7 +184,6 @@ def run_layers(layers: nn.ModuleList, hidden: Tensor, mask: Tensor) -> Tensor:
     return hidden
 
 
-@lru_cache(maxsize=2)
 def load_text_encoder(source: str = DEFAULT_TEXT_ENCODER) -> TextEncoder:
     """Load a frozen text encoder; loaded once in a process.
 
@@ -195,6 +194,12 @@ def load_text_encoder(source: str = DEFAULT_TEXT_ENCODER) -> TextEncoder:
     Raises:
         WeightsError: there is no such model, or the MiniLM weights are not the known ones.
     """
+    return loaded(source)
+
+
+@lru_cache(maxsize=2)
+def loaded(source: str) -> TextEncoder:
+    """As `load_text_encoder`, which may be called with or without its default: that is the same encoder."""
     try:
         model, tokenizer = _minilm() if source == DEFAULT_TEXT_ENCODER else _pretrained(source)
     except (OSError, ValueError) as error:

