@@ -13,7 +13,7 @@ from index.query import MOST_REPLIES, Reply
 from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.points import Ints
+from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.asked import load_asked
@@ -22,11 +22,13 @@ from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors
 from models.posterior.sights import Seen, Sights
+from models.posterior.surroundings.surroundings import Surroundings
 
 LEAST_GAIN: Final = 0.1  # bits; what narrows no more is not worth asking
 EFFORT: Final = {"address": 1.0}  # bits that it must narrow more than what a word answers, to be asked instead
 PLACES: Final = 256  # cells that a question about things is chosen by
 NAMED_PLACES: Final = 4096  # and one for a name, which may leave few of a city's
+CELLS_AT_ONCE: Final = 4096  # of which the middles are found
 FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it has is not asked about
 
 
@@ -48,12 +50,10 @@ class Questions:
         self._sights, self._words = sights, tuple(colour_words(palette))
         self._names = OpenQuestions(Landmarks(gazetteer, centers_m, asked.kinds))
         self._things = {label: n for n, label in enumerate(labels) if label in asked.things}
-        starts = sights.surroundings.cell_starts
-        self._cell = np.repeat(np.arange(len(starts) - 1), np.diff(starts))  # that owns each node
-        apart = np.hypot(*(sights.surroundings.nodes_m - centers_m[self._cell]).T)
-        order = np.lexsort((apart, self._cell))
-        self._owning = np.flatnonzero(np.diff(starts))  # cells that have nodes
-        self._middle = order[starts[:-1][self._owning]]  # the node nearest to each one's centre
+        self._owning = np.flatnonzero(np.diff(sights.surroundings.cell_starts))  # cells that have nodes
+        parts = range(0, len(self._owning), CELLS_AT_ONCE)
+        middles = [_middles(sights.surroundings, centers_m, self._owning[n : n + CELLS_AT_ONCE]) for n in parts]
+        self._middle = np.concatenate([np.zeros(0, np.int64), *middles])  # the node nearest to each one's centre
 
     def answered(self, replies: Sequence[Reply]) -> Answered | None:
         """What answers tell of positions; None if they tell nothing.
@@ -72,7 +72,7 @@ class Questions:
         def at(nodes: Ints) -> Floats:
             seen = self._sights.seen(nodes, classes)
             chances = [with_errors(self._true(asked, seen))[:, column] for asked, column in told]
-            total = np.zeros(len(nodes)) if of_names is None else of_names[self._cell[nodes]]
+            total = np.zeros(len(nodes)) if of_names is None else of_names[self._owner(nodes)]
             for chance in chances:
                 total = total + np.log(chance)
             return total
@@ -80,6 +80,9 @@ class Questions:
         cells = np.zeros(len(self._sights.surroundings.cell_starts) - 1)
         cells[self._owning] = at(self._middle)
         return Answered(cells, at)
+
+    def _owner(self, nodes: Ints) -> Ints:
+        return self._sights.surroundings.owner(nodes)
 
     @property
     def has_names(self) -> bool:
@@ -110,7 +113,7 @@ class Questions:
             return None
         gain = self._gain_of_things(*_sampled(nodes, mass, PLACES), heard, replies)
         named = [asked for asked in heard.open(replies) if self._names.has(asked.kind)]
-        rows = {asked: self._names.rows(asked, self._cell[nodes], replies) for asked in named}
+        rows = {asked: self._names.rows(asked, self._owner(nodes), replies) for asked in named}
         before = entropy(mass)
         gain |= {asked: before - expected_entropy_of_names(mass, true, names) for asked, (true, names) in rows.items()}
         best = max(gain, key=lambda asked: gain[asked] - EFFORT.get(asked.kind, 0.0), default=None)
@@ -120,7 +123,7 @@ class Questions:
 
     def _places(self, located: Located) -> tuple[Ints, Floats]:
         """[C] the heaviest node of each cell that is listed, and their probabilities, made to add up to 1."""
-        cell = self._cell[located.points]
+        cell = self._owner(located.points)
         order = np.lexsort((-located.weight, cell))
         first = order[np.diff(cell[order], prepend=-1) != 0]
         mass = np.bincount(cell, located.weight)[cell[first]]
@@ -180,6 +183,16 @@ class Questions:
         if asked.is_open:
             return self._names.has(asked.kind)
         return asked.names[0] in self._things and set(asked.names[1:]) <= set(self._words)
+
+
+def _middles(surroundings: Surroundings, centers_m: Floats, cells: Ints) -> Ints:
+    """The node of each of some cells, all of which have nodes, that is nearest to its centre."""
+    begin, end = surroundings.cell_starts[cells], surroundings.cell_starts[cells + 1]
+    nodes, of = ranges(begin, end), np.repeat(np.arange(len(cells)), end - begin)
+    apart = np.hypot(*(surroundings.positions_m(nodes) - centers_m[cells[of]]).T)
+    nearest = np.minimum.reduceat(apart, np.searchsorted(of, np.arange(len(cells))))
+    rows = np.flatnonzero(apart == nearest[of])
+    return nodes[rows[np.diff(of[rows], prepend=-1) > 0]]
 
 
 def _sampled(nodes: Ints, mass: Floats, count: int) -> tuple[Ints, Floats]:

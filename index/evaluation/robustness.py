@@ -129,9 +129,10 @@ def nearest_hints(
         if not len(nodes):
             found.append(())
             continue
-        node = nodes[np.hypot(*(around.nodes_m[nodes] - position).T).argmin()]
-        here = around.around(np.array([node]))
-        offset = position - (around.nodes_m[node] - here.way_m)
+        nodes_m = around.positions_m(nodes)
+        nearest = np.hypot(*(nodes_m - position).T).argmin()
+        here = around.around(nodes[[nearest]])
+        offset = position - (nodes_m[nearest] - here.way_m)
         nearest = np.argsort(np.hypot(*offset.T), kind="stable")[:count]
         found.append(tuple(_hint(data, around.things, int(here.part[k]), offset[k]) for k in nearest))
     return found

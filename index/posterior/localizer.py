@@ -32,7 +32,7 @@ from models.language.reader import COLOURS
 from models.localization.located import Located
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading
-from models.posterior.locate import locate
+from models.posterior.locate import Mask, locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.posterior.places.field import Told
 from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
@@ -50,6 +50,7 @@ NOTHING_SAID = (
 NOWHERE = "no position of the map lies inside 'within'; move it onto the map or leave it out"
 NOTHING_FITS = "nothing that is said was found on the map; is it the right map?"
 OF_REPLIES = "the answer is of the replies: nothing that the description says was found there"
+NODES_AT_ONCE = 1 << 17  # that are asked whether they are inside
 GOOD_M = 10.0  # who has begun to reply is asked until half of the probability is this near
 
 
@@ -217,13 +218,22 @@ class PosteriorLocalizer:
             self.nodes,
             reading,
             None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
-            None if query.within is None else inside(query, self.nodes.nodes_m, self.frame),
+            None if query.within is None else self._inside(query),
             PLACE_CANDIDATES if told is not None else count,
             also=None if reading is None else self.candidates(hints, reading),
             told=told,
             answered=answered,
         )
         return located and self._honest(located, query, told)
+
+    def _inside(self, query: Query) -> Mask:
+        """[nodes] which of all nodes are inside `within`."""
+        count = int(self.surroundings.cell_starts[-1])
+        found = np.zeros(count, np.bool_)
+        for first in range(0, count, NODES_AT_ONCE):
+            some = np.arange(first, min(first + NODES_AT_ONCE, count))
+            found[some] = inside(query, self.surroundings.positions_m(some), self.frame)
+        return found
 
     def _honest(self, located: Located, query: Query, told: Told | None) -> Located:
         """With radii that hold what they say, as on validation data."""
@@ -263,7 +273,7 @@ class PosteriorLocalizer:
             gallery = self.gallery
             instance = int(self.surroundings.things.instance[found.part])
             shown = {
-                "at": pair(self.surroundings.nodes_m[node] - found.way_m),
+                "at": pair(self.surroundings.positions_m(np.array([node]))[0] - found.way_m),
                 "instance": gallery.labels[instance],
                 "name": gallery.names[instance],
                 "source_id": gallery.sources[instance],

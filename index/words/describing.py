@@ -263,10 +263,10 @@ class NearSights:
         first, last = int(s.cell_starts[cell]), int(s.cell_starts[cell + 1])
         if first == last:
             return np.zeros(0, np.int64), np.zeros((0, 2)), np.zeros(0, np.bool_)
-        nodes_m = s.nodes_m[first:last].astype(np.float64)
-        node = first + int(((nodes_m - position) ** 2).sum(axis=1).argmin())
-        around = s.around(np.array([node]))
-        return around.part, around.way_m + (position - s.nodes_m[node]), around.whole
+        nodes_m = s.positions_m(np.arange(first, last))
+        nearest = int(((nodes_m - position) ** 2).sum(axis=1).argmin())
+        around = s.around(np.array([first + nearest]))
+        return around.part, around.way_m + (position - nodes_m[nearest]), around.whole
 
 
 def named_text(name: str, way_m: Floats) -> str:

@@ -74,7 +74,7 @@ def locate(
     total = np.logaddexp(np.logaddexp.reduce(mass), rest)
     order = np.lexsort((chosen, -mass))
     weight = np.exp(field.log_p - total)
-    nodes_m = posterior.nodes_m[field.nodes]
+    nodes_m = posterior.surroundings.positions_m(field.nodes)
     return Located(
         rows=chosen[order],
         score=mass[order],
@@ -113,10 +113,10 @@ def _field(
     """
     if inside is not None or (log_prior is not None and told is None):
         return posterior.field(reading, chosen, log_prior, inside, told, answered)
-    rough = posterior.field(reading, chosen, log_prior, posterior.coarse, told, answered)
+    rough = posterior.field(reading, chosen, log_prior, None, told, answered, coarse=True)
     mass = _mass(rough)
     near = np.flatnonzero((mass > mass.max() - BEHIND) | (mass == -np.inf))
-    fine = posterior.field(reading, chosen[near], log_prior, posterior.between, told, answered)
+    fine = posterior.field(reading, chosen[near], log_prior, None, told, answered, coarse=False)
     starts = posterior.surroundings.cell_starts
     stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
     stands_for[near] = 1.0

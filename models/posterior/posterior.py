@@ -20,7 +20,7 @@ from models.posterior.questions import Answered
 from models.posterior.sights import Sights
 from models.posterior.statements import Statements
 from models.posterior.surroundings.around import Around
-from models.posterior.surroundings.nodes import SPACING_M
+from models.posterior.surroundings.nodes import is_coarse
 from models.posterior.surroundings.surroundings import Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
@@ -91,9 +91,7 @@ class HintPosterior:
         self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
         self._ways, self._log_pi = likelihood.ways(), likelihood.log_pi()
         self.statements = statements or Statements.of(likelihood, surroundings, self._label, self._rgb, self._words)
-        self.nodes_m, self.extent_m = surroundings.nodes_m.astype(np.float64), cells.extent_m
-        self.coarse = (np.round(self.nodes_m / SPACING_M) % 2 == 0).all(axis=1)
-        self.between = ~self.coarse
+        self.extent_m = cells.extent_m
         self.sights = Sights(surroundings, label, self._words.numpy())
 
     @torch.inference_mode()
@@ -110,6 +108,7 @@ class HintPosterior:
         inside: Any = None,
         told: Told | None = None,
         answered: Answered | None = None,
+        coarse: bool | None = None,
     ) -> Field:
         """The posterior over the nodes of some cells.
 
@@ -120,6 +119,7 @@ class HintPosterior:
             inside: [M of all] bool, False where it cannot be; None for everywhere.
             told: the places that were named, if any.
             answered: what answers to questions tell, if any.
+            coarse: True for the nodes of a grid twice as coarse alone, False for those between; None for all.
         """
         s = self.surroundings
         begin, end = s.cell_starts[cells], s.cell_starts[cells + 1]
@@ -127,13 +127,17 @@ class HintPosterior:
         if inside is not None:
             kept = inside[nodes]
             nodes, cell = nodes[kept], cell[kept]
+        positions_m = s.positions_m(nodes)
+        if coarse is not None:
+            kept = is_coarse(positions_m) == coarse
+            nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
         log_p = np.zeros(len(nodes)) if reading is None else self._log_p(reading, nodes)
         if told is not None:
-            log_p = log_p + told.at(self.nodes_m[nodes], cell)
+            log_p = log_p + told.at(positions_m, cell)
         if answered is not None:
             log_p = log_p + answered.at(nodes)
         if log_prior is not None:
-            log_p = log_p + log_prior(self.nodes_m[nodes])
+            log_p = log_p + log_prior(positions_m)
         return Field(cells, nodes, cell, log_p)
 
     def _log_p(self, reading: Reading, nodes: Ints) -> Floats:

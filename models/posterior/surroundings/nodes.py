@@ -3,6 +3,7 @@
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from models.city.cells import CellTable
@@ -33,3 +34,15 @@ def grid(cells: CellTable) -> tuple[Floats, Ints]:
     owner = np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
     return np.concatenate(nodes)[order], owner[order]
+
+
+def owner_of(cell_starts: Ints, nodes: Ints) -> Ints:
+    """[n] the cell that owns each of some nodes, of cells that own cell_starts[n] to cell_starts[n + 1]."""
+    owner: Ints = np.searchsorted(cell_starts, nodes, side="right") - 1
+    return owner
+
+
+def is_coarse(positions_m: Floats) -> npt.NDArray[np.bool_]:
+    """[M] which nodes [M, 2] are of the grid that is twice as coarse."""
+    coarse: npt.NDArray[np.bool_] = (np.round(positions_m / SPACING_M) % 2 == 0).all(axis=1)
+    return coarse

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import load_file, save_file
 
@@ -18,7 +19,7 @@ from models.city.tiled.ways import ways_around
 from models.city.types import CutRules, Floats
 from models.errors import IndexBroken
 from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.nodes import SPACING_M, grid
+from models.posterior.surroundings.nodes import SPACING_M, grid, owner_of
 from models.posterior.surroundings.things import Things
 
 FILE: Final = "pieces.safetensors"
@@ -32,7 +33,7 @@ class PieceSurroundings:
     Attributes:
         things: the map's instances.
         cell_starts: see Surroundings.
-        nodes_m: likewise.
+        offset: [M, 2] int8 each node in steps of the grid, from the one next to its cell's centre.
         pieces: of the map.
         rules: of its cells.
         center_m: [N, 2] of these.
@@ -40,7 +41,7 @@ class PieceSurroundings:
 
     things: Things
     cell_starts: Ints
-    nodes_m: Floats
+    offset: npt.NDArray[np.int8]
     pieces: PieceTable
     rules: CutRules
     center_m: Floats
@@ -50,8 +51,9 @@ class PieceSurroundings:
         """Those of a gallery."""
         nodes_m, owner = grid(cells)
         starts = np.searchsorted(owner, np.arange(len(cells) + 1))
-        things = Things.of_instances(bodies, cells.parts)
-        return cls(things, starts, nodes_m.astype(np.float32), bodies.pieces, bodies.rules, cells.center_m[:, :2])
+        things, center_m = Things.of_instances(bodies, cells.parts), cells.center_m[:, :2]
+        offset = np.round(nodes_m / SPACING_M).astype(np.int64) - _step_of(center_m)[owner]
+        return cls(things, starts, offset.astype(np.int8), bodies.pieces, bodies.rules, center_m)
 
     @property
     def cuts(self) -> bool:
@@ -63,14 +65,31 @@ class PieceSurroundings:
         """See Surroundings."""
         return sum(column.nbytes for column in self._columns().values())
 
+    def positions_m(self, nodes: Ints) -> Floats:
+        """See Surroundings."""
+        return self._positions_m(nodes, self.owner(nodes))
+
+    def _positions_m(self, nodes: Ints, cell: Ints) -> Floats:
+        """[n, 2] where some nodes are, which some cells own [n]."""
+        return (_step_of(self.center_m[cell]) + self.offset[nodes]) * SPACING_M
+
+    def owner(self, nodes: Ints) -> Ints:
+        """See Surroundings."""
+        return owner_of(self.cell_starts, nodes)
+
     def around(self, nodes: Ints) -> Around:
         """See Surroundings."""
-        cell = np.searchsorted(self.cell_starts, nodes, side="right") - 1
+        cell = self.owner(nodes)
         first = np.flatnonzero(np.diff(cell, prepend=-1))
-        nodes_m = self.nodes_m[nodes].astype(np.float64)
         starts = np.append(first, len(nodes))
         node, part, way = ways_around(
-            self.pieces, self.rules, self.center_m[cell[first]], nodes_m, starts, HINT_REACH_M, STEP_M
+            self.pieces,
+            self.rules,
+            self.center_m[cell[first]],
+            self._positions_m(nodes, cell),
+            starts,
+            HINT_REACH_M,
+            STEP_M,
         )
         known = self.things.parts[part] > 0
         return Around(node[known], part[known], way[known], np.ones(int(known.sum()), np.bool_))
@@ -85,7 +104,7 @@ class PieceSurroundings:
             self,
             things=replace(self.things, parts=parts),
             cell_starts=np.concatenate([[0], np.cumsum(np.diff(self.cell_starts)[cells])]),
-            nodes_m=self.nodes_m[ranges(self.cell_starts[cells], self.cell_starts[cells + 1])],
+            offset=self.offset[ranges(self.cell_starts[cells], self.cell_starts[cells + 1])],
             center_m=self.center_m[cells],
         )
 
@@ -105,21 +124,19 @@ class PieceSurroundings:
             things = Things(**{name: columns[f"things.{name}"] for name in THINGS})
             pieces = PieceTable.of_columns({name[7:]: c for name, c in columns.items() if name.startswith("pieces.")})
             rules = CutRules(*columns["rules"].tolist())
-            starts, center_m = columns["cell_starts"], cells.center_m[:, :2]
-            owner = np.repeat(np.arange(len(cells)), np.diff(starts))
-            nodes_m = (_step_of(center_m)[owner] + columns["offset"]) * SPACING_M
+            starts, offset = columns["cell_starts"], columns["offset"]
+            if len(starts) != len(cells) + 1 or starts[-1] != len(offset):
+                raise ValueError(f"{len(starts)} starts and {len(offset)} nodes of {len(cells)} cells")
         except (OSError, SafetensorError, KeyError, TypeError, ValueError, IndexError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
-        return cls(things, starts, nodes_m.astype(np.float32), pieces, rules, center_m)
+        return cls(things, starts, offset, pieces, rules, cells.center_m[:, :2])
 
     def _columns(self) -> dict[str, np.ndarray]:
-        owner = np.repeat(np.arange(len(self.center_m)), np.diff(self.cell_starts))
-        step = np.round(self.nodes_m / SPACING_M).astype(np.int64) - _step_of(self.center_m)[owner]
         columns = {f"things.{name}": getattr(self.things, name) for name in THINGS}
         columns |= {f"pieces.{name}": column for name, column in self.pieces.columns().items()}
         columns |= {
             "cell_starts": self.cell_starts,
-            "offset": step.astype(np.int8),
+            "offset": self.offset,
             "rules": np.array(astuple(self.rules), dtype=np.float64),
         }
         return {name: np.ascontiguousarray(column) for name, column in columns.items()}

@@ -16,7 +16,7 @@ from models.city.processes import map_forked
 from models.city.types import Floats, Progress
 from models.errors import IndexBroken
 from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.nodes import grid
+from models.posterior.surroundings.nodes import grid, owner_of
 from models.posterior.surroundings.scan_ways import ScanWays
 from models.posterior.surroundings.things import Things
 
@@ -92,6 +92,14 @@ class ScanSurroundings:
     def num_bytes(self) -> int:
         """What it takes on disk."""
         return sum(getattr(self, name).nbytes for name in COLUMNS)
+
+    def positions_m(self, nodes: Ints) -> Floats:
+        """See Surroundings."""
+        return self.nodes_m[nodes].astype(np.float64)
+
+    def owner(self, nodes: Ints) -> Ints:
+        """See Surroundings."""
+        return owner_of(self.cell_starts, nodes)
 
     def around(self, nodes: Ints) -> Around:
         """See Surroundings."""

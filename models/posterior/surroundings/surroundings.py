@@ -32,9 +32,12 @@ class Surroundings(Protocol):
         """[N + 1] int64, cell n owns the nodes cell_starts[n] to cell_starts[n + 1]."""
         ...
 
-    @property
-    def nodes_m(self) -> Floats:
-        """[M, 2] float32, map frame."""
+    def positions_m(self, nodes: Ints) -> Floats:
+        """[n, 2] where some nodes are, map frame."""
+        ...
+
+    def owner(self, nodes: Ints) -> Ints:
+        """[n] the cell that owns each of some nodes."""
         ...
 
     @property

@@ -83,7 +83,7 @@ def surprise(likelihood: Likelihood, texts: Texts, query: int, cells: Ints, usua
     log_p = likelihood(texts.readings[query], around, place.palette, usual)
     scene = np.unique(place.cells.scenes, return_inverse=True)[1]
     owner = np.repeat(cells, np.diff(place.surroundings.cell_starts)[cells])
-    away = ((place.surroundings.nodes_m[nodes] - place.positions_m[row]) ** 2).sum(axis=1)
+    away = ((place.surroundings.positions_m(nodes) - place.positions_m[row]) ** 2).sum(axis=1)
     away = np.where(scene[owner] == scene[place.truth[row]], away, np.inf)
     blur = torch.from_numpy(-away / (2 * BLUR_M**2)).float()
     loss: Tensor = log_p.logsumexp(0) - (log_p + blur).logsumexp(0)

@@ -50,14 +50,14 @@ def asked(posterior):
     ],
 )
 def test_the_chances_of_all_answers_add_up_to_one_everywhere(posterior, one):
-    nodes = np.arange(len(posterior.surroundings.nodes_m))
+    nodes = np.arange(posterior.surroundings.cell_starts[-1])
     told = [posterior.questions.answered([Reply(one.id, value)]) for value in one.values]
     assert sum(np.exp(some.at(nodes)) for some in told) == pytest.approx(np.ones(len(nodes)))
     assert sum(np.exp(some.cells) for some in told) == pytest.approx(np.ones(len(posterior.gallery.cells)))
 
 
 def test_an_answer_is_true_where_the_map_says_so(posterior):
-    nodes_m = posterior.surroundings.nodes_m
+    nodes_m = posterior.surroundings.positions_m(np.arange(posterior.surroundings.cell_starts[-1]))
     on_first = posterior.frame.from_wgs84(LAT + 60 * LAT_M, LON + 150 * LON_M)  # half way along it
     nodes = np.flatnonzero(np.hypot(*(nodes_m - on_first).T) < 5.0)
     one, other = (posterior.questions.answered([Reply("street", f"East Street {n}")]) for n in (1, 2))

@@ -17,8 +17,10 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
     owner = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
     is_coarse = np.isin(np.arange(len(log_p)), np.arange(len(log_p)) if coarse is None else coarse)
 
-    def field(_reading, cells, log_prior=None, inside=None, told=None, answered=None):
+    def field(_reading, cells, log_prior=None, inside=None, told=None, answered=None, coarse=None):
         assert told is None
+        if coarse is not None:
+            inside = is_coarse == coarse
         nodes = np.concatenate([np.flatnonzero((owner == c) & (inside is None or inside)) for c in cells])
         prior = 0.0 if log_prior is None else log_prior(nodes_m[nodes])
         prior = prior if answered is None else prior + answered.at(nodes)
@@ -28,9 +30,9 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
 
     center = [nodes_m[owner == c].mean(axis=0) if (owner == c).any() else (0, 0) for c in range(len(starts) - 1)]
     return SimpleNamespace(
-        likelihood=SimpleNamespace(temper=torch.zeros(())), field=field, nodes_m=nodes_m,
+        likelihood=SimpleNamespace(temper=torch.zeros(())), field=field,
         cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0), extent_m=1e4,
-        surroundings=SimpleNamespace(cell_starts=np.array(starts)), coarse=is_coarse, between=~is_coarse,
+        surroundings=SimpleNamespace(cell_starts=np.array(starts), positions_m=lambda nodes: nodes_m[nodes]),
         # As they stand, so that cells are looked at in this order.
         cell_scores=lambda _reading: -np.arange(len(starts) - 1.0),
     )  # fmt: skip

@@ -45,6 +45,11 @@ def town(source) -> Town:
     return Town(place, place.posterior(Likelihood()), readings)
 
 
+def all_nodes_m(town):
+    """[M, 2] where the nodes are."""
+    return town.place.surroundings.positions_m(np.arange(town.place.surroundings.cell_starts[-1]))
+
+
 def test_the_field_is_the_likelihood_of_its_nodes(town):
     cells = np.array([3, 40, 11])
     for reading in town.readings[:3]:
@@ -109,12 +114,12 @@ def test_each_candidate_has_a_position_of_its_own(town):
     for reading in town.readings[:20]:
         found = locate(town.posterior, reading)
         for row, position in zip(found.rows[1:], found.positions[1:], strict=True):
-            own = town.posterior.nodes_m[surroundings.cell_starts[row] : surroundings.cell_starts[row + 1]]
+            own = surroundings.positions_m(np.arange(surroundings.cell_starts[row], surroundings.cell_starts[row + 1]))
             assert np.linalg.norm(own - position, axis=1).min() < 2 * MEAN_M
 
 
 def test_a_prior_may_rule_places_out(town):
-    east = np.median(town.posterior.nodes_m[:, 0])
+    east = np.median(all_nodes_m(town)[:, 0])
     found = locate(
         town.posterior, town.readings[0], lambda positions_m: np.where(positions_m[:, 0] > east, 0.0, -np.inf)
     )
@@ -143,7 +148,7 @@ def test_one_hint_leaves_much_open(town):
 
 
 def test_a_filter_is_exact(town):
-    nodes_m = town.posterior.nodes_m
+    nodes_m = all_nodes_m(town)
     for q in range(0, 30, 3):
         truth = town.place.positions_m[q]
         inside = np.abs(nodes_m - truth).max(axis=1) <= 20.0
@@ -167,7 +172,7 @@ def test_a_prior_is_multiplied_in(town):
 
     cells, reading = np.arange(len(town.place.cells)), town.readings[5]
     plain, biased = (town.posterior.field(reading, cells, prior) for prior in (None, log_prior))
-    assert np.allclose(biased.log_p - plain.log_p, log_prior(town.posterior.nodes_m[plain.nodes]))
+    assert np.allclose(biased.log_p - plain.log_p, log_prior(town.posterior.surroundings.positions_m(plain.nodes)))
     found = locate(town.posterior, town.readings[5], log_prior)
     assert np.linalg.norm(found.positions[0] - center) < 20.0
 
@@ -176,7 +181,7 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
     number = {instance.id: n for n, instance in enumerate(city.instances)}
     right = total = 0
     for q in range(0, 60, 3):
-        node = int(np.linalg.norm(town.posterior.nodes_m - town.place.positions_m[q], axis=1).argmin())
+        node = int(np.linalg.norm(all_nodes_m(town) - town.place.positions_m[q], axis=1).argmin())
         for hint, found in zip(town.place.hints[q], town.posterior.explain(town.readings[q], node), strict=True):
             total += 1
             meant = found.part >= 0 and town.place.surroundings.things.instance[found.part] == number[hint.instance_id]
