@@ -1,9 +1,17 @@
-"""How far every cell of a map is from some objects, about: a distance transform on the cells' grid."""
+"""How far every cell of a map is from some objects, to the cells' grid where they are near, and else by block.
+
+A name is near few of a city's cells: only these are looked at one by one, and for all others a distance transform of
+blocks will do, of which there are a sixteenth as many.
+"""
 
 from collections import OrderedDict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
+import numpy.typing as npt
+from scipy.ndimage import distance_transform_edt, find_objects, label
 
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.points import Ints, ranges
@@ -13,7 +21,41 @@ SAMPLED_M = 6.0  # between samples of lines
 MARGIN_M = 300.0  # round the cells, in which objects count too
 LARGE_M = 20.0  # areas that reach farther have samples inside
 LATTICE_M = 9.0  # between these
+BLOCK: Final = 4  # cells to each side
+NEAR_M: Final = 200.0  # as far as cells are looked at one by one
+DIAGONAL: Final = 1.5  # of a block, rounded up
 KEPT_BYTES = 16 * 2**20  # of distances that were asked for lately
+Mask = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Away:
+    """How far the cells of a map are from T groups of objects.
+
+    Attributes:
+        block_of: [N] block of each cell.
+        blocks: [T, P] metres from the middle of each block to the block of the nearest object; inf if there is none.
+        rows: [R] cells that are looked at one by one, each once.
+        metres: [T, R] metres from each of these to the nearest, to the grid.
+    """
+
+    block_of: Ints
+    blocks: Floats
+    rows: Ints
+    metres: Floats
+
+    def at(self, cells: Ints) -> Floats:
+        """[T, n] metres of some cells."""
+        number = np.full(len(self.block_of), -1, np.int64)
+        number[self.rows] = np.arange(len(self.rows))
+        found, row = self.blocks[:, self.block_of[cells]], number[cells]
+        found[:, row >= 0] = self.metres[:, row[row >= 0]]
+        return found
+
+    @property
+    def nbytes(self) -> int:
+        """What it takes, beside what all of a raster have."""
+        return self.blocks.nbytes + self.rows.nbytes + self.metres.nbytes
 
 
 class Raster:
@@ -28,11 +70,17 @@ class Raster:
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         self.spacing_m = spacing_m
         self._low = centers_m.min(axis=0) - MARGIN_M
-        self.shape = tuple(np.ceil((centers_m.max(axis=0) + MARGIN_M - self._low) / spacing_m).astype(int) + 1)
-        self._cell = self.pixels(centers_m)
-        self._samples, self._starts = _samples(gazetteer)
-        self._pixel = self.pixels(self._samples)
-        self._lately: OrderedDict[bytes, Floats] = OrderedDict()
+        size = np.ceil((centers_m.max(axis=0) + MARGIN_M - self._low) / spacing_m).astype(int) + 1
+        self._blocks = tuple((-(-size // BLOCK)).tolist())
+        self.shape = tuple(BLOCK * n for n in self._blocks)
+        cell = self.pixels(centers_m)
+        self._cell = np.full(self.shape, -1, np.int32)  # of each pixel; of several cells in one the last
+        self._cell.ravel()[cell] = np.arange(len(cell))
+        self.block_of = self._block(cell).astype(np.int32)
+        self.cells_in = np.bincount(self.block_of, minlength=self._blocks[0] * self._blocks[1])
+        samples, self._starts = _samples(gazetteer)
+        self._pixel = self.pixels(samples).astype(np.int32)
+        self._lately: OrderedDict[tuple[bytes, ...], Away] = OrderedDict()
 
     def pixels(self, points_m: Floats) -> Ints:
         """[n] pixel of points [n, 2], -1 outside."""
@@ -40,31 +88,65 @@ class Raster:
         inside = ((column >= 0) & (column < self.shape)).all(axis=1)
         return np.where(inside, column[:, 0] * self.shape[1] + column[:, 1], -1)
 
-    def metres_to(self, objects: Ints) -> Floats:
-        """[N] metres from each cell's centre to the nearest of some objects, to the grid; inf if none is near."""
-        key = objects.tobytes()
-        found = self._lately.get(key)
+    def away(self, groups: Sequence[Ints], lines_m: Floats | None = None) -> Away:
+        """How far every cell is from each group of objects, and from segments [n, 4], if any, which are the first."""
+        lines = [] if lines_m is None else [lines_m]
+        key = tuple(one.tobytes() for one in (*lines, *groups))
+        found = self._lately.pop(key, None)
         if found is None:
-            pixels = self._pixel[ranges(self._starts[objects], self._starts[objects + 1])]
-            found = self._lately[key] = self._metres(pixels)
-            while len(self._lately) * found.nbytes > max(KEPT_BYTES, found.nbytes):
-                self._lately.popitem(last=False)
+            drawn = [self.pixels(along(one, _steps(one))) for one in lines]
+            drawn += [self._pixel[ranges(self._starts[some], self._starts[some + 1])] for some in groups]
+            found = self._away([pixels[pixels >= 0] for pixels in drawn])
+        self._lately[key] = found
+        while sum(each.nbytes for each in self._lately.values()) > KEPT_BYTES and len(self._lately) > 1:
+            self._lately.popitem(last=False)
         return found
 
-    def metres_to_lines(self, lines_m: Floats) -> Floats:
-        """[N] the same for segments [n, 4]."""
-        steps = np.maximum(1, np.ceil(np.hypot(*(lines_m[:, 2:] - lines_m[:, :2]).T) / SAMPLED_M)).astype(int) + 1
-        return self._metres(self.pixels(along(lines_m, steps)))
+    def _away(self, groups: Sequence[Ints]) -> Away:
+        """The same of pixels."""
+        blocks = np.stack([self._metres_of_blocks(pixels) for pixels in groups])
+        drawn = np.zeros((len(groups), *self.shape), np.bool_)
+        for group, pixels in zip(drawn, groups, strict=True):
+            group.ravel()[pixels] = True
+        is_near = blocks.min(axis=0).reshape(self._blocks) <= NEAR_M + DIAGONAL * BLOCK * self.spacing_m
+        # What hangs together has the nearest object of each of its cells in it, if that is nearer than NEAR_M.
+        parts, _ = label(is_near, np.ones((3, 3)))
+        rows, metres = [np.zeros(0, np.int64)], [np.zeros((len(groups), 0), np.float32)]
+        for number, box in enumerate(find_objects(parts), start=1):
+            fine = tuple(slice(BLOCK * side.start, BLOCK * side.stop) for side in box)
+            inside = np.repeat(np.repeat(parts[box] == number, BLOCK, axis=0), BLOCK, axis=1)
+            inside &= self._cell[fine] >= 0
+            cells = self._cell[fine][inside].astype(np.int64)
+            rows.append(cells)
+            near = np.stack([self._metres(group[fine])[inside] for group in drawn])
+            far = blocks[:, self.block_of[cells]]
+            metres.append(np.where(near <= NEAR_M, near, np.minimum(near, np.maximum(far, NEAR_M))))
+        return Away(self.block_of, blocks, np.concatenate(rows), np.concatenate(metres, axis=1))
 
-    def _metres(self, pixels: Ints) -> Floats:
-        pixels = pixels[pixels >= 0]
-        if not len(pixels):
-            return np.full(len(self._cell), np.inf)
-        free = np.ones(self.shape[0] * self.shape[1], dtype=bool)
-        free[pixels] = False
-        away = distance_transform_edt(free.reshape(self.shape)).astype(np.float32).ravel()
-        metres: Floats = away[self._cell] * np.float32(self.spacing_m)
+    def _metres(self, drawn: Mask) -> Floats:
+        """Metres from each pixel to the nearest that is drawn."""
+        if not drawn.any():
+            return np.full(drawn.shape, np.inf, np.float32)
+        metres: Floats = distance_transform_edt(~drawn).astype(np.float32) * np.float32(self.spacing_m)
         return metres
+
+    def _metres_of_blocks(self, pixels: Ints) -> Floats:
+        drawn = np.zeros(self._blocks, np.bool_)
+        drawn.ravel()[self._block(pixels)] = True
+        return self._metres(drawn).ravel() * np.float32(BLOCK)
+
+    def _block(self, pixels: Ints) -> Ints:
+        """[n] block of each pixel."""
+        column, row = np.divmod(pixels, self.shape[1])
+        block: Ints = column // BLOCK * self._blocks[1] + row // BLOCK
+        return block
+
+
+def _steps(lines_m: Floats) -> Ints:
+    """[n] samples of each of some segments [n, 4]."""
+    long_m = np.hypot(*(lines_m[:, 2:] - lines_m[:, :2]).T)
+    steps: Ints = np.maximum(1, np.ceil(long_m / SAMPLED_M)).astype(np.int64) + 1
+    return steps
 
 
 def along(lines_m: Floats, steps: Ints) -> Floats:

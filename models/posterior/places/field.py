@@ -10,7 +10,7 @@ import torch
 from torch import Tensor
 
 from models.city.gazetteer.gazetteer import WALKED, Gazetteer
-from models.city.gazetteer.raster import Raster
+from models.city.gazetteer.raster import Away, Raster
 from models.city.gazetteer.walkways import Walkways
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
 from models.city.points import Ints
@@ -32,20 +32,15 @@ TIERS: Final = (1.0, 0.7, 0.4, 0.2)  # weights on the grid are rounded to these
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rough:
-    """How far some cells are from what a mention may mean, to the grid.
+    """How far cells are from what a mention may mean, to the grid.
 
     Attributes:
-        weights: of each tier of objects.
-        metres: [N] of each tier.
+        weights: of each of T tiers of objects.
+        metres: [T, n] of so many cells.
     """
 
     weights: tuple[float, ...]
-    metres: tuple[Tensor, ...]
-
-    def at(self, cells: Ints) -> "Rough":
-        """Of some of the cells."""
-        rows = torch.from_numpy(cells)
-        return Rough(self.weights, tuple(metres[rows] for metres in self.metres))
+    metres: Tensor
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,6 +113,8 @@ class PlaceField:
     def __init__(self, kernels: PlaceKernels, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         self.kernels, self.gazetteer, self._centers_m = kernels, gazetteer, centers_m
         self.raster = Raster(gazetteer, centers_m, spacing_m)
+        self._cells_in = torch.from_numpy(self.raster.cells_in).float()
+        self._has_cells = self._cells_in > 0
         self._walkways: Walkways | None = None
         if WALKED in gazetteer.by_kind:
             self._walkways = Walkways(gazetteer, centers_m.min(axis=0), centers_m.max(axis=0))
@@ -140,15 +137,25 @@ class PlaceField:
             is_meeting: whether the place told of is not where the speaker stands.
         """
         known = tuple(m for m in mentions if len(m.objects) or len(m.lines_m))
-        total, common, kept = torch.zeros(len(self._centers_m)), [], []
+        raster, common, kept = self.raster, [], []
+        by_block, closer = torch.zeros(len(raster.cells_in)), []
         for mention in known:
-            fits = self.roughly(mention, self.rough(mention))
-            mean = fits.mean().clamp(min=LEAST)
-            if float(fits.max()) < FAINT:
+            weights, away = self._away(mention)
+            of_block = torch.from_numpy(away.block_of[away.rows])
+            far = self.roughly(mention, _rough(weights, away.blocks))
+            near = self.roughly(mention, _rough(weights, away.metres))
+            there = far * self._has_cells
+            mean = (far @ self._cells_in + (near - far[of_block]).sum()) / len(self._centers_m)
+            if max(float(there.max()), float(near.max()) if len(near) else 0.0) < FAINT:
                 continue  # none of it is near the map
             kept.append(mention)
-            common.append(mean)
-            total += self.worth(mention, fits, mean)
+            common.append(mean.clamp(min=LEAST))
+            worth = self.worth(mention, far, common[-1])
+            by_block += worth
+            closer.append((torch.from_numpy(away.rows), self.worth(mention, near, common[-1]) - worth[of_block]))
+        total = by_block[torch.from_numpy(raster.block_of)]
+        for rows, more in closer:
+            total[rows] += more
         places = Places(
             tuple(kept), torch.stack(common) if common else torch.zeros(0), listener_m, listener_wind, is_meeting
         )
@@ -217,30 +224,29 @@ class PlaceField:
         reach = MANY_REACH if len(mention.objects) > MANY else FEW_REACH
         return min(reach * scale + SLACK_M, MOST_REACH_M)
 
-    def rough(self, mention: Mention) -> Rough:
-        """How far every cell is from what a mention may mean."""
-        weights, metres = [], []
-        if len(mention.lines_m):
-            weights.append(1.0)
-            metres.append(self._metres(self.raster.metres_to_lines(mention.lines_m)))
-        if len(mention.objects):
-            tier = np.searchsorted(-np.array(TIERS[1:]), -mention.weights[: len(mention.objects)], side="left")
-            for number in np.unique(tier):
-                weights.append(TIERS[number])
-                metres.append(self._metres(self.raster.metres_to(mention.objects[tier == number])))
-        return Rough(tuple(weights), tuple(metres))
+    def rough(self, mention: Mention, cells: Ints) -> Rough:
+        """How far some cells are from what a mention may mean."""
+        weights, away = self._away(mention)
+        return _rough(weights, away.at(cells))
+
+    def _away(self, mention: Mention) -> tuple[tuple[float, ...], Away]:
+        """The weights of tiers of what a mention may mean, and how far cells are from each."""
+        tier = np.searchsorted(-np.array(TIERS[1:]), -mention.weights[: len(mention.objects)], side="left")
+        tiers = np.unique(tier).tolist()
+        groups = [mention.objects[tier == number] for number in tiers]
+        weights = tuple(TIERS[number] for number in tiers)
+        if not len(mention.lines_m):
+            return weights, self.raster.away(groups)
+        return (1.0, *weights), self.raster.away(groups, mention.lines_m)
 
     def roughly(self, mention: Mention, rough: Rough) -> Tensor:
-        """[N] the kernel at cells, without directions."""
-        some = [w * self._kernel(mention, metres) for w, metres in zip(rough.weights, rough.metres, strict=True)]
-        return torch.stack(some).amax(dim=0)
+        """[n] the kernel at cells, without directions."""
+        weights = torch.tensor(rough.weights)[:, None]
+        return (weights * self._kernel(mention, rough.metres)).amax(dim=0)
 
     def usual(self, mention: Mention, rough: Rough) -> Tensor:
         """The mean of the kernel over cells: what is near everywhere tells nothing."""
         return self.roughly(mention, rough).mean().clamp(min=LEAST)
-
-    def _metres(self, rough_m: Floats) -> Tensor:
-        return torch.from_numpy(np.minimum(np.maximum(rough_m - ROUGH_M, 0.0), 1e6)).float()
 
     def fits(self, mention: Mention, ways: Ways, points: int) -> Tensor:
         """[M, 1] or [M, HEADINGS] the kernel of the best thing that may be meant, at so many positions."""
@@ -309,3 +315,7 @@ class PlaceField:
         metres = torch.from_numpy(np.hypot(*way.T)).float()
         bearing = torch.from_numpy(np.arctan2(way[:, 0], way[:, 1])).float()
         return self.kernels.toward(self.kernels.listener, bearing - radians(places.listener_wind), metres).log()
+
+
+def _rough(weights: tuple[float, ...], metres: Floats) -> Rough:
+    return Rough(weights, torch.from_numpy(np.minimum(np.maximum(metres - ROUGH_M, 0.0), 1e6)).float())

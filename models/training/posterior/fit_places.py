@@ -171,7 +171,7 @@ def _case(
         places=found.places,
         points_m=points,
         ways=[field.ways_from(mention, around) for mention in found.places.mentions],
-        rough=[field.rough(mention).at(sample) for mention in found.places.mentions],
+        rough=[field.rough(mention, sample) for mention in found.places.mentions],
         log_prior=torch.from_numpy(_log_prior(points, listener_m)).float(),
         walked=field.walked(found.places, points),
         blur=torch.from_numpy(-away / (2 * BLUR_M**2)).float(),

@@ -3,7 +3,7 @@ import pytest
 import shapely
 
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, Words, build_gazetteer
-from models.city.gazetteer.raster import MARGIN_M, Raster
+from models.city.gazetteer.raster import BLOCK, MARGIN_M, NEAR_M, Raster
 from tests.models.city.gazetteer.made_town import MARKET, PARK, line, made_gazetteer, numbered, point
 
 GRID_M = 10.0
@@ -18,6 +18,18 @@ def town():
 @pytest.fixture(scope="module")
 def raster(town):
     return Raster(town, CENTERS, GRID_M)
+
+
+def away(raster: Raster, objects: np.ndarray) -> np.ndarray:
+    """[N] metres from all cells to the nearest of some objects."""
+    [found] = raster.away([objects]).at(np.arange(len(raster.block_of)))
+    return np.asarray(found)
+
+
+def lines_away(raster: Raster, lines_m: np.ndarray) -> np.ndarray:
+    """The same for lines."""
+    [found] = raster.away([], lines_m).at(np.arange(len(raster.block_of)))
+    return np.asarray(found)
 
 
 def metres(shape: shapely.Geometry) -> np.ndarray:
@@ -35,20 +47,41 @@ def metres(shape: shapely.Geometry) -> np.ndarray:
     ],
 )
 def test_metres_are_true_to_the_grid(town, raster, name, shape) -> None:
-    found = raster.metres_to(np.array([numbered(town, name)]))
-    assert np.abs(found - metres(shape)).max() <= GRID_M
+    found, truth = away(raster, np.array([numbered(town, name)])), metres(shape)
+    near = truth <= NEAR_M - GRID_M
+    assert np.abs(found - truth)[near].max(initial=0.0) <= GRID_M
+    assert np.abs(found - truth).max() <= np.sqrt(2) * BLOCK * GRID_M, "by block"
+    assert (found[~near] > NEAR_M - 2 * GRID_M).all()
+
+
+def test_few_cells_are_looked_at_one_by_one_and_those_that_are_lie_near() -> None:
+    """In a town of many kilometres, where some of what is meant lies far apart."""
+    rng = np.random.default_rng(1)
+    centers = np.stack(np.meshgrid(np.arange(0, 4000, GRID_M), np.arange(0, 2000, GRID_M)), axis=-1).reshape(-1, 2)
+    places = rng.uniform((0, 0), (4000, 2000), (6, 2))
+    words, lines = [Words(("x",))] * 6, [point(*place) for place in places]
+    raster = Raster(build_gazetteer(words, lines, [False] * 6), centers, GRID_M)
+    one, other = np.array([0, 1, 2]), np.array([3, 4, 5])
+    found = raster.away([one, other])
+    assert len(found.rows) == len(np.unique(found.rows)) < 0.35 * len(centers)
+    for group, metres_m in zip((one, other), found.at(np.arange(len(centers))), strict=True):
+        truth = np.linalg.norm(centers[:, None] - places[group], axis=2).min(axis=1)
+        near = truth <= NEAR_M - GRID_M
+        assert np.isin(np.flatnonzero(near), found.rows).all()
+        assert np.abs(metres_m - truth)[near].max() <= GRID_M
+        assert np.abs(metres_m - truth).max() <= np.sqrt(2) * BLOCK * GRID_M
 
 
 def test_the_nearest_of_several_counts(town, raster) -> None:
     objects = np.array([numbered(town, "Bottino"), numbered(town, "Elmo")])
-    each = [raster.metres_to(objects[n : n + 1]) for n in range(2)]
-    assert (raster.metres_to(objects) == np.minimum(*each)).all()
+    each = [away(raster, objects[n : n + 1]) for n in range(2)]
+    assert (away(raster, objects) == np.minimum(*each)).all()
 
 
 def test_lines_that_are_no_objects(raster) -> None:
     lines = np.concatenate([line((33, 7), (210, 160)), point(400, 5)])
     truth = np.minimum(metres(shapely.LineString([(33, 7), (210, 160)])), metres(shapely.Point(400, 5)))
-    assert np.abs(raster.metres_to_lines(lines) - truth).max() <= GRID_M
+    assert np.abs(lines_away(raster, lines) - truth).max() <= GRID_M
 
 
 def test_the_hole_of_an_area_is_not_in_it() -> None:
@@ -60,7 +93,7 @@ def test_the_hole_of_an_area_is_not_in_it() -> None:
     )
     courtyard = build_gazetteer([Words(("x",))], [holed], [True])
     centers = np.array([(100.0, 100.0), (25.0, 100.0)])
-    middle, inside = Raster(courtyard, centers, 5.0).metres_to(np.array([0]))
+    middle, inside = away(Raster(courtyard, centers, 5.0), np.array([0]))
     assert middle == pytest.approx(50, abs=5)
     assert inside <= 10
 
@@ -68,19 +101,21 @@ def test_the_hole_of_an_area_is_not_in_it() -> None:
 def test_what_is_off_the_grid_is_infinitely_far() -> None:
     far = build_gazetteer([Words(("x",))] * 2, [point(9000, 0), point(445 + MARGIN_M / 2, 0)], [False] * 2)
     raster = Raster(far, CENTERS, GRID_M)
-    assert np.isinf(raster.metres_to(np.array([0]))).all()
-    assert raster.metres_to(np.array([1])).min() == pytest.approx(MARGIN_M / 2, abs=GRID_M), "in the margin"
-    assert np.isinf(raster.metres_to_lines(point(9000, 0))).all()
+    assert np.isinf(away(raster, np.array([0]))).all()
+    assert away(raster, np.array([1])).min() == pytest.approx(MARGIN_M / 2, abs=GRID_M), "in the margin"
+    assert np.isinf(lines_away(raster, point(9000, 0))).all()
 
 
 def test_a_map_where_nothing_is_named() -> None:
     raster = Raster(NOTHING_NAMED, CENTERS, GRID_M)
-    assert raster.metres_to_lines(point(0, 0)).shape == (len(CENTERS),)
+    assert lines_away(raster, point(0, 0)).shape == (len(CENTERS),)
 
 
 def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
-    monkeypatch.setattr("models.city.gazetteer.raster.KEPT_BYTES", 2 * 4 * len(CENTERS))
     raster = Raster(town, CENTERS, GRID_M)
-    first = [raster.metres_to(np.array([n])).copy() for n in range(5)]
-    assert len(raster._lately) == 2, "no more than was allowed"
-    assert all((raster.metres_to(np.array([n])) == was).all() for n, was in enumerate(first))
+    most = 5 * max(raster.away([np.array([n])]).nbytes for n in range(5)) // 2
+    monkeypatch.setattr("models.city.gazetteer.raster.KEPT_BYTES", most)
+    first = [away(raster, np.array([n])).copy() for n in range(5)]
+    assert 2 <= len(raster._lately) < 5
+    assert sum(kept.nbytes for kept in raster._lately.values()) <= most, "no more than was allowed"
+    assert all((away(raster, np.array([n])) == was).all() for n, was in enumerate(first))
