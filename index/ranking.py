@@ -53,14 +53,9 @@ class Ranker:
         vectors, table = encode_gallery(retriever, features)
         return cls(retriever, FaissStore.of(vectors), table, depth)
 
-    def save_levels(self, directory: Path) -> None:
-        """Write the levels other than the global one, if there are any; the store keeps that."""
-        if not self.table.is_empty:
-            self.table.save(directory)
-
     @classmethod
     def load(cls, retriever: Retriever, directory: Path, store: VectorStore) -> "Ranker":
-        """Read what `save_levels` wrote.
+        """Read the levels other than the global one, if there are any; the store keeps that.
 
         Args:
             retriever: the model that made it; its levels are read.

@@ -7,6 +7,7 @@ HereaboutsError
 ├── ReplyError           an answer to a question that the service did not ask
 ├── WeightsError         weights that are missing, broken or of another model
 ├── StoreUnavailable     a store of vectors elsewhere that does not answer, or cannot be asked
+├── ClusterUnavailable   a cluster of machines that does not answer, or cannot be asked
 ├── TrainingError        settings that cannot be trained with, or a run directory of another run
 └── IndexUnusable         an index directory that cannot be served
     ├── IndexBroken      missing, cut short or changed after it was written
@@ -54,6 +55,10 @@ class WeightsError(HereaboutsError):
 
 class StoreUnavailable(HereaboutsError):
     """A store of vectors outside the index directory that does not answer; it may the next time."""
+
+
+class ClusterUnavailable(HereaboutsError):
+    """A cluster that does not answer, cannot be asked, or lost what it was asked for; it may have it the next time."""
 
 
 class TrainingError(HereaboutsError):

@@ -2,6 +2,7 @@
 
 import fcntl
 import hashlib
+import json
 import os
 import secrets
 import shutil
@@ -133,6 +134,16 @@ def sha256(path: Path) -> str:
 def file_records(directory: Path) -> dict[str, FileRecord]:
     """Sizes and sums of the files of a directory, by name in order."""
     return {p.name: FileRecord(sha256=sha256(p), bytes=p.stat().st_size) for p in sorted(directory.iterdir())}
+
+
+def in_order(blob: bytes) -> bytes:
+    """A safetensors file with its metadata in order of their names: else it is another in each process."""
+    size = int.from_bytes(blob[:8], "little")
+    header = json.loads(blob[8 : 8 + size])
+    header["__metadata__"] = dict(sorted(header["__metadata__"].items()))
+    text = json.dumps(header, ensure_ascii=False, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 8)  # so that tensors stay aligned
+    return len(text).to_bytes(8, "little") + text + blob[8 + size :]
 
 
 def cache_directory() -> Path:

@@ -24,9 +24,13 @@ SERVICES = yaml.safe_load((ROOT.parent / "docker-compose.yml").read_text())["ser
 COMPOSE = {"base": ("index", "api"), "milvus": ("index-milvus", "api-milvus")}
 OLDEST, NEWEST = "1.27", "1.37"  # releases whose schemas are asked
 OF_MILVUS = {variable.removeprefix("HEREABOUTS_").lower() for variable in (URI, TOKEN)}  # read where they are used
+MADE = {("job", "hereabouts-index-3")}  # of a CronJob, by a command on the page
 PROBES = ("startupProbe", "livenessProbe", "readinessProbe")
-MAPS = yaml.safe_load((ROOT / "maps.yaml").read_text())
-ALL = [*((layer, document) for layer in LAYERS for document in built(layer)), ("maps", MAPS)]
+BESIDE = {name: list(yaml.safe_load_all((ROOT / name).read_text())) for name in ("maps.yaml", "shards.yaml")}
+ALL = [
+    *((layer, document) for layer in LAYERS for document in built(layer)),
+    *((name.removesuffix(".yaml"), document) for name, documents in BESIDE.items() for document in documents),
+]
 IDS = [f"{layer}-{document['kind']}-{name(document)}" for layer, document in ALL]
 
 
@@ -58,7 +62,7 @@ def test_every_file_is_used(layer) -> None:
     used = [*said["resources"], *(patch["path"] for patch in said.get("patches", ()))]
     files = [path.name for path in (ROOT / layer).iterdir() if path.name != "kustomization.yaml"]
     assert sorted(each for each in used if not each.startswith("../")) == sorted(files)
-    assert {path.name for path in ROOT.iterdir()} == {*LAYERS, "maps.yaml"}
+    assert {path.name for path in ROOT.iterdir()} == {*LAYERS, *BESIDE}
 
 
 @pytest.mark.parametrize("layer", LAYERS)
@@ -128,6 +132,34 @@ def test_an_index_is_built_as_with_compose(layer) -> None:
     assert len(args) == len(composed)
     assert {ours for ours, theirs in zip(args, composed, strict=True) if ours != theirs} == {"/maps/town.osm.pbf"}
     assert "args" not in api(layer), "the image's own"
+
+
+def test_shards_are_shared_out_and_then_merged() -> None:
+    shards, merge = (one(BESIDE["shards.yaml"], "Job", f"hereabouts-{called}") for called in ("shards", "merge"))
+    count = shards["spec"]["completions"]
+    assert (shards["spec"]["completionMode"], merge["spec"]["suspend"]) == ("Indexed", True)
+    [sharing], [merging] = containers([shards]), containers([merge])
+    ours = indexer("base")
+    plain = [word for word in ours["args"] if word != "--keep-current"]
+    assert merging["args"] == [*plain, "--merge", str(count)]
+    made = [
+        subprocess.run(
+            [*sharing["command"], sharing["args"][0].replace("exec ", "echo ")],
+            env={"JOB_COMPLETION_INDEX": str(number)},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.split()
+        for number in range(count)
+    ]
+    assert made == [[*plain, "--shard", f"{number}/{count}"] for number in range(1, count + 1)]
+    pods = pods_of(one(built("base"), "CronJob", "hereabouts-index"))["spec"]
+    for each in (shards, merge):
+        [container] = containers([each])
+        for name_of in ("resources", "securityContext", "volumeMounts"):
+            assert container[name_of] == ours[name_of]
+        others = {key: value for key, value in pods_of(each)["spec"].items() if key != "containers"}
+        assert others == {key: value for key, value in pods.items() if key != "containers"}
 
 
 @pytest.mark.parametrize("layer", LAYERS)
@@ -224,9 +256,9 @@ def test_the_page_names_what_is_there() -> None:
     told = {re.sub("_(total|bucket|count)$", "", word) for word in re.findall(r"\bhereabouts_\w+", text)}
     assert told == {family for family in families if not family.endswith("_created")}
     there = {(document["kind"].lower(), name(document)) for _, document in ALL}
-    named = set(re.findall(r"\b(cronjob|deployment)/([\w-]+)", text))
+    named = set(re.findall(r"\b(cronjob|deployment|job)/([\w-]+)", text)) - MADE
     assert named
     assert named <= there
-    assert set(re.findall(r"docker/kubernetes/([\w.]+)", text)) == {*LAYERS, "maps.yaml"}
+    assert set(re.findall(r"docker/kubernetes/([\w.]+)", text)) == {*LAYERS, *BESIDE}
     fields = {field.upper() for field in set(Settings.model_fields) | OF_MILVUS}
     assert set(re.findall(r"HEREABOUTS_(\w+)", text)) <= fields

@@ -103,6 +103,7 @@ ONLY_IN = {
     "faiss": "index/stores",
     "pymilvus": "index/stores",
     "grpc": "index/stores",
+    "ray": "index/on_ray.py",
     "fastapi": "app",
     "starlette": "app",
     "uvicorn": "app",

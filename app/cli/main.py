@@ -19,7 +19,9 @@ from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
+from app.cli.shares import check_shares, parse_shard, share_out
 from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
+from index.shard import MOST_SHARDS, Shard
 from models.errors import HereaboutsError
 
 if TYPE_CHECKING:
@@ -80,19 +82,44 @@ def index(
         str | None,
         typer.Option(help="a part of an OpenStreetMap file: west,south,east,north in degrees, or a GeoJSON file"),
     ] = None,
+    shard: Annotated[
+        Shard | None,
+        typer.Option(parser=parse_shard, metavar="I/N", help="do the heavy work of this one of N shares, for --merge"),
+    ] = None,
+    merge: Annotated[
+        int | None, typer.Option(min=1, max=MOST_SHARDS, metavar="N", help="make the index of what N shards have done")
+    ] = None,
+    engine: Annotated[
+        Literal["ray"] | None,
+        typer.Option(help="have a Ray cluster do the shards, --merge of them or one a CPU, and merge them"),
+    ] = None,
+    address: Annotated[
+        str | None, typer.Option(help="of the Ray cluster; this machine's own if it is left out")
+    ] = None,
 ) -> None:
     """Build an index of a map."""
+    check_shares(shard, merge, engine, address, keep_current)
+
     from app.cli.progress import stage_bars
     from app.settings import load_settings
-    from index.build import build_index
     from models.city.osm.extract import Region
 
     region = None if within is None else Region.parse(within)
+    given = map_path, out, load_settings().weights_dir, split, keep_current, levels
     with stage_bars() as show:
-        version_dir = build_index(
-            map_path, out, load_settings().weights_dir, split, keep_current, levels, show, store, region
-        )
-    typer.echo(f"index {version_dir.name} is in {version_dir}; serve it with: hereabouts serve --index {out}")
+        if shard or merge or engine:
+            from index.build import IndexJob
+
+            path = share_out(IndexJob(*given, store, region), shard, merge, engine, address, show)
+        else:
+            from index.build import build_index
+
+            path = build_index(*given, show, store, region)
+    if shard:
+        rest = f"once all {shard.count} are there, give --merge {shard.count} in the place of --shard {shard}"
+        typer.echo(f"shard {shard} is in {path}; {rest}")
+    else:
+        typer.echo(f"index {path.name} is in {path}; serve it with: hereabouts serve --index {out}")
 
 
 @app.command()

@@ -7,7 +7,7 @@ One function cuts both the cells of the grid and the cell around a pose from whi
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,7 @@ from models.city.processes import map_forked
 from models.city.types import CutRules, Floats
 
 CHUNK = 128  # cubes a task
+BLOCK: Final = 1024  # cells that are encoded or tabulated together: their bits depend on no cell of another block
 
 
 @dataclass(frozen=True, slots=True, eq=False)

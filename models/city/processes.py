@@ -5,6 +5,7 @@ import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 Task = TypeVar("Task")
@@ -13,6 +14,18 @@ Result = TypeVar("Result")
 FEW = 4  # tasks that are done at once in this process
 
 _work: Callable[[Any], Any] | None = None  # what forked workers inherit, set before they start
+_alone = False
+
+
+@contextmanager
+def one_process() -> Iterator[None]:
+    """Have all work done in this process: it has threads, of which a fork knows nothing, or its neighbours the CPUs."""
+    global _alone  # noqa: PLW0603  # deep below who knows of it
+    before, _alone = _alone, True
+    try:
+        yield
+    finally:
+        _alone = before
 
 
 def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterator[Result]:
@@ -23,7 +36,7 @@ def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterato
         tasks: what it is called with; few of them are done without other processes.
     """
     global _work  # noqa: PLW0603  # forked workers inherit it; an argument would be copied a task
-    if len(tasks) < FEW:
+    if _alone or len(tasks) < FEW:
         yield from map(work, tasks)
         return
     _work = work

@@ -1,5 +1,6 @@
 """The inverted list over statements: which cells a text may be about, of all cells of a map."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -7,15 +8,17 @@ from typing import Final
 import numpy as np
 import torch
 from safetensors import SafetensorError, safe_open
-from safetensors.numpy import save_file
+from safetensors.numpy import save
 from scipy.sparse import coo_array, csc_array, csr_array, vstack
 from torch import Tensor
 
+from models.city.cells import BLOCK
 from models.city.hints import ON_TOP_M
 from models.city.points import Ints
 from models.city.processes import map_forked
 from models.city.types import Floats
 from models.errors import IndexBroken
+from models.files import in_order
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.posterior.surroundings.around import STEP_M
@@ -25,7 +28,6 @@ FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"
 FLOOR: Final = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
 FAINT: Final = 1e-4  # what no hint says
-BLOCK: Final = 1024  # cells at once
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,43 +54,23 @@ class Statements:
     def of(
         cls, likelihood: Likelihood, surroundings: Surroundings, label: Tensor, rgb: Tensor, words: Tensor
     ) -> "Statements":
-        """Those of a gallery; in several processes when there is much to do.
+        """Those of a gallery; arguments as `statement_rows`."""
+        return cls.joined([statement_rows(likelihood, surroundings, label, rgb, words)], words.shape[1])
+
+    @classmethod
+    def joined(cls, rows: Sequence[csr_array], words: int) -> "Statements":
+        """Those of a gallery that was tabulated in parts.
 
         Args:
-            likelihood: says how much of what is around a node is told of.
-            surroundings: of the gallery.
-            label: [P] of each thing.
-            rgb: [P, 3] colour of each, NaN where unknown.
-            words: [P, W] chance of each colour word.
+            rows: of `statement_rows`, part by part, at least one.
+            words: how many colour words there are.
         """
-        unknown, count = rgb.isnan().any(dim=1), words.shape[1] + 1
-        pair = (label * count + torch.where(unknown, count - 1, words.argmax(dim=1))).numpy()
-        columns = (int(pair.max(initial=-1)) + 1) * SECTORS
-        starts = surroundings.cell_starts
-
-        def tabulated(first: int) -> csr_array:
-            """Cells from one on."""
-            last = min(first + BLOCK, len(starts) - 1)
-            size = np.diff(starts[first : last + 1])
-            batch = NodeBatch.of(
-                around := surroundings.around(np.arange(starts[first], starts[last])), int(size.sum()), label, rgb
-            )
-            with torch.inference_mode():
-                share = likelihood.share_of(batch, likelihood.log_pi()).mean(dim=1)
-            cell = np.repeat(np.arange(last - first), size)[around.node]
-            said = pair[around.part] * SECTORS + _SECTOR_OF_WAY[batch.way.numpy()]
-            value = share.numpy() / np.maximum(1, size)[cell]
-            return coo_array((value, (cell, said)), (last - first, columns)).tocsr()
-
-        found = list(map_forked(tabulated, range(0, len(starts) - 1, BLOCK)))
-        holds = vstack(found, format="csc") if found else csc_array((0, columns))
+        holds = vstack(rows, format="csc")
         number = np.flatnonzero(np.diff(holds.indptr))  # of what holds anywhere: some thousands
-        return cls._of(holds[:, number], number, count - 1)
+        return cls._of(holds[:, number], number, words)
 
     @classmethod
     def _of(cls, holds: csc_array, number: Ints, words: int) -> "Statements":
-        holds = holds.astype(np.float32)
-        holds.data = holds.data.astype(np.float16).astype(np.float32)
         said = torch.from_numpy(number)
         pair = said // SECTORS
         return cls(holds, number, pair // (words + 1), pair % (words + 1), said % SECTORS, words)
@@ -102,7 +84,7 @@ class Statements:
             "number": self.number,
         }
         facts = {"cells": str(self.holds.shape[0]), "words": str(self.words), "model": fingerprint}
-        save_file(columns, directory / FILE, facts)
+        (directory / FILE).write_bytes(in_order(save(columns, facts)))
 
     @classmethod
     def load(cls, directory: Path, fingerprint: str) -> "Statements | None":
@@ -138,6 +120,50 @@ class Statements:
         holds = self.holds[:, columns] @ weight.index_select(1, told).T.numpy()
         scores: Floats = np.log(holds + FLOOR) @ (1 - reading.absent.numpy())
         return scores
+
+
+def statement_rows(
+    likelihood: Likelihood, surroundings: Surroundings, label: Tensor, rgb: Tensor, words: Tensor
+) -> csr_array:
+    """[C, S] how much of each cell's nodes every possible statement holds at, half precision in float32.
+
+    In several processes when there is much to do. A row depends on no cell of another block.
+
+    Args:
+        likelihood: says how much of what is around a node is told of.
+        surroundings: of C cells.
+        label: [P] of each thing.
+        rgb: [P, 3] colour of each, NaN where unknown.
+        words: [P, W] chance of each colour word.
+    """
+    unknown, count = rgb.isnan().any(dim=1), words.shape[1] + 1
+    pair = (label * count + torch.where(unknown, count - 1, words.argmax(dim=1))).numpy()
+    columns = (int(pair.max(initial=-1)) + 1) * SECTORS
+    starts = surroundings.cell_starts
+
+    def tabulated(first: int) -> csr_array:
+        """Cells from one on."""
+        last = min(first + BLOCK, len(starts) - 1)
+        size = np.diff(starts[first : last + 1])
+        batch = NodeBatch.of(
+            around := surroundings.around(np.arange(starts[first], starts[last])), int(size.sum()), label, rgb
+        )
+        with torch.inference_mode():
+            share = likelihood.share_of(batch, likelihood.log_pi()).mean(dim=1)
+        cell = np.repeat(np.arange(last - first), size)[around.node]
+        said = pair[around.part] * SECTORS + _SECTOR_OF_WAY[batch.way.numpy()]
+        value = share.numpy() / np.maximum(1, size)[cell]
+        return _rounded(coo_array((value, (cell, said)), (last - first, columns)).tocsr())
+
+    found = list(map_forked(tabulated, range(0, len(starts) - 1, BLOCK)))
+    return vstack(found, format="csr") if found else csr_array((0, columns), dtype=np.float32)
+
+
+def _rounded(holds: csr_array) -> csr_array:
+    """The same in float32, to half precision."""
+    holds = holds.astype(np.float32)
+    holds.data = holds.data.astype(np.float16).astype(np.float32)
+    return holds
 
 
 def _sectors_of_ways() -> Ints:

@@ -2,7 +2,7 @@
 
 import hashlib
 import logging
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any, Literal
@@ -12,7 +12,7 @@ import numpy.typing as npt
 import torch
 from torch import Tensor, nn
 
-from models.city.cells import CellTable
+from models.city.cells import BLOCK, CellTable
 from models.city.point_sample import Sampler
 from models.city.points import Ints, ranges
 from models.errors import WeightsError
@@ -33,7 +33,7 @@ BRANCHES: dict[str, tuple[Input, ...]] = {
 OURS: tuple[Input, ...] = ("position", "closest", "size", "count", "colour", "label")
 PAPERS: tuple[Input, ...] = ("points", "colour", "position", "count")
 _log = logging.getLogger(__name__)
-_FORMAT = 1  # of what is kept of points; counted up when samples or what is made of them change
+_FORMAT = 2  # of what is kept of points; counted up when samples or what is made of them change
 KEYED_BY = 8  # cells whose points name what is kept
 SEEN_AT_ONCE = 512  # instances whose points are looked at together, about
 
@@ -95,7 +95,7 @@ class CellFeatures:
         Raises:
             WeightsError: there is an encoder, and the instances' points are not at hand.
         """
-        if encoder is None:
+        if encoder is None or not len(self):
             return self
         path = cache_directory() / "points" / f"{self._key(encoder)}.npy"
         try:
@@ -112,11 +112,17 @@ class CellFeatures:
     def _look(self, encoder: PointEncoder) -> npt.NDArray[Any]:
         """[R, S] what an encoder makes of all instances."""
         device = next(encoder.parameters()).device
-        ends = np.searchsorted(self.starts, np.arange(SEEN_AT_ONCE, self.starts[-1], SEEN_AT_ONCE))
-        groups = np.split(np.arange(len(self)), np.unique(ends))
         with torch.inference_mode():
-            parts = [encoder(self.points(cells).to(device)).cpu().numpy() for cells in groups if len(cells)]
+            parts = [encoder(self.points(cells).to(device)).cpu().numpy() for cells in self._groups()]
         return np.concatenate(parts)
+
+    def _groups(self) -> Iterator[Ints]:
+        """Cells that are looked at together; none has cells of two blocks (see `Retriever.encode_cells`)."""
+        for first in range(0, len(self), BLOCK):
+            rows = np.arange(first, min(first + BLOCK, len(self)))
+            begin, end = self.starts[rows[0]], self.starts[rows[-1] + 1]
+            ends = np.searchsorted(self.starts[rows], np.arange(begin + SEEN_AT_ONCE, end, SEEN_AT_ONCE))
+            yield from (group for group in np.split(rows, np.unique(ends)) if len(group))
 
     def _key(self, encoder: PointEncoder) -> str:
         """sha256 of the encoder, of points of some cells, and of what is known of all instances beside their points."""
@@ -142,6 +148,18 @@ class CellFeatures:
 
     def __len__(self) -> int:
         return len(self.starts) - 1
+
+    def between(self, first: int, last: int) -> "CellFeatures":
+        """Those of the cells first to last - 1, with the labels of all."""
+        rows, sample = slice(self.starts[first], self.starts[last]), self.sample
+        return replace(
+            self,
+            starts=self.starts[first : last + 1] - self.starts[first],
+            geometry=self.geometry[rows],
+            label=self.label[rows],
+            sample=sample and (lambda cells: sample(cells + first)),
+            shape=self.shape[rows],
+        )
 
     def batch(self, cells: npt.NDArray[Any]) -> "CellBatch":
         """Some cells, padded to the largest of them."""

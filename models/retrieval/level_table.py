@@ -45,6 +45,15 @@ class LevelTable:
         starts = np.concatenate([[0], np.cumsum(end - begin)])
         return LevelTable(starts, {level: table[rows] for level, table in self.vectors.items()})
 
+    @classmethod
+    def joined(cls, tables: Sequence["LevelTable"]) -> "LevelTable":
+        """The table of some galleries, one after the other; at least one."""
+        if tables[0].is_empty:
+            return NO_LEVELS
+        sizes = np.concatenate([np.diff(table.starts) for table in tables])
+        vectors = {n: np.concatenate([table.vectors[n] for table in tables]) for n in tables[0].vectors}
+        return cls(np.concatenate([[0], np.cumsum(sizes)]), vectors)
+
     @property
     def bytes_a_cell(self) -> float:
         """What the levels cost on disk, on average."""

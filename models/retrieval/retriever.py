@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor
 from torch.nn.utils.rnn import pad_sequence
 
+from models.city.cells import BLOCK
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
 from models.retrieval.instance_encoder import OURS, CellBatch, CellFeatures, Input
@@ -181,12 +182,17 @@ class Retriever(OnTextEncoder):
 
     @torch.inference_mode()
     def encode_cells(self, cells: CellFeatures) -> Iterator[tuple[npt.NDArray[np.intp], Levels]]:
-        """The cells of a gallery (`seen`) at all levels, in batches of about equal size: the rows of each, and it."""
+        """The cells of a gallery (`seen`) at all levels, in batches of about equal size: the rows of each, and it.
+
+        No batch has cells of two blocks, so that a gallery that is cut at blocks gives the bits of the whole one.
+        """
         label_embeddings = self.text_encoder.embed(cells.labels)
-        order = np.argsort(np.diff(cells.starts), kind="stable")
-        for start in range(0, len(order), ENCODE_BATCH):
-            rows = order[start : start + ENCODE_BATCH]
-            yield rows, self.look(cells.batch(rows).to(label_embeddings.device), label_embeddings)
+        sizes = np.diff(cells.starts)
+        for first in range(0, len(sizes), BLOCK):
+            order = first + np.argsort(sizes[first : first + BLOCK], kind="stable")
+            for start in range(0, len(order), ENCODE_BATCH):
+                rows = order[start : start + ENCODE_BATCH]
+                yield rows, self.look(cells.batch(rows).to(label_embeddings.device), label_embeddings)
 
     def remember(self, sentences: Sequence[str], features: Vectors) -> None:
         """Take up features [S, D] of sentences that were read before, so that they are not read again."""

@@ -73,7 +73,7 @@ def test_without_weights_z_scores_are_added(mncl, cells, labels) -> None:
 
 def test_saved_and_loaded_ranks_the_same(weighted, cells, labels, tmp_path) -> None:
     ranker = Ranker.of(weighted, cells, labels)
-    ranker.save_levels(tmp_path)
+    ranker.table.save(tmp_path)
     again, texts = Ranker.load(weighted, tmp_path, ranker.store), weighted.encode_texts(TEXTS)
     assert again.rank(texts, 10)[0] == pytest.approx(ranker.rank(texts, 10)[0], abs=2e-3)
     lean = Ranker.load(weighted.global_alone(), tmp_path, ranker.store)

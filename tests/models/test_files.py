@@ -1,12 +1,15 @@
 import fcntl
 import hashlib
+import json
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
+from safetensors.numpy import load, save
 
-from models.files import BUILDING, file_records, new_directory, remove_abandoned, replace_file, replacing
+from models.files import BUILDING, file_records, in_order, new_directory, remove_abandoned, replace_file, replacing
 
 
 def mode(path):
@@ -126,3 +129,15 @@ def test_what_is_taken_for_abandoned_before_it_was_locked_is_begun_again(tmp_pat
         pass
     assert len(calls) == 2
     assert [path.name for path in tmp_path.iterdir()] == ["a"]
+
+
+def test_metadata_of_a_safetensors_file_is_in_order_and_the_rest_as_it_was() -> None:
+    tensors, told = {"a": np.arange(7, dtype=np.int16), "b": np.ones((2, 3))}, {"ä": "1", "z": "2", "b": '"3"'}
+    blobs = {in_order(save(tensors, dict(items))) for items in (told.items(), reversed(told.items()), told.items())}
+    [blob] = blobs
+    size = int.from_bytes(blob[:8], "little")
+    assert list(json.loads(blob[8 : 8 + size])["__metadata__"]) == ["b", "z", "ä"]
+    assert size % 8 == 0
+    for name, tensor in load(blob).items():
+        assert (tensor == tensors[name]).all()
+        assert tensor.dtype == tensors[name].dtype

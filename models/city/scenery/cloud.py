@@ -1,12 +1,14 @@
 """A map as coloured points, in an order in which any first part of them shows all of it."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from safetensors.numpy import save
 
 from models.city.types import Floats
+from models.files import in_order
 
 POINTS_A_PART = 200_000
 UNITS_A_METRE = 10
@@ -27,10 +29,8 @@ def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[bytes]:
         rows = order[start : start + POINTS_A_PART]
         xyz = np.rint(xyz_m[rows] * UNITS_A_METRE).astype(np.int32)
         by_place = np.lexsort(xyz.T)
-        yield save(
-            {
-                "steps": np.diff(xyz[by_place], axis=0, prepend=np.zeros((1, 3), np.int32)).astype(np.int32),
-                "rgb": np.ascontiguousarray(rgb[rows][by_place]),
-            },
-            {"kind": "points", "of": str(len(order))},
-        )
+        tensors: dict[str, npt.NDArray[Any]] = {
+            "steps": np.diff(xyz[by_place], axis=0, prepend=np.zeros((1, 3), np.int32)).astype(np.int32),
+            "rgb": np.ascontiguousarray(rgb[rows][by_place]),
+        }
+        yield in_order(save(tensors, {"kind": "points", "of": str(len(order))}))

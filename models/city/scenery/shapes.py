@@ -11,6 +11,7 @@ import shapely
 from safetensors.numpy import save
 
 from models.city.types import Floats, MapShape
+from models.files import in_order
 
 UNITS_A_METRE: Final = 10  # what is sent is in decimetres
 SIMPLER_M: Final = 0.3  # how far an outline may be from the one that is mapped
@@ -70,7 +71,7 @@ def encode_shapes(shapes: Sequence[MapShape], places: Sequence[Place] = ()) -> b
         "hole": hole.astype(np.uint8),
         "steps": np.diff(whole, axis=0, prepend=np.zeros((1, 2), np.int32)).astype(np.int32),
     }
-    return save(tensors, {"kind": "shapes", **_words(shapes, order, places)})
+    return in_order(save(tensors, {"kind": "shapes", **_words(shapes, order, places)}))
 
 
 def _words(shapes: Sequence[MapShape], order: Sequence[str], places: Sequence[Place]) -> dict[str, str]:

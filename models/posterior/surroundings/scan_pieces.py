@@ -46,8 +46,8 @@ class Tiles:
     def of(cls, nodes_m: Floats, owner: Ints, cells: CellTable) -> "Tiles":
         """Tiles of nodes [M, 2] that are owned by some cells [M]."""
         square = np.floor((nodes_m - cells.center_m[owner, :2]) / TILE_M).astype(np.int64)
-        square -= square.min(axis=0)
-        span = square.max(axis=0) + 1
+        square -= square.min(axis=0, initial=0)
+        span = square.max(axis=0, initial=0) + 1
         known, of_node = np.unique((owner * span[0] + square[:, 0]) * span[1] + square[:, 1], return_inverse=True)
         count = np.bincount(of_node)[:, None]
         center = np.column_stack([np.bincount(of_node, weights=axis) for axis in nodes_m.T]) / count

@@ -1,5 +1,6 @@
 """What lies around every position of a scan, as a table, for it takes minutes to measure."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
@@ -22,6 +23,7 @@ from models.posterior.surroundings.things import Things
 
 FILE: Final = "surroundings.safetensors"
 COLUMNS: Final = ("cell_starts", "nodes_m", "starts", "part", "way", "whole")
+OF_ROWS: Final = ("nodes_m", "part", "way", "whole")
 CHUNK: Final = 64  # instances a task
 
 
@@ -48,16 +50,21 @@ class ScanSurroundings:
     whole: npt.NDArray[np.bool_]
 
     @classmethod
-    def of(cls, bodies: Clouds, cells: CellTable, progress: Progress | None = None) -> "ScanSurroundings":
+    def of(
+        cls, bodies: Clouds, cells: CellTable, progress: Progress | None = None, rows: range | None = None
+    ) -> "ScanSurroundings":
         """Measure a gallery's surroundings; in several processes when there is much to do.
 
         Args:
             bodies: what stands in the map.
             cells: the gallery.
             progress: called with instances done and to do.
+            rows: the cells that are wanted, one after the other; None for all.
         """
-        scene = np.unique(cells.scenes, return_inverse=True)[1]
+        scene, rows = np.unique(cells.scenes, return_inverse=True)[1], range(len(cells)) if rows is None else rows
         nodes, owner = grid(cells)
+        wanted = (owner >= rows.start) & (owner < rows.stop)
+        nodes, owner = nodes[wanted], owner[wanted]
         tasks = len(bodies.scene)
         chunks = [np.arange(i, min(i + CHUNK, tasks)) for i in range(0, tasks, CHUNK)]
         found, done = [], 0
@@ -75,13 +82,22 @@ class ScanSurroundings:
         order = np.lexsort(((way.astype(np.int32) ** 2).sum(axis=1), ~whole, node))
         return cls(
             things=Things.of_parts(cells.parts),
-            cell_starts=np.searchsorted(owner, np.arange(len(cells) + 1)),
+            cell_starts=np.searchsorted(owner, np.arange(rows.start, rows.stop + 1)),
             nodes_m=nodes.astype(np.float32),
             starts=np.searchsorted(node[order], np.arange(len(nodes) + 1)),
             part=part[order].astype(np.int32),
             way=way[order],
             whole=whole[order],
         )
+
+    @classmethod
+    def joined(cls, parts: Sequence["ScanSurroundings"]) -> "ScanSurroundings":
+        """Those of a gallery that was measured in parts, one after the other; at least one."""
+        columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in OF_ROWS}
+        for name in ("cell_starts", "starts"):
+            sizes = np.concatenate([np.diff(getattr(part, name)) for part in parts])
+            columns[name] = np.concatenate([[0], np.cumsum(sizes)])
+        return cls(things=parts[0].things, **columns)
 
     @property
     def cuts(self) -> bool:

@@ -8,6 +8,8 @@ of things that a cell has cut off. Of an instance that is in several pieces arou
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
+
 from models.city.bodies import PieceBodies
 from models.city.cells import CellTable
 from models.city.gallery import Clouds
@@ -68,17 +70,21 @@ class Surroundings(Protocol):
         ...
 
 
-def surroundings_of(bodies: Clouds | PieceBodies, cells: CellTable, progress: Progress | None = None) -> Surroundings:
+def surroundings_of(
+    bodies: Clouds | PieceBodies, cells: CellTable, progress: Progress | None = None, rows: range | None = None
+) -> Surroundings:
     """The surroundings of a gallery.
 
     Args:
         bodies: what stands in the map.
         cells: the gallery.
         progress: called with what is done and to do.
+        rows: the cells that are wanted, one after the other, with the nodes that they own among all; None for all.
     """
-    if isinstance(bodies, PieceBodies):
-        return PieceSurroundings.of(bodies, cells)
-    return ScanSurroundings.of(bodies, cells, progress)
+    if not isinstance(bodies, PieceBodies):
+        return ScanSurroundings.of(bodies, cells, progress, rows)
+    every = PieceSurroundings.of(bodies, cells)
+    return every if rows is None else every.take(np.arange(rows.start, rows.stop), every.things.parts)
 
 
 def load_surroundings(directory: Path, cells: CellTable) -> Surroundings:

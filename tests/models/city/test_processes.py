@@ -1,7 +1,8 @@
+import os
 import subprocess
 import sys
 
-from models.city.processes import map_forked
+from models.city.processes import map_forked, one_process
 
 SCRIPT = """
 import os, time
@@ -18,6 +19,15 @@ list(map_forked(work, range(100)))
 def test_results_come_in_the_order_of_the_tasks() -> None:
     for count in (0, 3, 40):
         assert list(map_forked(lambda task: 2 * task, range(count))) == list(range(0, 2 * count, 2))
+
+
+def test_all_is_done_here_where_that_is_asked_for() -> None:
+    def in_process(_task):
+        return os.getpid()
+
+    with one_process():
+        assert set(map_forked(in_process, range(40))) == {os.getpid()}
+    assert os.getpid() not in set(map_forked(in_process, range(40)))
 
 
 def test_no_process_outlives_the_one_that_was_killed() -> None:

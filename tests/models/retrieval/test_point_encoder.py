@@ -7,7 +7,7 @@ import torch
 from models.city.point_sample import NUM_POINTS, sample_points
 from models.errors import WeightsError
 from models.retrieval.instance_encoder import OURS, CellFeatures
-from models.retrieval.level_table import encode_gallery
+from models.retrieval.level_table import LevelTable, encode_gallery
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder, ball, farthest_points
 
@@ -103,6 +103,23 @@ def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
     assert np.abs(vectors - flat).max() > 1e-3
     first = seen.batch(np.arange(3))
     assert torch.equal(first.shape[first.mask], torch.from_numpy(seen.shape[: int(first.mask.sum())]))
+
+
+def test_a_slice_that_begins_at_a_block_gives_the_bits_of_the_whole(
+    features, text_encoder, monkeypatch, tmp_path
+) -> None:
+    for module in ("instance_encoder", "retriever"):
+        monkeypatch.setattr(f"models.retrieval.{module}.BLOCK", 16)
+    monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
+    torch.manual_seed(0)
+    features = first_cells(features, 90)
+    model = Mncl(text_encoder, MnclConfig(width=32, inputs=(*OURS, "points"))).eval()
+    vectors, table = encode_gallery(model, model.seen(features))
+    parts = [encode_gallery(model, model.seen(features.between(*ends))) for ends in ((0, 48), (48, 48), (48, 90))]
+    assert np.array_equal(np.concatenate([part[0] for part in parts]), vectors)
+    joined = LevelTable.joined([part[1] for part in parts])
+    assert np.array_equal(joined.starts, table.starts)
+    assert all(np.array_equal(joined.vectors[level], table.vectors[level]) for level in ("instance", "relation"))
 
 
 def test_without_points_the_message_says_what_to_do(features, text_encoder) -> None:

@@ -1,0 +1,146 @@
+"""The last step of the offline job: parts, and what is cheap beside them, become a version that the alias names."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import closing, contextmanager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from safetensors import SafetensorError
+
+from index.artifact import set_alias
+from index.hint_features import save_hint_features, template_hints
+from index.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
+from index.part import Part
+from index.posterior.meaning import Meanings
+from index.stores.faiss_store import FaissStore
+from index.stores.milvus_store import MilvusStore
+from index.stores.opening import VECTORS_FILE
+from index.stores.store import Floats
+from models.city.gallery import MapData
+from models.city.kinds.vocabulary import load_vocabulary
+from models.city.scenery.files import save_scenery
+from models.city.source import Source
+from models.city.types import Progress
+from models.errors import DataError
+from models.files import file_records, new_directory
+from models.language.places.lookup import Lookup
+from models.language.text_encoder import load_text_encoder
+from models.posterior.node_batch import colour_words
+from models.posterior.statements import Statements
+from models.posterior.surroundings.surroundings import Surroundings
+from models.retrieval.level_table import LevelTable
+from models.retrieval.retriever import Retriever
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Publisher:
+    """Makes versions.
+
+    Attributes:
+        out_dir: the index directory.
+        retriever: that made the parts.
+        posterior_fingerprint: of the model that made their statements.
+        map_sha256: of the map.
+        store: where the vectors go.
+    """
+
+    out_dir: Path
+    retriever: Retriever
+    posterior_fingerprint: str
+    map_sha256: str
+    store: StoreName
+
+    def publish(self, source: Source, parts: Sequence[Part], surroundings: Surroundings, report: Progress) -> Path:
+        """Write a version and let the alias "default" name it.
+
+        Args:
+            source: the map.
+            parts: of all its cells, in order.
+            surroundings: of all its cells.
+            report: called as the work goes on.
+
+        Returns:
+            The version's directory.
+
+        Raises:
+            DataError: it cannot be written; what is there stays.
+            StoreUnavailable: Milvus does not take the vectors; nothing is left there.
+        """
+        data, origin = source.data, new_version(self.map_sha256, self.retriever.fingerprint)
+        report("read names", 0, 0)
+        gazetteer, encoder = source.gazetteer(), load_text_encoder()
+        meanings = Meanings.of(Lookup(gazetteer, load_vocabulary(), encoder.is_everyday), encoder.embed)
+        report("write index", 0, 0)
+        vectors = np.concatenate([part.vectors for part in parts])
+        with (
+            writing(self.out_dir),
+            _in_milvus(origin["version"], vectors, data) if self.store == "milvus" else nullcontext() as collection,
+            new_directory(self.out_dir / origin["version"]) as directory,
+        ):
+            if collection is None:
+                FaissStore.of(vectors).save(directory / VECTORS_FILE)
+            self._save_parts(directory, parts, data)
+            data.gallery.save(directory, with_parts=not surroundings.cuts)
+            surroundings.save(directory)
+            gazetteer.save(directory)
+            meanings.save(directory)
+            save_scenery(directory, source.scenery(gazetteer))
+            manifest = Manifest(
+                **origin,
+                **_describe(data),
+                model=self.retriever.name,
+                dim=vectors.shape[1],
+                store=self.store,
+                collection=collection,
+                files=file_records(directory),
+            )
+            write_manifest(directory, manifest)
+        with writing(self.out_dir):
+            set_alias(self.out_dir, "default", manifest.version)
+        return self.out_dir / manifest.version
+
+    def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData) -> None:
+        """Write what the parts are joined to, but for the vectors, and what is said of them."""
+        levels = LevelTable.joined([part.levels for part in parts])
+        if not levels.is_empty:
+            levels.save(directory)
+        save_hint_features(directory, self.retriever, template_hints(data.gallery, data.palette))
+        statements = Statements.joined([part.rows for part in parts], len(colour_words(data.palette)))
+        statements.save(directory, self.posterior_fingerprint)
+
+
+@contextmanager
+def writing(out_dir: Path) -> Iterator[None]:
+    """Say so where an index cannot be written."""
+    try:
+        yield
+    except (OSError, SafetensorError) as error:
+        raise DataError(f"{out_dir} cannot be written: {error}; make room, or give another directory") from error
+
+
+@contextmanager
+def _in_milvus(version: str, vectors: Floats, data: MapData) -> Iterator[str]:
+    """The collection of a version, which stays if the block ends well."""
+    centers_m = data.cells.center_m[:, :2]
+    with MilvusStore.written(version, vectors, centers_m, data.cells.scenes) as written, closing(written):
+        yield written.collection
+
+
+def _describe(data: MapData) -> dict[str, object]:
+    """The manifest's fields that say what was indexed."""
+    return {
+        "map_name": data.name,
+        "attribution": data.attribution,
+        "frame": FrameRecord(
+            frame_id=data.frame.frame_id,
+            origin_lat=data.frame.origin_lat,
+            origin_lon=data.frame.origin_lon,
+            epsg=data.frame.epsg,
+        ),
+        "palette": data.palette.name,
+        "cell_size_m": data.cells.size_m,
+        "grid_m": data.grid_m,
+        "cells": len(data.cells),
+        "instances": len(data.gallery.labels),
+    }

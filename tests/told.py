@@ -1,0 +1,10 @@
+"""What is said of an index that is the same whoever built it."""
+
+from index.artifact import open_version
+
+OF_A_BUILD = {"version", "created"}
+
+
+def told(root):
+    """The manifest of the version that is served, with the sums of its files."""
+    return open_version(root)[1].model_dump(exclude=OF_A_BUILD)
