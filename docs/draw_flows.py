@@ -105,7 +105,7 @@ def city(axes: Axes) -> Box:
     around = box(axes, (right, 62.5, half, TALL), "models", "Surroundings", "models/posterior/surroundings/",
                  "what is within 15 m of each node")  # fmt: skip
     write = box(axes, (x, 49.5, wide, TALL), "index", "Write a version, whole or not at all",
-                "index/build.py, index/artifact.py",
+                "index/offline, index/artifact.py",
                 "fingerprints of map and model; the alias is moved last")  # fmt: skip
     files = box(axes, (x, 31.5, wide, 16), "file", "The index directory", "vectors.faiss, hints.safetensors",
                 "cells.safetensors, cells.json", "surroundings.safetensors", "manifest.json: sizes and sums",

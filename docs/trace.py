@@ -160,10 +160,9 @@ def trace_map(map_path: Path) -> None:
     tracer = Tracer()
     tracer.start()
     from app.cli.main import app
-    from models.city import processes
+    from models.city.processes import one_process
 
-    processes.FEW = sys.maxsize
-    with tempfile.TemporaryDirectory() as directory:
+    with one_process(), tempfile.TemporaryDirectory() as directory:
         tracer.begin()
         app(["index", "--map", str(map_path), "--out", directory], standalone_mode=False)
         tracer.stop()

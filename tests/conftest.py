@@ -18,8 +18,8 @@ import pytest
 import torch
 from filelock import FileLock
 
-from index.build import build_index
 from index.localizer import Localizer
+from index.offline.build import build_index
 from models.checkpoint import round_weights
 from models.city.bodies import Bodies, bodies_of, cut_cells
 from models.city.cells import CellTable

@@ -108,7 +108,7 @@ class _Forks:
 
     def __init__(self, scratch):
         import app.server  # noqa: F401  # once for all that are forked
-        import index.build  # noqa: F401
+        import index.offline.build  # noqa: F401
         from models.language.text_encoder import load_text_encoder
         from models.retrieval.checkpoint import save_retriever
         from models.retrieval.mncl import Mncl, MnclConfig

@@ -30,7 +30,7 @@ SERVED = (
 )
 TRAINED = (*SERVED, GRAMMAR, "models.city.synthetic", "models.training", "models.training.engine")
 FITTED = (*TRAINED, "models.training.posterior")
-INDEX = ("index", "index.asking", "index.posterior", "index.stores", "index.words")
+INDEX = ("index", "index.offline", "index.asking", "index.posterior", "index.stores", "index.words")
 ANSWERS = (*SERVED, *INDEX)
 MEASURES = (*FITTED, *INDEX, "index.evaluation")
 REPRODUCES = (*MEASURES, "index.reproduction")
@@ -68,6 +68,7 @@ MAY_IMPORT = {
     "models.training.posterior": FITTED,
     "models.training.engine": RETRIEVAL,
     "index": ANSWERS,
+    "index.offline": ANSWERS,
     "index.asking": (*SERVED, "index"),
     "index.stores": (*CITY, "index"),
     "index.posterior": ANSWERS,
@@ -103,7 +104,7 @@ ONLY_IN = {
     "faiss": "index/stores",
     "pymilvus": "index/stores",
     "grpc": "index/stores",
-    "ray": "index/on_ray.py",
+    "ray": "index/offline/on_ray.py",
     "fastapi": "app",
     "starlette": "app",
     "uvicorn": "app",

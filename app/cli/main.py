@@ -20,8 +20,8 @@ from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from app.cli.shares import check_shares, parse_shard, share_out
+from index.offline.shard import MOST_SHARDS, Shard
 from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
-from index.shard import MOST_SHARDS, Shard
 from models.errors import HereaboutsError
 
 if TYPE_CHECKING:
@@ -108,11 +108,11 @@ def index(
     given = map_path, out, load_settings().weights_dir, split, keep_current, levels
     with stage_bars() as show:
         if shard or merge or engine:
-            from index.build import IndexJob
+            from index.offline.build import IndexJob
 
             path = share_out(IndexJob(*given, store, region), shard, merge, engine, address, show)
         else:
-            from index.build import build_index
+            from index.offline.build import build_index
 
             path = build_index(*given, show, store, region)
     if shard:

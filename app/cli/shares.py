@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from index.shard import Shard
+from index.offline.shard import Shard
 
 if TYPE_CHECKING:
-    from index.build import IndexJob
+    from index.offline.build import IndexJob
     from models.city.types import Progress
 
 
@@ -51,7 +51,7 @@ def share_out(
     if shard:
         return job.make_part(shard, show)
     if engine:
-        from index.on_ray import build_on_ray  # noqa: PLC0415  # heavy, as all commands are
+        from index.offline.on_ray import build_on_ray  # noqa: PLC0415  # heavy, as all commands are
 
         return build_on_ray(job, merge, address, show)
     assert merge

@@ -10,8 +10,9 @@ from torch import Tensor
 
 from index.stores.faiss_store import FaissStore
 from models.city.processes import map_forked
+from models.city.types import Floats
 from models.errors import IndexBroken
-from models.language.places.lookup import EMPTY, Lookup
+from models.language.places.lookup import EMPTY
 from models.language.places.names import plain_words
 
 LIKE: Final = 0.85  # cosine from which on words mean the same
@@ -19,6 +20,14 @@ VECTORS_FILE, PHRASES_FILE = "meanings.faiss", "meanings.json"
 TASK: Final = 256  # phrases, of like length
 STORED_BITS: Final = 16  # of a number: of 3,000 phrases no cosine changed by more than a ten-thousandth
 Embed = Callable[[Sequence[str]], Tensor]
+
+
+def meanings_of(phrases: Sequence[str], embed: Embed) -> tuple[list[str], Floats]:
+    """Phrases in another order, and unit vectors [P, W] of what they mean; some hundreds a second on each CPU."""
+    ordered = sorted(phrases, key=len)
+    parts = [ordered[start : start + TASK] for start in range(0, len(ordered), TASK)]
+    vectors = map_forked(lambda some: embed(some).numpy(), parts)
+    return ordered, np.concatenate([embed(["a"]).numpy()[:0], *vectors])
 
 
 class Meanings:
@@ -34,13 +43,9 @@ class Meanings:
         self._phrases, self._store, self._embed = phrases, store, embed
 
     @classmethod
-    def of(cls, lookup: Lookup, embed: Embed) -> "Meanings":
-        """Those of a map; some hundreds a second on each CPU."""
-        phrases = sorted(lookup.phrases(), key=len)
-        parts = [phrases[start : start + TASK] for start in range(0, len(phrases), TASK)]
-        vectors = map_forked(lambda some: embed(some).numpy(), parts)
-        store = FaissStore.of(np.concatenate([embed(["a"]).numpy()[:0], *vectors]), bits=STORED_BITS)
-        return cls(phrases, store, embed)
+    def of(cls, phrases: Sequence[str], vectors: Floats, embed: Embed) -> "Meanings":
+        """Those of what `meanings_of` gave."""
+        return cls(phrases, FaissStore.of(vectors, bits=STORED_BITS), embed)
 
     def like(self, said: str) -> tuple[str, ...] | None:
         """The plain words of the name or noun that means what was said; None for single words, and if there is none."""

@@ -6,6 +6,8 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from functools import partial
+from multiprocessing.connection import Connection
 from typing import Any, TypeVar
 
 Task = TypeVar("Task")
@@ -46,6 +48,48 @@ def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterato
             yield from pool.map(_call, tasks)
     finally:
         _work = None
+
+
+@contextmanager
+def forked(work: Callable[[], Result]) -> Iterator[Callable[[], Result]]:
+    """Have work done in a process of its own while the block runs; what is given waits for its result.
+
+    Raises:
+        ChildProcessError: the process was killed.
+    """
+    if _alone:
+        yield work
+        return
+    ours, its = multiprocessing.Pipe(duplex=False)
+    process = multiprocessing.get_context("fork").Process(target=_do, args=(work, its))
+    process.start()
+    its.close()
+    try:
+        yield partial(_result_of, ours)
+    finally:
+        process.terminate()
+        process.join()
+        ours.close()
+
+
+def _do(work: Callable[[], Any], result: Connection) -> None:
+    """What the process of `forked` does."""
+    _watch_parent()
+    try:
+        done = True, work()
+    except Exception as error:  # whoever waits for it raises it
+        done = False, error
+    result.send(done)
+
+
+def _result_of(result: Connection) -> Any:
+    try:
+        is_done, value = result.recv()
+    except EOFError as error:
+        raise ChildProcessError("a process of this job was killed; is there enough memory?") from error
+    if is_done:
+        return value
+    raise value
 
 
 def _watch_parent() -> None:

@@ -1,13 +1,15 @@
 """The instance and relation level of a gallery: a vector an instance, in half precision on disk."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from models.city.cells import BLOCK
 from models.city.points import Ints, ranges
 from models.errors import IndexBroken
 from models.retrieval.instance_encoder import CellFeatures
@@ -112,12 +114,15 @@ class LevelTable:
 NO_LEVELS = LevelTable(np.zeros(1, np.int64), {})
 
 
-def encode_gallery(retriever: Retriever, cells: CellFeatures) -> tuple[Vectors, LevelTable]:
+def encode_gallery(
+    retriever: Retriever, cells: CellFeatures, share: Callable[..., Iterable[Any]] = map
+) -> tuple[Vectors, LevelTable]:
     """A gallery as a retriever sees it, in one pass.
 
     Args:
         retriever: the model.
         cells: of `Retriever.seen`.
+        share: `map`, or what shares blocks of cells out to other processes (`map_forked`).
 
     Returns:
         [N, D] float32 unit vectors of the global level, and the table of the others.
@@ -128,9 +133,19 @@ def encode_gallery(retriever: Retriever, cells: CellFeatures) -> tuple[Vectors, 
     others: dict[Level, npt.NDArray[np.floating[Any]]] = {
         n: np.empty((len(cells.label), width), np.float32) for n in names
     }
-    for chosen, levels in retriever.encode_cells(cells):
-        whole[chosen] = levels.whole.cpu().numpy()
+    labels = retriever.text_encoder.embed(cells.labels)
+
+    def encoded(first: int) -> list[tuple[Ints, Vectors, dict[Level, Vectors]]]:
+        """(rows, global level, others) of the batches of a block."""
+        return [
+            (rows, levels.whole.cpu().numpy(), {n: levels.of(n)[levels.mask].cpu().numpy() for n in names})
+            for rows, levels in retriever.encode_cells(cells, labels, first)
+        ]
+
+    for batch in chain.from_iterable(share(encoded, range(0, len(cells), BLOCK))):
+        chosen, vectors, by_level = batch
+        whole[chosen] = vectors
         rows = ranges(cells.starts[chosen], cells.starts[chosen + 1])
         for level in names:
-            others[level][rows] = levels.of(level)[levels.mask].cpu().numpy()
+            others[level][rows] = by_level[level]
     return whole, LevelTable(np.asarray(cells.starts), others)

@@ -181,18 +181,23 @@ class Retriever(OnTextEncoder):
         return vectors
 
     @torch.inference_mode()
-    def encode_cells(self, cells: CellFeatures) -> Iterator[tuple[npt.NDArray[np.intp], Levels]]:
-        """The cells of a gallery (`seen`) at all levels, in batches of about equal size: the rows of each, and it.
+    def encode_cells(
+        self, cells: CellFeatures, label_embeddings: Tensor, first: int
+    ) -> Iterator[tuple[npt.NDArray[np.intp], Levels]]:
+        """A block of a gallery (`seen`) at all levels, in batches of about equal size: the rows of each, and it.
 
         No batch has cells of two blocks, so that a gallery that is cut at blocks gives the bits of the whole one.
+
+        Args:
+            cells: the gallery.
+            label_embeddings: [L, W] what the text encoder makes of its labels.
+            first: row of the block's first cell.
         """
-        label_embeddings = self.text_encoder.embed(cells.labels)
-        sizes = np.diff(cells.starts)
-        for first in range(0, len(sizes), BLOCK):
-            order = first + np.argsort(sizes[first : first + BLOCK], kind="stable")
-            for start in range(0, len(order), ENCODE_BATCH):
-                rows = order[start : start + ENCODE_BATCH]
-                yield rows, self.look(cells.batch(rows).to(label_embeddings.device), label_embeddings)
+        sizes = np.diff(cells.starts[first : first + BLOCK + 1])
+        order = first + np.argsort(sizes, kind="stable")
+        for start in range(0, len(order), ENCODE_BATCH):
+            rows = order[start : start + ENCODE_BATCH]
+            yield rows, self.look(cells.batch(rows).to(label_embeddings.device), label_embeddings)
 
     def remember(self, sentences: Sequence[str], features: Vectors) -> None:
         """Take up features [S, D] of sentences that were read before, so that they are not read again."""

@@ -2,8 +2,8 @@
 
 import pytest
 
-from index.build import IndexJob
-from index.shard import Shard
+from index.offline.build import IndexJob
+from index.offline.shard import Shard
 from models.retrieval.checkpoint import save_retriever
 from tests.conftest import tiny_osm
 

@@ -103,7 +103,7 @@ def test_index_builds_and_says_what_next(monkeypatch):
             raise MapError("bad map")
         return out_dir / "v1"
 
-    monkeypatch.setitem(sys.modules, "index.build", SimpleNamespace(build_index=build_index))
+    monkeypatch.setitem(sys.modules, "index.offline.build", SimpleNamespace(build_index=build_index))
     result = run("index", "--map", "a.osm", "--out", "o")
     assert (result.exit_code, calls) == (0, [(Path("a.osm"), Path("o"), None)])
     assert result.stdout == "index v1 is in o/v1; serve it with: hereabouts serve --index o\n"

@@ -1,6 +1,6 @@
 import pytest
 
-from index.posterior.meaning import PHRASES_FILE, VECTORS_FILE, Meanings
+from index.posterior.meaning import PHRASES_FILE, VECTORS_FILE, Meanings, meanings_of
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, Words, build_gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
@@ -26,9 +26,13 @@ def lookup() -> Lookup:
     return Lookup(gazetteer, load_vocabulary(), is_common)
 
 
+def made(lookup, text_encoder) -> Meanings:
+    return Meanings.of(*meanings_of(lookup.phrases(), text_encoder.embed), text_encoder.embed)
+
+
 @pytest.fixture(scope="module")
 def meanings(lookup, text_encoder) -> Meanings:
-    return Meanings.of(lookup, text_encoder.embed)
+    return made(lookup, text_encoder)
 
 
 @pytest.fixture(scope="module")
@@ -89,5 +93,5 @@ def test_meanings_are_saved_and_read_back(lookup, meanings, text_encoder, tmp_pa
 
 
 def test_a_map_without_names_means_nothing(text_encoder, tmp_path) -> None:
-    Meanings.of(Lookup(NOTHING_NAMED, load_vocabulary(), is_common), text_encoder.embed).save(tmp_path)
+    made(Lookup(NOTHING_NAMED, load_vocabulary(), is_common), text_encoder).save(tmp_path)
     assert Meanings.load(tmp_path, text_encoder.embed).like("the baby shop") is None

@@ -1,8 +1,13 @@
 import os
+import signal
 import subprocess
 import sys
+import time
 
-from models.city.processes import map_forked, one_process
+import pytest
+
+from models.city.processes import forked, map_forked, one_process
+from models.errors import MapError
 
 SCRIPT = """
 import os, time
@@ -28,6 +33,33 @@ def test_all_is_done_here_where_that_is_asked_for() -> None:
     with one_process():
         assert set(map_forked(in_process, range(40))) == {os.getpid()}
     assert os.getpid() not in set(map_forked(in_process, range(40)))
+
+
+def test_work_beside_is_done_in_a_process_of_its_own_and_waited_for() -> None:
+    here = os.getpid()
+    with forked(lambda: (os.getpid(), list(map_forked(lambda task: -task, range(9))))) as result:
+        there, shared = result()
+    assert there != here
+    assert shared == list(range(0, -9, -1))
+    with one_process(), forked(os.getpid) as result:
+        assert result() == here
+
+
+def test_what_goes_wrong_beside_is_raised_where_it_is_waited_for() -> None:
+    def wrong() -> None:
+        raise MapError("no map")
+
+    with forked(wrong) as result, pytest.raises(MapError, match="no map"):
+        result()
+    with forked(lambda: os.kill(os.getpid(), signal.SIGKILL)) as result, pytest.raises(ChildProcessError, match="mem"):
+        result()
+
+
+def test_work_beside_ends_with_the_block_that_nobody_waits_in() -> None:
+    start = time.monotonic()
+    with forked(lambda: time.sleep(60)):
+        pass
+    assert time.monotonic() - start < 30
 
 
 def test_no_process_outlives_the_one_that_was_killed() -> None:

@@ -108,7 +108,7 @@ def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
 def test_a_slice_that_begins_at_a_block_gives_the_bits_of_the_whole(
     features, text_encoder, monkeypatch, tmp_path
 ) -> None:
-    for module in ("instance_encoder", "retriever"):
+    for module in ("instance_encoder", "level_table", "retriever"):
         monkeypatch.setattr(f"models.retrieval.{module}.BLOCK", 16)
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
     torch.manual_seed(0)

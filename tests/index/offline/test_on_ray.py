@@ -9,8 +9,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from index.build import IndexJob
-from index.on_ray import build_on_ray
+from index.offline.build import IndexJob
+from index.offline.on_ray import build_on_ray
 from models.errors import ClusterUnavailable, DataError, MapError
 from tests.told import told
 

@@ -3,17 +3,19 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 from index.artifact import check_store, open_version
 from index.manifest import StoreName, check_model, fingerprint
-from index.part import Part
-from index.parts import Origin, Parts
-from index.publish import Publisher, writing
-from index.shard import Shard
+from index.offline.part import Part
+from index.offline.parts import Origin, Parts
+from index.offline.publish import Publisher, names_of, writing
+from index.offline.shard import Shard
 from models.city.cells import BLOCK
 from models.city.osm.extract import Region, extracted
+from models.city.processes import forked
 from models.city.source import Source, open_source
 from models.city.types import Progress
 from models.errors import IndexUnusable
@@ -96,12 +98,12 @@ class IndexJob:
         ready = self._ready(report)
         if current := self._current(ready):
             return current
-        with self._source(report) as source:
+        with self._source(report) as source, forked(partial(names_of, source)) as names:
             surroundings = surroundings_of(source.bodies(), source.data.cells, report)
             rows = range(len(source.data.cells))
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
             part = Part.of(encoder, likelihood, source.data, surroundings, rows, report)
-            return self._publisher(ready).publish(source, [part], surroundings, report)
+            return self._publisher(ready).publish(source, [part], surroundings, names, report)
 
     def make_part(self, shard: Shard, report: Progress = silent) -> Path:
         """Make the part of a shard, if it is not there; arguments and errors as `build`.
@@ -144,7 +146,7 @@ class IndexJob:
                 surroundings = (
                     ScanSurroundings.joined(scanned) if scanned else surroundings_of(source.bodies(), source.data.cells)
                 )
-                version = self._publisher(ready).publish(source, made, surroundings, report)
+                version = self._publisher(ready).publish(source, made, surroundings, partial(names_of, source), report)
         parts.remove()
         return version
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from index.build import IndexJob, silent
-from index.shard import Shard
+from index.offline.build import IndexJob, silent
+from index.offline.shard import Shard
 from models.city.processes import one_process
 from models.city.types import Progress
 from models.errors import ClusterUnavailable, DataError, HereaboutsError

@@ -15,8 +15,8 @@ from typing import Final
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from index.manifest import MANIFEST, Name, Sha256
-from index.part import Part
-from index.shard import Shard
+from index.offline.part import Part
+from index.offline.shard import Shard
 from models.city.cells import BLOCK, CellTable
 from models.errors import IndexBroken
 from models.files import FileRecord, file_records, new_directory, sha256

@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 from index.stores.store import Floats
 from models.city.cells import CellTable
 from models.city.gallery import MapData
+from models.city.processes import map_forked
 from models.city.types import Progress
 from models.errors import IndexBroken
 from models.posterior.likelihood import Likelihood
@@ -67,7 +68,7 @@ class Part:
         """
         report("encode cells", 0, 0)
         features = CellFeatures.of(data.cells, np.array(data.gallery.labels)).between(rows.start, rows.stop)
-        vectors, levels = encode_gallery(retriever, retriever.seen(features))
+        vectors, levels = encode_gallery(retriever, retriever.seen(features), map_forked)
         report("tabulate statements", 0, 0)
         things = surroundings.things
         label, rgb = torch.from_numpy(things.labels(data.gallery)[1]), torch.from_numpy(things.rgb.astype(np.float32))

@@ -9,10 +9,10 @@ from dataclasses import replace
 import pytest
 
 from index.artifact import open_version
-from index.build import IndexJob
-from index.part import Part
-from index.parts import PARTS
-from index.shard import Shard
+from index.offline.build import IndexJob
+from index.offline.part import Part
+from index.offline.parts import PARTS
+from index.offline.shard import Shard
 from models.city.cells import BLOCK
 from models.errors import DataError, IndexBroken
 from models.files import BUILDING
@@ -32,7 +32,7 @@ def job(deep_parts, deep_file, rich_dir, tmp_path):
 @pytest.fixture
 def unread(monkeypatch):
     """No map is opened."""
-    monkeypatch.setattr("index.build.open_source", lambda *_: pytest.fail("the map was opened"))
+    monkeypatch.setattr("index.offline.build.open_source", lambda *_: pytest.fail("the map was opened"))
 
 
 @pytest.fixture
@@ -66,10 +66,9 @@ def test_shards_give_the_bytes_of_the_whole(deep_index, job) -> None:
 
 @pytest.mark.slow
 def test_shards_of_a_scan_give_the_bytes_of_the_whole(streets, weights_dir, tmp_path, monkeypatch) -> None:
-    for module in ("retrieval.retriever", "retrieval.instance_encoder", "posterior.statements"):
-        monkeypatch.setattr(f"models.{module}.BLOCK", 8)
-    for module in ("build", "parts"):
-        monkeypatch.setattr(f"index.{module}.BLOCK", 8)
+    of_models = ("retrieval.retriever", "retrieval.instance_encoder", "retrieval.level_table", "posterior.statements")
+    for module in (*(f"models.{name}" for name in of_models), "index.offline.build", "index.offline.parts"):
+        monkeypatch.setattr(f"{module}.BLOCK", 8)
     whole, shared = (IndexJob(streets, tmp_path / name, weights_dir) for name in ("whole", "shared"))
     whole.build()
     count = 2

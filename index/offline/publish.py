@@ -1,6 +1,6 @@
 """The last step of the offline job: parts, and what is cheap beside them, become a version that the alias names."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,13 +11,14 @@ from safetensors import SafetensorError
 from index.artifact import set_alias
 from index.hint_features import save_hint_features, template_hints
 from index.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
-from index.part import Part
-from index.posterior.meaning import Meanings
+from index.offline.part import Part
+from index.posterior.meaning import Meanings, meanings_of
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_store import MilvusStore
 from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats
 from models.city.gallery import MapData
+from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.scenery.files import save_scenery
 from models.city.source import Source
@@ -31,6 +32,8 @@ from models.posterior.statements import Statements
 from models.posterior.surroundings.surroundings import Surroundings
 from models.retrieval.level_table import LevelTable
 from models.retrieval.retriever import Retriever
+
+Names = Callable[[], tuple[Gazetteer, list[str], Floats]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,13 +54,16 @@ class Publisher:
     map_sha256: str
     store: StoreName
 
-    def publish(self, source: Source, parts: Sequence[Part], surroundings: Surroundings, report: Progress) -> Path:
+    def publish(
+        self, source: Source, parts: Sequence[Part], surroundings: Surroundings, names: Names, report: Progress
+    ) -> Path:
         """Write a version and let the alias "default" name it.
 
         Args:
             source: the map.
             parts: of all its cells, in order.
             surroundings: of all its cells.
+            names: waits for `names_of` the map.
             report: called as the work goes on.
 
         Returns:
@@ -69,8 +75,7 @@ class Publisher:
         """
         data, origin = source.data, new_version(self.map_sha256, self.retriever.fingerprint)
         report("read names", 0, 0)
-        gazetteer, encoder = source.gazetteer(), load_text_encoder()
-        meanings = Meanings.of(Lookup(gazetteer, load_vocabulary(), encoder.is_everyday), encoder.embed)
+        gazetteer, phrases, meant = names()
         report("write index", 0, 0)
         vectors = np.concatenate([part.vectors for part in parts])
         with (
@@ -84,7 +89,7 @@ class Publisher:
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)
             gazetteer.save(directory)
-            meanings.save(directory)
+            Meanings.of(phrases, meant, load_text_encoder().embed).save(directory)
             save_scenery(directory, source.scenery(gazetteer))
             manifest = Manifest(
                 **origin,
@@ -108,6 +113,13 @@ class Publisher:
         save_hint_features(directory, self.retriever, template_hints(data.gallery, data.palette))
         statements = Statements.joined([part.rows for part in parts], len(colour_words(data.palette)))
         statements.save(directory, self.posterior_fingerprint)
+
+
+def names_of(source: Source) -> tuple[Gazetteer, list[str], Floats]:
+    """What a map names, phrases of it, and what each means (unit vectors [P, W])."""
+    gazetteer, encoder = source.gazetteer(), load_text_encoder()
+    phrases = Lookup(gazetteer, load_vocabulary(), encoder.is_everyday).phrases()
+    return gazetteer, *meanings_of(phrases, encoder.embed)
 
 
 @contextmanager
