@@ -174,7 +174,8 @@ def test_the_service_answers_and_ends_with_one_writable_directory(confined, inde
         wait_until(lambda: any(line["event"] == "page" for line in confined.lines()), 60)
         [url] = [line["url"] for line in confined.lines() if line["event"] == "page"]
         health = command(given("HEALTHCHECK").replace("http://127.0.0.1:8000/", url))
-        wait_until(lambda: subprocess.run(health, capture_output=True, check=False).returncode == 0, 60)
+        wait_until(lambda: httpx.get(f"{url}readyz").status_code == 200, 60)
+        assert subprocess.run(health, capture_output=True, check=False).returncode == 0
         answer = httpx.post(f"{url}localize", json={"description": TEXT}, timeout=60)
         assert answer.status_code == 200, answer.text
         process.terminate()

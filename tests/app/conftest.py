@@ -3,6 +3,7 @@ import sys
 import threading
 import time
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import httpx
@@ -18,9 +19,12 @@ from fake_localizer import FakeLocalizer
 
 from app.http.connection import Connection
 from app.http.errors import Code, Problem, field_name
+from app.jobs.runner import EvaluationJobs
 from app.logs import configure_logging
 from app.main import create_app
 from app.settings import Settings
+from app.workers.pool import WorkerPool
+from tests.warm import Warm
 
 TEXT = "I am north of a gray building. A black pole is to my west."
 
@@ -112,6 +116,33 @@ def in_a_thread():
         assert not thread.is_alive()
 
     return serve
+
+
+@pytest.fixture(scope="session")
+def warm(tmp_path_factory):
+    """A process that has imported what the service's processes import."""
+    warm = Warm(tmp_path_factory.mktemp("warm"))
+    yield warm
+    warm.close()
+
+
+@contextmanager
+def forked_from(warm):
+    """Services that are started within have their processes forked from `warm`."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name, kind, module in (
+            ("app.workers.remote.WorkerPool", WorkerPool, "app.workers.process"),
+            ("app.main.EvaluationJobs", EvaluationJobs, "app.jobs.worker"),
+        ):
+            patch.setattr(name, partial(kind, command=warm.command(module)))
+        yield
+
+
+@pytest.fixture(scope="module")
+def warm_workers(warm):
+    """The services of a module have their processes forked from `warm`."""
+    with forked_from(warm):
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -1,5 +1,5 @@
-"""Run by test_server.py: the service's own server in a process, with a fake localizer that tells what it computes
-and, for a hint with the word "held", waits for a line on stdin."""
+"""Run by test_server.py and test_kept.py: the service's own server in a process, with a fake localizer that tells what
+it computes and, for a hint with the word "held", waits for a line on stdin. Arguments: the port; the jobs' command."""
 
 import sys
 from functools import partial
@@ -25,8 +25,8 @@ class TellingLocalizer(FakeLocalizer):
 
 settings = load_settings(port=int(sys.argv[1]))
 configure_logging("info")
-WORKER = (sys.executable, Path(__file__).parent / "jobs/fake_worker.py")
-with patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=WORKER)):
+worker = sys.argv[2:] or (sys.executable, Path(__file__).parent / "jobs/fake_worker.py")
+with patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=worker)):
     app = create_app(settings, TellingLocalizer)
 app.add_api_route("/waiting", lambda: len(app.state.indexes.queue()._jobs))
 serve(app, settings)

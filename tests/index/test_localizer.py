@@ -185,13 +185,18 @@ NUMBERS = (
 UNITS = ("meters", "km", "steps", "m", "miles", "feet", "blocks", "minutes", "light years")
 
 
-@pytest.mark.parametrize("unit", UNITS)
-def test_no_number_in_a_text_breaks_an_answer(localizer, unit) -> None:
-    texts = [f"A building is {number} {unit} north of me. There is a tree {number} m east." for number in NUMBERS]
-    texts += [f"I am at number {number}, {number} doors down from {number} Main Street." for number in NUMBERS]
-    for text, answer in zip(texts, localizer.localize([Query(text) for text in texts]), strict=True):
+def test_no_number_in_a_text_breaks_an_answer(localizer) -> None:
+    texts = [
+        " ".join(f"A building is {number} {unit} north of me." for unit in UNITS) + f" There is a tree {number} m east."
+        for number in NUMBERS
+    ]
+    doors = [f"I am at number {number}, {number} doors down from {number} Main Street." for number in NUMBERS]
+    answers = localizer.localize([Query(text) for text in texts + doors])
+    for text, answer in zip(texts + doors, answers, strict=True):
         json.dumps(dataclasses.asdict(answer), allow_nan=False)
         assert answer.evidence or answer.status == "no_match", text
+    for text, answer in zip(texts, answers[: len(texts)], strict=True):
+        assert len(answer.evidence) >= len(UNITS) - 1, f"not all of it was heard: {text}"
 
 
 def test_cells_a_page_at_a_time(localizer, cells) -> None:

@@ -19,7 +19,7 @@ NUMBER = next(tags["addr:housenumber"] for *_, tags in PLACES if "addr:housenumb
 
 
 @pytest.fixture(scope="module")
-def url(made_once, in_a_thread):
+def url(made_once, in_a_thread, warm_workers):
     with in_a_thread(create_app(Settings(index_dir=hostile_index(made_once), workers=1))) as port:
         yield f"http://127.0.0.1:{port}"
 

@@ -19,7 +19,7 @@ from index.stores.milvus_store import MilvusStore
 from models.errors import StoreUnavailable
 
 pytest.importorskip("pymilvus", reason="pymilvus not installed: pip install 'hereabouts[dev]'")
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("warm_workers")]
 THREADS, PAUSE_S = 4, 0.1
 QUERIES = [
     {"description": text, "refine": refine}

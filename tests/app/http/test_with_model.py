@@ -14,7 +14,7 @@ from models.localization.checkpoint import FINE_METHODS, load_refiner
 from models.posterior.model import load_posterior
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="module")  # its processes are started as users' are, and not forked from one of the tests
 def served(index_dir, weights_dir, until):
     with TestClient(create_app(Settings(index_dir=index_dir, weights_dir=weights_dir))) as served:
         until(lambda: served.get("/readyz").status_code == 200, 60)
@@ -144,6 +144,7 @@ def test_command_line_answers_the_same(served, text, index_dir, weights_dir, mon
     assert said["position"] == served.post("/localize", json={"description": text}).json()["estimate"]["position"]
 
 
+@pytest.mark.usefixtures("warm_workers")
 def test_index_that_was_changed_is_not_served(index_dir, weights_dir, tmp_path, until, problem):
     shutil.copytree(index_dir, tmp_path / "index")
     for file in (tmp_path / "index").rglob("*.safetensors"):

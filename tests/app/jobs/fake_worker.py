@@ -36,5 +36,10 @@ def run(self, report_dir, progress):
     (report_dir / "report.json").write_text(json.dumps({"queries": len(self.descriptions), "grow": self.grow_m}))
 
 
-Evaluation.run = run
-sys.exit(evaluation_worker.main(Path(sys.argv[1])))
+def main(job_dir):
+    Evaluation.run = run
+    return evaluation_worker.main(job_dir)
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))

@@ -20,8 +20,8 @@ TIMEOUT_S = 60
 
 
 @pytest.fixture
-def command():
-    return COMMAND
+def command(warm):
+    return warm.command("tests.app.jobs.fake_worker")
 
 
 @pytest.fixture
@@ -165,6 +165,7 @@ def test_worker_that_does_not_start_is_a_failure(api):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("command", [COMMAND])  # the process that is ended is the one that works
 def test_crash_leaves_no_process_behind(api, until):
     job = begin(api, "orphan")
     wait_for(api, job, "failed")
@@ -173,6 +174,7 @@ def test_crash_leaves_no_process_behind(api, until):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("command", [COMMAND])
 def test_cancel_stops_the_work(api, problem):
     job = begin(api, "held")
     wait_for(api, job, "running")

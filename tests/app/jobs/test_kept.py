@@ -22,7 +22,7 @@ from app.main import create_app
 from app.settings import Settings
 from models.files import BUILDING
 
-COMMAND = (sys.executable, str(Path(__file__).parent / "fake_worker.py"))
+WORKER = "tests.app.jobs.fake_worker"
 SERVE = Path(__file__).parents[1] / "serve_fake.py"
 
 pytestmark = pytest.mark.slow
@@ -33,9 +33,9 @@ def body(hint):
 
 
 @pytest.fixture
-def service(tmp_path, monkeypatch, until):
+def service(tmp_path, monkeypatch, until, warm):
     """A service whose jobs lie in one directory, as often as it is started."""
-    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=COMMAND))
+    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=warm.command(WORKER)))
 
     @contextmanager
     def run():
@@ -154,8 +154,8 @@ def test_a_directory_of_another_service_is_not_shared(service, tmp_path):
 class Killed:
     """A service in a process that is killed, and started again."""
 
-    def __init__(self, scratch):
-        self.scratch = scratch
+    def __init__(self, scratch, worker):
+        self.scratch, self.worker = scratch, worker
         self.process = None
 
     def start(self, until):
@@ -163,7 +163,8 @@ class Killed:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
         environ = os.environ | {"HEREABOUTS_JOBS_DIR": str(self.scratch / "jobs")}
-        self.process = subprocess.Popen([sys.executable, SERVE, str(port)], env=environ, stderr=subprocess.DEVNULL)
+        command = [sys.executable, SERVE, str(port), *self.worker]
+        self.process = subprocess.Popen(command, env=environ, stderr=subprocess.DEVNULL)
         self.url = f"http://127.0.0.1:{port}"
 
         def is_ready():
@@ -179,8 +180,8 @@ class Killed:
         self.process.wait()
 
 
-def test_what_was_acknowledged_is_there_after_every_kill(tmp_path, until):
-    service = Killed(tmp_path)
+def test_what_was_acknowledged_is_there_after_every_kill(tmp_path, until, warm):
+    service = Killed(tmp_path, warm.command(WORKER))
     acknowledged = set()
     try:
         for n in range(4):

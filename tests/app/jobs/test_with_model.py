@@ -19,7 +19,7 @@ TIMEOUT_S = 120
 
 
 @pytest.fixture(scope="module")
-def served(strip_file, index_dir, weights_dir, until):
+def served(strip_file, index_dir, weights_dir, until, warm_workers):
     settings = Settings(index_dir=index_dir, weights_dir=weights_dir, data_dir=strip_file.parent)
     with TestClient(create_app(settings)) as served:
         until(lambda: served.get("/readyz").status_code == 200, 60)

@@ -15,7 +15,7 @@ from playwright.sync_api import sync_playwright
 from app.main import create_app
 from app.settings import Settings
 from index.offline.build import build_index
-from tests.app.conftest import wait_until
+from tests.app.conftest import forked_from, wait_until
 from tests.conftest import LAT, LAT_M, LON, LON_M, tiny_osm
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -59,15 +59,16 @@ def town_index(made_once):
 
 
 @contextmanager
-def served(settings):
-    """The service, in a thread of its own; gives its address."""
+def served(settings, warm):
+    """The service, in a thread of its own; gives its address. Its workers are forked from `warm`, its jobs are not."""
     app = create_app(settings)
     server = uvicorn.Server(uvicorn.Config(app, port=0, log_level="warning"))
     thread = threading.Thread(target=lambda: asyncio.run(server.serve()), daemon=True)
-    thread.start()
-    wait_until(lambda: server.started, 60)
-    url = f"http://127.0.0.1:{server.servers[0].sockets[0].getsockname()[1]}/"
-    wait_until(lambda: httpx.get(f"{url}readyz").status_code == 200, 60)
+    with forked_from(warm):
+        thread.start()
+        wait_until(lambda: server.started, 60)
+        url = f"http://127.0.0.1:{server.servers[0].sockets[0].getsockname()[1]}/"
+        wait_until(lambda: httpx.get(f"{url}readyz").status_code == 200, 60)
     try:
         yield url
     finally:
@@ -76,8 +77,8 @@ def served(settings):
 
 
 @pytest.fixture(scope="session")
-def service(town_index):
-    with served(Settings(index_dir=town_index)) as url:
+def service(town_index, warm):
+    with served(Settings(index_dir=town_index), warm) as url:
         yield url
 
 

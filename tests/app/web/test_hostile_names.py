@@ -19,8 +19,8 @@ TOUCH = "document.querySelectorAll('#panel *').forEach((e) => e.dispatchEvent(ne
 
 
 @pytest.fixture(scope="module")
-def hostile_service(made_once):
-    with served(Settings(index_dir=hostile_index(made_once))) as url:
+def hostile_service(made_once, warm):
+    with served(Settings(index_dir=hostile_index(made_once)), warm) as url:
         yield url
 
 

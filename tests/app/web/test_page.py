@@ -164,8 +164,8 @@ def test_a_full_queue_says_when_to_try_again_with_the_request_id(visit):
     page.wait_for_selector("text=nine times out of ten")
 
 
-def test_a_key_is_asked_for_once(visit, town_index):
-    with served(Settings(index_dir=town_index, read_key="opensesame")) as url:
+def test_a_key_is_asked_for_once(visit, town_index, warm):
+    with served(Settings(index_dir=town_index, read_key="opensesame"), warm) as url:
         visitor = visit(url, errors=["401"])
         page = visitor.page
         page.goto(url)
