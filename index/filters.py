@@ -6,6 +6,9 @@ import numpy.typing as npt
 from index.query import Box, Circle, Crs, Query
 from models.city.frame import Frame
 from models.city.types import Floats
+from models.posterior.surroundings.surroundings import Surroundings
+
+NODES_AT_ONCE = 1 << 17
 
 
 def inside(query: Query, points_m: Floats, frame: Frame) -> npt.NDArray[np.bool_]:
@@ -20,6 +23,16 @@ def inside(query: Query, points_m: Floats, frame: Frame) -> npt.NDArray[np.bool_
             y, x = frame.to_wgs84(points_m)
         return np.asarray((x >= within.west) & (x <= within.east) & (y >= within.south) & (y <= within.north))
     return np.ones(len(points_m), dtype=bool)
+
+
+def nodes_inside(query: Query, surroundings: Surroundings, frame: Frame) -> npt.NDArray[np.bool_]:
+    """[M] which of all nodes are inside `within`."""
+    count = int(surroundings.cell_starts[-1])
+    found = np.zeros(count, np.bool_)
+    for first in range(0, count, NODES_AT_ONCE):
+        some = np.arange(first, min(first + NODES_AT_ONCE, count))
+        found[some] = inside(query, surroundings.positions_m(some), frame)
+    return found
 
 
 def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 from index.answers import Evidence, Method, ModelName, Question
 from index.asking.heard import Heard
 from index.asking.questions import Questions
-from index.filters import inside, log_prior, position_m
+from index.filters import inside, log_prior, nodes_inside, position_m
 from index.finding import Finding, is_ambiguous, pair
 from index.posterior.meaning import Meanings
 from index.posterior.place_reader import PlaceReader, may_be_near, near_hints
@@ -32,7 +32,7 @@ from models.language.reader import COLOURS
 from models.localization.located import Located
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Reading
-from models.posterior.locate import Mask, locate
+from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.posterior.places.field import Told
 from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
@@ -50,7 +50,6 @@ NOTHING_SAID = (
 NOWHERE = "no position of the map lies inside 'within'; move it onto the map or leave it out"
 NOTHING_FITS = "nothing that is said was found on the map; is it the right map?"
 OF_REPLIES = "the answer is of the replies: nothing that the description says was found there"
-NODES_AT_ONCE = 1 << 17  # that are asked whether they are inside
 GOOD_M = 10.0  # who has begun to reply is asked until half of the probability is this near
 
 
@@ -218,22 +217,13 @@ class PosteriorLocalizer:
             self.nodes,
             reading,
             None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
-            None if query.within is None else self._inside(query),
+            None if query.within is None else nodes_inside(query, self.surroundings, self.frame),
             PLACE_CANDIDATES if told is not None else count,
             also=None if reading is None else self.candidates(hints, reading),
             told=told,
             answered=answered,
         )
         return located and self._honest(located, query, told)
-
-    def _inside(self, query: Query) -> Mask:
-        """[nodes] which of all nodes are inside `within`."""
-        count = int(self.surroundings.cell_starts[-1])
-        found = np.zeros(count, np.bool_)
-        for first in range(0, count, NODES_AT_ONCE):
-            some = np.arange(first, min(first + NODES_AT_ONCE, count))
-            found[some] = inside(query, self.surroundings.positions_m(some), self.frame)
-        return found
 
     def _honest(self, located: Located, query: Query, told: Told | None) -> Located:
         """With radii that hold what they say, as on validation data."""

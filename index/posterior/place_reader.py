@@ -22,7 +22,8 @@ from models.language.places.reader import find_mentions, is_meeting, listener_wi
 from models.language.places.spans import PASSED, STOP
 from models.language.text_encoder import TextEncoder
 from models.localization.located import Located
-from models.posterior.places.field import Explained, PlaceField, Told
+from models.posterior.places.explained import Explained
+from models.posterior.places.field import PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
 TRUSTED: Final = 0.5  # of a hint's class, from which on it is no place but what is near

@@ -21,7 +21,8 @@ from models.language.places.lookup import Lookup
 from models.language.places.reader import find_mentions, is_meeting, listener_wind, with_goal
 from models.language.text_encoder import TextEncoder
 from models.posterior.locate import PLACE_HIT_M
-from models.posterior.places.field import PlaceField, Places, Rough
+from models.posterior.places.explained import Places
+from models.posterior.places.field import PlaceField, Rough
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
 HARD, NEAR_M, RANDOM = 250, 25.0, 60  # cells that fit the text best, around the truth, and any

@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.main import app
-from models.language.text_encoder import load_text_encoder
+from models.language.text_encoder import loaded
 
 
 @pytest.fixture
@@ -49,11 +49,11 @@ def test_texts_go_with_the_method_places_and_each_with_a_map(run, osm_file, tmp_
 @pytest.mark.slow
 def test_a_point_encoder_is_made_alone(run, osm_file, tmp_path) -> None:
     few = ("--set", "training.batch_size=8", "--set", "training.validate_every=1")
-    asked_for = load_text_encoder.cache_info()
+    asked_for = loaded.cache_info()
     result = run("train", "--method", "points", "--data", osm_file, "--out", tmp_path / "p", "--steps", "2", *few)
     assert result.exit_code == 0, result.output
     assert "label" in result.output
-    assert load_text_encoder.cache_info() == asked_for, "points are told apart without words"
+    assert loaded.cache_info() == asked_for, "points are told apart without words"
     assert json.loads((tmp_path / "p" / "config.json").read_text())["validation"].keys() == {"label", "colour"}
     result = run("train", "--method", "text2loc", "--data", osm_file, "--out", tmp_path / "w", "--steps", "1",
                  "--set", f"training.points={tmp_path / 'p'}")  # fmt: skip
