@@ -7,9 +7,8 @@ MAP ?= models/maps/helsinki.osm.pbf
 INDEX ?= data/index
 IMAGE ?= hereabouts
 KILLS ?= 200
-# One more process than CPUs, for tests wait for services; each takes 1 to 2 GB, so four at most. Files are shared out in
-# runs, so that a module's fixtures are made by one of them.
-PYTEST := $(BIN)/python -m pytest --numprocesses $(shell echo $$(($(shell nproc 2>/dev/null || echo 2) + 1))) --maxprocesses 4 --dist worksteal
+# Each process takes 1 to 2 GB. Files are shared out in runs, so that a module's fixtures are made by one of them.
+PYTEST := $(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist worksteal
 # What pip is asked for first; set it to choose another build of torch, for example TORCH=./torch-2.13.0+cu130.whl.
 TORCH ?= $(shell grep '^torch==' constraints.txt)
 HELSINKI := --data models/maps/helsinki.osm.pbf
