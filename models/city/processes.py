@@ -10,6 +10,8 @@ from functools import partial
 from multiprocessing.connection import Connection
 from typing import Any, TypeVar
 
+from models.errors import DataError
+
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
@@ -55,7 +57,7 @@ def forked(work: Callable[[], Result]) -> Iterator[Callable[[], Result]]:
     """Have work done in a process of its own while the block runs; what is given waits for its result.
 
     Raises:
-        ChildProcessError: the process was killed.
+        DataError: the process was killed.
     """
     if _alone:
         yield work
@@ -86,7 +88,9 @@ def _result_of(result: Connection) -> Any:
     try:
         is_done, value = result.recv()
     except EOFError as error:
-        raise ChildProcessError("a process of this job was killed; is there enough memory?") from error
+        raise DataError(
+            "a process of this job was killed; give it more memory, or take a part of the map (--within)"
+        ) from error
     if is_done:
         return value
     raise value

@@ -7,7 +7,7 @@ import time
 import pytest
 
 from models.city.processes import forked, map_forked, one_process
-from models.errors import MapError
+from models.errors import DataError, MapError
 
 SCRIPT = """
 import os, time
@@ -51,7 +51,7 @@ def test_what_goes_wrong_beside_is_raised_where_it_is_waited_for() -> None:
 
     with forked(wrong) as result, pytest.raises(MapError, match="no map"):
         result()
-    with forked(lambda: os.kill(os.getpid(), signal.SIGKILL)) as result, pytest.raises(ChildProcessError, match="mem"):
+    with forked(lambda: os.kill(os.getpid(), signal.SIGKILL)) as result, pytest.raises(DataError, match="memory"):
         result()
 
 
