@@ -134,7 +134,7 @@ class TextEncoder(nn.Module):
     def embed(self, phrases: Sequence[str]) -> Tensor:
         """[S, W] unit vectors of phrases (mean over tokens): how labels enter the instance encoder.
 
-        Those of as many tokens are read together, so that none is padded: that is half of the work for names.
+        Those of as many tokens are read together, so that none is padded.
         """
         tokens = np.array([sum(each.attention_mask) for each in self.tokenizer.encode_batch(list(phrases))], np.int64)
         vectors = torch.zeros(len(phrases), self.width, device=next(self.model.parameters()).device)
