@@ -102,19 +102,13 @@ def index(
 
     from app.cli.progress import stage_bars
     from app.settings import load_settings
+    from index.offline.build import IndexJob
     from models.city.osm.extract import Region
 
     region = None if within is None else Region.parse(within)
     given = map_path, out, load_settings().weights_dir, split, keep_current, levels
     with stage_bars() as show:
-        if shard or merge or engine:
-            from index.offline.build import IndexJob
-
-            path = share_out(IndexJob(*given, store, region), shard, merge, engine, address, show)
-        else:
-            from index.offline.build import build_index
-
-            path = build_index(*given, show, store, region)
+        path = share_out(IndexJob(*given, store, region), shard, merge, engine, address, show)
     if shard:
         rest = f"once all {shard.count} are there, give --merge {shard.count} in the place of --shard {shard}"
         typer.echo(f"shard {shard} is in {path}; {rest}")

@@ -43,7 +43,7 @@ def check_shares(
 def share_out(
     job: "IndexJob", shard: Shard | None, merge: int | None, engine: str | None, address: str | None, show: "Progress"
 ) -> Path:
-    """Make one part of an index, or the index of all; arguments as they were checked.
+    """Make an index, at once or of its parts, or one part of it; arguments as they were checked.
 
     Returns:
         The directory of what was made.
@@ -54,5 +54,4 @@ def share_out(
         from index.offline.on_ray import build_on_ray  # noqa: PLC0415  # heavy, as all commands are
 
         return build_on_ray(job, merge, address, show)
-    assert merge
-    return job.merge(merge, show)
+    return job.merge(merge, show) if merge else job.build(show)

@@ -96,14 +96,18 @@ def test_fault_is_not_taken_for_wrong_input(opened):
 def test_index_builds_and_says_what_next(monkeypatch):
     calls, regions = [], []
 
-    def build_index(map_path, out_dir, weights_dir, *rest):
+    def job(map_path, out_dir, weights_dir, *rest):
         calls.append((map_path, out_dir, weights_dir))
         regions.append(rest[-1])
-        if map_path.name == "bad":
-            raise MapError("bad map")
-        return out_dir / "v1"
 
-    monkeypatch.setitem(sys.modules, "index.offline.build", SimpleNamespace(build_index=build_index))
+        def build(_show):
+            if map_path.name == "bad":
+                raise MapError("bad map")
+            return out_dir / "v1"
+
+        return SimpleNamespace(build=build)
+
+    monkeypatch.setitem(sys.modules, "index.offline.build", SimpleNamespace(IndexJob=job))
     result = run("index", "--map", "a.osm", "--out", "o")
     assert (result.exit_code, calls) == (0, [(Path("a.osm"), Path("o"), None)])
     assert result.stdout == "index v1 is in o/v1; serve it with: hereabouts serve --index o\n"
