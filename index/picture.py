@@ -43,12 +43,15 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
     near = figure.add_axes((0.01, 0.05, 0.64, 0.8))
     whole = figure.add_axes((0.665, 0.05, 0.325, 0.8))
     x, y = answer.estimate.position
-    reach = max(LEAST_REACH_M, REACH_RADII * answer.estimate.radius_m.p90)
-    wide = reach * 0.64 * SIZE_IN[0] / (0.8 * SIZE_IN[1])
+    aspect = 0.64 * SIZE_IN[0] / (0.8 * SIZE_IN[1])
+    west, south, east, north = _box(localizer)
+    map_m = max(y - south, north - y, (x - west) / aspect, (east - x) / aspect)  # all of the map is seen, and no more
+    reach = max(LEAST_REACH_M, min(REACH_RADII * answer.estimate.radius_m.p90, map_m))
+    wide = reach * aspect
     _draw_map(near, drawn, (x - wide, y - reach, x + wide, y + reach), colours)
     _draw_names(near, drawn, colours)
     _draw_estimate(near, answer.estimate, colours)
-    _draw_map(whole, drawn, _box(localizer), colours)
+    _draw_map(whole, drawn, (west, south, east, north), colours)
     whole.add_patch(
         Rectangle((x - wide, y - reach), 2 * wide, 2 * reach, fill=False, lw=1.5, ec=colours["accent"], zorder=8)
     )
