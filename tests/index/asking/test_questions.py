@@ -317,3 +317,15 @@ def test_who_has_begun_to_reply_is_asked_until_the_place_is_good(localizer):
         p50 = localizer.localize([query])[0].estimate.radius_m.p50
     assert {reply.question for reply in query.replies} >= {"street", "corner"}
     assert p50 <= GOOD_M or len(query.replies) == MOST_REPLIES
+
+
+def test_the_middles_of_cells_do_not_depend_on_how_many_are_looked_at_at_once(posterior, monkeypatch) -> None:
+    given = posterior.nodes.sights, list(posterior.labels), posterior._palette, NOTHING_NAMED, posterior.gallery.cells
+    once = Questions(*given)._middle
+    monkeypatch.setattr("index.asking.questions.CELLS_AT_ONCE", 37)
+    assert (Questions(*given)._middle == once).all()
+    surroundings, centers = posterior.surroundings, posterior.gallery.cells.center_m[:, :2]
+    owner = surroundings.owner(once)
+    apart = np.hypot(*(surroundings.positions_m(once) - centers[owner]).T)
+    assert len(np.unique(owner)) == len(once) == np.count_nonzero(np.diff(surroundings.cell_starts))
+    assert apart.max() < 1.5, "half a diagonal of the nodes' grid"

@@ -270,3 +270,25 @@ def test_angles_that_are_not_sure_are_summed_over(field, one, other) -> None:
 
     both = fits(Cue(angle=one, angles=((one, 0.7), (other, 0.3))))
     torch.testing.assert_close(both, 0.7 * fits(Cue(angle=one)) + 0.3 * fits(Cue(angle=other)))
+
+
+@torch.inference_mode()
+def test_cells_have_what_they_would_have_if_each_were_looked_at(field) -> None:
+    """In a town that is wide against what is looked at cell by cell."""
+    rng = np.random.default_rng(2)
+    centers = np.stack(np.meshgrid(np.arange(0, 3000, GRID_M), np.arange(0, 1500, GRID_M)), axis=-1).reshape(-1, 2)
+    words = [Words(("shop",), (name,)) for name in ("One", "Other", "Third")]
+    town = build_gazetteer(words, [point(*at) for at in rng.uniform((0, 0), (3000, 1500), (3, 2))], [False] * 3)
+    wide = PlaceField(PlaceKernels(), town, centers, GRID_M)
+    cues = Cue(), Cue(relation="near"), Cue(distance_m=100.0)
+    mentions = [
+        Mention(name, 0, 1, "thing", np.array(objects), np.linspace(1.0, 0.3, len(objects)), cue=cue, is_exact=True)
+        for name, objects, cue in zip("abc", ([0], [1], [0, 2]), cues, strict=True)
+    ]
+    told, total = wide.told(mentions), np.zeros(len(centers))
+    assert len(told.places.mentions) == len(mentions)
+    for mention, common in zip(mentions, told.places.common, strict=True):
+        rough = wide.rough(mention, np.arange(len(centers)))
+        assert float(common) == pytest.approx(float(wide.usual(mention, rough)), rel=1e-4)
+        total += wide.worth(mention, wide.roughly(mention, rough), common).numpy()
+    assert np.abs(told.cells - total).max() < 1e-4
