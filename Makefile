@@ -7,6 +7,8 @@ MAP ?= models/maps/helsinki.osm.pbf
 INDEX ?= data/index
 IMAGE ?= hereabouts
 KILLS ?= 200
+# Python compiles what it imports; pip would compile all of it, which takes as long as the rest.
+PIP := $(BIN)/pip install --quiet --disable-pip-version-check --no-compile
 # Each process takes 1 to 2 GB. Files are shared out in runs, so that a module's fixtures are made by one of them.
 PYTEST := $(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist worksteal
 # What pip is asked for first; set it to choose another build of torch, for example TORCH=./torch-2.13.0+cu130.whl.
@@ -29,8 +31,8 @@ help:  ## what can be made
 
 $(BIN)/.installed: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install --quiet --disable-pip-version-check $(TORCH)
-	$(BIN)/pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	$(PIP) $(TORCH)
+	$(PIP) --constraint constraints.txt --editable '.[dev]'
 	touch $@
 
 install: $(BIN)/.installed  ## virtual environment with everything in it
