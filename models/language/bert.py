@@ -6,11 +6,14 @@ tests.
 
 import json
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Final, Self
 
+import torch
 from pydantic import BaseModel
 from safetensors import safe_open
 from torch import Tensor, nn
+
+HAS_ONEDNN: Final = torch.backends.mkldnn.is_available()
 
 
 class BertConfig(BaseModel):
@@ -70,6 +73,20 @@ class _Embeddings(nn.Module):
         return embedded
 
 
+class Linear(nn.Linear):
+    """As torch's but for the last bits, by oneDNN where nothing is learnt.
+
+    Torch asks MKL, which on the processors of other makers than its own is half as fast.
+    """
+
+    def forward(self, x: Tensor) -> Tensor:
+        """[..., I] to [..., O]."""
+        if not HAS_ONEDNN or torch.is_grad_enabled() or x.device.type != "cpu" or x.dtype != torch.float32:
+            return super().forward(x)
+        made: Tensor = torch.ops.mkldnn._linear_pointwise(x, self.weight, self.bias, "none", [], "")
+        return made
+
+
 class Layer(nn.Module):
     """Attention over all tokens, and two linear layers on each."""
 
@@ -77,9 +94,9 @@ class Layer(nn.Module):
         super().__init__()
         width = config.hidden_size
         self.heads = config.num_attention_heads
-        heads = nn.ModuleDict({name: nn.Linear(width, width) for name in ("query", "key", "value")})
+        heads = nn.ModuleDict({name: Linear(width, width) for name in ("query", "key", "value")})
         self.attention = nn.ModuleDict({"self": heads, "output": _added(width, width, config)})
-        self.intermediate = nn.ModuleDict({"dense": nn.Linear(width, config.intermediate_size)})
+        self.intermediate = nn.ModuleDict({"dense": Linear(width, config.intermediate_size)})
         self.output = _added(config.intermediate_size, width, config)
 
     def forward(self, hidden: Tensor, shut: Tensor | None) -> Tensor:
@@ -93,7 +110,7 @@ class Layer(nn.Module):
 
 
 def _added(width: int, to: int, config: BertConfig) -> nn.ModuleDict:
-    return nn.ModuleDict({"dense": nn.Linear(width, to), "LayerNorm": nn.LayerNorm(to, config.layer_norm_eps)})
+    return nn.ModuleDict({"dense": Linear(width, to), "LayerNorm": nn.LayerNorm(to, config.layer_norm_eps)})
 
 
 def _add(output: Any, told: Tensor, hidden: Tensor) -> Tensor:

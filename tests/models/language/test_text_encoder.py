@@ -8,6 +8,7 @@ from transformers import AutoModel, AutoTokenizer, PreTrainedTokenizerFast, T5Co
 
 from models.errors import WeightsError
 from models.language import text_encoder as module
+from models.language.bert import Linear
 from models.language.text_encoder import MINILM_SHA256, load_text_encoder
 
 SENTENCES = ["I am north of a gray building.", "A tree."]
@@ -36,7 +37,21 @@ def test_minilm_is_what_transformers_make_of_its_files(text_encoder) -> None:
         expected = AutoModel.from_pretrained(path)(input_ids=ids, attention_mask=mask).last_hidden_state
     found = text_encoder(texts)
     assert found.ids.tolist() == ids.tolist()
-    assert torch.allclose(found.values, expected * mask[..., None], atol=1e-6)
+    assert torch.allclose(found.values, expected * mask[..., None], atol=1e-5)
+
+
+@pytest.mark.parametrize("shape", [(1, 42), (7,), (3, 0)])
+@pytest.mark.parametrize("bias", [True, False])
+def test_a_layer_without_gradients_is_the_same_layer(shape, bias) -> None:
+    torch.manual_seed(0)
+    layer, x = Linear(24, 40, bias=bias), torch.randn(*shape, 24)
+    expected = torch.nn.functional.linear(x, layer.weight, layer.bias)
+    with torch.inference_mode():
+        assert torch.allclose(layer(x), expected, atol=1e-5)
+        assert torch.equal(layer(x.mT.contiguous().mT) if x.dim() > 1 else layer(x), layer(x))
+    learnt = layer(x)
+    assert torch.equal(learnt, expected), "gradients go through torch's own"
+    assert learnt.requires_grad
 
 
 def test_it_is_frozen(text_encoder) -> None:
