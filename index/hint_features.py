@@ -22,9 +22,8 @@ def template_hints(gallery: Gallery, palette: Palette) -> tuple[str, ...]:
     parts = gallery.cells.parts
     labels, number = np.unique(np.array(gallery.labels)[parts.instance], return_inverse=True)
     words = [*palette.words, None]
-    said = {
-        (str(labels[n]), words[c]) for n, c in np.unique(np.stack([number, palette.word_index(parts.rgb)]), axis=1).T
-    }
+    seen = np.unique(number * len(words) + palette.word_index(parts.rgb) % len(words))  # -1 is the last of them
+    said = {(str(labels[row // len(words)]), words[row % len(words)]) for row in seen.tolist()}
     said |= {(str(label), None) for label in labels}
     pairs = sorted(said, key=lambda pair: (pair[0], pair[1] or ""))
     return tuple(render_hint(Hint(direction, *pair)) for pair in pairs for direction in DIRECTIONS)

@@ -16,7 +16,7 @@ from index.offline.shard import Shard
 from models.city.cells import BLOCK
 from models.city.osm.extract import Region, extracted
 from models.city.processes import forked
-from models.city.source import Source, open_source
+from models.city.source import open_source
 from models.city.types import Progress
 from models.errors import IndexUnusable
 from models.posterior.model import PosteriorModel, load_posterior
@@ -98,7 +98,8 @@ class IndexJob:
         ready = self._ready(report)
         if current := self._current(ready):
             return current
-        with self._source(report) as source, forked(partial(names_of, source)) as names:
+        with self._map(report) as path, forked(partial(names_of, path)) as names:
+            source = open_source(path, self.split, report)
             surroundings = surroundings_of(source.bodies(), source.data.cells, report)
             rows = range(len(source.data.cells))
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
@@ -117,7 +118,8 @@ class IndexJob:
             return parts.path(shard)
         with writing(self.out_dir):
             parts.claim()
-        with self._source(report) as source:
+        with self._map(report) as path:
+            source = open_source(path, self.split, report)
             cells = source.data.cells
             rows = shard.rows(len(cells), BLOCK)
             surroundings = surroundings_of(source.bodies(), cells, report, rows)
@@ -140,13 +142,14 @@ class IndexJob:
         if version is None:
             report("check parts", 0, 0)
             parts.check(count)
-            with self._source(report) as source:
+            with self._map(report) as path:
+                source = open_source(path, self.split, report)
                 made = parts.read(count, self._encoder(ready).levels, source.data.cells)
                 scanned = [part.scanned for part in made if part.scanned is not None]
                 surroundings = (
                     ScanSurroundings.joined(scanned) if scanned else surroundings_of(source.bodies(), source.data.cells)
                 )
-                version = self._publisher(ready).publish(source, made, surroundings, partial(names_of, source), report)
+                version = self._publisher(ready).publish(source, made, surroundings, partial(names_of, path), report)
         parts.remove()
         return version
 
@@ -178,12 +181,12 @@ class IndexJob:
         return Publisher(self.out_dir, ready.retriever, ready.posterior.fingerprint, ready.map_sha256, self.store)
 
     @contextmanager
-    def _source(self, report: Progress) -> Iterator[Source]:
-        """The map, opened until the block ends."""
+    def _map(self, report: Progress) -> Iterator[Path]:
+        """The map's file, of the region that is wanted, until the block ends."""
         if self.within is not None:
             report("take the region", 0, 0)
         with extracted(self.map_path, self.within) as path:
-            yield open_source(path, self.split, report)
+            yield path
 
     def _current(self, ready: _Ready) -> Path | None:
         """The default version's directory if it is kept, whole, of this map, model and store, with levels if wanted."""

@@ -21,7 +21,7 @@ from models.city.gallery import MapData
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.kinds.vocabulary import load_vocabulary
 from models.city.scenery.files import save_scenery
-from models.city.source import Source
+from models.city.source import Source, gazetteer_of
 from models.city.types import Progress
 from models.errors import DataError
 from models.files import file_records, new_directory
@@ -115,9 +115,9 @@ class Publisher:
         statements.save(directory, self.posterior_fingerprint)
 
 
-def names_of(source: Source) -> tuple[Gazetteer, list[str], Floats]:
+def names_of(path: Path) -> tuple[Gazetteer, list[str], Floats]:
     """What a map names, phrases of it, and what each means (unit vectors [P, W])."""
-    gazetteer, encoder = source.gazetteer(), load_text_encoder()
+    gazetteer, encoder = gazetteer_of(path), load_text_encoder()
     phrases = Lookup(gazetteer, load_vocabulary(), encoder.is_everyday).phrases()
     return gazetteer, *meanings_of(phrases, encoder.embed)
 

@@ -25,10 +25,9 @@ class Palette:
         Returns:
             [...] index into `words`, -1 where a channel is NaN.
         """
-        centers = np.asarray(self.centers) / 255.0
-        distance = np.linalg.norm(np.asarray(rgb)[..., None, :] - centers, axis=-1)
-        unknown = np.isnan(distance).any(axis=-1)
-        return np.where(unknown, -1, np.argmin(np.where(np.isnan(distance), np.inf, distance), axis=-1))
+        channels, centers = np.moveaxis(np.asarray(rgb), -1, 0)[..., None], np.asarray(self.centers).T / 255.0
+        square = sum((channel - center) ** 2 for channel, center in zip(channels, centers, strict=True))
+        return np.where(np.isnan(square).any(axis=-1), -1, np.argmin(square, axis=-1))
 
     def word(self, rgb: npt.NDArray[np.floating[Any]]) -> str | None:
         """The word for one colour, None if it is unknown."""

@@ -54,7 +54,7 @@ def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterato
 
 @contextmanager
 def forked(work: Callable[[], Result]) -> Iterator[Callable[[], Result]]:
-    """Have work done in a process of its own while the block runs; what is given waits for its result.
+    """Have work done in one process of its own while the block runs; what is given waits for its result.
 
     Raises:
         DataError: the process was killed.
@@ -78,7 +78,8 @@ def _do(work: Callable[[], Any], result: Connection) -> None:
     """What the process of `forked` does."""
     _watch_parent()
     try:
-        done = True, work()
+        with one_process():
+            done = True, work()
     except Exception as error:  # whoever waits for it raises it
         done = False, error
     result.send(done)

@@ -19,7 +19,7 @@ from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
 from models.city.hints import BEST_CELL_REACH_M, HintTable, describe_poses, hint_table, sample_positions
 from models.city.kitti360.rules import CLASSES
 from models.city.osm.gazetteer import load_gazetteer
-from models.city.osm.map import load_osm
+from models.city.osm.map import frame_of, load_osm
 from models.city.points import Ints
 from models.city.queries import Queries, Statements
 from models.city.regions import SPLITS, split_regions
@@ -285,6 +285,11 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
     bodies = bodies_of(city_map)
     cells = cut_cells(city_map, bodies, lambda done, total: report("cut cells", done, total))
     return [MapSource(path, city_map, bodies, cells, split) for split in splits]
+
+
+def gazetteer_of(path: Path) -> Gazetteer:
+    """What a map names, as `Source.gazetteer`, without the rest of it; arguments and errors as `open_sources`."""
+    return NOTHING_NAMED if path.is_dir() else load_gazetteer(path, frame_of(path))
 
 
 def _grid_of(cells: CellTable, scene: Ints) -> float:

@@ -4,7 +4,8 @@ A real map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): f
 mapped and raised as `classes.toml` says. Colours come from colour, material and surface tags.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from models.city.frame import Frame
 from models.city.osm.classes import OsmClass, class_of, load_classes
 from models.city.osm.features import Feature, as_feature, merge
 from models.city.tiled.pieces import PieceTable
+from models.city.tiled.tiling import Geometries
 from models.city.types import CityMap, CutRules, Instance, MapShape
 from models.errors import MapError
 
@@ -46,17 +48,12 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
 
 def read_features(path: Path) -> tuple[list[Feature], Frame]:
     """What a file has, in metres, and the frame of these; arguments and errors as `load_osm`."""
-    elements, bounds = _read_elements(path)
-    if not elements:
-        raise MapError(
-            f"{path}: no building, street, tree or other known object in it; "
-            "take an extract of an inhabited place, or extend models/city/osm/classes.toml"
-        )
-    lon_lat = shapely.from_wkb([element.wkb for element in elements])
-    west, south, east, north = bounds or shapely.total_bounds(lon_lat)
-    frame = Frame(origin_lat=round((south + north) / 2, 7), origin_lon=round((west + east) / 2, 7))
+    box = _box(path)
+    elements, lon_lat = _read_elements(path)
+    frame = _middle(box or shapely.total_bounds(lon_lat))
     geometries = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
-    if bounds:
+    if box:
+        west, south, east, north = box
         corners = frame.from_wgs84(np.array([south, north]), np.array([west, east]))
         geometries = shapely.clip_by_rect(geometries, *corners[0], *corners[1])
     features = merge(
@@ -69,6 +66,17 @@ def read_features(path: Path) -> tuple[list[Feature], Frame]:
     return features, frame
 
 
+def frame_of(path: Path) -> Frame:
+    """The frame of a file's map, for which a file that says its box is not read; arguments and errors as `load_osm`."""
+    return _middle(_box(path) or shapely.total_bounds(_read_elements(path)[1]))
+
+
+def _middle(box: Sequence[float]) -> Frame:
+    """The frame at the middle of a box (west, south, east, north)."""
+    west, south, east, north = box
+    return Frame(origin_lat=round((south + north) / 2, 7), origin_lon=round((west + east) / 2, 7))
+
+
 @dataclass(frozen=True, slots=True)
 class _Element:
     wkb: str
@@ -78,26 +86,44 @@ class _Element:
     source_id: str
 
 
-def _read_elements(path: Path) -> tuple[list[_Element], tuple[float, float, float, float] | None]:
-    """The elements of the file that belong to a class, and the extract's box (west, south, east, north)."""
+def _box(path: Path) -> tuple[float, float, float, float] | None:
+    """The box of an extract (west, south, east, north), if it says so."""
     if not path.is_file():
         raise MapError(f"{path}: no such file; give the path of an .osm.pbf or .osm file")
     if not path.name.lower().endswith(SUFFIXES):
         raise MapError(f"{path}: not an OpenStreetMap file by its name; expected one of {', '.join(SUFFIXES)}")
     if path.stat().st_size == 0:
         raise MapError(f"{path}: the file is empty; download it again")
-    keys = sorted({key for row in load_classes() for key, _ in row.required})
-    try:
+    with _reading(path):
         box = osmium.io.Reader(str(path)).header().box()
+    if not box.valid():
+        return None
+    return box.bottom_left.lon, box.bottom_left.lat, box.top_right.lon, box.top_right.lat
+
+
+def _read_elements(path: Path) -> tuple[list[_Element], Geometries]:
+    """The elements of the file that belong to a class, and the geometry of each, in degrees."""
+    keys = sorted({key for row in load_classes() for key, _ in row.required})
+    with _reading(path):
         processor = osmium.FileProcessor(str(path)).with_areas().with_filter(osmium.filter.KeyFilter(*keys))
         elements = list(_classify(processor))
+    if not elements:
+        raise MapError(
+            f"{path}: no building, street, tree or other known object in it; "
+            "take an extract of an inhabited place, or extend models/city/osm/classes.toml"
+        )
+    return elements, shapely.from_wkb([element.wkb for element in elements])
+
+
+@contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Say so where a file is broken."""
+    try:
+        yield
     except (RuntimeError, ValueError, OSError, osmium.InvalidLocationError) as error:
         raise MapError(
             f"{path}: cannot be read as OpenStreetMap ({error}); download it again, it may be cut short"
         ) from error
-    if not box.valid():
-        return elements, None
-    return elements, (box.bottom_left.lon, box.bottom_left.lat, box.top_right.lon, box.top_right.lat)
 
 
 def geometries() -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """The table of pieces: what of each instance of a map lies in each tile, and which pieces hang together."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
@@ -10,17 +10,10 @@ import numpy.typing as npt
 import shapely
 
 from models.city.points import Ints, ranges, thin
-from models.city.tiled.segments import Steps, geometry_of, segments_of, snapped
+from models.city.tiled.rows import Rows, stuff_rows, thing_rows
+from models.city.tiled.segments import Steps, geometry_of, segments_of
 from models.city.tiled.solids import FORMS, Solid
-from models.city.tiled.tiling import (
-    TILE_M,
-    TOUCHING_M,
-    Geometries,
-    clip_to_tiles,
-    join_pieces,
-    take_apart,
-    uncovered,
-)
+from models.city.tiled.tiling import TILE_M, TOUCHING_M, Geometries
 from models.city.types import Floats
 
 
@@ -62,12 +55,7 @@ class PieceTable:
     @classmethod
     def of(cls, solids: Sequence[Solid]) -> "PieceTable":
         """The pieces of a map's features."""
-        parts = [
-            _stuff(solids, "area", 2, shapely.area),
-            _stuff(solids, "line", 1, shapely.length),
-            _things(solids),
-        ]
-        rows = _Rows(*(np.concatenate([getattr(some, f.name) for some in parts]) for f in fields(_Rows)))
+        rows = Rows.joined([*stuff_rows(solids, "area"), *stuff_rows(solids, "line"), thing_rows(solids)])
         low = np.array([rows.column.min(), rows.row.min()])
         shape = np.array([rows.column.max(), rows.row.max()]) - low + 1
         tile = (rows.column - low[0]) * shape[1] + rows.row - low[1]
@@ -135,79 +123,6 @@ class PieceTable:
         areas = self.geometry(pieces)
         shapely.prepare(areas)
         return thin(xy[shapely.contains_xy(areas[of], *xy.T)], spacing_m)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Rows:
-    column: Ints
-    row: Ints
-    instance: Ints
-    form: Ints
-    geometry: Geometries
-    bounds_m: Floats
-    heights_m: Floats
-    crown_m: Floats
-    worth: Floats
-
-
-def _stuff(solids: Sequence[Solid], form: str, dimensions: int, size: Callable[[Geometries], Floats]) -> _Rows:
-    """Pieces of areas (of what nothing covers) or of lines; `size` is what their worth is of."""
-    chosen = [solid for solid in solids if solid.form == form]
-    column, row, of, geometry = _joined(chosen, covers=form == "area")
-    of_piece, pieces = take_apart(geometry, dimensions)
-    worth = np.array([solid.worth for solid in chosen])[of[of_piece]] * size(pieces)
-    return _rows(chosen, column[of_piece], row[of_piece], of[of_piece], pieces, worth)
-
-
-def _things(solids: Sequence[Solid]) -> _Rows:
-    chosen = [solid for solid in solids if solid.form == "thing"]
-    cut = clip_to_tiles(_array([solid.geometry for solid in chosen]))
-    geometry = snapped(cut.geometry)
-    kept = ~shapely.is_empty(geometry)
-    column, row, of, geometry = cut.column[kept], cut.row[kept], cut.feature[kept], geometry[kept]
-    size = _extent(geometry)
-    whole = np.bincount(of, size, len(chosen))
-    worth = np.array([solid.worth for solid in chosen])[of] * size / whole[of]
-    return _rows(chosen, column, row, of, geometry, worth)
-
-
-def _joined(chosen: Sequence[Solid], covers: bool) -> tuple[Ints, Ints, Ints, Geometries]:
-    """(column, row, first feature, geometry) of each instance in each tile; of areas, what nothing covers."""
-    cut = clip_to_tiles(_array([solid.geometry for solid in chosen]))
-    instance = np.array([solid.instance for solid in chosen], dtype=np.int64)
-    known, first = np.unique(instance, return_index=True)
-    rank = first[np.searchsorted(known, instance)][cut.feature]  # its first feature: what comes first covers
-    order = np.lexsort((rank, cut.row, cut.column))
-    column, row, rank, geometry = cut.column[order], cut.row[order], rank[order], cut.geometry[order]
-    new = (np.diff(column, prepend=column[:1] - 1) != 0) | (np.diff(row, prepend=0) != 0)
-    tile = np.cumsum(new) - 1
-    group = np.cumsum(new | (np.diff(rank, prepend=-1) != 0)) - 1
-    at, joined = join_pieces(group, geometry)
-    if covers:
-        joined = uncovered(tile[at], joined)
-    return column[at], row[at], rank[at], snapped(joined)
-
-
-def _rows(chosen: Sequence[Solid], column: Ints, row: Ints, of: Ints, pieces: Geometries, worth: Floats) -> _Rows:
-    instance = np.array([solid.instance for solid in chosen], dtype=np.int64)[of]
-    heights = np.array([(solid.base_m, solid.top_m) for solid in chosen]).reshape(-1, 2)[of]
-    form = np.full(len(of), FORMS.index(chosen[0].form) if chosen else 0)
-    radius = np.array([solid.radius_m for solid in chosen])[of]
-    bounds = shapely.bounds(pieces) + radius[:, None] * [-1, -1, 1, 1]
-    crown = np.array([solid.crown_m for solid in chosen])[of]
-    return _Rows(column, row, instance, form, pieces, bounds, heights, crown, worth)
-
-
-def _array(geometries: Sequence[shapely.Geometry]) -> Geometries:
-    array = np.empty(len(geometries), dtype=object)
-    array[:] = geometries
-    return array
-
-
-def _extent(geometry: Geometries) -> Floats:
-    """Length of lines and outlines; 1 of points."""
-    length = shapely.length(geometry)
-    return np.where(length > 0, length, 1.0)
 
 
 def _links(tile: Ints, shape: Ints, low: Ints, instance: Ints, form: Ints, geometry: Geometries) -> tuple[Ints, Ints]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -10,8 +11,11 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from models.city.points import Ints, ranges
+from models.city.types import Floats
 
 Geometries = npt.NDArray[np.object_]
+Span = tuple[int, int]  # numbers of columns or rows of tiles, from the first to before the second
+EVERYWHERE: Final = (-(2**31), 2**31)
 TILE_M = 10.0  # as the grid of cells: a tile is the square round a centre
 FAR_M = 1e9  # beyond every map
 TOUCHING_M = 0.75  # what is this near hangs together (rule 4)
@@ -33,27 +37,34 @@ class Clipped:
     geometry: Geometries
 
 
-def clip_to_tiles(geometry: Geometries) -> Clipped:
-    """Cut geometries [n] at the borders of tiles."""
-    strips = _cut_apart(geometry, np.arange(len(geometry)), axis=0)
+def clip_to_tiles(geometry: Geometries, band: Span) -> Clipped:
+    """Cut geometries [n] at the borders of tiles, those in some columns."""
+    strips = _cut_apart(geometry, np.arange(len(geometry)), 0, band)
     found: list[tuple[Ints, Ints, Ints, Geometries]] = [(strips[0][:0], strips[0][:0], strips[1][:0], strips[2][:0])]
     for number, begin, end in _runs(strips[0]):
-        row, feature, pieces = _cut_apart(strips[2][begin:end], strips[1][begin:end], axis=1)
+        row, feature, pieces = _cut_apart(strips[2][begin:end], strips[1][begin:end], 1, EVERYWHERE)
         found.append((np.full(len(row), number), row, feature, pieces))
     return Clipped(*(np.concatenate(some) for some in zip(*found, strict=True)))
 
 
-def _cut_apart(geometry: Geometries, feature: Ints, axis: int) -> tuple[Ints, Ints, Geometries]:
+def band_of(ends_m: Floats) -> tuple[Ints, Ints]:
+    """Numbers of the first and of the last column or row of tiles of [n, 2] from where to where."""
+    first, last = (np.floor(ends / TILE_M + 0.5).astype(np.int64) for ends in ends_m.T)
+    return first, last
+
+
+def _cut_apart(geometry: Geometries, feature: Ints, axis: int, span: Span) -> tuple[Ints, Ints, Geometries]:
     """(band, feature, piece) of geometries along one axis, in order of band, then of the geometries."""
-    bounds = shapely.bounds(geometry)
-    low = np.floor(bounds[:, axis] / TILE_M + 0.5).astype(np.int64)
-    high = np.floor(bounds[:, axis + 2] / TILE_M + 0.5).astype(np.int64)
-    of = np.repeat(np.arange(len(geometry)), high - low + 1)
-    band = ranges(low, high + 1)
+    low, high = band_of(shapely.bounds(geometry)[:, [axis, axis + 2]])
+    is_whole = low == high
+    low = np.maximum(low, span[0])
+    after = np.maximum(np.minimum(high + 1, span[1]), low)
+    of = np.repeat(np.arange(len(geometry)), after - low)
+    band = ranges(low, after)
     order = np.argsort(band, kind="stable")
     of, band = of[order], band[order]
     pieces = geometry[of]
-    is_cut = (high > low)[of]
+    is_cut = ~is_whole[of]
     for number, begin, end in _runs(band):
         rows = begin + np.flatnonzero(is_cut[begin:end])
         if len(rows):

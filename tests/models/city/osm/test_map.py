@@ -7,7 +7,8 @@ import shapely
 
 from models.city.colours import parse_colour
 from models.city.osm.classes import OsmClass, class_of, load_classes
-from models.city.osm.map import load_osm
+from models.city.osm.map import frame_of, load_osm
+from models.city.tiled import rows
 from models.errors import MapError
 
 HEADER = "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>"
@@ -53,6 +54,24 @@ def test_reads_all_kinds_of_a_town(city) -> None:
     assert city.frame.is_georeferenced
     assert {"building", "road", "footpath"} <= city.stuff
     assert "tree" not in city.stuff
+
+
+BOX = '<bounds minlat="59.999" minlon="24.999" maxlat="60.005" maxlon="25.003"/>'
+
+
+@pytest.mark.parametrize("box", [BOX, ""])
+def test_the_frame_is_known_before_the_map_is_read(tmp_path, box) -> None:
+    path = tmp_path / "map.osm"
+    path.write_text(HEADER + box + STREET + "</osm>")
+    assert frame_of(path) == load_osm(path).frame
+    assert frame_of(path).origin_lat == pytest.approx(60.002 if box else 60.0)
+    assert frame_of(path).origin_lon == pytest.approx(25.001 if box else 25.0005)
+
+
+def test_pieces_are_the_same_however_many_columns_are_cut_at_once(osm_file, city, monkeypatch) -> None:
+    monkeypatch.setattr(rows, "BAND", 3)
+    columns, expected = load_osm(osm_file).pieces.columns(), city.pieces.columns()
+    assert all(np.array_equal(columns[name], expected[name]) for name in expected)
 
 
 def geometry_of(city, instance):

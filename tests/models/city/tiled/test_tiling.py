@@ -4,7 +4,7 @@ import shapely
 
 from models.city.tiled.pieces import PieceTable
 from models.city.tiled.solids import Solid, points_on
-from models.city.tiled.tiling import TILE_M, clip_to_tiles, take_apart, uncovered
+from models.city.tiled.tiling import EVERYWHERE, TILE_M, clip_to_tiles, take_apart, uncovered
 
 
 def array(*geometries):
@@ -26,7 +26,7 @@ def test_what_is_in_the_tiles_is_what_there_was(seed):
         shapely.Point(3, 4),
         shapely.Polygon([(-20, -20), (20, -20), (20, 20), (-20, 20)], [[(-9, -9), (9, -9), (9, 9)]]),
     ]
-    cut = clip_to_tiles(array(*shapes))
+    cut = clip_to_tiles(array(*shapes), EVERYWHERE)
     middle = np.stack([cut.column, cut.row], axis=1) * TILE_M
     bounds = shapely.bounds(cut.geometry) - np.tile(middle, 2)
     assert np.abs(bounds).max() <= TILE_M / 2 + 1e-9

@@ -1,0 +1,142 @@
+"""The pieces of a map's solids as they are cut: a band of tiles at a time, in several processes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from functools import partial
+from typing import Final
+
+import numpy as np
+import shapely
+
+from models.city.points import Ints
+from models.city.processes import map_forked
+from models.city.tiled.segments import snapped
+from models.city.tiled.solids import FORMS, Form, Solid
+from models.city.tiled.tiling import (
+    EVERYWHERE,
+    Geometries,
+    Span,
+    band_of,
+    clip_to_tiles,
+    join_pieces,
+    take_apart,
+    uncovered,
+)
+from models.city.types import Floats
+
+BAND: Final = 24  # columns of tiles that a task cuts
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """Pieces, K rows in order of tile; see `PieceTable`.
+
+    Attributes:
+        column, row: [K] tile.
+        instance, form, bounds_m, heights_m, crown_m, worth: as of the table.
+        geometry: [K] metres, map frame.
+    """
+
+    column: Ints
+    row: Ints
+    instance: Ints
+    form: Ints
+    geometry: Geometries
+    bounds_m: Floats
+    heights_m: Floats
+    crown_m: Floats
+    worth: Floats
+
+    @classmethod
+    def joined(cls, some: Sequence["Rows"]) -> "Rows":
+        """All of some, one after the other."""
+        return cls(*(np.concatenate([getattr(rows, f.name) for rows in some]) for f in fields(cls)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Chosen:
+    """N solids of one form, by column; `rank` is the first of the same instance: what comes first covers."""
+
+    form: int
+    geometry: Geometries
+    instance: Ints
+    rank: Ints
+    heights_m: Floats
+    radius_m: Floats
+    crown_m: Floats
+    worth: Floats
+
+    @classmethod
+    def of(cls, solids: Sequence[Solid], form: Form) -> "_Chosen":
+        some = [solid for solid in solids if solid.form == form]
+        geometry = np.empty(len(some), dtype=object)
+        geometry[:] = [solid.geometry for solid in some]
+        instance = np.array([solid.instance for solid in some], dtype=np.int64)
+        known, first = np.unique(instance, return_index=True)
+        return cls(
+            FORMS.index(form),
+            geometry,
+            instance,
+            first[np.searchsorted(known, instance)],
+            np.array([(solid.base_m, solid.top_m) for solid in some]).reshape(-1, 2),
+            np.array([solid.radius_m for solid in some]),
+            np.array([solid.crown_m for solid in some]),
+            np.array([solid.worth for solid in some]),
+        )
+
+    def rows(self, column: Ints, row: Ints, of: Ints, pieces: Geometries, size: Floats) -> Rows:
+        """Pieces of these; `of` [K] says of which, and their worth grows with their size."""
+        bounds = shapely.bounds(pieces) + self.radius_m[of, None] * [-1, -1, 1, 1]
+        form, worth = np.full(len(of), self.form), self.worth[of] * size
+        return Rows(column, row, self.instance[of], form, pieces, bounds, self.heights_m[of], self.crown_m[of], worth)
+
+
+def stuff_rows(solids: Sequence[Solid], form: Form) -> list[Rows]:
+    """Pieces of areas (of what nothing covers) or of lines, each with what hangs together in a tile."""
+    chosen = _Chosen.of(solids, form)
+    if not len(chosen.geometry):
+        return []
+    first, last = band_of(shapely.bounds(chosen.geometry)[:, [0, 2]])
+    bands = [(low, low + BAND) for low in range(int(first.min()), int(last.max()) + 1, BAND)]
+    return [_unpacked(rows) for rows in map_forked(partial(_stuff_of, chosen), bands)]
+
+
+def _stuff_of(chosen: _Chosen, band: Span) -> Rows:
+    column, row, of, geometry = _joined(chosen, band)
+    is_area = FORMS[chosen.form] == "area"
+    of_piece, pieces = take_apart(geometry, 2 if is_area else 1)
+    size = shapely.area(pieces) if is_area else shapely.length(pieces)
+    rows = chosen.rows(column[of_piece], row[of_piece], of[of_piece], pieces, size)
+    return replace(rows, geometry=shapely.to_wkb(pieces))  # between processes much smaller
+
+
+def _unpacked(rows: Rows) -> Rows:
+    return replace(rows, geometry=shapely.from_wkb(rows.geometry))
+
+
+def thing_rows(solids: Sequence[Solid]) -> Rows:
+    """Pieces of things, which are whole: each tile's part is worth its share."""
+    chosen = _Chosen.of(solids, "thing")
+    cut = clip_to_tiles(chosen.geometry, EVERYWHERE)
+    geometry = snapped(cut.geometry)
+    kept = ~shapely.is_empty(geometry)
+    of, geometry = cut.feature[kept], geometry[kept]
+    length = shapely.length(geometry)
+    size = np.where(length > 0, length, 1.0)  # 1 of points
+    whole = np.bincount(of, size, len(chosen.geometry))
+    return chosen.rows(cut.column[kept], cut.row[kept], of, geometry, size / whole[of])
+
+
+def _joined(chosen: _Chosen, band: Span) -> tuple[Ints, Ints, Ints, Geometries]:
+    """(column, row, first feature, geometry) of each instance in each tile; of areas, what nothing covers."""
+    cut = clip_to_tiles(chosen.geometry, band)
+    rank = chosen.rank[cut.feature]
+    order = np.lexsort((rank, cut.row, cut.column))
+    column, row, rank, geometry = cut.column[order], cut.row[order], rank[order], cut.geometry[order]
+    new = (np.diff(column, prepend=column[:1] - 1) != 0) | (np.diff(row, prepend=0) != 0)
+    tile = np.cumsum(new) - 1
+    group = np.cumsum(new | (np.diff(rank, prepend=-1) != 0)) - 1
+    at, joined = join_pieces(group, geometry)
+    if FORMS[chosen.form] == "area":
+        joined = uncovered(tile[at], joined)
+    return column[at], row[at], rank[at], snapped(joined)
