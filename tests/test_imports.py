@@ -83,7 +83,7 @@ MAY_IMPORT = {
     "app.http.routes": ("app", "app.http", "app.http.formats", "app.http.schemas", "app.jobs", *ANSWERS),
     "app.jobs": ("app", "app.http", "app.http.schemas", *MEASURES),
     "app.benchmark": ("app", *MEASURES),
-    "app.cli": ("app", "app.benchmark", "app.http", "app.jobs", *REPRODUCES),
+    "app.cli": ("app", "app.benchmark", "app.http", "app.jobs", "app.workers", *REPRODUCES),
 }
 # Of a package that may be imported, the modules that may be; (importing, imported), sub-packages included.
 ONLY = {

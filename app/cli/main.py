@@ -126,6 +126,9 @@ def serve(
     ] = Path("data/jobs"),
 ) -> None:
     """Serve an index over HTTP; the other settings are HEREABOUTS_ variables."""
+    from app.workers.pool import prepare
+
+    prepare()
     from app.logs import configure_logging
     from app.main import create_app
     from app.server import serve as serve_app

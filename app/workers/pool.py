@@ -19,8 +19,32 @@ from index.answers import IndexFacts
 from models.city.frame import Frame
 
 PROCESS: Final = (sys.executable, "-m", "app.workers.process")
+AHEAD: Final = "index.localizer"  # brings torch, which takes seconds
 ROOT: Final = Path(__file__).parents[2]  # where the processes find this very code
 EXIT_S: Final = 5.0
+
+
+def launch(command: Sequence[str]) -> tuple[subprocess.Popen[bytes], Connection]:
+    """Start a process that opens what it is told to, and ends when its connection does."""
+    own, other = socket.socketpair()
+    with own, other:
+        process = subprocess.Popen(
+            [*command, str(other.fileno())],
+            stdin=subprocess.DEVNULL,
+            pass_fds=[other.fileno()],
+            cwd=ROOT,
+            env={**os.environ, **dict.fromkeys(THREAD_VARIABLES, "1"), "TOKENIZERS_PARALLELISM": "false"},
+            start_new_session=True,  # what a terminal sends is for the service alone
+        )
+        return process, Connection(own.detach())
+
+
+def prepare() -> None:
+    """Start the process of the pool that comes next: it can import what it needs while the service imports the rest."""
+    _prepared.append(launch((*PROCESS, AHEAD)))
+
+
+_prepared: Final[list[tuple[subprocess.Popen[bytes], Connection]]] = []
 
 
 class WorkerPool:
@@ -42,17 +66,8 @@ class WorkerPool:
         self._start()
 
     def _start(self) -> None:
-        own, other = socket.socketpair()
-        with own, other:
-            self._process = subprocess.Popen(
-                [*self._command, str(other.fileno())],
-                stdin=subprocess.DEVNULL,
-                pass_fds=[other.fileno()],
-                cwd=ROOT,
-                env={**os.environ, **dict.fromkeys(THREAD_VARIABLES, "1"), "TOKENIZERS_PARALLELISM": "false"},
-                start_new_session=True,  # what a terminal sends is for the service alone
-            )
-            self._control = Connection(own.detach())
+        is_usual = self._command == PROCESS
+        self._process, self._control = _prepared.pop() if _prepared and is_usual else launch(self._command)
         self._control.send(self._order)
         opened = self._control.recv()
         if isinstance(opened, Exception):

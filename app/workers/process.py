@@ -1,4 +1,4 @@
-"""The processes that hold a model: `python -m app.workers.process FD`.
+"""The processes that hold a model: `python -m app.workers.process [MODULE ...] FD`.
 
 The first opens an index and is the mould: on request it forks workers, which share its memory and each answer on two
 connections of their own, one for queries and one for what needs no model. It ends when FD closes, a worker when its
@@ -10,6 +10,8 @@ import os
 import signal
 import sys
 import traceback
+from collections.abc import Sequence
+from importlib import import_module
 from multiprocessing.connection import Connection
 from multiprocessing.reduction import recv_handle
 from threading import Thread
@@ -28,13 +30,24 @@ MANY: Final = 100  # calls since it was the last time; the next one has to take 
 SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # are for the service, which drains
 
 
-def main(control: Connection) -> None:
-    """Open what the first message says, answer (facts, frame) or an error, then fork workers as they are asked for."""
+def main(control: Connection, ahead: Sequence[str] = ()) -> None:
+    """Open what the first message says, answer (facts, frame) or an error, then fork workers as they are asked for.
+
+    Args:
+        control: to the service.
+        ahead: modules to import before there is a message.
+    """
     for number in SIGNALS:
         signal.signal(number, signal.SIG_IGN)
     try:
         with no_collection():
-            localizer = control.recv().open()
+            for name in ahead:
+                import_module(name)
+            try:
+                order = control.recv()
+            except EOFError:
+                return  # the service has ended
+            localizer = order.open()
     except Exception as error:
         control.send(_as_sent(error))
         return
@@ -101,4 +114,4 @@ def _as_sent(error: Exception) -> Exception:
 
 
 if __name__ == "__main__":
-    main(Connection(int(sys.argv[1])))
+    main(Connection(int(sys.argv[-1])), sys.argv[1:-1])

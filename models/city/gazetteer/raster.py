@@ -14,6 +14,7 @@ import numpy.typing as npt
 from scipy.ndimage import distance_transform_edt, find_objects, label
 
 from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.gazetteer.ways import are_inside
 from models.city.points import Ints, ranges
 from models.city.types import Floats
 
@@ -183,9 +184,5 @@ def lattice(ends: Floats, apart_m: float) -> Floats:
     low, high = ends.reshape(-1, 2).min(axis=0), ends.reshape(-1, 2).max(axis=0)
     axes = [np.arange(a + apart_m / 2, b, apart_m) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-    x, y = grid.T[:, :, None]
-    x1, y1, x2, y2 = ends.T
-    with np.errstate(divide="ignore", invalid="ignore"):
-        crosses = ((y1 > y) != (y2 > y)) & (x < x1 + (y - y1) * (x2 - x1) / (y2 - y1))
-    found: Floats = grid[crosses.sum(axis=1) % 2 == 1]
+    found: Floats = grid[are_inside(grid, ends)]
     return found

@@ -153,6 +153,15 @@ def _closest(x: float, y: float, ends: Floats, metres: Floats, farthest_m: float
 
 
 @compiled
+def are_inside(points_m: Floats, ends: Floats) -> npt.NDArray[np.bool_]:
+    """Of points [n, 2] those inside the rings of segments [m, 4]."""
+    found = np.empty(len(points_m), np.bool_)
+    for n in range(len(points_m)):
+        found[n] = _is_inside(points_m[n, 0], points_m[n, 1], ends)
+    return found
+
+
+@compiled
 def _is_inside(x: float, y: float, ends: Floats) -> bool:
     """Whether a point is inside the rings of segments [n, 4]: a ray to the east crosses an odd number of them."""
     is_odd = False

@@ -177,12 +177,12 @@ class Landmarks:
         if not len(objects):
             return csr_array(shape)
         ways = ways_to(self._around, *cut(self._gazetteer, objects), reach_m)
-        cell, name, metres = self._order[ways.point], names.column[ways.item], ways.metres
-        order = np.lexsort((metres, name, cell))
-        cell, name, metres = cell[order], name[order], metres[order]
-        first = (np.diff(cell, prepend=-1) != 0) | (np.diff(name, prepend=-1) != 0)
-        starts = np.searchsorted(cell[first], np.arange(shape[0] + 1))
-        return csr_array((metres[first], name[first], starts), shape=shape)
+        entry = self._order[ways.point] * shape[1] + names.column[ways.item]
+        order = np.argsort(entry, kind="stable")
+        first = np.flatnonzero(np.diff(entry[order], prepend=-1))
+        metres = np.minimum.reduceat(ways.metres[order], first) if len(first) else np.zeros(0)
+        cell, name = np.divmod(entry[order[first]], shape[1])
+        return csr_array((metres, name, np.searchsorted(cell, np.arange(shape[0] + 1))), shape=shape)
 
 
 _EMPTY: Final = np.zeros(0)

@@ -18,6 +18,7 @@ from ordered import Broken, Order
 
 from app.main import create_app
 from app.settings import Settings
+from app.workers import pool
 from app.workers.order import WorkerFault
 from app.workers.process import _answer, give_back
 from app.workers.remote import open_workers
@@ -58,6 +59,26 @@ def test_workers_are_processes_of_one_mould(workers):
     assert [worker.pid for worker in workers] == [one, other]
     assert workers[0].facts.map_name == "fakeville"
     assert workers[0].frame.is_georeferenced
+
+
+def test_a_prepared_process_is_that_of_the_next_pool_alone(monkeypatch):
+    monkeypatch.setattr(pool, "AHEAD", "colorsys")  # imported in a moment
+    pool.prepare()
+    [(prepared, _)] = pool._prepared
+    first, second = (open_workers(Order(), 1)[0] for _ in range(2))
+    assert ask(first)[1] == prepared.pid != ask(second)[1]
+    assert str(first.cell("colorsys")) == "imported"
+    assert second.cell("colorsys") is None
+    for worker in (first, second):
+        worker.close()
+    assert not pool._prepared
+    assert not is_running(prepared.pid)
+
+
+def test_a_prepared_process_ends_with_a_service_that_needs_none():
+    process, control = pool.launch((*pool.PROCESS, "colorsys"))
+    control.close()
+    assert process.wait(20) == 0
 
 
 def test_libraries_have_one_thread_each_whatever_the_operator_sets(monkeypatch):
