@@ -20,11 +20,12 @@ FILE = "hints.safetensors"
 def template_hints(gallery: Gallery, palette: Palette) -> tuple[str, ...]:
     """Every hint about the classes of a gallery, in each colour that they have and in none, by the template."""
     parts = gallery.cells.parts
-    labels, number = np.unique(np.array(gallery.labels)[parts.instance], return_inverse=True)
+    labels, of_instance = np.unique(np.array(gallery.labels), return_inverse=True)
+    number = of_instance[parts.instance]
     words = [*palette.words, None]
     seen = np.unique(number * len(words) + palette.word_index(parts.rgb) % len(words))  # -1 is the last of them
     said = {(str(labels[row // len(words)]), words[row % len(words)]) for row in seen.tolist()}
-    said |= {(str(label), None) for label in labels}
+    said |= {(label, None) for label, _ in said}
     pairs = sorted(said, key=lambda pair: (pair[0], pair[1] or ""))
     return tuple(render_hint(Hint(direction, *pair)) for pair in pairs for direction in DIRECTIONS)
 

@@ -140,6 +140,18 @@ def serve(
 
 
 @app.command()
+def verify(index_dir: IndexDir = INDEX_DIR) -> None:
+    """Read every file of an index again, of each version that is registered or of the one that is named."""
+    from index.artifact import open_version, read_aliases
+    from index.artifact import verify as verify_version
+
+    known = sorted(read_aliases(index_dir).versions)
+    for directory in [index_dir / version for version in known] or [open_version(index_dir)[0]]:
+        manifest = verify_version(directory)
+        typer.echo(f"index {manifest.version} of {manifest.map_name} is whole: {manifest.cells} cells")
+
+
+@app.command()
 def mcp(
     url: Annotated[str, typer.Option(help="of the running service")] = "http://127.0.0.1:8000",
     key: Annotated[str | None, typer.Option(envvar="HEREABOUTS_READ_KEY", help="its read key, if it needs one")] = None,

@@ -11,7 +11,7 @@ import structlog
 
 from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
-from app.http.queue import InferenceQueue
+from app.http.queue import InferenceQueue, refuse
 from app.settings import Settings
 from index.artifact import DEFAULT
 from models.errors import IndexMismatch, IndexUnusable
@@ -117,6 +117,16 @@ class Indexes:
         if self._is_draining:
             raise Problem(Code.DRAINING)
         self.queue().check_accepting()
+
+    async def check_room(self) -> None:
+        """Pass unless any query would be refused, whatever it asks.
+
+        Raises:
+            Problem: all queues are full.
+        """
+        full = [served.queue.full() for served in self._served.values()]
+        if full and full[0] is not None and None not in full:
+            await refuse(full[0])
 
     def drain(self) -> None:
         """Refuse new queries; the waiting ones are answered. Takes no lock: a signal handler may call it."""

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from threading import Condition, Thread
-from typing import Final
+from typing import Final, NoReturn
 
 import structlog
 
@@ -49,6 +49,16 @@ class _Job:
             return True
         self.result.set_exception(Problem(Code.DEADLINE_EXCEEDED))
         return False
+
+
+async def refuse(full: Problem) -> NoReturn:
+    """Say so a little later.
+
+    Raises:
+        Problem: that which is given.
+    """
+    await asyncio.sleep(REFUSED_S)
+    raise full
 
 
 class InferenceQueue:
@@ -169,12 +179,14 @@ class InferenceQueue:
             Problem: queue full, not accepting, or no answer before the deadline.
         """
         job = _Job(query, deadline_s)
-        try:
-            self._enqueue(job)
-        except Problem as problem:
-            if problem.code is Code.QUEUE_FULL:
-                await asyncio.sleep(REFUSED_S)
-            raise
+        with self._changed:
+            self.check_accepting()
+            full = self._full(deadline_s - time.monotonic())
+            if full is None:
+                self._jobs.append(job)
+                self._changed.notify()
+        if full is not None:
+            await refuse(full)
         try:
             async with asyncio.timeout(deadline_s - time.monotonic()):
                 return await asyncio.wrap_future(job.result)
@@ -183,14 +195,17 @@ class InferenceQueue:
         finally:
             self._forget(job)
 
-    def _enqueue(self, job: _Job) -> None:
+    def full(self) -> Problem | None:
+        """Why a query would be refused however long it may take; None if it need not be."""
         with self._changed:
-            self.check_accepting()
-            wait_s = self._query_s * (len(self._jobs) + self._computing / 2) / len(self._localizers)
-            if len(self._jobs) >= self._max_queue or wait_s > min(self._max_wait_s, job.deadline_s - time.monotonic()):
-                raise Problem(Code.QUEUE_FULL, retry_after_s=max(1, math.ceil(wait_s)))
-            self._jobs.append(job)
-            self._changed.notify()
+            return self._full(math.inf) if self._localizers else None
+
+    def _full(self, seconds: float) -> Problem | None:
+        """Why a query that may take so long is refused, if it is."""
+        wait_s = self._query_s * (len(self._jobs) + self._computing / 2) / len(self._localizers)
+        if len(self._jobs) < self._max_queue and wait_s <= min(self._max_wait_s, seconds):
+            return None
+        return Problem(Code.QUEUE_FULL, retry_after_s=max(1, math.ceil(wait_s)))
 
     def _forget(self, job: _Job) -> None:
         with self._changed:

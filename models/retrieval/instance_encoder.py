@@ -45,7 +45,7 @@ class CellFeatures:
     Attributes:
         starts: [N + 1] int64, cell n has the rows starts[n] to starts[n + 1].
         geometry: [R, 16] float32: see GEOMETRY.
-        label: [R] int64, index into `labels`.
+        label: [R] int32, index into `labels`.
         labels: L class names.
         sample: gives points of the instances, None where they are not at hand.
         shape: [R, S] what a point encoder makes of them, see `seen`; S = 0 without one.
@@ -66,28 +66,23 @@ class CellFeatures:
             cells: the gallery.
             instance_labels: [I] label of each instance of the map.
         """
-        parts = cells.parts
-        center = cells.center_m[parts.cube].astype(np.float32)
-        half = cells.size_m / 2
-        to_closest = (parts.closest_m - center)[:, :2] / half
-        distance = np.linalg.norm(to_closest, axis=1, keepdims=True)
-        known = ~np.isnan(parts.rgb).any(axis=1, keepdims=True)
-        geometry = np.concatenate(
-            [
-                (parts.center_m - center) / half,
-                to_closest,
-                distance,
-                to_closest / np.maximum(distance, 1e-3),
-                (parts.high_m - parts.low_m) / cells.size_m,
-                np.log1p(parts.count)[:, None] / 10,
-                np.where(known, parts.rgb, 0.0),
-                known,
-            ],
-            axis=1,
-        ).astype(np.float32)
-        labels, index = np.unique(instance_labels[parts.instance], return_inverse=True)
-        shape = np.zeros((len(index), 0), dtype=np.float32)
-        return cls(parts.starts, geometry, index.astype(np.int64), tuple(labels.tolist()), cells.sample, shape)
+        parts, half = cells.parts, cells.size_m / 2
+        geometry = np.empty((len(parts.instance), NUM_GEOMETRY), dtype=np.float32)  # filled without another of its size
+        position, closest, size, count, colour = np.split(geometry, np.cumsum(list(GEOMETRY.values()))[:-1], axis=1)
+        center = cells.center_m.astype(np.float32)[parts.cube]
+        position[:] = (parts.center_m - center) / half
+        closest[:, :2] = (parts.closest_m - center)[:, :2] / half
+        closest[:, 2] = np.linalg.norm(closest[:, :2], axis=1)
+        closest[:, 3:] = closest[:, :2] / np.maximum(closest[:, 2:3], 1e-3)
+        size[:] = (parts.high_m - parts.low_m) / cells.size_m
+        count[:, 0] = np.log1p(parts.count) / 10
+        colour[:, 3] = ~np.isnan(parts.rgb).any(axis=1)
+        colour[:, :3] = np.where(colour[:, 3:] > 0, parts.rgb, 0.0)
+        known, number = np.unique(instance_labels, return_inverse=True)
+        label = number.astype(np.int32)[parts.instance]
+        used = np.flatnonzero(np.bincount(label, minlength=len(known)))
+        label, shape = np.searchsorted(used, label).astype(np.int32), np.zeros((len(label), 0), dtype=np.float32)
+        return cls(parts.starts, geometry, label, tuple(known[used].tolist()), cells.sample, shape)
 
     def seen(self, encoder: PointEncoder | None) -> "CellFeatures":
         """The same with `shape`, computed a few cells at a time, or read where an earlier process left it.

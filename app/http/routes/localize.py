@@ -2,12 +2,13 @@
 
 import asyncio
 import time
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
 from typing import Any
 
 import numpy as np
 from asgi_correlation_id import correlation_id
 from fastapi import APIRouter, Request
+from fastapi.routing import APIRoute
 from starlette.responses import Response
 
 from app.http.bodies import REFUSALS
@@ -38,9 +39,23 @@ ERRORS = (
 )
 
 
+class Door(APIRoute):
+    """Refuses what cannot wait before it is read: under load, what reading costs is taken from those answered."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """See FastAPI."""
+        handle = super().get_route_handler()
+
+        async def handle_if_there_is_room(request: Request) -> Response:
+            await request.app.state.indexes.check_room()
+            return await handle(request)
+
+        return handle_if_there_is_room
+
+
 def build_router(settings: Settings) -> APIRouter:
     """The routes, with the settings' limits in their request bodies."""
-    router = APIRouter(tags=["localize"])
+    router = APIRouter(tags=["localize"], route_class=Door)
     body_model = request_model(settings)
 
     @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **problems(*ERRORS)})

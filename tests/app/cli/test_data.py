@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 
 import pytest
 from typer.testing import CliRunner
@@ -86,6 +87,25 @@ def test_synth_gives_ground_one_number_unless_told_otherwise(run, tmp_path, monk
     assert run("synth", "--out", tmp_path / "out").exit_code == 0
     assert run("synth", "--out", tmp_path / "out", "--pieces", "own").exit_code == 0
     assert [args[-1] for args in asked] == ["official", "own"]
+
+
+def test_an_index_is_verified_whole_or_by_version(run, index_dir, tmp_path) -> None:
+    root = tmp_path / "index"
+    shutil.copytree(index_dir, root)
+    [version] = json.loads((root / "aliases.json").read_text())["versions"]
+    for named in (root, root / version):
+        result = run("verify", "--index", named)
+        assert result.exit_code == 0, result.output
+        assert f"index {version} of tinytown is whole" in result.output
+    file = root / version / "statements.safetensors"
+    content = bytearray(file.read_bytes())
+    content[-1] ^= 1
+    file.write_bytes(content)
+    for named in (root, root / version):
+        result = run("verify", "--index", named)
+        assert result.exit_code == 1
+        assert "statements.safetensors was changed" in result.output
+    assert "no index" in run("verify", "--index", tmp_path / "nothing").output
 
 
 @pytest.mark.slow

@@ -223,3 +223,18 @@ def test_a_request_names_its_index(api, fake, problem, text):
     problem(api.get("/cells/fakeville_00001?index=../x"), 422, "invalid_request", "index")
     assert api.get("/cells/fakeville_00001?index=default").status_code == 200
     assert SimpleNamespace(**api.get("/info").json()).indexes == ["default"]
+
+
+def test_there_is_room_while_one_index_has_some(monkeypatch):
+    full = Problem(Code.QUEUE_FULL)
+
+    async def run():
+        async with serving(City(default="one", canary="two")) as indexes:
+            monkeypatch.setattr(indexes.queue("default"), "full", lambda: full)
+            await indexes.check_room()
+            monkeypatch.setattr(indexes.queue("canary"), "full", lambda: full)
+            with pytest.raises(Problem) as refused:
+                await indexes.check_room()
+            assert refused.value is full
+
+    asyncio.run(run())

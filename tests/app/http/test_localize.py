@@ -146,7 +146,7 @@ def test_full_queue_is_429_with_retry_after(settings, fake, start, until, proble
     with start(settings.model_copy(update={"max_queue": 1}), fake) as api:
         fake.gate.clear()
         statuses = []
-        ask = {"json": {"description": "a tree"}}
+        ask, ask_headers = {"json": {"description": "a tree"}}, {"Content-Type": "application/json"}
         threads = [threading.Thread(target=lambda: statuses.append(api.post("/localize", **ask).status_code))]
         threads[0].start()
         assert fake.entered.acquire(timeout=5)
@@ -156,9 +156,12 @@ def test_full_queue_is_429_with_retry_after(settings, fake, start, until, proble
         response = api.post("/localize", **ask)
         problem(response, 429, "queue_full")
         assert response.headers["retry-after"] == "1"
+        at_the_door = api.post("/localize", content=b"{" * 60_000, headers=ask_headers)
+        problem(at_the_door, 429, "queue_full")
         fake.gate.set()
         for thread in threads:
             thread.join(5)
+        problem(api.post("/localize", content=b"{" * 60_000, headers=ask_headers), 400, "invalid_json")
     assert statuses == [200, 200]
 
 
