@@ -1,11 +1,13 @@
 """Colour words: from rgb to a word, by the nearest centre of a palette, and from a written colour to rgb."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 from PIL import ImageColor
+
+AT_ONCE: Final = 65_536  # colours that are compared with all centres
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,9 +27,14 @@ class Palette:
         Returns:
             [...] index into `words`, -1 where a channel is NaN.
         """
-        channels, centers = np.moveaxis(np.asarray(rgb), -1, 0)[..., None], np.asarray(self.centers).T / 255.0
-        square = sum((channel - center) ** 2 for channel, center in zip(channels, centers, strict=True))
-        return np.where(np.isnan(square).any(axis=-1), -1, np.argmin(square, axis=-1))
+        centers, shape = np.asarray(self.centers).T / 255.0, np.shape(rgb)[:-1]
+        flat = np.reshape(rgb, (-1, 3))
+        found = np.empty(len(flat), np.intp)
+        for first in range(0, len(flat), AT_ONCE):
+            some = slice(first, first + AT_ONCE)
+            square = sum((flat[some, n, None] - centers[n]) ** 2 for n in range(3))
+            found[some] = np.where(np.isnan(square).any(axis=-1), -1, np.argmin(square, axis=-1))
+        return found.reshape(shape)
 
     def word(self, rgb: npt.NDArray[np.floating[Any]]) -> str | None:
         """The word for one colour, None if it is unknown."""

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -11,10 +11,14 @@ import shapely
 
 from models.city.points import Ints, ranges, thin
 from models.city.tiled.rows import Rows, stuff_rows, thing_rows
-from models.city.tiled.segments import Steps, geometry_of, segments_of
+from models.city.tiled.segments import STEP_M, Steps, geometry_of
 from models.city.tiled.solids import FORMS, Solid
 from models.city.tiled.tiling import TILE_M, TOUCHING_M, Geometries
 from models.city.types import Floats
+
+AT_ONCE: Final = 20_000  # pieces whose geometry is put together for a moment
+BORDER: Final = round(TILE_M / 2 / STEP_M)  # of a tile, in steps from its middle
+Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +37,6 @@ class PieceTable:
         worth: [K] float32 points that a sensor would see of it.
         segment_starts: [K + 1], segments: [S, 4] int16 its lines and rings, see `segments_of`.
         link_starts: [K + 1], links: piece k hangs together with links[link_starts[k]:link_starts[k + 1]].
-        whole: [K] its geometry, metres, map frame, if it is at hand; in an index it is not.
     """
 
     low: Ints
@@ -50,7 +53,6 @@ class PieceTable:
     segments: Steps
     link_starts: Ints
     links: Ints
-    whole: Geometries | None = None
 
     @classmethod
     def of(cls, solids: Sequence[Solid]) -> "PieceTable":
@@ -60,32 +62,33 @@ class PieceTable:
         shape = np.array([rows.column.max(), rows.row.max()]) - low + 1
         tile = (rows.column - low[0]) * shape[1] + rows.row - low[1]
         order = np.lexsort((rows.instance, tile))
-        at = np.stack([rows.column, rows.row], axis=1)[order]
         starts = np.searchsorted(tile[order], np.arange(shape[0] * shape[1] + 1))
-        geometry = rows.geometry[order]
-        link_starts, links = _links(tile[order], shape, low, rows.instance[order], rows.form[order], geometry)
+        ends = np.cumsum(rows.sizes)[order]
+        segments = rows.segments[ranges(ends - rows.sizes[order], ends)]
+        segment_starts = np.concatenate([[0], np.cumsum(rows.sizes[order])])
+        instance, dimension = rows.instance[order], rows.dimension[order]
+        stuff = rows.form[order] != FORMS.index("thing")
+        links = _links(tile[order], shape, instance, segment_starts, segments, dimension, stuff)
         return cls(
-            low, shape, starts, rows.instance[order].astype(np.int32), rows.form[order].astype(np.int8),
-            shapely.get_dimensions(geometry).astype(np.int8),
+            low, shape, starts, instance.astype(np.int32), rows.form[order].astype(np.int8), dimension.astype(np.int8),
             rows.bounds_m[order].astype(np.float32), rows.heights_m[order].astype(np.float32),
             rows.crown_m[order].astype(np.float32), rows.worth[order].astype(np.float32),
-            *segments_of(geometry, at), link_starts, links, geometry,
+            segment_starts, segments, *links,
         )  # fmt: skip
 
     @classmethod
     def of_columns(cls, columns: Mapping[str, npt.NDArray[Any]]) -> "PieceTable":
-        """What `columns` gave; of none of them the geometry is at hand."""
+        """What `columns` gave."""
         return cls(**columns)
 
     def columns(self) -> dict[str, npt.NDArray[Any]]:
-        """All but `whole`, by name."""
-        return {f.name: getattr(self, f.name) for f in fields(self) if f.name != "whole"}
+        """All of it, by name."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def geometry(self, pieces: Ints) -> Geometries:
-        """[n] of some pieces, metres, map frame; to a fifth of a millimetre where it has to be put together."""
-        if self.whole is not None:
-            return self.whole[pieces]
-        return geometry_of(self.segment_starts, self.segments, self.tile, self.dimension, pieces)
+        """[n] of some pieces, metres, map frame; put together once of each, however often it is asked for."""
+        known, which = np.unique(pieces, return_inverse=True)
+        return geometry_of(self.segment_starts, self.segments, self.tile, self.dimension, known)[which]
 
     def in_tiles(self, first: Ints, last: Ints) -> tuple[Ints, Ints]:
         """The pieces in rectangles of tiles.
@@ -114,6 +117,12 @@ class PieceTable:
 
     def lattice(self, pieces: Ints, spacing_m: float) -> Floats:
         """[n, 2] places in some areas, one a square block of `spacing_m` of which a corner or a middle is inside."""
+        some = [pieces[n : n + AT_ONCE] for n in range(0, len(pieces), AT_ONCE)]
+        inside = [self._inside(each, spacing_m) for each in some]
+        return thin(np.concatenate(inside) if inside else np.zeros((0, 2)), spacing_m)
+
+    def _inside(self, pieces: Ints, spacing_m: float) -> Floats:
+        """[n, 2] corners and middles of blocks that are inside some areas."""
         step_m = spacing_m / 2
         low, high = (np.floor(self.bounds_m[pieces, axis : axis + 2] / step_m).astype(np.int64) + 1 for axis in (0, 2))
         across, along = (np.maximum(high - low, 0)).T
@@ -122,13 +131,18 @@ class PieceTable:
         xy = np.stack([low[of, 0] + nth // along[of], low[of, 1] + nth % along[of]], axis=1) * step_m
         areas = self.geometry(pieces)
         shapely.prepare(areas)
-        return thin(xy[shapely.contains_xy(areas[of], *xy.T)], spacing_m)
+        found: Floats = xy[shapely.contains_xy(areas[of], *xy.T)]
+        return found
 
 
-def _links(tile: Ints, shape: Ints, low: Ints, instance: Ints, form: Ints, geometry: Geometries) -> tuple[Ints, Ints]:
+def _links(
+    tile: Ints, shape: Ints, instance: Ints, starts: Ints, segments: Steps, dimension: Ints, stuff: Mask
+) -> tuple[Ints, Ints]:
     """CSR of pairs of pieces of one instance that touch across the border of two tiles."""
-    stuff = np.flatnonzero(form != FORMS.index("thing"))
-    found = [_across(axis, tile, shape, low, instance, geometry, stuff) for axis in (0, 1)]
+    of = np.repeat(np.arange(len(tile)), np.diff(starts))
+    rows = np.flatnonzero((np.abs(segments) == BORDER).any(axis=1) & stuff[of])
+    at = np.stack([tile // shape[1], tile % shape[1]], axis=1)
+    found = [_across(axis, of[rows], segments[rows], at, instance, dimension) for axis in (0, 1)]
     one, other = (np.concatenate([some[n] for some in found]) for n in range(2))
     a, b = np.concatenate([one, other]), np.concatenate([other, one])
     order = np.lexsort((b, a))
@@ -137,26 +151,28 @@ def _links(tile: Ints, shape: Ints, low: Ints, instance: Ints, form: Ints, geome
     return np.searchsorted(a[kept], np.arange(len(tile) + 1)), b[kept].astype(np.int32)
 
 
-def _across(
-    axis: int, tile: Ints, shape: Ints, low: Ints, instance: Ints, geometry: Geometries, stuff: Ints
-) -> tuple[Ints, Ints]:
-    """Pairs of pieces that touch across borders where x (axis 0) or y (axis 1) is constant."""
-    xy, of = shapely.get_coordinates(geometry[stuff], return_index=True)
-    of = stuff[of]
-    at = np.stack([tile[of] // shape[1] + low[0], tile[of] % shape[1] + low[1]], axis=1)
+def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints) -> tuple[Ints, Ints]:
+    """Pairs of pieces that touch across borders where x (axis 0) or y (axis 1) is constant.
+
+    Args:
+        axis: which.
+        of: [S] the piece of each segment.
+        segments: [S, 4] of those that may be on a border.
+        at: [K, 2] column and row of each piece's tile, from the first.
+        instance: [K].
+        dimension: [K].
+    """
+    is_line = dimension[of] == 1
+    along_m = segments[:, [1 - axis, 3 - axis]] * STEP_M + at[of, 1 - axis, None] * TILE_M
     borders, intervals, pieces = [], [], []
     for side in (-1, 1):
-        border = (at[:, axis] + side / 2) * TILE_M
-        on = np.abs(xy[:, axis] - border) < 1e-6
-        goes_on = np.flatnonzero(on[:-1] & on[1:] & (of[:-1] == of[1:]))
-        is_line = on & (shapely.get_dimensions(geometry[of]) == 1)
-        alone = np.flatnonzero(is_line)
-        for first, last in ((goes_on, goes_on + 1), (alone, alone)):
-            along = np.sort(np.stack([xy[first, 1 - axis], xy[last, 1 - axis]], axis=1), axis=1)
-            number = at[first, axis] + (side + 1) // 2  # of the border, from low to high
-            borders.append(np.stack([number, at[first, 1 - axis], instance[of[first]]], axis=1))
-            intervals.append(along)
-            pieces.append(of[first])
+        on = segments[:, [axis, 2 + axis]] == side * BORDER
+        for rows, ends in ((on.all(axis=1), [0, 1]), (on[:, 0] & is_line, [0, 0]), (on[:, 1] & is_line, [1, 1])):
+            piece = of[rows]
+            number = at[piece, axis] + (side + 1) // 2  # of the border, from low to high
+            borders.append(np.stack([number, at[piece, 1 - axis], instance[piece]], axis=1))
+            intervals.append(np.sort(along_m[rows][:, ends], axis=1))
+            pieces.append(piece)
     border, interval, piece = (np.concatenate(some) for some in (borders, intervals, pieces))
     group = np.unique(border, axis=0, return_inverse=True)[1].ravel()
     order = np.lexsort((interval[:, 0], group))

@@ -1,7 +1,7 @@
 """The pieces of a map's solids as they are cut: a band of tiles at a time, in several processes."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from functools import partial
 from typing import Final
 
@@ -10,7 +10,7 @@ import shapely
 
 from models.city.points import Ints
 from models.city.processes import map_forked
-from models.city.tiled.segments import snapped
+from models.city.tiled.segments import Steps, segments_of, snapped
 from models.city.tiled.solids import FORMS, Form, Solid
 from models.city.tiled.tiling import (
     EVERYWHERE,
@@ -33,19 +33,22 @@ class Rows:
 
     Attributes:
         column, row: [K] tile.
-        instance, form, bounds_m, heights_m, crown_m, worth: as of the table.
-        geometry: [K] metres, map frame.
+        instance, form, dimension, bounds_m, heights_m, crown_m, worth: as of the table.
+        sizes: [K] segments of each.
+        segments: [S, 4] of all.
     """
 
     column: Ints
     row: Ints
     instance: Ints
     form: Ints
-    geometry: Geometries
+    dimension: Ints
     bounds_m: Floats
     heights_m: Floats
     crown_m: Floats
     worth: Floats
+    sizes: Ints
+    segments: Steps
 
     @classmethod
     def joined(cls, some: Sequence["Rows"]) -> "Rows":
@@ -86,9 +89,20 @@ class _Chosen:
 
     def rows(self, column: Ints, row: Ints, of: Ints, pieces: Geometries, size: Floats) -> Rows:
         """Pieces of these; `of` [K] says of which, and their worth grows with their size."""
-        bounds = shapely.bounds(pieces) + self.radius_m[of, None] * [-1, -1, 1, 1]
-        form, worth = np.full(len(of), self.form), self.worth[of] * size
-        return Rows(column, row, self.instance[of], form, pieces, bounds, self.heights_m[of], self.crown_m[of], worth)
+        starts, segments = segments_of(pieces, np.stack([column, row], axis=1))
+        return Rows(
+            column,
+            row,
+            self.instance[of],
+            np.full(len(of), self.form),
+            shapely.get_dimensions(pieces),
+            shapely.bounds(pieces) + self.radius_m[of, None] * [-1, -1, 1, 1],
+            self.heights_m[of],
+            self.crown_m[of],
+            self.worth[of] * size,
+            np.diff(starts),
+            segments,
+        )
 
 
 def stuff_rows(solids: Sequence[Solid], form: Form) -> list[Rows]:
@@ -98,7 +112,7 @@ def stuff_rows(solids: Sequence[Solid], form: Form) -> list[Rows]:
         return []
     first, last = band_of(shapely.bounds(chosen.geometry)[:, [0, 2]])
     bands = [(low, low + BAND) for low in range(int(first.min()), int(last.max()) + 1, BAND)]
-    return [_unpacked(rows) for rows in map_forked(partial(_stuff_of, chosen), bands)]
+    return list(map_forked(partial(_stuff_of, chosen), bands))
 
 
 def _stuff_of(chosen: _Chosen, band: Span) -> Rows:
@@ -106,12 +120,7 @@ def _stuff_of(chosen: _Chosen, band: Span) -> Rows:
     is_area = FORMS[chosen.form] == "area"
     of_piece, pieces = take_apart(geometry, 2 if is_area else 1)
     size = shapely.area(pieces) if is_area else shapely.length(pieces)
-    rows = chosen.rows(column[of_piece], row[of_piece], of[of_piece], pieces, size)
-    return replace(rows, geometry=shapely.to_wkb(pieces))  # between processes much smaller
-
-
-def _unpacked(rows: Rows) -> Rows:
-    return replace(rows, geometry=shapely.from_wkb(rows.geometry))
+    return chosen.rows(column[of_piece], row[of_piece], of[of_piece], pieces, size)
 
 
 def thing_rows(solids: Sequence[Solid]) -> Rows:

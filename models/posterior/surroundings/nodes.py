@@ -1,5 +1,6 @@
 """The positions that the posterior is over: nodes of a fine grid."""
 
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -12,28 +13,33 @@ from models.city.points import Ints
 from models.city.types import Floats
 
 SPACING_M: Final = 1.5
+COLUMNS: Final = 256  # of the grid that are looked at together
 
 
 def grid(cells: CellTable) -> tuple[Floats, Ints]:
     """Nodes [M, 2] within 15 m of a centre, and the cell [M] that owns each, in order of owner: the nearest one."""
-    scene = np.unique(cells.scenes, return_inverse=True)[1]
-    nodes, owners = [], []
-    for s in np.unique(scene):
-        rows = np.flatnonzero(scene == s)
-        centers = cells.center_m[rows, :2]
-        low, high = centers.min(axis=0) - BEST_CELL_REACH_M, centers.max(axis=0) + BEST_CELL_REACH_M
-        axes = [
-            np.arange(np.floor(a / SPACING_M), np.ceil(b / SPACING_M) + 1) * SPACING_M
-            for a, b in zip(low, high, strict=True)
-        ]
-        grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-        distance, nearest = cKDTree(centers).query(grid, distance_upper_bound=BEST_CELL_REACH_M)
-        near = np.isfinite(distance)
-        nodes.append(grid[near])
-        owners.append(rows[nearest[near]])
+    steps, owners = zip(*slices(cells), strict=True)
     owner = np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
-    return np.concatenate(nodes)[order], owner[order]
+    return np.concatenate(steps)[order] * SPACING_M, owner[order].astype(np.int64)
+
+
+def slices(cells: CellTable) -> Iterator[tuple[Ints, Ints]]:
+    """Nodes [m, 2] int32, in steps of the grid, and the cell [m] int32 that owns each, some columns of it at a time."""
+    scene = np.unique(cells.scenes, return_inverse=True)[1]
+    for s in np.unique(scene):
+        rows = np.flatnonzero(scene == s).astype(np.int32)
+        centers = cells.center_m[rows, :2]
+        low = np.floor((centers.min(axis=0) - BEST_CELL_REACH_M) / SPACING_M).astype(int)
+        high = np.ceil((centers.max(axis=0) + BEST_CELL_REACH_M) / SPACING_M).astype(int) + 1
+        tree = cKDTree(centers)
+        for first in range(low[0], high[0], COLUMNS):
+            columns = np.arange(first, min(first + COLUMNS, high[0]), dtype=np.int32)
+            steps = np.stack(np.meshgrid(columns, np.arange(low[1], high[1], dtype=np.int32), indexing="ij"), axis=-1)
+            steps = steps.reshape(-1, 2)
+            distance, nearest = tree.query(steps * SPACING_M, distance_upper_bound=BEST_CELL_REACH_M)
+            near = np.isfinite(distance)
+            yield steps[near], rows[nearest[near]]
 
 
 def owner_of(cell_starts: Ints, nodes: Ints) -> Ints:

@@ -19,7 +19,7 @@ from models.city.tiled.ways import ways_around
 from models.city.types import CutRules, Floats
 from models.errors import IndexBroken
 from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.nodes import SPACING_M, grid, owner_of
+from models.posterior.surroundings.nodes import SPACING_M, owner_of, slices
 from models.posterior.surroundings.things import Things
 
 FILE: Final = "pieces.safetensors"
@@ -49,11 +49,15 @@ class PieceSurroundings:
     @classmethod
     def of(cls, bodies: PieceBodies, cells: CellTable) -> "PieceSurroundings":
         """Those of a gallery."""
-        nodes_m, owner = grid(cells)
-        starts = np.searchsorted(owner, np.arange(len(cells) + 1))
         things, center_m = Things.of_instances(bodies, cells.parts), cells.center_m[:, :2]
-        offset = np.round(nodes_m / SPACING_M).astype(np.int64) - _step_of(center_m)[owner]
-        return cls(things, starts, offset.astype(np.int8), bodies.pieces, bodies.rules, center_m)
+        middle, offsets, owners = _step_of(center_m), [], []
+        for steps, owner in slices(cells):
+            offsets.append((steps - middle[owner]).astype(np.int8))
+            owners.append(owner)
+        owner = np.concatenate(owners)
+        starts = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(cells)))])
+        offset = np.concatenate(offsets)[np.argsort(owner, kind="stable")]
+        return cls(things, starts, offset, bodies.pieces, bodies.rules, center_m)
 
     @property
     def cuts(self) -> bool:

@@ -29,7 +29,7 @@ def test_the_truth_is_that_of_the_map(truth, city, asked, sure, label) -> None:
     pieces = city.pieces
     of_class = np.flatnonzero([city.instances[i].label == label for i in pieces.instance])
     for position in asked[1].positions_m[:40:8]:
-        lines = shapely.shortest_line(shapely.Point(position), pieces.whole[of_class])
+        lines = shapely.shortest_line(shapely.Point(position), pieces.geometry(of_class))
         nearest = int(shapely.length(lines).argmin())
         east, north = np.diff(shapely.get_coordinates(lines[nearest]), axis=0)[0]
         metres, bearing, number = truth.nearest(0, position, label)

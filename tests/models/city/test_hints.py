@@ -36,7 +36,7 @@ def test_hints_are_true(city, poses) -> None:
         for hint in pose.description.hints:
             instance = city.instances[hint.instance_id]
             assert hint.label == instance.label
-            lines = shapely.shortest_line(at, pieces.whole[pieces.instance == instance.id])
+            lines = shapely.shortest_line(at, pieces.geometry(np.flatnonzero(pieces.instance == instance.id)))
             offset = pose.position_m[:2] - shapely.get_coordinates(lines)[1::2]
             metres = np.linalg.norm(offset, axis=1)
             # Clipped stuff may be described by another part of it, so any near piece may have the closest point.

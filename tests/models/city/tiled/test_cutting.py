@@ -18,7 +18,7 @@ def naive_parts(city, center):
     at, found = shapely.Point(center[:2]), []
     for i, instance in enumerate(city.instances):
         mine = np.flatnonzero(pieces.instance == i)
-        geometry = pieces.whole[mine]
+        geometry = pieces.geometry(mine)
         inside = shapely.intersection(geometry, square)
         size = shapely.area(geometry) + shapely.length(geometry) * (shapely.area(geometry) == 0)
         share = (shapely.area(inside) + shapely.length(inside) * (shapely.area(geometry) == 0)) / np.maximum(size, 1e-9)

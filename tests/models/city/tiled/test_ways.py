@@ -68,7 +68,7 @@ def test_ways_are_those_of_shapely_to_what_hangs_together(city, cells, seed) -> 
         for p in range(starts[n], starts[n + 1]):
             mine, naive = point == p, []
             for some in groups:
-                away = shapely.distance(table.whole[some], shapely.Point(points[p]))
+                away = shapely.distance(table.geometry(some), shapely.Point(points[p]))
                 metres = (away - crown_reach_m(away, table.crown_m[some])).min()
                 if metres <= REACH_M:
                     naive.append((int(table.instance[some[0]]), metres))
@@ -78,7 +78,7 @@ def test_ways_are_those_of_shapely_to_what_hangs_together(city, cells, seed) -> 
             assert [i for i, _ in found] == [i for i, _ in sorted(naive)]
             assert [m for _, m in found] == pytest.approx([m for _, m in sorted(naive)], abs=0.75 * WAY_STEP_M)
             for i, (east, north) in zip(instance[mine], way[mine] * WAY_STEP_M, strict=True):
-                whole = table.whole[table.instance == i]
+                whole = table.geometry(np.flatnonzero(table.instance == i))
                 there = shapely.Point(points[p] - [east, north])
                 reach = 1.5 * table.crown_m[table.instance == i].max() + WAY_STEP_M + STEP_M
                 assert shapely.distance(whole, there).min() <= reach
