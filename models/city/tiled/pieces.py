@@ -58,8 +58,8 @@ class PieceTable:
     def of(cls, solids: Sequence[Solid]) -> "PieceTable":
         """The pieces of a map's features."""
         rows = Rows.joined([*stuff_rows(solids, "area"), *stuff_rows(solids, "line"), thing_rows(solids)])
-        low = np.array([rows.column.min(), rows.row.min()])
-        shape = np.array([rows.column.max(), rows.row.max()]) - low + 1
+        low = np.array([rows.column.min(), rows.row.min()], dtype=np.int64)
+        shape = np.array([rows.column.max(), rows.row.max()], dtype=np.int64) - low + 1
         tile = (rows.column - low[0]) * shape[1] + rows.row - low[1]
         order = np.lexsort((rows.instance, tile))
         starts = np.searchsorted(tile[order], np.arange(shape[0] * shape[1] + 1))
@@ -70,10 +70,8 @@ class PieceTable:
         stuff = rows.form[order] != FORMS.index("thing")
         links = _links(tile[order], shape, instance, segment_starts, segments, dimension, stuff)
         return cls(
-            low, shape, starts, instance.astype(np.int32), rows.form[order].astype(np.int8), dimension.astype(np.int8),
-            rows.bounds_m[order].astype(np.float32), rows.heights_m[order].astype(np.float32),
-            rows.crown_m[order].astype(np.float32), rows.worth[order].astype(np.float32),
-            segment_starts, segments, *links,
+            low, shape, starts, instance, rows.form[order], dimension, rows.bounds_m[order], rows.heights_m[order],
+            rows.crown_m[order], rows.worth[order], segment_starts, segments, *links,
         )  # fmt: skip
 
     @classmethod

@@ -90,17 +90,18 @@ class _Chosen:
     def rows(self, column: Ints, row: Ints, of: Ints, pieces: Geometries, size: Floats) -> Rows:
         """Pieces of these; `of` [K] says of which, and their worth grows with their size."""
         starts, segments = segments_of(pieces, np.stack([column, row], axis=1))
+        bounds = shapely.bounds(pieces) + self.radius_m[of, None] * [-1, -1, 1, 1]
         return Rows(
-            column,
-            row,
-            self.instance[of],
-            np.full(len(of), self.form),
-            shapely.get_dimensions(pieces),
-            shapely.bounds(pieces) + self.radius_m[of, None] * [-1, -1, 1, 1],
-            self.heights_m[of],
-            self.crown_m[of],
-            self.worth[of] * size,
-            np.diff(starts),
+            column.astype(np.int32),
+            row.astype(np.int32),
+            self.instance[of].astype(np.int32),
+            np.full(len(of), self.form, np.int8),
+            shapely.get_dimensions(pieces).astype(np.int8),
+            bounds.astype(np.float32),
+            self.heights_m[of].astype(np.float32),
+            self.crown_m[of].astype(np.float32),
+            (self.worth[of] * size).astype(np.float32),
+            np.diff(starts).astype(np.int32),
             segments,
         )
 
