@@ -51,6 +51,7 @@ def main(control: Connection, ahead: Sequence[str] = ()) -> None:
     except Exception as error:
         control.send(_as_sent(error))
         return
+    give_back()  # what opening needed for a moment, or every worker would have it too
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the dead are buried at once
     control.send((localizer.facts, localizer.frame))
     while True:
