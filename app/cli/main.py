@@ -126,17 +126,17 @@ def serve(
     ] = Path("data/jobs"),
 ) -> None:
     """Serve an index over HTTP; the other settings are HEREABOUTS_ variables."""
-    from app.workers.pool import prepare
+    from app.workers.pool import prepared
 
-    prepare()
-    from app.logs import configure_logging
-    from app.main import create_app
-    from app.server import serve as serve_app
-    from app.settings import load_settings
+    with prepared():
+        from app.logs import configure_logging
+        from app.main import create_app
+        from app.server import serve as serve_app
+        from app.settings import load_settings
 
-    settings = load_settings(index_dir=index_dir, host=host, port=port, jobs_dir=jobs)
-    configure_logging(settings.log_level, settings.log_descriptions)
-    serve_app(create_app(settings), settings)
+        settings = load_settings(index_dir=index_dir, host=host, port=port, jobs_dir=jobs)
+        configure_logging(settings.log_level, settings.log_descriptions)
+        serve_app(create_app(settings), settings)
 
 
 @app.command()

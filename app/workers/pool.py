@@ -5,8 +5,8 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
 from multiprocessing.reduction import send_handle
 from pathlib import Path
@@ -39,9 +39,18 @@ def launch(command: Sequence[str]) -> tuple[subprocess.Popen[bytes], Connection]
         return process, Connection(own.detach())
 
 
-def prepare() -> None:
-    """Start the process of the pool that comes next: it can import what it needs while the service imports the rest."""
+@contextmanager
+def prepared() -> Iterator[None]:
+    """Have the process of the next pool import what it needs while the service imports the rest."""
     _prepared.append(launch((*PROCESS, AHEAD)))
+    try:
+        yield
+    finally:
+        while _prepared:  # no pool was opened
+            process, control = _prepared.pop()
+            control.close()
+            process.kill()
+            process.wait()
 
 
 _prepared: Final[list[tuple[subprocess.Popen[bytes], Connection]]] = []
@@ -66,8 +75,17 @@ class WorkerPool:
         self._start()
 
     def _start(self) -> None:
-        is_usual = self._command == PROCESS
-        self._process, self._control = _prepared.pop() if _prepared and is_usual else launch(self._command)
+        if _prepared and self._command == PROCESS:
+            try:
+                self._open(*_prepared.pop())
+            except (EOFError, OSError):  # somebody killed it
+                self._bury()
+            else:
+                return
+        self._open(*launch(self._command))
+
+    def _open(self, process: subprocess.Popen[bytes], control: Connection) -> None:
+        self._process, self._control = process, control
         self._control.send(self._order)
         opened = self._control.recv()
         if isinstance(opened, Exception):

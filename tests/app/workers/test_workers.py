@@ -61,24 +61,41 @@ def test_workers_are_processes_of_one_mould(workers):
     assert workers[0].frame.is_georeferenced
 
 
-def test_a_prepared_process_is_that_of_the_next_pool_alone(monkeypatch):
-    monkeypatch.setattr(pool, "AHEAD", "colorsys")  # imported in a moment
-    pool.prepare()
-    [(prepared, _)] = pool._prepared
+@pytest.fixture
+def ahead(monkeypatch):
+    """A process is prepared that imports what takes a moment."""
+    monkeypatch.setattr(pool, "AHEAD", "colorsys")
+    with pool.prepared():
+        [(process, _)] = pool._prepared
+        yield process
+
+
+def test_a_prepared_process_is_that_of_the_next_pool_alone(ahead):
     first, second = (open_workers(Order(), 1)[0] for _ in range(2))
-    assert ask(first)[1] == prepared.pid != ask(second)[1]
+    assert ask(first)[1] == ahead.pid != ask(second)[1]
     assert str(first.cell("colorsys")) == "imported"
     assert second.cell("colorsys") is None
     for worker in (first, second):
         worker.close()
+    assert not is_running(ahead.pid)
+
+
+def test_a_prepared_process_that_was_killed_is_replaced(ahead):
+    ahead.kill()
+    ahead.wait()
+    [worker] = open_workers(Order(), 1)
+    assert ask(worker)[1] != ahead.pid
+    worker.close()
+
+
+def test_a_prepared_process_that_nobody_needs_ends():
+    with pool.prepared():
+        [(process, _)] = pool._prepared
+    assert process.poll() is not None
     assert not pool._prepared
-    assert not is_running(prepared.pid)
-
-
-def test_a_prepared_process_ends_with_a_service_that_needs_none():
     process, control = pool.launch((*pool.PROCESS, "colorsys"))
     control.close()
-    assert process.wait(20) == 0
+    assert process.wait(20) == 0, "and by itself, when the service is gone"
 
 
 def test_libraries_have_one_thread_each_whatever_the_operator_sets(monkeypatch):
