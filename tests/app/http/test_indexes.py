@@ -230,9 +230,12 @@ def test_there_is_room_while_one_index_has_some(monkeypatch):
 
     async def run():
         async with serving(City(default="one", canary="two")) as indexes:
-            monkeypatch.setattr(indexes.queue("default"), "full", lambda: full)
-            await indexes.check_room()
-            monkeypatch.setattr(indexes.queue("canary"), "full", lambda: full)
+            for alias in ("default", "canary"):
+                with monkeypatch.context() as patch:
+                    patch.setattr(indexes.queue(alias), "full", lambda: full)
+                    await indexes.check_room()
+            for alias in ("default", "canary"):
+                monkeypatch.setattr(indexes.queue(alias), "full", lambda: full)
             with pytest.raises(Problem) as refused:
                 await indexes.check_room()
             assert refused.value is full

@@ -18,6 +18,14 @@ def test_centres_name_themselves_and_match_a_naive_search(palette) -> None:
         assert found == distances.index(min(distances))
 
 
+def test_many_colours_are_compared_some_at_a_time(monkeypatch) -> None:
+    rgb = np.random.default_rng(0).random((4, 10, 3))
+    expected = BASIC_PALETTE.word_index(rgb)
+    monkeypatch.setattr("models.city.colours.AT_ONCE", 7)
+    assert np.array_equal(BASIC_PALETTE.word_index(rgb), expected)
+    assert expected.shape == (4, 10)
+
+
 def test_an_unknown_colour_has_no_word() -> None:
     assert KITTI360_PALETTE.word(np.array([np.nan] * 3)) is None
     assert KITTI360_PALETTE.word_index(np.array([[0.1, 0.1, 0.1], [np.nan, 0.5, 0.5]])).tolist() == [5, -1]

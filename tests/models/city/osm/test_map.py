@@ -70,8 +70,11 @@ def test_the_frame_is_known_before_the_map_is_read(tmp_path, box) -> None:
 
 def test_pieces_are_the_same_however_many_columns_are_cut_at_once(osm_file, city, monkeypatch) -> None:
     monkeypatch.setattr(rows, "BAND", 3)
-    columns, expected = load_osm(osm_file).pieces.columns(), city.pieces.columns()
+    monkeypatch.setattr("models.city.tiled.pieces.AT_ONCE", 5)
+    again = load_osm(osm_file)
+    columns, expected = again.pieces.columns(), city.pieces.columns()
     assert all(np.array_equal(columns[name], expected[name]) for name in expected)
+    assert np.array_equal(again.locations_m, city.locations_m)
 
 
 def geometry_of(city, instance):

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
+from models.city.gazetteer.gazetteer import Words, build_gazetteer
 from models.posterior.places.landmarks import ON_STREET_M, Landmarks
-from tests.models.city.gazetteer.made_town import made_gazetteer
+from tests.models.city.gazetteer.made_town import made_gazetteer, point
 
 CENTERS = np.array([(100.0, 78.0), (190.0, 75.0), (200.0, 80.0), (120.0, 92.0), (215.0, 300.0), (100.0, 300.0)])
 
@@ -36,6 +37,16 @@ def test_a_sign_is_said_from_near_rather_than_from_far(landmarks):
     assert chance[4] == 0.0
     assert (landmarks.said.rows.sum(axis=1) < 1 + 1e-9).all()
     assert not len(landmarks.names.find("London Terrace Gardens"))  # a building has no sign
+
+
+def test_of_one_name_the_nearest_counts():
+    here, there = point(8.0, 0.0), point(25.0, 0.0)
+    chances = []
+    for places in ([here, there], [there, here], [here], [there]):
+        words = [Words(("shop/bakery", "shop"), ("Rossi Bakery",))] * len(places)
+        town = Landmarks(build_gazetteer(words, places, [False] * len(places)), np.zeros((1, 2)), ("shop",))
+        chances.append(chance_of(town.said, town.names, "Rossi Bakery")[0])
+    assert chances[0] == chances[1] == chances[2] > chances[3] > 0
 
 
 def test_the_number_of_the_nearest_house_is_said():

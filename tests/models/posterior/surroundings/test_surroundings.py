@@ -25,6 +25,14 @@ def around(source, cells):
     return cells, bodies, surroundings_of(bodies, cells)
 
 
+def test_nodes_are_the_same_however_many_columns_are_looked_at(around, monkeypatch):
+    cells, bodies, expected = around
+    monkeypatch.setattr("models.posterior.surroundings.nodes.COLUMNS", 7)
+    found = surroundings_of(bodies, cells)
+    assert np.array_equal(found.offset, expected.offset)
+    assert np.array_equal(found.cell_starts, expected.cell_starts)
+
+
 def nodes_of(s):
     """[M, 2] where all nodes are."""
     return s.positions_m(np.arange(s.cell_starts[-1]))
