@@ -196,9 +196,9 @@ class InferenceQueue:
             self._forget(job)
 
     def full(self) -> Problem | None:
-        """Why a query would be refused however long it may take; None if it need not be."""
+        """Why a query would be refused as too many wait, however long it may take; None if that is not why."""
         with self._changed:
-            return self._full(math.inf) if self._localizers else None
+            return self._full(math.inf) if self._localizers and not self._is_draining else None
 
     def _full(self, seconds: float) -> Problem | None:
         """Why a query that may take so long is refused, if it is."""

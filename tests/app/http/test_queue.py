@@ -166,6 +166,9 @@ def test_full_queue_refuses(fake):
             with pytest.raises(Problem) as raised:
                 await queue.submit(ask("c"), soon())
             assert raised.value.code is Code.QUEUE_FULL
+            assert queue.full() is not None
+            queue.drain()
+            assert queue.full() is None, "it is refused as the service ends, and not to be tried again here"
             fake.gate.set()
             await asyncio.gather(first, *waiting)
 
