@@ -8,11 +8,11 @@ import numpy.typing as npt
 
 
 def compiled(function: Any) -> Any:
-    """A function as machine code, kept for the next process where it may be written."""
+    """A function as machine code, kept for the next process where it may be written; x / 0 is as NumPy has it."""
     try:
-        return numba.njit(cache=True)(function)
+        return numba.njit(cache=True, error_model="numpy")(function)
     except RuntimeError:  # a read-only installation, and no home
-        return numba.njit(function)
+        return numba.njit(error_model="numpy")(function)
 
 
 @compiled

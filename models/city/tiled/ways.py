@@ -70,8 +70,13 @@ def _all_ways(
         mine = points_m[point_starts[n] : point_starts[n + 1]]
         if len(mine) == 0:
             continue
-        pieces = _window(mine, reach_m + CROWN_M, low, shape, tile_starts)
-        order, starts = _groups(pieces, centers_m[n], half_m, least, tile, instance, form, worth, link_starts, links)
+        pieces, runs = _window(mine, reach_m + CROWN_M, low, shape, tile_starts)
+        order, starts = _groups(
+            pieces, runs, centers_m[n], half_m, least, tile, instance, form, worth, link_starts, links
+        )
+        square, way_x, way_y = _ways_to_groups(
+            mine, order, starts, reach_m, tile, form, bounds_m, crown_m, segment_starts, segments
+        )
         for m in range(len(mine)):
             if count + len(starts) > room:
                 room *= 2
@@ -79,13 +84,9 @@ def _all_ways(
                 squares = longer(squares)
             begin = count
             for g in range(len(starts) - 1):
-                square, way_x, way_y = _way_to_group(
-                    mine[m, 0], mine[m, 1], order[starts[g] : starts[g + 1]], reach_m, tile, form, bounds_m, crown_m,
-                    segment_starts, segments,
-                )  # fmt: skip
-                if square < 0.0:
+                if square[g, m] < 0.0:
                     continue
-                x, y = np.rint(way_x / step_m), np.rint(way_y / step_m)
+                x, y = np.rint(way_x[g, m] / step_m), np.rint(way_y[g, m] / step_m)
                 key, at = np.int64(x * x + y * y), count
                 while at > begin and squares[at - 1] > key:
                     squares[at], found[at] = squares[at - 1], found[at - 1]
@@ -99,41 +100,50 @@ def _all_ways(
 
 
 @compiled
-def _window(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts: Ints) -> Ints:
-    """The pieces in tiles within reach of some points, ascending."""
+def _window(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts: Ints) -> tuple[Ints, Ints]:
+    """(pieces, runs) in tiles within reach of some points, ascending; runs [R, 3]: first, end, place of the first."""
     first, last = np.empty(2, np.int64), np.empty(2, np.int64)
     for axis in range(2):
         first[axis] = max(np.floor((points_m[:, axis].min() - reach_m) / TILE_M + 0.5) - low[axis], 0)
         last[axis] = min(np.floor((points_m[:, axis].max() + reach_m) / TILE_M + 0.5) - low[axis], shape[axis] - 1)
-    found = np.empty(0, np.int64)
-    if first[1] > last[1]:
-        return found
-    for column in range(first[0], last[0] + 1):
-        begin = tile_starts[column * shape[1] + first[1]]
-        end = tile_starts[column * shape[1] + last[1] + 1]
-        found = np.concatenate((found, np.arange(begin, end)))
-    return found
+    columns = max(last[0] - first[0] + 1, 0) if first[1] <= last[1] else 0
+    runs, count = np.empty((columns, 3), np.int64), 0
+    for c in range(columns):
+        runs[c, 0] = tile_starts[(first[0] + c) * shape[1] + first[1]]
+        runs[c, 1] = tile_starts[(first[0] + c) * shape[1] + last[1] + 1]
+        runs[c, 2] = count
+        count += runs[c, 1] - runs[c, 0]
+    pieces = np.empty(count, np.int64)
+    for c in range(columns):
+        for k in range(runs[c, 0], runs[c, 1]):
+            pieces[runs[c, 2] + k - runs[c, 0]] = k
+    return pieces, runs
+
+
+@compiled
+def _place(piece: int, runs: Ints) -> int:
+    """Where a piece is among those of `_window`; -1 if it is not."""
+    for r in range(len(runs)):
+        if runs[r, 0] <= piece < runs[r, 1]:
+            place: int = runs[r, 2] + piece - runs[r, 0]
+            return place
+    return -1
 
 
 @compiled
 def _groups(
-    pieces: Ints, center_m: Floats, half_m: float, least: float, tile: Ints, instance: Ints, form: Ints, worth: Floats,
-    link_starts: Ints, links: Ints,
+    pieces: Ints, runs: Ints, center_m: Floats, half_m: float, least: float, tile: Ints, instance: Ints, form: Ints,
+    worth: Floats, link_starts: Ints, links: Ints,
 ) -> tuple[Ints, Ints]:  # fmt: skip
     """(pieces by group, where each group begins and, last, their number) of what counts around a cell."""
     count = len(pieces)
     kind = np.empty(count, np.int64)  # 0 for what is in the cube, 1 for what is beside it, 2 for things
+    first, last = np.floor((center_m - half_m) / TILE_M + 0.5), np.floor((center_m + half_m) / TILE_M + 0.5)
     for p in range(count):
-        k = pieces[p]
-        kind[p] = 0
-        for axis in range(2):
-            first = np.floor((center_m[axis] - half_m) / TILE_M + 0.5)
-            last = np.floor((center_m[axis] + half_m) / TILE_M + 0.5)
-            if not first <= tile[k, axis] <= last:
-                kind[p] = 1
-        if form[k] == THING:
-            kind[p] = 2
-    group = _hanging_together(pieces, kind, instance, link_starts, links)
+        column, row = tile[pieces[p]]
+        is_inside = first[0] <= column <= last[0] and first[1] <= row <= last[1]
+        kind[p] = 2 if form[pieces[p]] == THING else 0 if is_inside else 1
+    group = _hanging_together(pieces, runs, kind, instance, link_starts, links)
     size, total = np.zeros(count, np.int64), np.zeros(count)
     for p in range(count):
         size[group[p]] += 1
@@ -167,20 +177,25 @@ def _counts(g: int, size: Ints, total: Floats, least: float, kind: Ints, pieces:
 
 
 @compiled
-def _hanging_together(pieces: Ints, kind: Ints, instance: Ints, link_starts: Ints, links: Ints) -> Ints:
+def _hanging_together(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: Ints, links: Ints) -> Ints:
     """[P] the first piece of what each hangs together with; what is beside a cube with what it goes on in."""
     count = len(pieces)
     parent = np.arange(count)
+    things, thing, seen = np.empty(count, np.int64), np.empty(count, np.int64), 0
     for p in range(count):
         if kind[p] == 2:
-            for q in range(p):
-                if kind[q] == 2 and instance[pieces[q]] == instance[pieces[p]]:
-                    parent[p] = q
+            mine = instance[pieces[p]]
+            for t in range(seen):
+                if thing[t] == mine:
+                    parent[p] = things[t]
                     break
+            if parent[p] == p:
+                things[seen], thing[seen] = p, mine
+                seen += 1
             continue
         for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
-            q = np.searchsorted(pieces, other)
-            if q < count and pieces[q] == other and kind[q] == kind[p]:
+            q = _place(other, runs)
+            if q >= 0 and kind[q] == kind[p]:
                 a, b = _root(parent, p), _root(parent, q)
                 parent[max(a, b)] = min(a, b)
     inside = np.full(count, -1, np.int64)  # of what is beside the cube
@@ -188,8 +203,8 @@ def _hanging_together(pieces: Ints, kind: Ints, instance: Ints, link_starts: Int
         if kind[p] != 1:
             continue
         for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
-            q = np.searchsorted(pieces, other)
-            if q < count and pieces[q] == other and kind[q] == 0:
+            q = _place(other, runs)
+            if q >= 0 and kind[q] == 0:
                 inside[_root(parent, p)] = _root(parent, q)
     group = np.empty(count, np.int64)
     for p in range(count):
@@ -220,49 +235,99 @@ def _root(parent: Ints, p: int) -> int:
 
 
 @compiled
-def _way_to_group(
-    x: float, y: float, pieces: Ints, reach_m: float, tile: Ints, form: Ints, bounds_m: Floats, crown_m: Floats,
-    segment_starts: Ints, segments: Steps,
-) -> tuple[float, float, float]:  # fmt: skip
-    """Squared distance and way from the closest point of some pieces; (-1, 0, 0) beyond reach."""
-    best, best_x, best_y, is_found = reach_m * reach_m, 0.0, 0.0, False
-    for k in pieces:
-        west, south, east, north = bounds_m[k]
-        away_x, away_y = max(west - x, 0.0, x - east), max(south - y, 0.0, y - north)
-        if away_x * away_x + away_y * away_y > best:
-            continue
-        square, way_x, way_y = _way_to_piece(
-            x - tile[k, 0] * TILE_M, y - tile[k, 1] * TILE_M, segments[segment_starts[k] : segment_starts[k + 1]],
-            form[k] == AREA,
-        )  # fmt: skip
-        if square > 16.0 * crown_m[k] * crown_m[k] > 0.0:  # as `crown_reach_m`
-            nearer = 1.0 - crown_m[k] / np.sqrt(square + 9.0 * crown_m[k] * crown_m[k])
-            square, way_x, way_y = square * nearer * nearer, way_x * nearer, way_y * nearer
-        if square <= best:
-            best, best_x, best_y, is_found = square, way_x, way_y, True
-            if best == 0.0:
-                break
-    return (best, best_x, best_y) if is_found else (-1.0, 0.0, 0.0)
+def _ways_to_groups(
+    points_m: Floats, order: Ints, starts: Ints, reach_m: float, tile: Ints, form: Ints, bounds_m: Floats,
+    crown_m: Floats, segment_starts: Ints, segments: Steps,
+) -> tuple[Floats, Floats, Floats]:  # fmt: skip
+    """[G, P] squared distance and way of points from the closest point of groups of pieces; squares -1 beyond reach."""
+    shape, count = (len(starts) - 1, len(points_m)), len(points_m)
+    best, best_x, best_y = np.full(shape, -1.0), np.empty(shape), np.empty(shape)
+    x, y, square, nearest, inside = (
+        np.empty(count),
+        np.empty(count),
+        np.empty(count),
+        np.empty(count),
+        np.empty(count),
+    )
+    box_m = np.array([points_m[:, 0].min(), points_m[:, 1].min(), points_m[:, 0].max(), points_m[:, 1].max()])
+    for g in range(len(best)):
+        for k in order[starts[g] : starts[g + 1]]:
+            if _square_apart(bounds_m[k], box_m[0], box_m[1], box_m[2], box_m[3]) > reach_m * reach_m:
+                continue
+            ends = segments[segment_starts[k] : segment_starts[k + 1]]
+            for p in range(count):
+                x[p], y[p] = points_m[p, 0] - tile[k, 0] * TILE_M, points_m[p, 1] - tile[k, 1] * TILE_M
+            _nearest_segments(x, y, ends, square, nearest)
+            inside[:] = 0.0
+            if form[k] == AREA:
+                _insides(x, y, ends, inside)
+            for p in range(count):
+                most = reach_m * reach_m if best[g, p] < 0.0 else best[g, p]
+                if crown_m[k] == 0.0 and square[p] > most and inside[p] == 0.0:
+                    continue
+                if _square_apart(bounds_m[k], points_m[p, 0], points_m[p, 1], points_m[p, 0], points_m[p, 1]) > most:
+                    continue
+                this, way_x, way_y = 0.0, 0.0, 0.0
+                if inside[p] == 0.0:
+                    this, way_x, way_y = _way_to_segment(x[p], y[p], ends[int(nearest[p])], crown_m[k])
+                if this <= most:
+                    best[g, p], best_x[g, p], best_y[g, p] = this, way_x, way_y
+    return best, best_x, best_y
 
 
 @compiled
-def _way_to_piece(x: float, y: float, segments: Steps, is_area: bool) -> tuple[float, float, float]:
-    """Squared distance and way of a point, seen from the middle of a tile, from some segments or what they enclose."""
-    best, best_x, best_y, is_inside = np.inf, 0.0, 0.0, False
+def _square_apart(bounds_m: Floats, west: float, south: float, east: float, north: float) -> float:
+    """The square of how far two boxes are apart."""
+    away_x = max(bounds_m[0] - east, 0.0, west - bounds_m[2])
+    away_y = max(bounds_m[1] - north, 0.0, south - bounds_m[3])
+    square: float = away_x * away_x + away_y * away_y
+    return square
+
+
+@compiled
+def _nearest_segments(x: Floats, y: Floats, segments: Steps, square: Floats, nearest: Floats) -> None:
+    """Fill in the squared distance of points, seen from the middle of a tile, from the nearest of some segments.
+
+    Segment by segment, without a branch in the loop over points: so the processor takes several of them at once.
+    """
+    square[:], nearest[:] = np.inf, 0.0
     for s in range(len(segments)):
         x1, y1 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M
-        x2, y2 = segments[s, 2] * STEP_M, segments[s, 3] * STEP_M
-        along_x, along_y, from_x, from_y = x2 - x1, y2 - y1, x - x1, y - y1
+        along_x, along_y = segments[s, 2] * STEP_M - x1, segments[s, 3] * STEP_M - y1
         length = along_x * along_x + along_y * along_y
-        share = 0.0
-        if length > 0.0:
-            share = min(1.0, max(0.0, (from_x * along_x + from_y * along_y) / length))
-        way_x, way_y = from_x - share * along_x, from_y - share * along_y
-        square = way_x * way_x + way_y * way_y
-        if square < best:
-            best, best_x, best_y = square, way_x, way_y
-        if is_area and (y1 > y) != (y2 > y) and from_x < (y - y1) * along_x / (y2 - y1):
-            is_inside = not is_inside
-    if is_inside:
-        return 0.0, 0.0, 0.0
-    return best, best_x, best_y
+        length, number = (length if length > 0.0 else 1.0), float(s)
+        for p in range(len(x)):
+            from_x, from_y = x[p] - x1, y[p] - y1
+            share = (from_x * along_x + from_y * along_y) / length
+            share = 0.0 if share < 0.0 else share
+            share = 1.0 if share > 1.0 else share
+            way_x, way_y = from_x - share * along_x, from_y - share * along_y
+            this, so_far = way_x * way_x + way_y * way_y, square[p]
+            square[p] = this if this < so_far else so_far
+            nearest[p] = number if this < so_far else nearest[p]
+
+
+@compiled
+def _insides(x: Floats, y: Floats, segments: Steps, inside: Floats) -> None:
+    """Turn 0 into 1 and 1 into 0 for points that see an odd number of segments in the east."""
+    for s in range(len(segments)):
+        x1, y1, y2 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M, segments[s, 3] * STEP_M
+        along_x, along_y = segments[s, 2] * STEP_M - x1, y2 - y1
+        for p in range(len(x)):
+            sees = ((y1 > y[p]) != (y2 > y[p])) & (x[p] - x1 < (y[p] - y1) * along_x / along_y)
+            inside[p] = 1.0 - inside[p] if sees else inside[p]
+
+
+@compiled
+def _way_to_segment(x: float, y: float, segment: Steps, crown_m: float) -> tuple[float, float, float]:
+    """Squared distance and way of a point, seen from the middle of a tile, from a segment [4] or the crown round it."""
+    x1, y1 = segment[0] * STEP_M, segment[1] * STEP_M
+    along_x, along_y, from_x, from_y = segment[2] * STEP_M - x1, segment[3] * STEP_M - y1, x - x1, y - y1
+    length = along_x * along_x + along_y * along_y
+    share = min(1.0, max(0.0, (from_x * along_x + from_y * along_y) / length)) if length > 0.0 else 0.0
+    way_x, way_y = from_x - share * along_x, from_y - share * along_y
+    square = way_x * way_x + way_y * way_y
+    if square > 16.0 * crown_m * crown_m > 0.0:  # as `crown_reach_m`
+        nearer = 1.0 - crown_m / np.sqrt(square + 9.0 * crown_m * crown_m)
+        return square * nearer * nearer, way_x * nearer, way_y * nearer
+    return square, way_x, way_y
