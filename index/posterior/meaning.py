@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+from cachetools import LRUCache
 from torch import Tensor
 
 from index.stores.faiss_store import FaissStore
@@ -17,6 +18,7 @@ from models.language.places.names import plain_words
 
 LIKE: Final = 0.85  # cosine from which on words mean the same
 VECTORS_FILE, PHRASES_FILE = "meanings.faiss", "meanings.json"
+KEPT: Final = 4096  # what was said lately
 TASK: Final = 256  # phrases, of like length
 STORED_BITS: Final = 16  # of a number: of 3,000 phrases no cosine changed by more than a ten-thousandth
 Embed = Callable[[Sequence[str]], Tensor]
@@ -41,6 +43,7 @@ class Meanings:
 
     def __init__(self, phrases: Sequence[str], store: FaissStore, embed: Embed) -> None:
         self._phrases, self._store, self._embed = phrases, store, embed
+        self._lately: LRUCache[str, int] = LRUCache(KEPT)
 
     @classmethod
     def of(cls, phrases: Sequence[str], vectors: Floats, embed: Embed) -> "Meanings":
@@ -52,8 +55,15 @@ class Meanings:
         words = [word for word in plain_words(said) if word not in EMPTY]
         if len(words) < 2 or not self._phrases:
             return None
-        cosine, row = self._store.search(self._embed([" ".join(words)]).numpy(), 1)
-        return tuple(self._phrases[row[0, 0]].split()) if cosine[0, 0] >= LIKE else None
+        row = self._nearest(" ".join(words))
+        return None if row < 0 else tuple(self._phrases[row].split())
+
+    def _nearest(self, said: str) -> int:
+        """The phrase that means what was said; -1 if none does."""
+        if said not in self._lately:
+            cosine, row = self._store.search(self._embed([said]).numpy(), 1)
+            self._lately[said] = int(row[0, 0]) if cosine[0, 0] >= LIKE else -1
+        return self._lately[said]
 
     def save(self, directory: Path) -> None:
         """Write two files."""

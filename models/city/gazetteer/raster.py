@@ -4,13 +4,14 @@ A name is near few of a city's cells: only these are looked at one by one, and f
 blocks will do, of which there are a sixteenth as many.
 """
 
-from collections import OrderedDict
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 import numpy.typing as npt
+from cachetools import LRUCache
 from scipy.ndimage import distance_transform_edt, find_objects, label
 
 from models.city.gazetteer.gazetteer import Gazetteer
@@ -81,7 +82,7 @@ class Raster:
         self.cells_in = np.bincount(self.block_of, minlength=self._blocks[0] * self._blocks[1])
         samples, self._starts = _samples(gazetteer)
         self._pixel = self.pixels(samples).astype(np.int32)
-        self._lately: OrderedDict[tuple[bytes, ...], Away] = OrderedDict()
+        self._lately: LRUCache[tuple[bytes, ...], Away] = LRUCache(KEPT_BYTES, lambda away: away.nbytes)
 
     def pixels(self, points_m: Floats) -> Ints:
         """[n] pixel of points [n, 2], -1 outside."""
@@ -93,15 +94,14 @@ class Raster:
         """How far every cell is from each group of objects, and from segments [n, 4], if any, which are the first."""
         lines = [] if lines_m is None else [lines_m]
         key = tuple(one.tobytes() for one in (*lines, *groups))
-        found = self._lately.pop(key, None)
-        if found is None:
+        if key not in self._lately:
             drawn = [self.pixels(along(one, _steps(one))) for one in lines]
             drawn += [self._pixel[ranges(self._starts[some], self._starts[some + 1])] for some in groups]
             found = self._away([pixels[pixels >= 0] for pixels in drawn])
-        self._lately[key] = found
-        while sum(each.nbytes for each in self._lately.values()) > KEPT_BYTES and len(self._lately) > 1:
-            self._lately.popitem(last=False)
-        return found
+            with suppress(ValueError):  # larger than all that is kept
+                self._lately[key] = found
+            return found
+        return self._lately[key]
 
     def _away(self, groups: Sequence[Ints]) -> Away:
         """The same of pixels."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Final, get_args
 
 import torch
+from cachetools import LRUCache
 from torch import Tensor, nn
 from torch.func import functional_call
 
@@ -24,6 +25,7 @@ WIND_FROM, MEANT_FROM = 0.15, 0.3  # probabilities
 UNKNOWN_FROM: Final = 0.06  # of being meant, of names that the map has not: few of the labelled texts have such
 LEAST: Final = 0.06  # probability of an angle that is thought of
 LONGEST: Final = 600  # characters that are read at once
+KEPT_TEXTS: Final = 2000  # that were read lately: who answers a question sends the text again
 _SENTENCE_END = re.compile(r"[.!?\n]\s")
 Place = tuple[int, int, Form]
 
@@ -75,6 +77,7 @@ class CueReader(nn.Module):
             nn.Linear(WIDTH, len(ANGLES) + len(RELATIONS) + len(FLAGS)),
         )  # fmt: skip
         self._merged: list[dict[str, Tensor]] | None = None
+        self._kept: LRUCache[tuple[str, tuple[Place, ...]], tuple[ReadCue, ...]] = LRUCache(KEPT_TEXTS)
 
     def forward(self, tokens: TokenFeatures, spans: Sequence[Sequence[tuple[int, int, int]]]) -> tuple[Tensor, ...]:
         """Logits of the mentions of all texts: angle [S, 11], relation [S, R], flags [S, 2].
@@ -92,9 +95,8 @@ class CueReader(nn.Module):
         found = self.head(self.dropout(torch.stack(pooled) if pooled else x.new_zeros(0, 2 * x.shape[2])))
         return torch.split(found, [len(ANGLES), len(RELATIONS), len(FLAGS)], dim=1)
 
-    @torch.no_grad()
-    def read(self, text: str, places: Sequence[Place]) -> list[ReadCue]:
-        """What a text says of its mentions.
+    def read(self, text: str, places: Sequence[Place]) -> Sequence[ReadCue]:
+        """What a text says of its mentions; the latest texts are remembered.
 
         Args:
             text: any.
@@ -103,6 +105,13 @@ class CueReader(nn.Module):
         Returns:
             In the order of `places`; of what lies beyond the tokens that are read, that nothing is said.
         """
+        key = text, tuple(places)
+        if key not in self._kept:
+            self._kept[key] = tuple(self._read(text, places))
+        return self._kept[key]
+
+    @torch.no_grad()
+    def _read(self, text: str, places: Sequence[Place]) -> list[ReadCue]:
         found = [ReadCue(None, (), "seen", has_wind=False, is_meant=True)] * len(places)
         pieces = [(a, b, [n for n, place in enumerate(places) if a <= place[0] < b]) for a, b in _pieces(text)]
         pieces = [piece for piece in pieces if piece[2]]
@@ -127,8 +136,9 @@ class CueReader(nn.Module):
         return self._base[0].read(texts, self._frozen_layers)
 
     def train(self, mode: bool = True) -> "CueReader":
-        """As torch does; what was merged of the weights is forgotten."""
+        """As torch does; what was merged of the weights, and read with them, is forgotten."""
         self._merged = None
+        self._kept.clear()
         return super().train(mode)
 
     def _matrices(self) -> list[tuple[int, Tensor]]:

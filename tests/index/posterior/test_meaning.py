@@ -92,6 +92,16 @@ def test_meanings_are_saved_and_read_back(lookup, meanings, text_encoder, tmp_pa
         Meanings.load(tmp_path, text_encoder.embed)
 
 
+def test_what_is_said_again_is_not_embedded_again(meanings, text_encoder, tmp_path) -> None:
+    said: list[str] = []
+    meanings.save(tmp_path)
+    counted = Meanings.load(tmp_path, lambda some: said.extend(some) or text_encoder.embed(some))
+    assert [counted.like(each) for each in ("the baby shop", "green red", "the baby shop", "green red")] == [
+        meanings.like(each) for each in ("the baby shop", "green red") * 2
+    ]
+    assert said == ["baby shop", "green red"]
+
+
 def test_a_map_without_names_means_nothing(text_encoder, tmp_path) -> None:
     made(Lookup(NOTHING_NAMED, load_vocabulary(), is_common), text_encoder).save(tmp_path)
     assert Meanings.load(tmp_path, text_encoder.embed).like("the baby shop") is None

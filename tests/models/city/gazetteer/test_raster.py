@@ -115,7 +115,15 @@ def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
     raster = Raster(town, CENTERS, GRID_M)
     most = 5 * max(raster.away([np.array([n])]).nbytes for n in range(5)) // 2
     monkeypatch.setattr("models.city.gazetteer.raster.KEPT_BYTES", most)
+    raster = Raster(town, CENTERS, GRID_M)
     first = [away(raster, np.array([n])).copy() for n in range(5)]
     assert 2 <= len(raster._lately) < 5
     assert sum(kept.nbytes for kept in raster._lately.values()) <= most, "no more than was allowed"
     assert all((away(raster, np.array([n])) == was).all() for n, was in enumerate(first))
+
+
+def test_what_is_larger_than_all_that_is_kept_is_found_and_not_kept(town, raster, monkeypatch) -> None:
+    monkeypatch.setattr("models.city.gazetteer.raster.KEPT_BYTES", 100)
+    small = Raster(town, CENTERS, GRID_M)
+    assert (away(small, np.array([0])) == away(raster, np.array([0]))).all()
+    assert not small._lately
