@@ -133,10 +133,9 @@ class PosteriorLocalizer:
         language = language_of(query.description)
         hints = hints if language == ENGLISH else []
         warnings = _of_language(language)
-        hints, mentions, told = self._places(query, language, hints)
+        hints, reading, mentions, told = self._places(query, language, hints)
         timings = {"encode": encode_ms + _since(start)}
         warnings += (*_not_found(mentions), *contradictions(mentions))
-        reading = self.binding.reading(hints) if hints else None
         heard = Heard.of(reading, mentions, list(self.labels), self._gazetteer)
         if not hints and told is None and answered is None:
             said, question = NOTHING_FITS if mentions else NOTHING_SAID, self._rescue(query, language, heard)
@@ -191,18 +190,20 @@ class PosteriorLocalizer:
 
     def _places(
         self, query: Query, language: str, hints: Sequence[ParsedHint]
-    ) -> tuple[Sequence[ParsedHint], list[Mention], Told | None]:
-        """The hints that tell of what is near, what the text names besides, and what that tells."""
+    ) -> tuple[Sequence[ParsedHint], Reading | None, list[Mention], Told | None]:
+        """The hints that tell of what is near, what they say, what the text names besides, and what that tells."""
         if self.places is None:
-            return hints, [], None
+            return hints, self.binding.reading(hints) if hints else None, [], None
         listener_m = None if query.prior is None else position_m(query.prior.position, query.crs, self.frame)
         text = as_read(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
         mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)
         hints = [] if mentions and _is_elsewhere(query) else may_be_near(hints, mentions)
-        trust = self.binding.reading(hints).label.amax(dim=1).tolist() if hints else []
+        reading = self.binding.reading(hints) if hints else None
+        trust = [] if reading is None else reading.label.amax(dim=1).tolist()
         near, mentions = near_hints(hints, trust, mentions)
-        return [hints[n] for n in near], mentions, self.places.told(mentions, query.description, listener_m)
+        told = self.places.told(mentions, query.description, listener_m)
+        return [hints[n] for n in near], reading.take(near) if reading and near else None, mentions, told
 
     def _located(
         self,

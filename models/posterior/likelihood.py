@@ -1,6 +1,7 @@
 """How likely a description is at a position (docs/method.md, the hint posterior)."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 from typing import Final
 
 import numpy as np
@@ -32,6 +33,10 @@ class Reading:
     colour: Tensor
     distance_m: Tensor
     absent: Tensor
+
+    def take(self, rows: Sequence[int]) -> "Reading":
+        """Some of the hints."""
+        return Reading(*(getattr(self, f.name)[list(rows)] for f in fields(self)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

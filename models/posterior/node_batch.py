@@ -69,13 +69,14 @@ def ranks_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
         label: [R] label of each row.
     """
     ranks = np.empty((len(node), len(RANKS) + 2), np.int64)
-    _count(node.numpy(), label.numpy(), _SECTOR_OF_WAY[way].numpy(), ranks)
-    ranks[:, : len(RANKS)] = np.minimum(ranks[:, : len(RANKS)], np.array(RANKS) - 1)
+    _count(node.numpy(), label.numpy(), way.numpy(), _SECTOR_OF_WAY.numpy(), *(most - 1 for most in RANKS), ranks)
     return torch.from_numpy(ranks)
 
 
 @compiled
-def _count(node: Ints, label: Ints, sector: Ints, ranks: Ints) -> None:
+def _count(
+    node: Ints, label: Ints, way: Ints, sector: Ints, most: int, most_alike: int, most_beside: int, ranks: Ints
+) -> None:
     """Fill `ranks` for rows that are in order of node: there are few of each node, so that any two are compared."""
     begin, rows = 0, len(node)
     while begin < rows:
@@ -83,16 +84,20 @@ def _count(node: Ints, label: Ints, sector: Ints, ranks: Ints) -> None:
         while end < rows and node[end] == node[begin]:
             end += 1
         for i in range(begin, end):
-            alike, alike_nearer, beside, beside_nearer = 0, 0, 0, 0
-            for j in range(begin, end):
-                if label[j] == label[i]:
+            alike, beside, label_i, sector_i = 0, 0, label[i], sector[way[i]]
+            for j in range(begin, i):
+                if label[j] == label_i:
                     alike += 1
-                    alike_nearer += j < i
-                if sector[j] == sector[i]:
+                    ranks[j, 3] += 1
+                if sector[way[j]] == sector_i:
                     beside += 1
-                    beside_nearer += j < i
-            ranks[i, 0], ranks[i, 1], ranks[i, 2] = i - begin, alike_nearer, beside_nearer
-            ranks[i, 3], ranks[i, 4] = alike, beside
+                    ranks[j, 4] += 1
+            ranks[i, 0], ranks[i, 1], ranks[i, 2] = (
+                min(i - begin, most),
+                min(alike, most_alike),
+                min(beside, most_beside),
+            )
+            ranks[i, 3], ranks[i, 4] = alike + 1, beside + 1
         begin = end
 
 
