@@ -15,9 +15,10 @@ import numpy.typing as npt
 from cachetools import LRUCache
 from scipy.ndimage import distance_transform_edt
 
-from models.city.compiled import compiled
+from models.city.compiled import compiled, longer
 from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.ways import are_inside
+from models.city.gazetteer.nearest import columns_away, pixels_away
+from models.city.gazetteer.ways import is_inside
 from models.city.points import Ints, ranges
 from models.city.types import Floats
 
@@ -115,8 +116,8 @@ class Raster:
         far = blocks[:, self.block_of[rows]]
         metres = np.full((len(groups), len(rows)), np.inf, np.float32)
         for found, pixels in zip(metres, groups, strict=True):
-            square = _squares(pixels, self.shape[0], self.shape[1], near, math.ceil(reach_m / self.spacing_m))
-            found[:] = np.sqrt(square) * np.float32(self.spacing_m)
+            reach = BLOCK + math.ceil(reach_m / self.spacing_m)
+            found[:] = pixels_away(columns_away(pixels, self.shape, reach), near, reach) * np.float32(self.spacing_m)
         metres = np.where(metres <= NEAR_M, metres, np.minimum(metres, np.maximum(far, NEAR_M)))
         return Away(self.block_of, blocks, rows, metres)
 
@@ -147,35 +148,6 @@ def _pixels_near(is_near: Mask, cell: Ints) -> Ints:
     return near[:count].copy()
 
 
-@compiled
-def _squares(drawn: Ints, columns: int, rows: int, asked: Ints, reach: int) -> Floats:
-    """[R] float32 squared distance of pixels to the nearest that is drawn, in pixels; inf beyond reach on either axis.
-
-    Exact, after Saito and Toriwaki (Pattern Recognition 27, 1994): first along columns, then along rows.
-    """
-    far = np.int32(4 * reach * reach)
-    along = np.full((columns, rows + 2 * reach), reach + 1, np.int32)  # with a margin, so that no row ends
-    for pixel in drawn:
-        along[pixel // rows, reach + pixel % rows] = 0
-    for x in range(1, columns):
-        for y in range(along.shape[1]):
-            along[x, y] = min(along[x, y], along[x - 1, y] + 1)
-    for x in range(columns - 2, -1, -1):
-        for y in range(along.shape[1]):
-            along[x, y] = min(along[x, y], along[x + 1, y] + 1)
-    for x in range(columns):
-        for y in range(along.shape[1]):
-            along[x, y] = far if along[x, y] > reach else along[x, y] * along[x, y]
-    across = (np.arange(2 * reach + 1).astype(np.int32) - np.int32(reach)) ** 2
-    found = np.empty(len(asked), np.float32)
-    for n in range(len(asked)):
-        row, begin, least = along[asked[n] // rows], asked[n] % rows, far
-        for step in range(len(across)):
-            least = min(least, row[begin + step] + across[step])
-        found[n] = np.inf if least >= far else least
-    return found
-
-
 def _steps(lines_m: Floats) -> Ints:
     """[n] samples of each of some segments [n, 4]."""
     long_m = np.hypot(*(lines_m[:, 2:] - lines_m[:, :2]).T)
@@ -201,21 +173,33 @@ def _samples(gazetteer: Gazetteer) -> tuple[Floats, Ints]:
     lines = gazetteer.segments_m
     steps = np.ceil(np.hypot(*(lines[:, 2:] - lines[:, :2]).T) / SAMPLED_M).astype(int) + 1
     owner = np.repeat(np.repeat(np.arange(len(gazetteer)), np.diff(gazetteer.starts)), steps)
-    points, owners = [along(lines, steps)], [owner]
-    for number in np.flatnonzero(gazetteer.is_area & (gazetteer.reach_m > LARGE_M)):
-        ends = lines[gazetteer.starts[number] : gazetteer.starts[number + 1]].astype(np.float64)
-        inside = lattice(ends, LATTICE_M)
-        points.append(inside)
-        owners.append(np.full(len(inside), number))
-    joined, of = np.concatenate(points), np.concatenate(owners)
+    large = np.flatnonzero(gazetteer.is_area & (gazetteer.reach_m > LARGE_M))
+    inside, number = lattice(lines, gazetteer.starts, large, LATTICE_M)
+    joined, of = np.concatenate([along(lines, steps), inside]), np.concatenate([owner, number])
     order = np.argsort(of, kind="stable")
     return joined[order], np.searchsorted(of[order], np.arange(len(gazetteer) + 1))
 
 
-def lattice(ends: Floats, apart_m: float) -> Floats:
-    """Points inside rings of segments [n, 4], in rows and columns."""
-    low, high = ends.reshape(-1, 2).min(axis=0), ends.reshape(-1, 2).max(axis=0)
-    axes = [np.arange(a + apart_m / 2, b, apart_m) for a, b in zip(low, high, strict=True)]
-    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-    found: Floats = grid[are_inside(grid, ends)]
-    return found
+@compiled
+def lattice(segments_m: Floats, starts: Ints, areas: Ints, apart_m: float) -> tuple[Floats, Ints]:
+    """Points [n, 2] in rows and columns inside some areas, and [n] which of the objects each is in.
+
+    Args:
+        segments_m: of all objects, see `Gazetteer`.
+        starts: likewise.
+        areas: some of them.
+        apart_m: between rows, and between columns.
+    """
+    count, points, of = 0, np.empty((1024, 2)), np.empty(1024, np.int64)
+    for number in areas:
+        ends = segments_m[starts[number] : starts[number + 1]].astype(np.float64)
+        low_x, high_x = min(ends[:, 0].min(), ends[:, 2].min()), max(ends[:, 0].max(), ends[:, 2].max())
+        low_y, high_y = min(ends[:, 1].min(), ends[:, 3].min()), max(ends[:, 1].max(), ends[:, 3].max())
+        for x in np.arange(low_x + apart_m / 2, high_x, apart_m):
+            for y in np.arange(low_y + apart_m / 2, high_y, apart_m):
+                if is_inside(x, y, ends):
+                    if count == len(of):
+                        points, of = longer(points), longer(of)
+                    points[count, 0], points[count, 1], of[count] = x, y, number
+                    count += 1
+    return points[:count].copy(), of[:count].copy()

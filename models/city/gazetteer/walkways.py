@@ -3,9 +3,9 @@
 from typing import Final
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from models.city.gazetteer.gazetteer import WALKED, Gazetteer
+from models.city.gazetteer.nearest import columns_away, pixels_away
 from models.city.gazetteer.raster import along, lattice
 from models.city.points import Ints, ranges
 from models.city.types import Floats
@@ -13,7 +13,7 @@ from models.city.types import Floats
 PIXEL_M: Final = 2.0
 FARTHEST_M: Final = 50.0
 SQUARES: Final = ("highway/pedestrian_area", "place/square")  # walked on all over
-_STEP_M: Final = 0.25  # of what is kept
+REACH: Final = round(FARTHEST_M / PIXEL_M)
 
 
 class Walkways:
@@ -26,24 +26,23 @@ class Walkways:
 
     def __init__(self, gazetteer: Gazetteer, low_m: Floats, high_m: Floats) -> None:
         self._low = low_m - FARTHEST_M
-        self._shape = tuple(np.ceil((high_m + FARTHEST_M - self._low) / PIXEL_M).astype(int) + 1)
-        free = np.ones(self._shape, dtype=bool)
-        for points in (_lines(gazetteer), _squares(gazetteer)):
-            row, inside = self._pixels(points)
-            free[tuple(row[inside].T)] = False
-        metres = distance_transform_edt(free).astype(np.float32) * PIXEL_M
-        self._away = np.minimum(metres / _STEP_M, FARTHEST_M / _STEP_M).astype(np.uint8)
+        columns, rows = (np.ceil((high_m + FARTHEST_M - self._low) / PIXEL_M).astype(int) + 1).tolist()
+        self._shape = columns, rows
+        drawn = [self._pixels(points)[0] for points in (_lines(gazetteer), _squares(gazetteer))]
+        self._away = columns_away(np.concatenate(drawn), self._shape, REACH)
 
     def metres(self, points_m: Floats) -> Floats:
         """[n] float32 metres from points [n, 2] to where people walk, at most FARTHEST_M."""
-        row, inside = self._pixels(points_m)
+        pixel, inside = self._pixels(points_m)
         away = np.full(len(points_m), FARTHEST_M, np.float32)
-        away[inside] = self._away[tuple(row[inside].T)] * np.float32(_STEP_M)
+        away[inside] = np.minimum(pixels_away(self._away, pixel, REACH) * np.float32(PIXEL_M), FARTHEST_M)
         return away
 
     def _pixels(self, points_m: Floats) -> tuple[Ints, Ints]:
-        row = np.round((points_m - self._low) / PIXEL_M).astype(np.int64)
-        return row, np.flatnonzero(((row >= 0) & (row < self._shape)).all(axis=1))
+        """The pixels of those points that are inside, and which these are."""
+        column, row = np.round((points_m - self._low) / PIXEL_M).astype(np.int64).T
+        inside = np.flatnonzero((column >= 0) & (row >= 0) & (column < self._shape[0]) & (row < self._shape[1]))
+        return column[inside] * self._shape[1] + row[inside], inside
 
 
 def _lines(gazetteer: Gazetteer) -> Floats:
@@ -55,8 +54,5 @@ def _lines(gazetteer: Gazetteer) -> Floats:
 
 def _squares(gazetteer: Gazetteer) -> Floats:
     squares = [n for kind in SQUARES for n in gazetteer.by_kind.get(kind, ()) if gazetteer.is_area[n]]
-    inside = [
-        lattice(gazetteer.segments_m[gazetteer.starts[n] : gazetteer.starts[n + 1]].astype(np.float64), PIXEL_M / 2)
-        for n in squares
-    ]
-    return np.concatenate(inside) if inside else np.zeros((0, 2))
+    inside: Floats = lattice(gazetteer.segments_m, gazetteer.starts, np.array(squares, np.int64), PIXEL_M / 2)[0]
+    return inside

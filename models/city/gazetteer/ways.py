@@ -100,11 +100,11 @@ def _all_ways(
             for s in range(len(ends)):
                 metres[s] = np.hypot(*_way(x, y, ends[s]))
             nearest = metres[: len(ends)].min()
-            if nearest > reach_m + radius_m and not (is_area[i] and _is_inside(x, y, ends)):
+            if nearest > reach_m + radius_m and not (is_area[i] and is_inside(x, y, ends)):
                 continue
             for p in range(group_starts[c], group_starts[c + 1]):
                 found = _closest(points_m[p, 0], points_m[p, 1], ends, metres, nearest + 2 * radius_m)
-                if is_area[i] and _is_inside(points_m[p, 0], points_m[p, 1], ends):
+                if is_area[i] and is_inside(points_m[p, 0], points_m[p, 1], ends):
                     found = (0.0, 0.0)
                 if np.hypot(*found) > reach_m:
                     continue
@@ -153,16 +153,7 @@ def _closest(x: float, y: float, ends: Floats, metres: Floats, farthest_m: float
 
 
 @compiled
-def are_inside(points_m: Floats, ends: Floats) -> npt.NDArray[np.bool_]:
-    """Of points [n, 2] those inside the rings of segments [m, 4]."""
-    found = np.empty(len(points_m), np.bool_)
-    for n in range(len(points_m)):
-        found[n] = _is_inside(points_m[n, 0], points_m[n, 1], ends)
-    return found
-
-
-@compiled
-def _is_inside(x: float, y: float, ends: Floats) -> bool:
+def is_inside(x: float, y: float, ends: Floats) -> bool:
     """Whether a point is inside the rings of segments [n, 4]: a ray to the east crosses an odd number of them."""
     is_odd = False
     for s in range(len(ends)):

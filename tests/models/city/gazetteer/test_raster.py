@@ -1,10 +1,9 @@
 import numpy as np
 import pytest
 import shapely
-from scipy.ndimage import distance_transform_edt
 
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, Words, build_gazetteer
-from models.city.gazetteer.raster import BLOCK, MARGIN_M, NEAR_M, Raster, _squares
+from models.city.gazetteer.raster import BLOCK, MARGIN_M, NEAR_M, Raster
 from tests.models.city.gazetteer.made_town import MARKET, PARK, line, made_gazetteer, numbered, point
 
 GRID_M = 10.0
@@ -105,20 +104,6 @@ def test_what_is_off_the_grid_is_infinitely_far() -> None:
     assert np.isinf(away(raster, np.array([0]))).all()
     assert away(raster, np.array([1])).min() == pytest.approx(MARGIN_M / 2, abs=GRID_M), "in the margin"
     assert np.isinf(lines_away(raster, point(9000, 0))).all()
-
-
-@pytest.mark.parametrize("drawn", [0, 1, 3, 40, 400])
-def test_distances_of_pixels_are_those_of_a_distance_transform(drawn) -> None:
-    rng, shape, reach = np.random.default_rng(drawn), (40, 70), 9
-    pixels = rng.choice(shape[0] * shape[1], drawn, replace=False)
-    empty = np.ones(shape, np.bool_)
-    empty.ravel()[pixels] = False
-    truth = distance_transform_edt(empty).ravel() if drawn else np.full(empty.size, np.inf)
-    asked = rng.permutation(empty.size)[:900]
-    found = np.sqrt(_squares(pixels, *shape, asked, reach))
-    near = truth[asked] <= reach
-    assert found[near] == pytest.approx(truth[asked][near])
-    assert (found[~near] > reach).all(), "as far, or not at all"
 
 
 def test_a_map_where_nothing_is_named() -> None:
