@@ -1,13 +1,17 @@
 """Chains of shops, restaurants and the like, by any spelling of their names."""
 
+import re
 import unicodedata
 from collections.abc import Iterable, Mapping
+from typing import Final
+
+_BETWEEN: Final = re.compile(r"[\W_]+")
 
 
 def plain(name: str) -> str:
     """A name without case, accents, spaces and punctuation; "&" is "and"."""
     letters = unicodedata.normalize("NFKD", name.casefold().replace("&", "and"))
-    return "".join(letter for letter in letters if letter.isalnum())
+    return _BETWEEN.sub("", letters)
 
 
 class Brands:

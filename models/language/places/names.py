@@ -112,7 +112,10 @@ def plain_word(word: str) -> str:
     """A word in lower case, without accents and apostrophes."""
     if word in ("&", "+"):
         return "and"
-    folded = unicodedata.normalize("NFKD", _APOSTROPHE.sub("", word)).casefold()
+    bare = _APOSTROPHE.sub("", word)
+    if bare.isascii():
+        return bare.casefold()
+    folded = unicodedata.normalize("NFKD", bare).casefold()
     letters = unicodedata.normalize("NFKD", folded)
     return "".join(c for c in letters if not unicodedata.combining(c))
 
