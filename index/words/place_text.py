@@ -36,7 +36,8 @@ def nearest_street(gazetteer: Gazetteer, position: Floats) -> tuple[int, Floats]
 def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
     """Where on a street a position [2] is: at which corner, or between which."""
     name = gazetteer.words[street].names[0]
-    rows = np.flatnonzero((gazetteer.corner_streets == street).any(axis=1))
+    meeting = gazetteer.corner_streets
+    rows = np.flatnonzero((meeting[:, 0] == street) | (meeting[:, 1] == street))
     away = gazetteer.corners_m[rows].astype(np.float64) - position
     metres = np.hypot(*away.T)
     if len(rows) and metres.min() <= AT_CORNER_M:
@@ -56,8 +57,9 @@ def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
 
 
 def _beside(gazetteer: Gazetteer, position: Floats) -> str | None:
-    named = gazetteer.named
-    near = named[np.hypot(*(gazetteer.middles_m[named] - position).T) - gazetteer.reach_m[named] <= NAMED_M]
+    middles_m, reach_m = gazetteer.where_named
+    east, north = middles_m - position[:, None]
+    near = gazetteer.named[east * east + north * north <= (reach_m + NAMED_M) ** 2]
     ways = ways_from(gazetteer, near, position, NAMED_M)
     if not len(ways.item):
         return None

@@ -118,20 +118,22 @@ class Statements:
         weight = weight * place.index_select(1, self.sector.index_select(0, known))
         told = (weight.amax(dim=0) > FAINT).nonzero().flatten()  # few
         columns = known.index_select(0, told).numpy()
-        said = np.ascontiguousarray(weight.index_select(1, told).T.numpy())
-        held = np.full((self.holds.shape[0], len(place)), FLOOR, np.float32)
-        _add(self.holds.indptr, self.holds.indices, self.holds.data, columns, said, held)
-        scores: Floats = np.log(held, out=held) @ (1 - reading.absent.numpy())
+        held = np.full((len(place), self.holds.shape[0]), FLOOR, np.float32)
+        _add(
+            self.holds.indptr, self.holds.indices, self.holds.data, columns, weight.index_select(1, told).numpy(), held
+        )
+        scores: Floats = (1 - reading.absent.numpy()) @ np.log(held, out=held)
         return scores
 
 
 @compiled
-def _add(starts: Ints, cell: Ints, holds: Floats, columns: Ints, said: Floats, held: Floats) -> None:
-    """Add some columns [F] of a sparse matrix, as far as they are said [F, H], to [N, H] in place, without a copy."""
-    for n in range(len(columns)):
-        for k in range(starts[columns[n]], starts[columns[n] + 1]):
-            for hint in range(held.shape[1]):
-                held[cell[k], hint] += holds[k] * said[n, hint]
+def _add(starts: Ints, cell: Ints, holds: Floats, columns: Ints, weight: Floats, held: Floats) -> None:
+    """Add some columns [F] of a sparse matrix [N, ...], times the weights [H, F] that are not faint, to [H, N]."""
+    for hint in range(len(held)):
+        for n in range(len(columns)):
+            if weight[hint, n] > FAINT:
+                for k in range(starts[columns[n]], starts[columns[n] + 1]):
+                    held[hint, cell[k]] += holds[k] * weight[hint, n]
 
 
 def statement_rows(

@@ -102,6 +102,11 @@ class Gazetteer:
         return reach
 
     @cached_property
+    def where_named(self) -> tuple[Floats, Floats]:
+        """[2, n] middles and [n] reach of what is `named`: all of them are looked through for every answer."""
+        return np.ascontiguousarray(self.middles_m[self.named].T), self.reach_m[self.named]
+
+    @cached_property
     def _boxes(self) -> tuple[Floats, Floats]:
         if not len(self):
             return np.zeros((0, 2)), np.zeros((0, 2))

@@ -24,6 +24,7 @@ SHORTEST_MISSPELT: Final = 5
 LEAST_SHARE: Final = 0.35  # of a name's weight that a part of it must bear
 PART: Final = 0.5  # weight of a part of a name beside whole ones
 KEPT: Final = 4096  # phrases whose kinds are remembered
+_NONE: Final = np.zeros(0, np.int64)
 EMPTY: Final = ARTICLES | english().list("empty")
 
 
@@ -210,12 +211,13 @@ class Lookup:
         return dict(self._foreign.get(word, ()))
 
     def of_kinds(self, kinds: Mapping[str, float]) -> Match | None:
-        """Objects of some kinds."""
-        found: dict[int, float] = {}
+        """Objects of some kinds, each as surely as the surest of its kinds."""
+        weights = np.zeros(len(self.gazetteer))
         for kind, weight in kinds.items():
-            for number in self.gazetteer.by_kind.get(kind, np.zeros(0, np.int64)).tolist():
-                found[number] = max(found.get(number, 0.0), weight)
-        return _match(found, 1.0, is_exact=False)
+            some = self.gazetteer.by_kind.get(kind, _NONE)
+            weights[some] = np.maximum(weights[some], weight)
+        objects = np.flatnonzero(weights)
+        return Match(objects, weights[objects], 1.0, False) if len(objects) else None
 
     @cached_property
     def noun_words(self) -> frozenset[str]:
