@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from cachetools import LRUCache
+from cachetools import LRUCache, cachedmethod
 from torch import Tensor
 
 from index.stores.faiss_store import FaissStore
@@ -58,12 +58,11 @@ class Meanings:
         row = self._nearest(" ".join(words))
         return None if row < 0 else tuple(self._phrases[row].split())
 
+    @cachedmethod(lambda meanings: meanings._lately)
     def _nearest(self, said: str) -> int:
         """The phrase that means what was said; -1 if none does."""
-        if said not in self._lately:
-            cosine, row = self._store.search(self._embed([said]).numpy(), 1)
-            self._lately[said] = int(row[0, 0]) if cosine[0, 0] >= LIKE else -1
-        return self._lately[said]
+        cosine, row = self._store.search(self._embed([said]).numpy(), 1)
+        return int(row[0, 0]) if cosine[0, 0] >= LIKE else -1
 
     def save(self, directory: Path) -> None:
         """Write two files."""

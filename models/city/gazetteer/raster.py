@@ -6,13 +6,12 @@ blocks will do, of which there are a sixteenth as many.
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 import numpy.typing as npt
-from cachetools import LRUCache
+from cachetools import LRUCache, cachedmethod
 from scipy.ndimage import distance_transform_edt
 
 from models.city.compiled import compiled, longer
@@ -63,6 +62,11 @@ class Away:
         return self.blocks.nbytes + self.rows.nbytes + self.metres.nbytes
 
 
+def _asked(_: "Raster", groups: Sequence[Ints], lines_m: Floats | None = None) -> tuple[bytes, ...]:
+    """What distances are remembered by."""
+    return b"" if lines_m is None else lines_m.tobytes(), *(one.tobytes() for one in groups)
+
+
 class Raster:
     """The cells' grid, with every object of a gazetteer on it.
 
@@ -93,18 +97,12 @@ class Raster:
         inside = ((column >= 0) & (column < self.shape)).all(axis=1)
         return np.where(inside, column[:, 0] * self.shape[1] + column[:, 1], -1)
 
+    @cachedmethod(lambda raster: raster._lately, _asked)
     def away(self, groups: Sequence[Ints], lines_m: Floats | None = None) -> Away:
         """How far every cell is from each group of objects, and from segments [n, 4], if any, which are the first."""
-        lines = [] if lines_m is None else [lines_m]
-        key = tuple(one.tobytes() for one in (*lines, *groups))
-        if key not in self._lately:
-            drawn = [self.pixels(along(one, _steps(one))) for one in lines]
-            drawn += [self._pixel[ranges(self._starts[some], self._starts[some + 1])] for some in groups]
-            found = self._away([pixels[pixels >= 0] for pixels in drawn])
-            with suppress(ValueError):  # larger than all that is kept
-                self._lately[key] = found
-            return found
-        return self._lately[key]
+        drawn = [] if lines_m is None else [self.pixels(along(lines_m, _steps(lines_m)))]
+        drawn += [self._pixel[ranges(self._starts[some], self._starts[some + 1])] for some in groups]
+        return self._away([pixels[pixels >= 0] for pixels in drawn])
 
     def _away(self, groups: Sequence[Ints]) -> Away:
         """The same of pixels."""
@@ -114,10 +112,9 @@ class Raster:
         near = _pixels_near(is_near, self._cell)
         rows = self._cell.ravel()[near].astype(np.int64)
         far = blocks[:, self.block_of[rows]]
-        metres = np.full((len(groups), len(rows)), np.inf, np.float32)
-        for found, pixels in zip(metres, groups, strict=True):
-            reach = BLOCK + math.ceil(reach_m / self.spacing_m)
-            found[:] = pixels_away(columns_away(pixels, self.shape, reach), near, reach) * np.float32(self.spacing_m)
+        reach = BLOCK + math.ceil(reach_m / self.spacing_m)
+        away = np.stack([pixels_away(columns_away(pixels, self.shape, reach), near, reach) for pixels in groups])
+        metres = away * np.float32(self.spacing_m)
         metres = np.where(metres <= NEAR_M, metres, np.minimum(metres, np.maximum(far, NEAR_M)))
         return Away(self.block_of, blocks, rows, metres)
 

@@ -108,13 +108,8 @@ def _ways_to_groups(
     """[G, P] squared distance and way of points from the closest point of groups of pieces; squares -1 beyond reach."""
     shape, count = (len(starts) - 1, len(points_m)), len(points_m)
     best, best_x, best_y = np.full(shape, -1.0), np.empty(shape), np.empty(shape)
-    x, y, square, nearest, inside = (
-        np.empty(count),
-        np.empty(count),
-        np.empty(count),
-        np.empty(count),
-        np.empty(count),
-    )
+    x, y, inside = np.empty(count), np.empty(count), np.empty(count)
+    square, nearest = np.empty(count), np.empty(count)
     box_m = np.array([points_m[:, 0].min(), points_m[:, 1].min(), points_m[:, 0].max(), points_m[:, 1].max()])
     for g in range(len(best)):
         for k in order[starts[g] : starts[g + 1]]:

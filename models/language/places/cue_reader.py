@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final, get_args
 
 import torch
-from cachetools import LRUCache
+from cachetools import LRUCache, cachedmethod
 from torch import Tensor, nn
 from torch.func import functional_call
 
@@ -77,7 +77,7 @@ class CueReader(nn.Module):
             nn.Linear(WIDTH, len(ANGLES) + len(RELATIONS) + len(FLAGS)),
         )  # fmt: skip
         self._merged: list[dict[str, Tensor]] | None = None
-        self._kept: LRUCache[tuple[str, tuple[Place, ...]], tuple[ReadCue, ...]] = LRUCache(KEPT_TEXTS)
+        self._kept: LRUCache[tuple[str, tuple[Place, ...]], list[ReadCue]] = LRUCache(KEPT_TEXTS)
 
     def forward(self, tokens: TokenFeatures, spans: Sequence[Sequence[tuple[int, int, int]]]) -> tuple[Tensor, ...]:
         """Logits of the mentions of all texts: angle [S, 11], relation [S, R], flags [S, 2].
@@ -95,7 +95,9 @@ class CueReader(nn.Module):
         found = self.head(self.dropout(torch.stack(pooled) if pooled else x.new_zeros(0, 2 * x.shape[2])))
         return torch.split(found, [len(ANGLES), len(RELATIONS), len(FLAGS)], dim=1)
 
-    def read(self, text: str, places: Sequence[Place]) -> Sequence[ReadCue]:
+    @cachedmethod(lambda reader: reader._kept, lambda _, text, places: (text, tuple(places)))
+    @torch.no_grad()
+    def read(self, text: str, places: Sequence[Place]) -> list[ReadCue]:
         """What a text says of its mentions; the latest texts are remembered.
 
         Args:
@@ -105,13 +107,6 @@ class CueReader(nn.Module):
         Returns:
             In the order of `places`; of what lies beyond the tokens that are read, that nothing is said.
         """
-        key = text, tuple(places)
-        if key not in self._kept:
-            self._kept[key] = tuple(self._read(text, places))
-        return self._kept[key]
-
-    @torch.no_grad()
-    def _read(self, text: str, places: Sequence[Place]) -> list[ReadCue]:
         found = [ReadCue(None, (), "seen", has_wind=False, is_meant=True)] * len(places)
         pieces = [(a, b, [n for n, place in enumerate(places) if a <= place[0] < b]) for a, b in _pieces(text)]
         pieces = [piece for piece in pieces if piece[2]]

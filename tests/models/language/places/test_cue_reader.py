@@ -51,8 +51,8 @@ def test_mentions_of_a_long_text_are_all_read(cues) -> None:
 
 
 def test_nothing_to_read(cues) -> None:
-    assert not cues.read("the bank", [])
-    assert not cues.read("", [])
+    assert cues.read("the bank", []) == []
+    assert cues.read("", []) == []
 
 
 def test_a_text_that_comes_again_is_not_read_again(cues, monkeypatch) -> None:
