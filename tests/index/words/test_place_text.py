@@ -53,6 +53,13 @@ def test_a_thing_without_a_street(town) -> None:
     assert text == "30 m north of Café Zoë"
 
 
+def test_what_is_large_is_beside_its_edge() -> None:
+    corners = [(0.0, 0.0), (600.0, 0.0), (600.0, 600.0), (0.0, 600.0), (0.0, 0.0)]
+    park = build_gazetteer([Words(("leisure/park",), ("Great Park",))], [line(*corners)], [True])
+    assert place_text(park, np.array([300.0, -20.0])) == "20 m south of Great Park"
+    assert place_text(park, np.array([300.0, -80.0])) is None
+
+
 def test_nothing_is_named_far_out_and_on_an_empty_map(town) -> None:
     assert place_text(town, np.array([9000.0, 9000.0])) is None
     assert place_text(NOTHING_NAMED, np.zeros(2)) is None

@@ -3,9 +3,9 @@ import pytest
 import torch
 
 from models.errors import IndexBroken
-from models.posterior.likelihood import Likelihood
+from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import NodeBatch
-from models.posterior.statements import FILE, SECTORS, Statements
+from models.posterior.statements import _SECTOR_OF_RELATION, FILE, FLOOR, SECTORS, Statements
 from models.posterior.surroundings.surroundings import surroundings_of
 
 
@@ -40,6 +40,22 @@ def test_a_statement_holds_in_a_cell_as_far_as_what_it_says_is_told_of_there(giv
         row = statements.holds[[cell]].toarray()[0]
         assert set(statements.number[row > 0].tolist()) == set(naive)
         assert row[row > 0] == pytest.approx([naive[int(n)] for n in statements.number[row > 0]], rel=1e-3)
+
+
+def test_scores_are_those_of_a_naive_sum(statements) -> None:
+    rng, labels, words = np.random.default_rng(0), int(statements.label.max()) + 1, statements.words
+    relation, label, colour = (torch.from_numpy(rng.dirichlet([0.3] * n, 3)).float() for n in (10, labels, words + 1))
+    absent = torch.tensor([0.0, 0.2, 1.0])
+    found = statements.scores(Reading(relation, label, colour, torch.full((3,), torch.nan), absent))
+    of_sector = relation @ _SECTOR_OF_RELATION
+    holds, naive = statements.holds.toarray(), np.full((holds_rows := statements.holds.shape[0], 3), FLOOR)
+    for n, (of, word, sector) in enumerate(zip(statements.label, statements.word, statements.sector, strict=True)):
+        said = 0.3 * torch.ones(3) if word == words else colour[:, word] + colour[:, words]
+        naive += holds[:, [n]] * (label[:, of] * said * of_sector[:, sector]).numpy()
+    truth = np.log(naive) @ (1 - absent.numpy())
+    assert len(found) == holds_rows
+    assert found == pytest.approx(truth, abs=0.2), "but for what is faint"
+    assert np.abs(found - truth).mean() < 0.02 < truth.std()
 
 
 def test_several_processes_make_what_one_makes(given, statements, monkeypatch) -> None:

@@ -148,6 +148,7 @@ def test_brands_by_any_spelling(kinds):
     assert kinds.brand("Nobody's Own Little Place") == ()
     assert kinds.spellings("Nobody's Own Little Place") == ()
     assert plain("Café  du Nord!") == "cafedunord"
+    assert plain("L_Epi & d'Or") == "lepianddor"
 
 
 def test_hand_written_words_name_kinds_that_are(kinds):
