@@ -160,7 +160,7 @@ def trace_map(map_path: Path) -> None:
     tracer = Tracer()
     tracer.start()
     from app.cli.main import app
-    from models.city.processes import one_process
+    from models.processes import one_process
 
     with one_process(), tempfile.TemporaryDirectory() as directory:
         tracer.begin()

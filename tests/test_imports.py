@@ -87,7 +87,7 @@ MAY_IMPORT = {
 }
 # Of a package that may be imported, the modules that may be; (importing, imported), sub-packages included.
 ONLY = {
-    ("models.city", "models"): {"models.errors", "models.files"},
+    ("models.city", "models"): {"models.compiled", "models.errors", "models.files", "models.processes"},
     ("models.posterior", "models.localization"): {"models.localization.located"},
     ("index.stores", "index"): {"index.manifest", "index.query"},  # where they are, and the box of a filter
     ("index.stores", "models.city"): {"models.city.types"},
@@ -112,6 +112,8 @@ ONLY_IN = {
 }
 WITHOUT_TORCH = [
     ROOT / "models/city",
+    ROOT / "models/compiled.py",
+    ROOT / "models/processes.py",
     ROOT / "models/training/metrics.py",
     ROOT / "app/http/schemas/requests.py",
     ROOT / "app/http/schemas/evaluate_requests.py",

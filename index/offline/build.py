@@ -15,13 +15,13 @@ from index.offline.publish import Publisher, names_of, writing
 from index.offline.shard import Shard
 from models.city.cells import BLOCK
 from models.city.osm.extract import Region, extracted
-from models.city.processes import forked
 from models.city.source import open_source
 from models.city.types import Progress
 from models.errors import IndexUnusable
 from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 from models.posterior.surroundings.surroundings import surroundings_of
+from models.processes import forked
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever

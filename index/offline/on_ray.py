@@ -7,9 +7,9 @@ from typing import Any, Final
 
 from index.offline.build import IndexJob, silent
 from index.offline.shard import Shard
-from models.city.processes import one_process
 from models.city.types import Progress
 from models.errors import ClusterUnavailable, DataError, HereaboutsError
+from models.processes import one_process
 
 KNOCK_S: Final = 5.0
 AGAIN: Final = "give the same command again: what shards have done is kept"

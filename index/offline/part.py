@@ -14,7 +14,6 @@ from scipy.sparse import csr_array
 from index.stores.store import Floats
 from models.city.cells import CellTable
 from models.city.gallery import MapData
-from models.city.processes import map_forked
 from models.city.types import Progress
 from models.errors import IndexBroken
 from models.posterior.likelihood import Likelihood
@@ -22,6 +21,7 @@ from models.posterior.statements import statement_rows
 from models.posterior.surroundings.scan_surroundings import FILE as SURROUNDINGS_FILE
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 from models.posterior.surroundings.surroundings import Surroundings
+from models.processes import map_forked
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Level

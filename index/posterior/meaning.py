@@ -10,11 +10,11 @@ from cachetools import LRUCache, cachedmethod
 from torch import Tensor
 
 from index.stores.faiss_store import FaissStore
-from models.city.processes import map_forked
 from models.city.types import Floats
 from models.errors import IndexBroken
 from models.language.places.lookup import EMPTY
 from models.language.places.names import plain_words
+from models.processes import map_forked
 
 LIKE: Final = 0.85  # cosine from which on words mean the same
 VECTORS_FILE, PHRASES_FILE = "meanings.faiss", "meanings.json"

@@ -17,8 +17,8 @@ from scipy.spatial import cKDTree
 
 from models.city.point_sample import Sampler, sample_points, samples
 from models.city.points import Ints, PointTable, ranges
-from models.city.processes import map_forked
 from models.city.types import CutRules, Floats
+from models.processes import map_forked
 
 CHUNK = 128  # cubes a task
 BLOCK: Final = 1024  # cells that are encoded or tabulated together: their bits depend on no cell of another block

@@ -8,9 +8,9 @@ import torch
 from torch import Tensor
 
 from models.city.colours import Palette
-from models.city.compiled import compiled
 from models.city.hints import ON_TOP_M
 from models.city.points import Ints
+from models.compiled import compiled
 from models.posterior.surroundings.around import STEP_M, Around
 
 RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last

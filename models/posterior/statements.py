@@ -13,17 +13,17 @@ from scipy.sparse import coo_array, csc_array, csr_array, vstack
 from torch import Tensor
 
 from models.city.cells import BLOCK
-from models.city.compiled import compiled
 from models.city.hints import ON_TOP_M
 from models.city.points import Ints
-from models.city.processes import map_forked
 from models.city.types import Floats
+from models.compiled import compiled
 from models.errors import IndexBroken
 from models.files import in_order
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.posterior.surroundings.around import STEP_M
 from models.posterior.surroundings.surroundings import Surroundings
+from models.processes import map_forked
 
 FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"

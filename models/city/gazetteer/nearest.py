@@ -9,9 +9,9 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.compiled import compiled
 from models.city.points import Ints
 from models.city.types import Floats
+from models.compiled import compiled
 
 MOST_REACH: Final = 253  # pixels; the first step keeps a byte of each, and adds 1 to reach + 1
 Columns = npt.NDArray[np.uint8]

@@ -14,12 +14,12 @@ import numpy.typing as npt
 from cachetools import LRUCache, cachedmethod
 from scipy.ndimage import distance_transform_edt
 
-from models.city.compiled import compiled, longer
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.gazetteer.nearest import columns_away, pixels_away
 from models.city.gazetteer.ways import is_inside
 from models.city.points import Ints, ranges
 from models.city.types import Floats
+from models.compiled import compiled, longer
 
 SAMPLED_M = 6.0  # between samples of lines
 MARGIN_M = 300.0  # round the cells, in which objects count too

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from models.city.compiled import compiled, longer
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.points import Ints, ranges
 from models.city.types import Floats
+from models.compiled import compiled, longer
 
 
 @dataclass(frozen=True, slots=True, eq=False)

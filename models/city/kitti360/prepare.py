@@ -12,9 +12,9 @@ from models.city.kitti360.raw import RawScene
 from models.city.kitti360.rules import PrepareConfig
 from models.city.kitti360pose.records import PublishedCell, PublishedObject, PublishedPose
 from models.city.points import Ints, PointTable
-from models.city.processes import map_forked
 from models.city.types import CityMap, Floats
 from models.errors import DataError
+from models.processes import map_forked
 
 CHUNK = 16  # cubes a task
 Progress = Callable[[int, int], None]

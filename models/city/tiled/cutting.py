@@ -14,11 +14,11 @@ from scipy.sparse.csgraph import connected_components
 from models.city.cells import Parts
 from models.city.point_sample import sample_points, samples
 from models.city.points import Ints, ranges
-from models.city.processes import map_forked
 from models.city.tiled.pieces import PieceTable
 from models.city.tiled.solids import FORMS, Shape, Solid, crown_reach_m, points_on
 from models.city.tiled.tiling import TILE_M, Geometries
 from models.city.types import CutRules, Floats
+from models.processes import map_forked
 
 CHUNK = 1024  # cubes a task
 THING = FORMS.index("thing")

@@ -4,11 +4,11 @@ from typing import Final
 
 import numpy as np
 
-from models.city.compiled import compiled
 from models.city.points import Ints
 from models.city.tiled.solids import FORMS
 from models.city.tiled.tiling import TILE_M
 from models.city.types import Floats
+from models.compiled import compiled
 
 THING: Final = FORMS.index("thing")
 

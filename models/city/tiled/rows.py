@@ -9,7 +9,6 @@ import numpy as np
 import shapely
 
 from models.city.points import Ints
-from models.city.processes import map_forked
 from models.city.tiled.segments import Steps, segments_of, snapped
 from models.city.tiled.solids import FORMS, Form, Solid
 from models.city.tiled.tiling import (
@@ -23,6 +22,7 @@ from models.city.tiled.tiling import (
     uncovered,
 )
 from models.city.types import Floats
+from models.processes import map_forked
 
 BAND: Final = 24  # columns of tiles that a task cuts
 

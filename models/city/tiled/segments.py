@@ -6,10 +6,10 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from models.city.compiled import compiled
 from models.city.points import Ints, ranges
 from models.city.tiled.tiling import TILE_M, Geometries
 from models.city.types import Floats
+from models.compiled import compiled
 
 STEP_M: Final = 2e-4  # of stored coordinates, which are seen from the middle of the tile
 Steps = npt.NDArray[np.int16]

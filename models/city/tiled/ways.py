@@ -5,7 +5,6 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.compiled import compiled, longer
 from models.city.points import Ints
 from models.city.tiled.groups import groups, window
 from models.city.tiled.pieces import PieceTable
@@ -13,6 +12,7 @@ from models.city.tiled.segments import STEP_M, Steps
 from models.city.tiled.solids import FORMS
 from models.city.tiled.tiling import TILE_M
 from models.city.types import CutRules, Floats
+from models.compiled import compiled, longer
 
 AREA: Final = FORMS.index("area")
 THING: Final = FORMS.index("thing")

@@ -13,13 +13,13 @@ from safetensors.numpy import save_file
 from models.city.cells import CellTable
 from models.city.gallery import Clouds
 from models.city.points import Ints, ranges
-from models.city.processes import map_forked
 from models.city.types import Floats, Progress
 from models.errors import IndexBroken
 from models.posterior.surroundings.around import STEP_M, Around
 from models.posterior.surroundings.nodes import grid, owner_of
 from models.posterior.surroundings.scan_ways import ScanWays
 from models.posterior.surroundings.things import Things
+from models.processes import map_forked
 
 FILE: Final = "surroundings.safetensors"
 COLUMNS: Final = ("cell_starts", "nodes_m", "starts", "part", "way", "whole")

@@ -6,12 +6,12 @@ import time
 
 import pytest
 
-from models.city.processes import forked, map_forked, one_process
 from models.errors import DataError, MapError
+from models.processes import forked, map_forked, one_process
 
 SCRIPT = """
 import os, time
-from models.city.processes import map_forked
+from models.processes import map_forked
 
 def work(task):
     print(os.getpid(), flush=True)
