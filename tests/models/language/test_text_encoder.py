@@ -8,7 +8,7 @@ from transformers import AutoModel, AutoTokenizer, PreTrainedTokenizerFast, T5Co
 
 from models.errors import WeightsError
 from models.language import text_encoder as module
-from models.language.bert import Linear
+from models.language.bert import LEAST_ROWS, Linear, rows_given
 from models.language.text_encoder import MINILM_SHA256, load_text_encoder
 
 SENTENCES = ["I am north of a gray building.", "A tree."]
@@ -104,3 +104,26 @@ def test_changed_minilm_weights_are_refused(tmp_path, monkeypatch) -> None:
 
 def test_the_default_is_loaded_once_however_it_is_asked_for() -> None:
     assert load_text_encoder() is load_text_encoder("minilm") is load_text_encoder(source="minilm")
+
+
+def test_few_numbers_of_rows_are_met() -> None:
+    """For each of them oneDNN keeps a megabyte and more."""
+    rows = range(1, 4097)
+    given = [rows_given(count) for count in rows]
+    assert all(count <= more <= max(1.25 * count, count + LEAST_ROWS) for count, more in zip(rows, given, strict=True))
+    assert len(set(given)) <= 40
+
+
+def test_layers_keep_little_of_texts_of_all_lengths(text_encoder, monkeypatch) -> None:
+    met, pad = set(), torch.nn.functional.pad
+
+    def padded(*given):
+        met.add(len(made := pad(*given)))
+        return made
+
+    monkeypatch.setattr("models.language.bert.nn.functional.pad", padded)
+    with torch.inference_mode():
+        for words in range(1, 60):
+            text_encoder.read(["cafe " * words], 1)
+    assert met <= set(range(LEAST_ROWS, 73, LEAST_ROWS))
+    assert len(met) > 1
