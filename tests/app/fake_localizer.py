@@ -23,7 +23,9 @@ TRUE_FRAME = Frame("map", 60.17, 24.94)
 
 
 class FakeLocalizer:
-    """Answers with two cells. Words in the description steer it: "bad", "nan" and "nowhere"."""
+    """Answers with two cells. Words in the description steer it: "bad", "nan" and "nowhere"; unless it is `Steady`."""
+
+    is_steered = True
 
     facts = IndexFacts(
         "v1", "2026-01-01T00:00:00+00:00", "fakeville", "© nobody", ModelName("fake", "ab" * 32), 2, 3, 8, 1
@@ -46,7 +48,7 @@ class FakeLocalizer:
         self.entered.release()
         assert self.gate.wait(10), "a test left the gate closed"
         for query in queries:
-            if "bad" in query.description:
+            if self._is_told("bad", query):
                 raise RuntimeError("secret: " + query.description)
         return [self._answer(query) for query in queries]
 
@@ -82,11 +84,14 @@ class FakeLocalizer:
     def scenery(self, number):
         return self.parts[number] if number < len(self.parts) else None
 
+    def _is_told(self, word, query):
+        return self.is_steered and word in query.description
+
     def _answer(self, query):
         timings = {"encode": 1.0, "search": 1.0, "estimate": 1.0}
-        if "nowhere" in query.description:
+        if self._is_told("nowhere", query):
             return Answer("no_match", ANSWERED, warnings=("nothing there",), timings_ms=timings)
-        probability = float("nan") if "nan" in query.description else 0.6
+        probability = float("nan") if self._is_told("nan", query) else 0.6
         box = (-15.0, -15.0, 15.0, 15.0)
         candidates = tuple(
             Candidate(rank, f"fakeville_0000{rank}", 0.9, p, (0.0, 0.0), box, (1.0, 2.0), self._wgs84())
@@ -98,3 +103,9 @@ class FakeLocalizer:
 
     def _wgs84(self):
         return LatLon(60.17, 24.94) if self.frame.is_georeferenced else None
+
+
+class Steady(FakeLocalizer):
+    """Answers whatever it is asked: who makes texts by chance makes "unanswered", too."""
+
+    is_steered = False

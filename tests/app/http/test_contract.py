@@ -4,7 +4,7 @@ import os
 
 import pytest
 import schemathesis
-from fake_localizer import FakeLocalizer
+from fake_localizer import Steady
 from hypothesis import HealthCheck, settings
 from schemathesis.checks import not_a_server_error
 from schemathesis.specs.openapi.checks import negative_data_rejection, positive_data_acceptance
@@ -22,7 +22,7 @@ schema = schemathesis.openapi.from_dict(create_app(Settings(max_deadline_ms=2000
 @pytest.fixture(scope="module")
 def url(in_a_thread, tmp_path_factory):
     given = Settings(index_dir=tmp_path_factory.mktemp("index"), max_deadline_ms=2000, deadline_ms=2000)
-    with in_a_thread(create_app(given, FakeLocalizer)) as port:
+    with in_a_thread(create_app(given, Steady)) as port:
         yield f"http://127.0.0.1:{port}"
 
 

@@ -6,7 +6,7 @@ import socket
 from contextlib import suppress
 
 import pytest
-from fake_localizer import FakeLocalizer
+from fake_localizer import Steady
 
 from app.main import create_app
 from app.settings import Settings
@@ -80,7 +80,7 @@ def answers_to(port, raw, wait_s=WAIT_S):
 def test_no_bytes_break_the_service(in_a_thread, tmp_path):
     draw = random.Random("mutations 1")
     settings = Settings(index_dir=tmp_path, max_jobs=2)
-    with in_a_thread(create_app(settings, FakeLocalizer)) as port:
+    with in_a_thread(create_app(settings, Steady)) as port:
         good = request("/localize", GOOD)
         assert answers_to(port, good, GOOD_WAIT_S) == [200]
         for number in range(MUTATIONS):
