@@ -106,7 +106,8 @@ def merge(features: Sequence[Feature]) -> list[Feature]:
     features = sorted(features, key=lambda f: f.order)
     geometries = np.array([f.geometry for f in features], dtype=object)
     is_upright = np.array([f.shape == "column" for f in features])
-    keys = np.unique([f"{f.label}|{f.name}|{f.rgb}|{f.shape}" for f in features], return_inverse=True)[1]
+    known: dict[object, int] = {}
+    keys = np.array([known.setdefault((f.label, f.name, f.rgb, f.shape), len(known)) for f in features])
     is_joinable = np.array([f.shape in ("wall", "ground") for f in features])
     left, right = shapely.STRtree(geometries).query(geometries, "dwithin", distance=UPRIGHT_MERGE_M)
     touches = is_joinable[left] & (keys[left] == keys[right])

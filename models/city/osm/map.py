@@ -4,11 +4,12 @@ A real map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): f
 mapped and raised as `classes.toml` says. Colours come from colour, material and surface tags.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import osmium
@@ -20,7 +21,7 @@ from models.city.osm.classes import OsmClass, class_of, load_classes
 from models.city.osm.features import Feature, as_feature, merge
 from models.city.tiled.pieces import PieceTable
 from models.city.tiled.tiling import Geometries
-from models.city.types import CityMap, CutRules, Instance, MapShape
+from models.city.types import CityMap, CutRules, Floats, Instance, MapShape
 from models.errors import MapError
 
 STUFF_SHAPES = ("outline", "wall", "ground")
@@ -28,8 +29,23 @@ SUFFIXES = (".osm.pbf", ".pbf", ".osm", ".osm.bz2", ".osm.gz")
 ATTRIBUTION = "© OpenStreetMap contributors, ODbL 1.0"
 MIN_PART_POINTS = 24  # 6 m2 of ground
 NO_POINTS = np.zeros((0, 3), np.float32)
+AT_ONCE = 20_000  # elements
 LOCATIONS_M = 2.0  # between places to stand, about
+Element = TypeVar("Element")
 LINEAR_KEYS = ("highway", "railway", "barrier", "tunnel", "bridge")  # closed ways of these are loops, not areas
+
+
+@dataclass(frozen=True, slots=True)
+class _Element:
+    wkb: str
+    osm_class: OsmClass
+    order: int
+    tags: dict[str, str]
+    source_id: str
+
+
+Box = tuple[float, float, float, float]  # west, south, east, north in degrees
+Batch = tuple[list[_Element], Geometries]  # with the geometry of each, in degrees
 
 
 def load_osm(path: Path, name: str | None = None) -> CityMap:
@@ -49,44 +65,44 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
 def read_features(path: Path) -> tuple[list[Feature], Frame]:
     """What a file has, in metres, and the frame of these; arguments and errors as `load_osm`."""
     box = _box(path)
-    elements, lon_lat = _read_elements(path)
-    frame = _middle(box or shapely.total_bounds(lon_lat))
+    batches: Iterable[Batch] = _read_elements(path)
+    if box is None:
+        batches = list(batches)
+    frame = _middle(box or _bounds(batches))
+    features = [feature for elements, lon_lat in batches for feature in _features_of(elements, lon_lat, frame, box)]
+    return merge(features), frame
+
+
+def _features_of(elements: Sequence[_Element], lon_lat: Geometries, frame: Frame, box: Box | None) -> Iterator[Feature]:
+    """What of some elements lies in a box, if there is one."""
     geometries = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
     if box:
         west, south, east, north = box
         corners = frame.from_wgs84(np.array([south, north]), np.array([west, east]))
         geometries = shapely.clip_by_rect(geometries, *corners[0], *corners[1])
-    features = merge(
-        [
-            as_feature(e.osm_class, e.order, e.tags, e.source_id, g)
-            for e, g in zip(elements, geometries, strict=True)
-            if not shapely.is_empty(g)
-        ]
-    )
-    return features, frame
+    for e, g in zip(elements, geometries, strict=True):
+        if not shapely.is_empty(g):
+            yield as_feature(e.osm_class, e.order, e.tags, e.source_id, g)
 
 
 def frame_of(path: Path) -> Frame:
     """The frame of a file's map, for which a file that says its box is not read; arguments and errors as `load_osm`."""
-    return _middle(_box(path) or shapely.total_bounds(_read_elements(path)[1]))
+    return _middle(_box(path) or _bounds(_read_elements(path)))
 
 
-def _middle(box: Sequence[float]) -> Frame:
+def _bounds(batches: Iterable[Batch]) -> Floats:
+    """[4] the box (west, south, east, north) round some geometry."""
+    bounds = np.array([shapely.total_bounds(geometry) for _, geometry in batches])
+    return np.concatenate([bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)])
+
+
+def _middle(box: Box | Floats) -> Frame:
     """The frame at the middle of a box (west, south, east, north)."""
     west, south, east, north = box
     return Frame(origin_lat=round((south + north) / 2, 7), origin_lon=round((west + east) / 2, 7))
 
 
-@dataclass(frozen=True, slots=True)
-class _Element:
-    wkb: str
-    osm_class: OsmClass
-    order: int
-    tags: dict[str, str]
-    source_id: str
-
-
-def _box(path: Path) -> tuple[float, float, float, float] | None:
+def _box(path: Path) -> Box | None:
     """The box of an extract (west, south, east, north), if it says so."""
     if not path.is_file():
         raise MapError(f"{path}: no such file; give the path of an .osm.pbf or .osm file")
@@ -94,29 +110,37 @@ def _box(path: Path) -> tuple[float, float, float, float] | None:
         raise MapError(f"{path}: not an OpenStreetMap file by its name; expected one of {', '.join(SUFFIXES)}")
     if path.stat().st_size == 0:
         raise MapError(f"{path}: the file is empty; download it again")
-    with _reading(path):
+    with reading(path):
         box = osmium.io.Reader(str(path)).header().box()
     if not box.valid():
         return None
     return box.bottom_left.lon, box.bottom_left.lat, box.top_right.lon, box.top_right.lat
 
 
-def _read_elements(path: Path) -> tuple[list[_Element], Geometries]:
-    """The elements of the file that belong to a class, and the geometry of each, in degrees."""
+def _read_elements(path: Path) -> Iterator[Batch]:
+    """The elements of the file that belong to a class, some at once."""
     keys = sorted({key for row in load_classes() for key, _ in row.required})
-    with _reading(path):
+    none = True
+    with reading(path):
         processor = osmium.FileProcessor(str(path)).with_areas().with_filter(osmium.filter.KeyFilter(*keys))
-        elements = list(_classify(processor))
-    if not elements:
+        for some in batches_of(_classify(processor)):
+            none = False
+            yield some, shapely.from_wkb([element.wkb for element in some])
+    if none:
         raise MapError(
             f"{path}: no building, street, tree or other known object in it; "
             "take an extract of an inhabited place, or extend models/city/osm/classes.toml"
         )
-    return elements, shapely.from_wkb([element.wkb for element in elements])
+
+
+def batches_of(elements: Iterator[Element]) -> Iterator[list[Element]]:
+    """Elements of a file, some at once: what is read of all of them would take much room."""
+    while some := list(islice(elements, AT_ONCE)):
+        yield some
 
 
 @contextmanager
-def _reading(path: Path) -> Iterator[None]:
+def reading(path: Path) -> Iterator[None]:
     """Say so where a file is broken."""
     try:
         yield
