@@ -8,7 +8,8 @@
 <root>/<version>/cells.safetensors, cells.json where the cells are and what is in them
 <root>/<version>/pieces.safetensors or surroundings.safetensors   what lies around every position
 <root>/<version>/statements.safetensors        which cells a statement holds in
-<root>/<version>/gazetteer.safetensors, gazetteer.json   what a passer-by could name
+<root>/<version>/gazetteer.safetensors         what a passer-by could name
+<root>/<version>/names.safetensors, landmarks.safetensors   what it is found by, and what is said of it in each cell
 <root>/<version>/meanings.faiss, meanings.json a vector a name or noun of it, to find it by its meaning
 <root>/<version>/scenery.<n>.safetensors.gz    what the map looks like
 """

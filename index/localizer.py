@@ -1,6 +1,6 @@
 """An index, opened: from descriptions to answers, and what is in its cells."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -29,10 +29,12 @@ from models.city.points import Ints
 from models.city.scenery.files import SceneryPart, file_name, is_scenery
 from models.city.types import Floats
 from models.errors import IndexBroken
+from models.language.places.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
 from models.localization.checkpoint import load_refiner
 from models.localization.fine_model import FineMethod, FineModel
 from models.posterior.model import PosteriorModel, load_posterior
+from models.posterior.places.landmarks import Landmarks
 from models.posterior.statements import Statements
 from models.posterior.surroundings.piece_surroundings import PieceSurroundings
 from models.posterior.surroundings.surroundings import Surroundings, load_surroundings
@@ -78,7 +80,6 @@ class Localizer:
         if said != held or len(self.gallery.cells) != manifest.cells:
             raise IndexBroken(f"{directory}: the manifest says {said}, its files hold {held}; {ADVICE}")
         self._known_hints = load_hint_features(directory, retriever)
-        self._row = {cell_id: row for row, cell_id in enumerate(self.gallery.cells.ids)}
 
     @classmethod
     def open(
@@ -181,6 +182,8 @@ class Localizer:
             self.manifest.grid_m,
             meanings,
             Statements.load(self._directory, model.fingerprint),
+            NameTable.load(self._directory),
+            Landmarks.load(self._directory),
         )
 
     def _cut(self, cells: Ints) -> Parts:
@@ -201,6 +204,10 @@ class Localizer:
     @cached_property
     def _describer(self) -> Describer:
         return Describer(self.gallery, self.palette, self.frame, self._surroundings, self._gazetteer)
+
+    @cached_property
+    def _row(self) -> Mapping[str, int]:
+        return {cell_id: row for row, cell_id in enumerate(self.gallery.cells.ids)}
 
     @cached_property
     def _vectors(self) -> VectorLocalizer:

@@ -23,9 +23,11 @@ from models.errors import IndexBroken, IndexMismatch
 from models.files import FileRecord, sha256
 
 MANIFEST: Final = "manifest.json"
-FORMAT: Final = 8
+FORMAT: Final = 9
 ADVICE: Final = "build it with 'hereabouts index --map MAP --out DIR'"
-NEEDED: Final = frozenset({"vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "gazetteer.json"})
+NEEDED: Final = frozenset(
+    {"vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "gazetteer.safetensors"}
+)
 
 NAME: Final = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,127}$"  # of an alias, version or file
 Name = Annotated[str, StringConstraints(pattern=NAME)]

@@ -10,9 +10,12 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO, Final
+from typing import Any, BinaryIO, Final
 
+import numpy as np
+import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict
+from safetensors import safe_open
 
 BUILDING: Final = ".building-"  # begins the name of a file or directory that is being filled
 
@@ -144,6 +147,32 @@ def in_order(blob: bytes) -> bytes:
     text = json.dumps(header, ensure_ascii=False, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 8)  # so that tensors stay aligned
     return len(text).to_bytes(8, "little") + text + blob[8 + size :]
+
+
+def mapped(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]:
+    """The arrays of a safetensors file and its metadata, without reading it: pages come when they are looked at.
+
+    Processes share these pages; who writes into an array has its own copy of one, and the file stays.
+
+    Raises:
+        OSError, SafetensorError: the file is missing, or none of these.
+    """
+    with safe_open(path, framework="numpy") as file:  # which refuses arrays that are not wholly in the file
+        facts = file.metadata() or {}
+    content = np.memmap(path, np.uint8, mode="c").view(np.ndarray)
+    begin = 8 + int.from_bytes(content[:8].tobytes(), "little")
+    header = json.loads(content[8:begin].tobytes())
+    header.pop("__metadata__", None)
+    arrays = {}
+    for name, array in header.items():
+        first, last = (begin + offset for offset in array["data_offsets"])
+        arrays[name] = content[first:last].view(_dtype(array["dtype"])).reshape(array["shape"])
+    return arrays, facts
+
+
+def _dtype(name: str) -> np.dtype[Any]:
+    """The type of what safetensors calls F32, I8 or BOOL."""
+    return np.dtype(np.bool_ if name == "BOOL" else f"{name[0].lower()}{int(name[1:]) // 8}")
 
 
 def cache_directory() -> Path:

@@ -87,7 +87,13 @@ MAY_IMPORT = {
 }
 # Of a package that may be imported, the modules that may be; (importing, imported), sub-packages included.
 ONLY = {
-    ("models.city", "models"): {"models.compiled", "models.errors", "models.files", "models.processes"},
+    ("models.city", "models"): {
+        "models.compiled",
+        "models.errors",
+        "models.files",
+        "models.processes",
+        "models.strings",
+    },
     ("models.posterior", "models.localization"): {"models.localization.located"},
     ("index.stores", "index"): {"index.manifest", "index.query"},  # where they are, and the box of a filter
     ("index.stores", "models.city"): {"models.city.types"},
@@ -105,6 +111,7 @@ ONLY_IN = {
     "pymilvus": "index/stores",
     "grpc": "index/stores",
     "ray": "index/offline/on_ray.py",
+    "marisa_trie": "models/strings.py",
     "fastapi": "app",
     "starlette": "app",
     "uvicorn": "app",
@@ -114,6 +121,7 @@ WITHOUT_TORCH = [
     ROOT / "models/city",
     ROOT / "models/compiled.py",
     ROOT / "models/processes.py",
+    ROOT / "models/strings.py",
     ROOT / "models/training/metrics.py",
     ROOT / "app/http/schemas/requests.py",
     ROOT / "app/http/schemas/evaluate_requests.py",

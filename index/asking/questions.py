@@ -1,6 +1,7 @@
 """The one question whose answer would narrow most where somebody is, and what the answers to such questions tell."""
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -32,6 +33,11 @@ CELLS_AT_ONCE: Final = 4096  # of which the middles are found
 FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it has is not asked about
 
 
+def landmarks_of(gazetteer: Gazetteer, cells: CellTable) -> Landmarks:
+    """What people around some cells can say when they are asked."""
+    return Landmarks.of(gazetteer, cells.center_m[:, :2].astype(np.float64), load_asked().kinds)
+
+
 class Questions:
     """The questions about one map.
 
@@ -41,19 +47,30 @@ class Questions:
         palette: the map's colour words.
         gazetteer: its names; empty where nothing has one.
         cells: the gallery.
+        landmarks: of the gallery; None to make them when they are needed.
     """
 
     def __init__(
-        self, sights: Sights, labels: Sequence[str], palette: Palette, gazetteer: Gazetteer, cells: CellTable
+        self,
+        sights: Sights,
+        labels: Sequence[str],
+        palette: Palette,
+        gazetteer: Gazetteer,
+        cells: CellTable,
+        landmarks: Landmarks | None = None,
     ) -> None:
         asked, centers_m = load_asked(), cells.center_m[:, :2].astype(np.float64)
         self._sights, self._words = sights, tuple(colour_words(palette))
-        self._names = OpenQuestions(Landmarks(gazetteer, centers_m, asked.kinds))
+        self._gazetteer, self._cells, self._landmarks = gazetteer, cells, landmarks
         self._things = {label: n for n, label in enumerate(labels) if label in asked.things}
         self._owning = np.flatnonzero(np.diff(sights.surroundings.cell_starts))  # cells that have nodes
         parts = range(0, len(self._owning), CELLS_AT_ONCE)
         middles = [_middles(sights.surroundings, centers_m, self._owning[n : n + CELLS_AT_ONCE]) for n in parts]
         self._middle = np.concatenate([np.zeros(0, np.int64), *middles])  # the node nearest to each one's centre
+
+    @cached_property
+    def _names(self) -> OpenQuestions:
+        return OpenQuestions(self._landmarks or landmarks_of(self._gazetteer, self._cells))
 
     def answered(self, replies: Sequence[Reply]) -> Answered | None:
         """What answers tell of positions; None if they tell nothing.
@@ -61,6 +78,8 @@ class Questions:
         Raises:
             ReplyError: an answer is not to a question about this map.
         """
+        if not replies:
+            return None
         read = [self._read(number, reply) for number, reply in enumerate(replies)]
         told = [(asked, column) for asked, column in read if column >= 0]
         of_names = self._names.answered(replies)

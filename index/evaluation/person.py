@@ -12,8 +12,9 @@ from index.query import Reply
 from models.city.bodies import PieceBodies
 from models.city.colours import Palette
 from models.city.gallery import Clouds, Finder, Gallery
-from models.city.gazetteer.gazetteer import STREET, Gazetteer
+from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
+from models.city.gazetteer.words import STREET
 from models.city.points import Ints
 from models.city.types import Floats
 from models.language.lexicon.asked import load_asked

@@ -4,11 +4,13 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from safetensors import SafetensorError
 
 from index.artifact import set_alias
+from index.asking.questions import landmarks_of
 from index.hint_features import save_hint_features, template_hints
 from index.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
 from index.offline.part import Part
@@ -26,6 +28,7 @@ from models.city.types import Progress
 from models.errors import DataError
 from models.files import file_records, new_directory
 from models.language.places.lookup import Lookup
+from models.language.places.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
 from models.posterior.node_batch import colour_words
 from models.posterior.statements import Statements
@@ -33,7 +36,21 @@ from models.posterior.surroundings.surroundings import Surroundings
 from models.retrieval.level_table import LevelTable
 from models.retrieval.retriever import Retriever
 
-Names = Callable[[], tuple[Gazetteer, list[str], Floats]]
+
+class Names(NamedTuple):
+    """What a map names.
+
+    Attributes:
+        gazetteer: of the map.
+        table: what its objects are found by.
+        phrases: P names and nouns.
+        meant: [P, W] unit vectors, what each means.
+    """
+
+    gazetteer: Gazetteer
+    table: NameTable
+    phrases: list[str]
+    meant: Floats
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,7 +72,12 @@ class Publisher:
     store: StoreName
 
     def publish(
-        self, source: Source, parts: Sequence[Part], surroundings: Surroundings, names: Names, report: Progress
+        self,
+        source: Source,
+        parts: Sequence[Part],
+        surroundings: Surroundings,
+        names: Callable[[], Names],
+        report: Progress,
     ) -> Path:
         """Write a version and let the alias "default" name it.
 
@@ -75,7 +97,7 @@ class Publisher:
         """
         data, origin = source.data, new_version(self.map_sha256, self.retriever.fingerprint)
         report("read names", 0, 0)
-        gazetteer, phrases, meant = names()
+        gazetteer, table, phrases, meant = names()
         report("write index", 0, 0)
         vectors = np.concatenate([part.vectors for part in parts])
         with (
@@ -89,6 +111,8 @@ class Publisher:
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)
             gazetteer.save(directory)
+            table.save(directory)
+            landmarks_of(gazetteer, data.cells).save(directory)
             Meanings.of(phrases, meant, load_text_encoder().embed).save(directory)
             save_scenery(directory, source.scenery(gazetteer))
             manifest = Manifest(
@@ -115,11 +139,12 @@ class Publisher:
         statements.save(directory, self.posterior_fingerprint)
 
 
-def names_of(path: Path) -> tuple[Gazetteer, list[str], Floats]:
-    """What a map names, phrases of it, and what each means (unit vectors [P, W])."""
-    gazetteer, encoder = gazetteer_of(path), load_text_encoder()
-    phrases = Lookup(gazetteer, load_vocabulary(), encoder.is_everyday).phrases()
-    return gazetteer, *meanings_of(phrases, encoder.embed)
+def names_of(path: Path) -> Names:
+    """What a map names."""
+    gazetteer, vocabulary, encoder = gazetteer_of(path), load_vocabulary(), load_text_encoder()
+    table = NameTable.of(gazetteer, vocabulary, encoder.is_everyday)
+    phrases = Lookup(gazetteer, vocabulary, encoder.is_everyday, table).phrases()
+    return Names(gazetteer, table, *meanings_of(phrases, encoder.embed))
 
 
 @contextmanager

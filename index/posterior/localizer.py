@@ -27,6 +27,7 @@ from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.places.contradictions import contradictions
 from models.language.places.languages import ENGLISH, NAMES, language_of
 from models.language.places.mentions import Mention
+from models.language.places.name_table import NameTable
 from models.language.places.reader import is_meeting, listener_wind
 from models.language.reader import COLOURS
 from models.localization.located import Located
@@ -35,6 +36,7 @@ from models.posterior.likelihood import Reading
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.posterior.places.field import Told
+from models.posterior.places.landmarks import Landmarks
 from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
@@ -66,7 +68,7 @@ class PosteriorLocalizer:
         gazetteer: of the map; empty where nothing has a name.
         grid_m: spacing of the cells.
         meanings: of the gazetteer; None to understand its names and nouns alone.
-        statements: of the gallery; None to make them.
+        statements, names, landmarks: of the gallery and its gazetteer; None to make them.
     """
 
     method: Method = "posterior"
@@ -83,6 +85,8 @@ class PosteriorLocalizer:
         grid_m: float = 10.0,
         meanings: Meanings | None = None,
         statements: Statements | None = None,
+        names: NameTable | None = None,
+        landmarks: Landmarks | None = None,
     ) -> None:
         self.weights, self.gallery, self.frame, self.ranker = model, gallery, frame, ranker
         self.surroundings, self._palette = surroundings, palette
@@ -91,13 +95,13 @@ class PosteriorLocalizer:
         self.nodes = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette, statements)
         self.labels = labels
         self.binding = Binding(model.matcher, list(labels), palette)
-        self._gazetteer, self._grid_m, self._meanings = gazetteer, grid_m, meanings
+        self._gazetteer, self._grid_m, self._meanings, self._names = gazetteer, grid_m, meanings, names
         self.places: PlaceReader | None = None
         if len(gazetteer):
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
-            of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings
+            of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings, names
             self.places = PlaceReader(model.places, model.cues, *of_map)
-        self.questions = Questions(self.nodes.sights, list(self.labels), palette, gazetteer, gallery.cells)
+        self.questions = Questions(self.nodes.sights, list(self.labels), palette, gazetteer, gallery.cells, landmarks)
         self.texts = Texts(model.reader)
 
     @classmethod
@@ -118,7 +122,7 @@ class PosteriorLocalizer:
         gallery = replace(self.gallery, cells=self.gallery.cells.take(rows))
         surroundings = self.surroundings.take(rows, self.surroundings.things.parts_in(self.gallery.cells, rows))
         given = self.weights, gallery, self._palette, self.frame, surroundings, self.ranker.take(rows)
-        return PosteriorLocalizer(*given, self._gazetteer, self._grid_m, self._meanings)
+        return PosteriorLocalizer(*given, self._gazetteer, self._grid_m, self._meanings, names=self._names)
 
     def find(self, queries: Sequence[Query]) -> list[Finding]:
         """See CellLocalizer."""

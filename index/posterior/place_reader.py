@@ -18,6 +18,7 @@ from models.language.places.cue_reader import CueReader
 from models.language.places.languages import ENGLISH
 from models.language.places.lookup import Lookup
 from models.language.places.mentions import Mention
+from models.language.places.name_table import NameTable
 from models.language.places.reader import find_mentions, is_meeting, listener_wind, with_goal
 from models.language.places.spans import PASSED, STOP
 from models.language.text_encoder import TextEncoder
@@ -46,6 +47,7 @@ class PlaceReader:
         centers_m: [N, 2] of the gallery's cells.
         grid_m: spacing of these.
         meanings: of the map; None to understand names and nouns of it alone.
+        names: of the map; None to make them.
     """
 
     def __init__(
@@ -57,13 +59,14 @@ class PlaceReader:
         centers_m: Floats,
         grid_m: float,
         meanings: Meanings | None = None,
+        names: NameTable | None = None,
     ) -> None:
         self.without: frozenset[str] = (
             frozenset()
         )  # constructions that are not heeded, for measuring what each is worth
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
         self._cues, self._meanings = cues, meanings
-        self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday)
+        self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
 
     def read(
         self, description: str, language: str, nouns: Sequence[tuple[int, int]] = (), *, to_listener: bool

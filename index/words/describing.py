@@ -22,7 +22,8 @@ from index.words.place_text import AT_CORNER_M, nearest_street, place_text, stre
 from models.city.colours import Palette
 from models.city.frame import Frame
 from models.city.gallery import Gallery
-from models.city.gazetteer.gazetteer import ADDRESS, STREET, Gazetteer
+from models.city.gazetteer.gazetteer import ADDRESS, Gazetteer
+from models.city.gazetteer.words import STREET
 from models.city.hints import BEST_CELL_REACH_M, direction_index, round_robin
 from models.city.points import Ints
 from models.city.templates import OPPOSITE

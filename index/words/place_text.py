@@ -4,8 +4,9 @@ from typing import Final
 
 import numpy as np
 
-from models.city.gazetteer.gazetteer import STREET, Gazetteer
+from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
+from models.city.gazetteer.words import STREET
 from models.city.points import Ints
 from models.city.types import Floats
 from models.language.parsed_hint import WINDS

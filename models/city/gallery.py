@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from safetensors import SafetensorError
-from safetensors.numpy import load_file, save_file
+from safetensors.numpy import save_file
 from scipy.spatial import cKDTree
 
 from models.city.cells import CellTable, Parts
@@ -18,6 +18,7 @@ from models.city.frame import Frame
 from models.city.points import Ints
 from models.city.types import CityMap, Floats
 from models.errors import IndexBroken
+from models.files import mapped
 
 Finder = Callable[[Floats], tuple[Floats, int]]  # position [2] -> way [2] to the nearest instance, and which it is
 CELLS_FILE = "cells.safetensors"
@@ -80,7 +81,7 @@ class Gallery:
             IndexBroken: the files do not hold a gallery.
         """
         try:
-            arrays = load_file(directory / CELLS_FILE)
+            arrays = mapped(directory / CELLS_FILE)[0]
             names = json.loads((directory / NAMES_FILE).read_text())
             center_m, scene = arrays.pop("center_m"), names["scene"]
             ids = numbered(scene, len(center_m)) if scene else tuple(names["ids"])

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 import torch
-from safetensors import SafetensorError, safe_open
+from safetensors import SafetensorError
 from safetensors.numpy import save
-from scipy.sparse import coo_array, csc_array, csr_array, vstack
+from scipy.sparse import coo_array, csr_array, vstack
 from torch import Tensor
 
 from models.city.cells import BLOCK
@@ -18,7 +19,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.compiled import compiled
 from models.errors import IndexBroken
-from models.files import in_order
+from models.files import in_order, mapped
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.posterior.surroundings.around import STEP_M
@@ -36,7 +37,10 @@ class Statements:
     """How much of each cell's nodes a statement (label, colour, sector) holds at.
 
     Attributes:
-        holds: [N, F] float32, to half precision.
+        cells: N.
+        starts: [F + 1] statement f holds in the cells cell[starts[f]:starts[f + 1]].
+        cell: [Z] int32.
+        share: [Z] float16, of the cell's nodes.
         number: [F] (label * (words + 1) + word) * SECTORS + sector of each statement, ascending.
         label: [F] its class.
         word: [F] its colour; beyond the last word is an unknown one.
@@ -44,7 +48,10 @@ class Statements:
         words: how many colour words there are.
     """
 
-    holds: csc_array
+    cells: int
+    starts: Ints
+    cell: Ints
+    share: npt.NDArray[np.float16]
     number: Ints
     label: Tensor
     word: Tensor
@@ -68,23 +75,27 @@ class Statements:
         """
         holds = vstack(rows, format="csc")
         number = np.flatnonzero(np.diff(holds.indptr))  # of what holds anywhere: some thousands
-        return cls._of(holds[:, number], number, words)
+        holds = holds[:, number]
+        columns = holds.indptr.astype(np.int64), holds.indices.astype(np.int32), holds.data.astype(np.float16)
+        return cls._of(holds.shape[0], *columns, number, words)
 
     @classmethod
-    def _of(cls, holds: csc_array, number: Ints, words: int) -> "Statements":
+    def _of(
+        cls, cells: int, starts: Ints, cell: Ints, share: npt.NDArray[np.float16], number: Ints, words: int
+    ) -> "Statements":
         said = torch.from_numpy(number)
         pair = said // SECTORS
-        return cls(holds, number, pair // (words + 1), pair % (words + 1), said % SECTORS, words)
+        return cls(cells, starts, cell, share, number, pair // (words + 1), pair % (words + 1), said % SECTORS, words)
 
     def save(self, directory: Path, fingerprint: str) -> None:
         """Write one file; the fingerprint is that of the model that they were made with."""
         columns = {
-            "holds": self.holds.data.astype(np.float16),  # as it was rounded
-            "cell": self.holds.indices.astype(np.int32),
-            "starts": self.holds.indptr.astype(np.int64),
+            "holds": self.share,
+            "cell": self.cell,
+            "starts": self.starts,
             "number": self.number,
         }
-        facts = {"cells": str(self.holds.shape[0]), "words": str(self.words), "model": fingerprint}
+        facts = {"cells": str(self.cells), "words": str(self.words), "model": fingerprint}
         (directory / FILE).write_bytes(in_order(save(columns, facts)))
 
     @classmethod
@@ -95,13 +106,13 @@ class Statements:
             IndexBroken: the file is missing or holds something else.
         """
         try:
-            with safe_open(directory / FILE, framework="numpy") as file:
-                facts = file.metadata()
-                if facts["model"] != fingerprint:
-                    return None
-                holds, cell, starts, number = (file.get_tensor(name) for name in ("holds", "cell", "starts", "number"))
-            shape = int(facts["cells"]), len(number)
-            return cls._of(csc_array((holds.astype(np.float32), cell, starts), shape), number, int(facts["words"]))
+            columns, facts = mapped(directory / FILE)
+            if facts["model"] != fingerprint:
+                return None
+            starts, cell, share, number = (columns[name] for name in ("starts", "cell", "holds", "number"))
+            if len(starts) != len(number) + 1 or starts[-1] != len(cell) or len(cell) != len(share):
+                raise ValueError("the columns are of different lengths")
+            return cls._of(int(facts["cells"]), starts, cell, share, number, int(facts["words"]))
         except (OSError, SafetensorError, KeyError, TypeError, ValueError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
@@ -118,22 +129,24 @@ class Statements:
         weight = weight * place.index_select(1, self.sector.index_select(0, known))
         told = (weight.amax(dim=0) > FAINT).nonzero().flatten()  # few
         columns = known.index_select(0, told).numpy()
-        held = np.full((len(place), self.holds.shape[0]), FLOOR, np.float32)
-        _add(
-            self.holds.indptr, self.holds.indices, self.holds.data, columns, weight.index_select(1, told).numpy(), held
-        )
+        held = np.full((len(place), self.cells), FLOOR, np.float32)
+        shares = self.share.view(np.uint16), _HALVES
+        _add(self.starts, self.cell, *shares, columns, weight.index_select(1, told).numpy(), held)
         scores: Floats = (1 - reading.absent.numpy()) @ np.log(held, out=held)
         return scores
 
 
 @compiled
-def _add(starts: Ints, cell: Ints, holds: Floats, columns: Ints, weight: Floats, held: Floats) -> None:
-    """Add some columns [F] of a sparse matrix [N, ...], times the weights [H, F] that are not faint, to [H, N]."""
+def _add(starts: Ints, cell: Ints, share: Ints, halves: Floats, columns: Ints, weight: Floats, held: Floats) -> None:
+    """Add some columns [F] of what holds in cells, times the weights [H, F] that are not faint, to [H, N].
+
+    Machine code knows no half precision: `share` is its bits, `halves` what each of them means.
+    """
     for hint in range(len(held)):
         for n in range(len(columns)):
             if weight[hint, n] > FAINT:
                 for k in range(starts[columns[n]], starts[columns[n] + 1]):
-                    held[hint, cell[k]] += holds[k] * weight[hint, n]
+                    held[hint, cell[k]] += halves[share[k]] * weight[hint, n]
 
 
 def statement_rows(
@@ -200,5 +213,6 @@ def _sectors_of_relations() -> Tensor:
     return table
 
 
+_HALVES = np.arange(1 << 16, dtype=np.uint16).view(np.float16).astype(np.float32)
 _SECTOR_OF_WAY = _sectors_of_ways()
 _SECTOR_OF_RELATION = _sectors_of_relations()

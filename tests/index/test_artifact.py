@@ -28,7 +28,14 @@ def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
     assert set(manifest.files) == {
         *("vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json"),
         *("pieces.safetensors", "statements.safetensors"),
-        *("gazetteer.safetensors", "gazetteer.json", "meanings.faiss", "meanings.json", "scenery.0.safetensors.gz"),
+        *(
+            "gazetteer.safetensors",
+            "names.safetensors",
+            "landmarks.safetensors",
+            "meanings.faiss",
+            "meanings.json",
+            "scenery.0.safetensors.gz",
+        ),
     }
     assert [path.name for path in index_dir.glob(".*")] == [".lock"]
 
@@ -62,7 +69,7 @@ def test_cut_changed_and_missing_files_are_noticed(copy, name) -> None:
         open_version(copy)
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 8}'])
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 9}'])
 def test_a_broken_manifest_is_noticed(copy, text) -> None:
     version_file(copy, "manifest.json").write_text(text)
     with pytest.raises(IndexBroken, match=r"manifest.json (is broken|was changed)"):

@@ -7,9 +7,19 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from safetensors import SafetensorError
 from safetensors.numpy import load, save
 
-from models.files import BUILDING, file_records, in_order, new_directory, remove_abandoned, replace_file, replacing
+from models.files import (
+    BUILDING,
+    file_records,
+    in_order,
+    mapped,
+    new_directory,
+    remove_abandoned,
+    replace_file,
+    replacing,
+)
 
 
 def mode(path):
@@ -141,3 +151,44 @@ def test_metadata_of_a_safetensors_file_is_in_order_and_the_rest_as_it_was() -> 
     for name, tensor in load(blob).items():
         assert (tensor == tensors[name]).all()
         assert tensor.dtype == tensors[name].dtype
+
+
+ARRAYS = {
+    "wide": np.arange(6, dtype=np.int64).reshape(2, 3),
+    "half": np.array([0.5, -2.0], np.float16),
+    "bytes": np.array([1, 255], np.uint8),
+    "is": np.array([True, False, True]),
+    "single": np.array([[1.5]], np.float32),
+    "none": np.zeros((0, 4), np.float64),
+    "small": np.array([-3], np.int8),
+}
+
+
+def test_mapped_arrays_are_those_that_were_saved(tmp_path) -> None:
+    (tmp_path / "a").write_bytes(in_order(save(ARRAYS, {"model": "x"})))
+    arrays, facts = mapped(tmp_path / "a")
+    assert facts == {"model": "x"}
+    assert set(arrays) == set(ARRAYS)
+    for name, array in ARRAYS.items():
+        assert (arrays[name].dtype, arrays[name].shape) == (array.dtype, array.shape)
+        assert (arrays[name] == array).all()
+        assert arrays[name].flags.aligned
+        assert type(arrays[name]) is np.ndarray
+
+
+def test_what_is_written_into_a_mapped_array_does_not_reach_the_file(tmp_path) -> None:
+    (tmp_path / "a").write_bytes(before := save(ARRAYS))
+    arrays, facts = mapped(tmp_path / "a")
+    assert facts == {}
+    arrays["wide"][:] = 7
+    assert (arrays["wide"] == 7).all()
+    assert (tmp_path / "a").read_bytes() == before
+
+
+@pytest.mark.parametrize("length", [0, 4, 60, -1])
+def test_a_file_cut_short_is_not_mapped(tmp_path, length) -> None:
+    (tmp_path / "a").write_bytes(save(ARRAYS)[:length])
+    with pytest.raises(SafetensorError):
+        mapped(tmp_path / "a")
+    with pytest.raises(OSError, match="a"):
+        mapped(tmp_path / "nothing")

@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 from scipy.cluster.hierarchy import fcluster, linkage
 
-from models.city.gazetteer.gazetteer import STREET, Words
+from models.city.gazetteer.words import STREET, Words
 from models.city.points import Ints
 from models.city.types import Floats
 

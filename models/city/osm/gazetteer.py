@@ -1,7 +1,7 @@
 """Reader: OpenStreetMap -> Gazetteer (docs/formats.md, gazetteer)."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,12 +11,12 @@ import osmium
 import shapely
 
 from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import ADDRESS, STREET, WALKED, Gazetteer, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer, build_gazetteer
 from models.city.gazetteer.streets import Ways, join_streets
+from models.city.gazetteer.words import STREET, Words
 from models.city.kinds.vocabulary import Vocabulary, load_vocabulary
-from models.city.osm.map import geometries, source_id
+from models.city.osm.map import batches_of, geometries, reading, source_id
 from models.city.types import Floats
-from models.errors import MapError
 
 NAME_KEYS = (
     "name",
@@ -63,30 +63,32 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
     Raises:
         MapError: it cannot be read.
     """
-    try:
-        found = list(_read(osmium.FileProcessor(str(path)).with_areas(), load_vocabulary()))
-    except (RuntimeError, ValueError, OSError, osmium.InvalidLocationError) as error:
-        raise MapError(f"{path}: cannot be read as OpenStreetMap ({error}); download it again") from error
-    lon_lat = shapely.from_wkb([one.wkb for one in found])
-    shapes = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
-    shapes = shapely.simplify(shapes, SIMPLER_M, preserve_topology=True)
-    segments = [_segments(shape) for shape in shapes]
-    streets = [n for n, one in enumerate(found) if one.nodes]
-    walked = [n for n, one in enumerate(found) if one.words is _WALKED]
-    others = [n for n, one in enumerate(found) if not one.nodes and one.words is not _WALKED]
-    words = [found[n].words for n in others]
-    shown = [segments[n] for n in others]
-    is_area = [found[n].is_area for n in others]
-    pieces = [_piece(found[n], segments[n], frame) for n in streets]
+    words, shown, is_area = list[Words](), list[Floats](), list[bool]()
+    pieces, walked = list[Ways](), list[Floats]()
+    for some in _read_some(path):
+        for one, segments in zip(some, _segments_of(some, frame), strict=True):
+            if one.nodes:
+                pieces.append(_piece(one, segments, frame))
+            elif one.words is _WALKED:
+                walked.append(segments)
+            else:
+                words.append(one.words)
+                shown.append(segments)
+                is_area.append(one.is_area)
     joined = join_streets(pieces, len(words))
     words += joined.words
     shown += joined.segments_m
     is_area += [False] * len(joined.words)
     if walked and words:
         words.append(_WALKED)
-        shown.append(np.concatenate([segments[n] for n in walked]))
+        shown.append(np.concatenate(walked))
         is_area.append(False)
     return build_gazetteer(words, shown, is_area, (joined.corner_streets, joined.corners_m))
+
+
+def _read_some(path: Path) -> Iterator[list[_Found]]:
+    with reading(path):
+        yield from batches_of(_read(osmium.FileProcessor(str(path)).with_areas(), load_vocabulary()))
 
 
 def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_Found]:
@@ -163,6 +165,13 @@ def _names(tags: dict[str, str]) -> tuple[str, ...]:
     if not found and "operator" in tags and OPERATED & tags.keys():
         found = [tags["operator"]]
     return tuple(dict.fromkeys(name for name in found if name))[:MOST_NAMES]
+
+
+def _segments_of(found: Sequence[_Found], frame: Frame) -> Iterator[Floats]:
+    """[n, 4] the segments of each, metres."""
+    lon_lat = shapely.from_wkb([one.wkb for one in found])
+    shapes = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
+    return map(_segments, shapely.simplify(shapes, SIMPLER_M, preserve_topology=True))
 
 
 def _segments(shape: shapely.Geometry) -> Floats:

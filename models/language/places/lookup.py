@@ -1,21 +1,22 @@
 """A map's objects by what they are called: exactly, in part, misspelt, by kind."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, reduce
 from math import log
 from typing import Final
 
 import numpy as np
 from rapidfuzz import fuzz, process
 
-from models.city.gazetteer.gazetteer import STREET, Gazetteer
+from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.kinds.vocabulary import Vocabulary
 from models.city.points import Ints
 from models.city.types import Floats
 from models.language.places.languages import ENGLISH
+from models.language.places.name_table import BETWEEN, NameTable
 from models.language.places.names import ARTICLES, plain_word, plain_words
-from models.language.places.streets import forms_of, full_words
+from models.language.places.streets import full_words
 from models.language.places.words import english
 
 Nouns = Mapping[str, tuple[tuple[str, float], ...]]
@@ -52,52 +53,42 @@ class Lookup:
         gazetteer: of the map.
         vocabulary: nouns of kinds.
         is_common: whether a plain word is an everyday one, which is seldom meant as a name.
+        table: of the gazetteer; None to make it.
     """
 
-    def __init__(self, gazetteer: Gazetteer, vocabulary: Vocabulary, is_common: Callable[[str], bool]) -> None:
+    def __init__(
+        self,
+        gazetteer: Gazetteer,
+        vocabulary: Vocabulary,
+        is_common: Callable[[str], bool],
+        table: NameTable | None = None,
+    ) -> None:
         self.gazetteer, self.vocabulary, self.is_common = gazetteer, vocabulary, is_common
-        self._streets: dict[tuple[str, ...], dict[int, float]] = {}
-        names: dict[tuple[str, ...], list[int]] = {}
-        for number, words in enumerate(gazetteer.words):
-            for name in words.names:
-                if words.kinds == (STREET,):
-                    for form, weight in forms_of(name):
-                        known = self._streets.setdefault(form, {})
-                        known[number] = max(weight, known.get(number, 0.0))
-                else:
-                    plain = plain_words(name)
-                    if plain:
-                        names.setdefault(plain, []).append(number)
-        self._names, self._objects = list(names), [np.unique(np.array(some)) for some in names.values()]
-        self._row = {name: n for n, name in enumerate(self._names)}
-        self._joined = [" ".join(name) for name in self._names]
-        postings: dict[str, list[int]] = {}
-        for row, plain in enumerate(self._names):
-            for word in set(plain):
-                postings.setdefault(word, []).append(row)
-        self._postings = {word: frozenset(rows) for word, rows in postings.items()}
+        self._table = NameTable.of(gazetteer, vocabulary, is_common) if table is None else table
         self._nouns = self._plain_nouns(ENGLISH)
-        self._spellings = self._other_spellings()
         self._kinds = lru_cache(maxsize=KEPT)(self._kinds_of)
 
     def worth(self, word: str) -> float:
         """How much a word of a name tells: the rarer, the more."""
         if word in EMPTY:
             return 0.1
-        worth = log((len(self._names) + 10) / (len(self._postings.get(word, ())) + 1))
+        worth = log((len(self._table.names) + 10) / (self._table.words.count(word) + 1))
         return worth * (0.6 if self.is_common(word) else 1.0)
 
     def street(self, words: Sequence[str]) -> Match | None:
         """Streets of a name in any of its forms."""
-        found = self._streets.get(tuple(words)) or self._streets.get(full_words(tuple(words)))
-        if not found:
+        rows = self._table.streets.find(" ".join(words))
+        if not len(rows):
+            rows = self._table.streets.find(" ".join(full_words(tuple(words))))
+        if not len(rows):
             return None
-        return Match(np.array(list(found)), np.array(list(found.values())), 1.0, max(found.values()) == 1.0)
+        weights = self._table.weight[rows]
+        return Match(self._table.street[rows], weights, 1.0, bool(weights.max() == 1.0))
 
-    @cached_property
-    def street_words(self) -> frozenset[str]:
+    @property
+    def street_words(self) -> Container[str]:
         """Every word of a street's name."""
-        return frozenset(word for form in self._streets for word in form)
+        return self._table.street_words
 
     def street_like(self, word: str) -> Match | None:
         """Streets of one long word that is misspelt."""
@@ -106,8 +97,9 @@ class Lookup:
         like = process.extract(word, self._single_streets, scorer=fuzz.ratio, score_cutoff=LIKE, limit=2)
         if not like:
             return None
-        found = {n: s / 100 for name, s, _ in like for n in self._streets[(name,)]}
-        return Match(np.array(list(found)), np.array(list(found.values())), 0.8, False)
+        rows = [self._table.streets.find(name) for name, _, _ in like]
+        found = {n: s / 100 for of, (_, s, _) in zip(rows, like, strict=True) for n in self._table.street[of].tolist()}
+        return _match(found, 0.8, is_exact=False)
 
     def address(self, number: str, streets: Ints) -> tuple[Ints, Floats]:
         """The objects with a house number of one of some streets; else [n, 4] places between the numbers beside it.
@@ -115,7 +107,7 @@ class Lookup:
         None of either for a number past the end of the street.
         """
         names = {" ".join(full_words(plain_words(name))) for s in streets for name in self.gazetteer.words[s].names}
-        known = {n: rows for name in names for n, rows in self._numbers.get(name, {}).items()}
+        known = {n: rows for name in names for n, rows in self._table.numbers.below(name + BETWEEN)}
         if not known:
             return np.zeros(0, np.int64), np.zeros((0, 4))
         same = [rows for n, rows in known.items() if n == number.lower()]
@@ -131,76 +123,53 @@ class Lookup:
         at = (1 - share) * middles[plain[low]] + share * middles[plain[high]]
         return np.zeros(0, np.int64), np.concatenate([at, at])[None]
 
-    @cached_property
-    def _numbers(self) -> Mapping[str, Mapping[str, list[int]]]:
-        """By the full form of a street its house numbers, and the objects that have each."""
-        found: dict[str, dict[str, list[int]]] = {}
-        for number, words in enumerate(self.gazetteer.words):
-            if words.number and words.street:
-                of = found.setdefault(" ".join(full_words(plain_words(words.street))), {})
-                for one in words.numbers:
-                    of.setdefault(one, []).append(number)
-        return found
-
     def named(self, words: Sequence[str]) -> Match | None:
         """Objects that bear a name, or of whose names the words are a telling part."""
-        plain = tuple(words)
-        row = self._row.get(plain)
-        if row is None and plain in self._spellings:
-            return _match(dict.fromkeys(self._spellings[plain], 1.0), 1.0, is_exact=True)
-        exact = dict.fromkeys(self._objects[row].tolist(), 1.0) if row is not None else {}
-        content = [word for word in plain if word not in EMPTY]
-        is_part = bool(content) and all(word in self._postings for word in content)
+        table, joined = self._table, " ".join(words)
+        exact = dict.fromkeys(table.names.find(joined).tolist(), 1.0)
+        if not exact and joined in table.spellings:
+            return _match(dict.fromkeys(table.spellings.find(joined).tolist(), 1.0), 1.0, is_exact=True)
+        content = [word for word in words if word not in EMPTY]
+        is_part = bool(content) and all(word in table.words for word in content)
         if not is_part or not any(self._is_telling(word) for word in content):
             return _match(exact, 1.0, is_exact=True)
-        rows = frozenset.intersection(*(self._postings[word] for word in content))
+        rows = reduce(np.intersect1d, (table.words.find(word) for word in content))
         said = sum(self.worth(word) for word in content)
         found: dict[int, float] = {}
-        for row in rows:
-            share = said / sum(self.worth(word) for word in self._names[row])
+        for row in rows.tolist():
+            share = said / sum(self.worth(word) for word in table.names.key(row).split())
             if share >= LEAST_SHARE:
-                for number in self._objects[row].tolist():
+                for number in table.names.of_row(row).tolist():
                     found[number] = max(found.get(number, 0.0), share**0.5)
         if exact:
             return _match({n: PART * weight for n, weight in found.items()} | exact, 1.0, is_exact=True)
         return _match(found, 0.9, is_exact=False)
-
-    def _other_spellings(self) -> Mapping[tuple[str, ...], list[int]]:
-        """The objects of chains by spellings that the map has not: Kentucky Fried Chicken is KFC."""
-        found: dict[tuple[str, ...], list[int]] = {}
-        for number in self.gazetteer.named.tolist():
-            for name in self.gazetteer.words[number].names:
-                for spelling in self.vocabulary.spellings(name):
-                    plain = plain_words(spelling)
-                    is_telling = any(len(word) > 2 and not self.is_common(word) for word in plain)
-                    if is_telling and plain not in self._row and not self._nouns.get(" ".join(plain)):
-                        found.setdefault(plain, []).append(number)
-        return found
 
     def misspelt(self, words: Sequence[str]) -> Match | None:
         """Objects whose names differ by a letter in six or so."""
         joined = " ".join(words)
         if len(joined) < SHORTEST_MISSPELT or all(self.is_common(word) for word in words):
             return None
-        like = process.extract(joined, self._joined, scorer=fuzz.ratio, score_cutoff=LIKE, limit=3)
-        found = {n: (score / 100) ** 4 for _, score, row in like for n in self._objects[row].tolist()}
+        names = self._table.names
+        like = process.extract(joined, names.all_keys, scorer=fuzz.ratio, score_cutoff=LIKE, limit=3)
+        found = {n: (score / 100) ** 4 for _, score, row in like for n in names.of_row(row).tolist()}
         return _match(found, 0.8, is_exact=False)
 
     def is_strange(self, word: str) -> bool:
         """Whether a word is in no name, street or noun, and no everyday one: misspelt, or a name that is not here."""
         is_noun = any(form in self.noun_words for form in _singulars(word))
-        known = is_noun or word in self._postings or word in self.street_words
+        known = is_noun or word in self._table.words or word in self._table.street_words
         return not known and not self.is_common(word) and word.isalpha()
 
     def is_name(self, words: Sequence[str]) -> bool:
         """Whether words are a whole name."""
-        return tuple(words) in self._row
+        return " ".join(words) in self._table.names
 
     def phrases(self) -> list[str]:
         """Every name of two words or more, and every such noun of a kind that the map has."""
         here = self.gazetteer.by_kind
         nouns = (noun for noun, kinds in self._nouns.items() if any(kind in here for kind, _ in kinds))
-        return sorted({phrase for phrase in (*self._joined, *nouns) if " " in phrase})
+        return sorted({phrase for phrase in (*self._table.names.all_keys, *nouns) if " " in phrase})
 
     def kinds(self, words: Sequence[str], language: str = ENGLISH) -> Mapping[str, float]:
         """The kinds that a noun means, and how surely; none for many."""
@@ -226,10 +195,10 @@ class Lookup:
 
     @cached_property
     def _single_streets(self) -> list[str]:
-        return [form[0] for form in self._streets if len(form) == 1]
+        return [form for form in self._table.streets.all_keys if " " not in form]
 
     def _is_telling(self, word: str) -> bool:
-        return len(self._postings.get(word, ())) <= 40 and word not in EMPTY and len(word) > 1 and not word[0].isdigit()
+        return self._table.words.count(word) <= 40 and word not in EMPTY and len(word) > 1 and not word[0].isdigit()
 
     def _plain_nouns(self, language: str) -> Nouns:
         nouns = self.vocabulary.nouns(language)

@@ -2,54 +2,80 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from models.city.gazetteer.gazetteer import Words
+from models.city.gazetteer.words import Words
 from models.city.points import Ints
+from models.language.places.name_table import BETWEEN
 from models.language.places.names import plain_words
 from models.language.places.streets import ORDINAL
 from models.posterior.places.spelt import Spelt
+from models.strings import Column, Postings, Strings
 
 _NUMBER: Final = re.compile(r"\d+")
 _NONE: Final = np.zeros(0, np.int64)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
 class Addresses:
     """Columns of a table, one an address, and what they are found by.
-
-    Args:
-        words: of each object; those without number or street have no address, those with several have as many.
 
     Attributes:
         shown: [K] "350 West 42nd Street".
         objects: [E] the object of each address of one.
         column: [E] its column; objects of one address share it.
+        streets: of all addresses.
+        by_street: from a column of `streets`, BETWEEN and a number to the column.
+        by_number: from a number to columns.
     """
 
-    def __init__(self, words: Sequence[Words]) -> None:
+    shown: Strings
+    objects: Ints
+    column: Ints
+    streets: Spelt
+    by_street: Postings
+    by_number: Postings
+
+    @classmethod
+    def of(cls, words: Sequence[Words]) -> "Addresses":
+        """Those of some objects: without number or street there is none, with several numbers as many."""
         rows = [
             (n, number.replace(" ", ""), some.street)
             for n, some in enumerate(words)
             if some.street
             for number in some.numbers
         ]
-        self._streets = Spelt([(street,) for _, _, street in rows], are_streets=True)
-        self.objects: Ints = np.array([n for n, _, _ in rows], np.int64)
-        self._by_street: dict[int, dict[str, int]] = {}
-        column, shown = [], list[str]()
-        for (_, number, street), of in zip(rows, self._streets.column.tolist(), strict=True):
-            numbers = self._by_street.setdefault(of, {})
-            if number not in numbers:
-                numbers[number] = len(shown)
+        streets = Spelt.of([(street,) for _, _, street in rows], are_streets=True)
+        columns, shown = dict[tuple[int, str], int](), list[str]()
+        column = []
+        for (_, number, street), of in zip(rows, streets.column.tolist(), strict=True):
+            column.append(columns.setdefault((of, number), len(columns)))
+            if column[-1] == len(shown):
                 shown.append(f"{number} {street}")
-            column.append(numbers[number])
-        self.column: Ints = np.array(column, np.int64)
-        self.shown = tuple(shown)
+        by_street = Postings.of((f"{of}{BETWEEN}{number}", n) for (of, number), n in columns.items())
+        by_number = Postings.of((number, n) for (_, number), n in columns.items())
+        objects = np.array([n for n, _, _ in rows], np.int64)
+        return cls(Strings.of(shown), objects, np.array(column, np.int64), streets, by_street, by_number)
 
     def __len__(self) -> int:
         return len(self.shown)
+
+    def columns(self, name: str) -> dict[str, Column]:
+        """Arrays from which `of_columns` makes it."""
+        found = {f"{name}.objects": self.objects, f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
+        found |= self.by_street.columns(f"{name}.by_street") | self.by_number.columns(f"{name}.by_number")
+        return found | self.streets.columns(f"{name}.streets")
+
+    @classmethod
+    def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Addresses":
+        """What `columns` gave of a name."""
+        by_street, by_number = (Postings.of_columns(columns, f"{name}.{kind}") for kind in ("by_street", "by_number"))
+        streets = Spelt.of_columns(columns, f"{name}.streets", are_streets=True)
+        objects, column = columns[f"{name}.objects"], columns[f"{name}.column"]
+        return cls(Strings.of_columns(columns, f"{name}.shown"), objects, column, streets, by_street, by_number)
 
     def find(self, said: str) -> Ints:
         """[k] the columns that somebody may mean: of a number without a street, in all streets.
@@ -66,10 +92,10 @@ class Addresses:
                 number, behind = number + behind[0], behind[1:]  # noqa: PLW2901  # "12 b" is one number
                 streets = self._street(behind)
             if not before and not behind:
-                return np.array([of[number] for of in self._by_street.values() if number in of], np.int64)
+                return self.by_number.find(number)
             for street in streets or self._street(before):
-                numbers = self._by_street[street]
-                found.extend([numbers[number]] if number in numbers else _beside(number, numbers))
+                there = {known: int(of[0]) for known, of in self.by_street.below(f"{street}{BETWEEN}")}
+                found.extend([there[number]] if number in there else _beside(number, there))
             if found:
                 return np.array(found)
         return _NONE
@@ -77,7 +103,7 @@ class Addresses:
     def _street(self, said: tuple[str, ...]) -> list[int]:
         """The streets of the longest words that name some; what follows may be a town or a flat."""
         for end in range(len(said), 0, -1):
-            if len(streets := self._streets.find(" ".join(said[:end]))):
+            if len(streets := self.streets.find(" ".join(said[:end]))):
                 return [int(street) for street in streets]
         return []
 

@@ -1,60 +1,80 @@
 """The names of a map as people spell them: without case and accents, in other languages, a street's in short."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Final
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from models.city.points import Ints
 from models.language.places.names import plain_words
 from models.language.places.streets import forms_of, full_words
+from models.strings import Column, Postings, Strings
 
-_NONE: Final = np.zeros(0, np.int64)
 
-
+@dataclass(frozen=True, slots=True, eq=False)
 class Spelt:
     """Columns of a table, one a name, and what they are found by.
 
-    Args:
-        names: of each object all its names, the one to show first; objects whose first are alike share a column.
-        are_streets: whether they are of streets, which are also known by forms such as "W 25th St" and "25th".
-
     Attributes:
+        are_streets: whether they are of streets, which are also known by forms such as "W 25th St" and "25th".
         shown: [K] the name to show of each column.
         column: [objects] of each.
+        whole: from plain names to columns.
+        part: from other forms of a street's name to columns.
     """
 
-    def __init__(self, names: Sequence[tuple[str, ...]], *, are_streets: bool) -> None:
-        self._are_streets = are_streets
-        columns = dict[str, int]()
-        self.column: Ints = np.array([columns.setdefault(self._plain(some[0]), len(columns)) for some in names], int)
-        shown = dict[int, str]()
-        for some, column in zip(names, self.column.tolist(), strict=True):
-            shown.setdefault(column, some[0])
-        self.shown = tuple(shown.values())
-        self._whole = _found((self._plain(name), n) for some, n in self._rows(names) for name in some)
-        forms = ((" ".join(form), n) for some, n in self._rows(names) for name in some for form, _ in forms_of(name))
-        self._part = _found(forms) if are_streets else {}
+    are_streets: bool
+    shown: Strings
+    column: Ints
+    whole: Postings
+    part: Postings
+
+    @classmethod
+    def of(cls, names: Sequence[tuple[str, ...]], *, are_streets: bool) -> "Spelt":
+        """Those of some objects.
+
+        Args:
+            names: of each object all its names, the one to show first; objects whose first are alike share a column.
+            are_streets: as the attribute.
+        """
+        columns, shown = dict[str, int](), list[str]()
+        column = [columns.setdefault(_plain(some[0], are_streets), len(columns)) for some in names]
+        for some, number in zip(names, column, strict=True):
+            if number == len(shown):
+                shown.append(some[0])
+        named = [(name, number) for some, number in zip(names, column, strict=True) for name in some]
+        whole = Postings.of((_plain(name, are_streets), number) for name, number in named)
+        part = Postings.of(_forms(named) if are_streets else ())
+        return cls(are_streets, Strings.of(shown), np.array(column, np.int64), whole, part)
 
     def __len__(self) -> int:
         return len(self.shown)
 
     def find(self, name: str) -> Ints:
         """[k] the columns that a name may mean, whole names before parts of them; none if the map has not got it."""
-        plain = self._plain(name)
-        return self._whole.get(plain, self._part.get(plain, _NONE))
+        plain = _plain(name, self.are_streets)
+        return self.whole.find(plain) if plain in self.whole else self.part.find(plain)
 
-    def _rows(self, names: Sequence[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], int]]:
-        return zip(names, self.column.tolist(), strict=True)
+    def columns(self, name: str) -> dict[str, Column]:
+        """Arrays from which `of_columns` makes it."""
+        found = {f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
+        return found | self.whole.columns(f"{name}.whole") | self.part.columns(f"{name}.part")
 
-    def _plain(self, name: str) -> str:
-        """In one form; as it stands where it has neither letter nor digit."""
-        words = plain_words(name)
-        return " ".join(full_words(words) if self._are_streets else words) or name
+    @classmethod
+    def of_columns(cls, columns: Mapping[str, Column], name: str, *, are_streets: bool) -> "Spelt":
+        """What `columns` gave of a name."""
+        whole, part = (Postings.of_columns(columns, f"{name}.{kind}") for kind in ("whole", "part"))
+        shown = Strings.of_columns(columns, f"{name}.shown")
+        return cls(are_streets, shown, columns[f"{name}.column"], whole, part)
 
 
-def _found(pairs: Iterable[tuple[str, int]]) -> Mapping[str, Ints]:
-    found = dict[str, dict[int, None]]()
-    for plain, number in pairs:
-        found.setdefault(plain, {})[number] = None
-    return {plain: np.array(list(numbers)) for plain, numbers in found.items()}
+def _plain(name: str, are_streets: bool) -> str:
+    """In one form; as it stands where it has neither letter nor digit."""
+    words = plain_words(name)
+    return " ".join(full_words(words) if are_streets else words) or name
+
+
+def _forms(named: Sequence[tuple[str, int]]) -> Iterator[tuple[str, int]]:
+    for name, number in named:
+        for form, _ in forms_of(name):
+            yield " ".join(form), number

@@ -2,12 +2,12 @@
 
 from dataclasses import astuple, dataclass, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 from safetensors import SafetensorError
-from safetensors.numpy import load_file, save_file
+from safetensors.numpy import save_file
 
 from models.city.bodies import PieceBodies
 from models.city.cells import CellTable, Parts
@@ -18,6 +18,7 @@ from models.city.tiled.pieces import PieceTable
 from models.city.tiled.ways import ways_around
 from models.city.types import CutRules, Floats
 from models.errors import IndexBroken
+from models.files import mapped
 from models.posterior.surroundings.around import STEP_M, Around
 from models.posterior.surroundings.nodes import SPACING_M, owner_of, slices
 from models.posterior.surroundings.things import Things
@@ -124,8 +125,9 @@ class PieceSurroundings:
             IndexBroken: the file holds something else.
         """
         try:
-            columns: dict[str, Any] = load_file(directory / FILE)
-            things = Things(**{name: columns[f"things.{name}"] for name in THINGS})
+            columns = mapped(directory / FILE)[0]
+            instance, rgb, parts, is_flat = (columns[f"things.{name}"] for name in THINGS)
+            things = Things(instance, rgb, parts, is_flat)
             pieces = PieceTable.of_columns({name[7:]: c for name, c in columns.items() if name.startswith("pieces.")})
             rules = CutRules(*columns["rules"].tolist())
             starts, offset = columns["cell_starts"], columns["offset"]

@@ -8,7 +8,8 @@ from index.asking.heard import Heard
 from index.asking.questions import Questions
 from index.posterior.localizer import GOOD_M
 from index.query import MOST_REPLIES, Box, Circle, Prior, Query, Reply
-from models.city.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED, Words
+from models.city.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED
+from models.city.gazetteer.words import Words, WordTable
 from models.errors import ReplyError
 from models.posterior.questions import expected_entropy
 from tests.conftest import LAT, LAT_M, LON, LON_M
@@ -148,7 +149,7 @@ def with_house_numbers(posterior):
     houses = [Words((ADDRESS,), (), str(n + 1), "East Street 3") for n in range(len(at))]
     town = replace(
         gazetteer,
-        words=(*gazetteer.words, *houses),
+        words=WordTable.of([*gazetteer.words, *houses]),
         segments_m=np.concatenate([gazetteer.segments_m, np.tile(at, 2).astype(np.float32)]),
         starts=np.concatenate([gazetteer.starts, gazetteer.starts[-1] + 1 + np.arange(len(at))]),
         is_area=np.concatenate([gazetteer.is_area, np.zeros(len(at), bool)]),

@@ -1,7 +1,8 @@
 import pytest
 
 from index.posterior.meaning import PHRASES_FILE, VECTORS_FILE, Meanings, meanings_of
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.city.gazetteer.words import Words
 from models.city.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
 from models.language.places.cue_reader import CueReader

@@ -16,7 +16,8 @@ from index.words.describing import (
     named_text,
     street_facts,
 )
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.city.gazetteer.words import STREET, Words
 from models.city.types import Hint
 from models.language.places.cues import WIND_DEGREES
 from models.posterior.surroundings.surroundings import surroundings_of

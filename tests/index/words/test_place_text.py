@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from index.words.place_text import place_text
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.city.gazetteer.words import STREET, Words
 from tests.models.city.gazetteer.made_town import line, made_gazetteer, point
 
 

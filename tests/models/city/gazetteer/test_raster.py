@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
 from models.city.gazetteer.raster import BLOCK, MARGIN_M, NEAR_M, Raster
+from models.city.gazetteer.words import Words
 from tests.models.city.gazetteer.made_town import MARKET, PARK, line, made_gazetteer, numbered, point
 
 GRID_M = 10.0

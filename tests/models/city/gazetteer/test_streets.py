@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from models.city.gazetteer.gazetteer import STREET, Words
 from models.city.gazetteer.streets import ONE_CORNER_M, Ways, join_streets
+from models.city.gazetteer.words import STREET, Words
 from tests.models.city.gazetteer.made_town import line
 
 FIRST = 10

@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer, build_gazetteer
 from models.city.gazetteer.ways import Around, cut, ways_to
+from models.city.gazetteer.words import Words
 from tests.models.city.gazetteer.made_town import line, point, ring
 
 BOX = ring(10, 10, 30, 20)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import ADDRESS, STREET, WALKED, Gazetteer
+from models.city.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer
+from models.city.gazetteer.words import STREET
 from models.city.osm.gazetteer import MOST_NAMES, load_gazetteer
 from models.errors import MapError
 

@@ -8,7 +8,7 @@ import osmium
 import pytest
 
 from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import STREET
+from models.city.gazetteer.words import STREET
 from models.city.osm.gazetteer import load_gazetteer
 from models.city.osm.map import load_osm
 from models.city.osm.tiling import Block, Extract

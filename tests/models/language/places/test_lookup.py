@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from models.city.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED, STREET, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED, build_gazetteer
+from models.city.gazetteer.words import STREET, Words
 from models.city.kinds.vocabulary import load_vocabulary
 from models.language.places.lookup import KEPT, Lookup
 from models.language.places.names import plain_words

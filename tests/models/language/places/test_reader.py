@@ -5,7 +5,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.city.gazetteer.words import Words
 from models.city.kinds.vocabulary import load_vocabulary
 from models.language.places.lookup import Lookup
 from models.language.places.reader import MOST_OBJECTS, find_mentions, is_meeting, listener_wind, with_goal

@@ -1,6 +1,6 @@
 import pytest
 
-from models.city.gazetteer.gazetteer import Words
+from models.city.gazetteer.words import Words
 from models.posterior.places.addresses import Addresses
 
 HOUSES = [
@@ -20,7 +20,7 @@ HOUSES = [
 
 @pytest.fixture(scope="module")
 def addresses():
-    return Addresses(HOUSES)
+    return Addresses.of(HOUSES)
 
 
 @pytest.mark.parametrize(
@@ -60,5 +60,5 @@ def test_houses_of_one_address_share_a_column(addresses):
 
 
 def test_a_map_without_numbers_has_none():
-    assert len(Addresses([Words(("shop",), ("A",))])) == 0
-    assert not len(Addresses([]).find("12 Bulevardi"))
+    assert len(Addresses.of([Words(("shop",), ("A",))])) == 0
+    assert not len(Addresses.of([]).find("12 Bulevardi"))

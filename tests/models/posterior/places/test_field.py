@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, STREET, WALKED, Words, build_gazetteer
+from models.city.gazetteer.gazetteer import NOTHING_NAMED, WALKED, build_gazetteer
 from models.city.gazetteer.ways import Around
+from models.city.gazetteer.words import STREET, Words
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.posterior.places.field import PlaceField, Told

@@ -1,0 +1,113 @@
+"""What the objects of a gazetteer are found by: made once of a map, and opened at once."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from safetensors import SafetensorError
+from safetensors.numpy import save_file
+
+from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.gazetteer.words import STREET, Words
+from models.city.kinds.vocabulary import Vocabulary
+from models.city.points import Ints
+from models.city.types import Floats
+from models.errors import IndexBroken
+from models.files import mapped
+from models.language.places.names import plain_words
+from models.language.places.streets import forms_of, full_words
+from models.strings import Postings, joined
+
+FILE: Final = "names.safetensors"
+BETWEEN: Final = "\t"  # a street and a house number
+_POSTINGS: Final = ("names", "words", "spellings", "numbers", "streets", "street_words")
+Pairs = list[tuple[str, int]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NameTable:
+    """The names, streets and house numbers of one gazetteer, in plain words.
+
+    Attributes:
+        names: from a name to the objects that bear it, which are no streets.
+        words: from a word to the rows of the names that it is in.
+        spellings: from what the map writes otherwise to objects: Kentucky Fried Chicken is KFC.
+        numbers: from a street in full, BETWEEN and a house number to the objects that have it.
+        streets: from a form of a street's name to rows of the next two.
+        street_words: the words of these forms; its numbers say nothing.
+        street: [R] an object that the form means.
+        weight: [R] how surely.
+    """
+
+    names: Postings
+    words: Postings
+    spellings: Postings
+    numbers: Postings
+    streets: Postings
+    street_words: Postings
+    street: Ints
+    weight: Floats
+
+    @classmethod
+    def of(cls, gazetteer: Gazetteer, vocabulary: Vocabulary, is_common: Callable[[str], bool]) -> "NameTable":
+        """That of a gazetteer; arguments as of Lookup."""
+        names, numbers, others = Pairs(), Pairs(), Pairs()
+        forms = dict[tuple[str, int], float]()
+        for number, words in enumerate(gazetteer.words):
+            numbers += ((key, number) for key in _addresses(words))
+            if words.kinds == (STREET,):
+                for form, weight in (form for name in words.names for form in forms_of(name)):
+                    key = " ".join(form), number
+                    forms[key] = max(weight, forms.get(key, 0.0))
+                continue
+            names += ((plain, number) for name in words.names if (plain := " ".join(plain_words(name))))
+            if words.kinds:
+                others += ((other, number) for name in words.names for other in vocabulary.spellings(name))
+        of_names = Postings.of(names)
+        nouns = {" ".join(plain_words(noun)) for noun in vocabulary.nouns("en")}
+
+        def is_new(plain: tuple[str, ...]) -> bool:
+            is_telling = any(len(word) > 2 and not is_common(word) for word in plain)
+            name = " ".join(plain)
+            return is_telling and name not in of_names and name not in nouns
+
+        spelt = [(plain_words(other), number) for other, number in others]
+        return cls(
+            of_names,
+            Postings.of((word, row) for row, name in enumerate(of_names.all_keys) for word in set(name.split())),
+            Postings.of((" ".join(plain), number) for plain, number in spelt if is_new(plain)),
+            Postings.of(numbers),
+            Postings.of((form, row) for row, (form, _) in enumerate(forms)),
+            Postings.of((word, 0) for form, _ in forms for word in form.split()),
+            np.array([number for _, number in forms], np.int64),
+            np.array(list(forms.values()), np.float64),
+        )
+
+    def save(self, directory: Path) -> None:
+        """Write one file."""
+        postings = [getattr(self, name).columns(name) for name in _POSTINGS]
+        save_file(joined([*postings, {"street": self.street, "weight": self.weight}]), directory / FILE)
+
+    @classmethod
+    def load(cls, directory: Path) -> "NameTable":
+        """Read what `save` wrote.
+
+        Raises:
+            IndexBroken: the file does not hold it.
+        """
+        try:
+            columns = mapped(directory / FILE)[0]
+            postings = {name: Postings.of_columns(columns, name) for name in _POSTINGS}
+            return cls(**postings, street=columns["street"], weight=columns["weight"])
+        except (OSError, SafetensorError, ValueError, KeyError, TypeError, RuntimeError) as error:
+            raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
+
+
+def _addresses(words: Words) -> Iterator[str]:
+    """The keys of an object's house numbers."""
+    if words.number and words.street:
+        street = " ".join(full_words(plain_words(words.street)))
+        for number in words.numbers:
+            yield street + BETWEEN + number

@@ -1,0 +1,129 @@
+"""How far the names of a map are from its cells, and which of them somebody says who stands there."""
+
+from typing import Final
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+from scipy.spatial import cKDTree
+
+from models.city.gazetteer.gazetteer import Gazetteer
+from models.city.gazetteer.ways import Around, cut, ways_to
+from models.city.points import Ints
+from models.city.types import Floats
+from models.posterior.places.addresses import Addresses
+from models.posterior.places.spelt import Spelt
+
+ON_STREET_M: Final = 40.0  # as far as a street may be which somebody says to be on
+BETWEEN_M: Final = 8.0  # by which of two streets or houses one must be nearer to be the one
+SEEN_M, SEEN_SOFT_M = 30.0, 8.0  # as far as the sign over a door is read, about
+NAMED_M: Final = 15.0  # over which it is said less often than what is nearer
+CORNERS: Final = 4  # of a street that may be the nearest
+NEAREST_M: Final = 15.0  # by which of two corners one must be nearer to be the one
+BLOCK_M: Final = 80.0  # cells are looked at together that lie in a square of this
+Entries = tuple[Ints, Ints, Floats]  # rows, columns and values of a sparse table
+
+
+class Chances:
+    """What is said in the cells of one map; the same all over a cell.
+
+    Args:
+        gazetteer: of the map.
+        centers_m: [N, 2] of the cells.
+    """
+
+    def __init__(self, gazetteer: Gazetteer, centers_m: Floats) -> None:
+        self._gazetteer, self._centers_m = gazetteer, centers_m
+        block = np.floor(centers_m / BLOCK_M).astype(np.int64)
+        group = np.unique(block, axis=0, return_inverse=True)[1].ravel()
+        self._order = np.argsort(group, kind="stable")
+        self._around = Around.of(centers_m[self._order], group[self._order])
+
+    def on_street(self, objects: Ints, streets: Spelt) -> csr_array:
+        """[N, S] chance of each street, that who stands in a cell says to be on it."""
+        metres = self._metres(objects, streets, ON_STREET_M)
+        cell, nearest = _nearest(metres)
+        metres.data = shares(cell, np.exp((nearest[cell] - metres.data) / BETWEEN_M))
+        return metres
+
+    def said(self, objects: Ints, names: Spelt) -> csr_array:
+        """[N, K] chance of each place's name, that who stands in a cell says it when asked for one."""
+        metres = self._metres(objects, names, SEEN_M + 3 * SEEN_SOFT_M)
+        cell, nearest = _nearest(metres)
+        share = shares(cell, np.exp(-metres.data / NAMED_M) * _is_seen(metres.data))
+        metres.data = share * _is_seen(nearest)[cell]
+        return metres
+
+    def numbered(self, addresses: Addresses) -> csr_array:
+        """[N, K] chance of each house number, that who stands in a cell says that it is the nearest."""
+        metres = self._metres(addresses.objects, addresses, SEEN_M + 3 * SEEN_SOFT_M)
+        cell, nearest = _nearest(metres)
+        share = shares(cell, np.exp((nearest[cell] - metres.data) / BETWEEN_M))
+        metres.data = share * _is_seen(nearest)[cell]
+        return metres
+
+    def crossings(self, objects: Ints, streets: Spelt, on_street: csr_array) -> tuple[csr_array, Ints, Ints]:
+        """The corners near each cell of the streets that it is on; see Crossings.
+
+        Returns:
+            [N, D] chance of pairs of streets, [D] column of the one, [D] of the other.
+        """
+        to_column = np.full(len(self._gazetteer) + 1, -1)
+        to_column[objects] = streets.column
+        pair = to_column[self._gazetteer.corner_streets.reshape(-1, 2)]
+        on, other = np.concatenate([pair, pair[:, ::-1]]).T
+        at = np.tile(self._gazetteer.corners_m.astype(np.float64), (2, 1))
+        there = on_street.tocsc()
+        order = np.argsort(on, kind="stable")
+        first = np.flatnonzero(np.diff(on[order], prepend=-1))
+        found = [self._corners(there, int(on[corners[0]]), corners, at) for corners in np.split(order, first)[1:]]
+        cell, corner, chance = (np.concatenate([some[n] for some in found]) if found else _EMPTY for n in range(3))
+        count = max(1, len(streets))
+        pairs, column = np.unique(on * count + other, return_inverse=True)
+        shape = len(self._order), max(1, len(pairs))
+        table = csr_array((chance, (cell.astype(np.int64), column[corner.astype(np.int64)])), shape=shape)
+        return table, pairs // count, pairs % count
+
+    def _corners(self, there: csc_array, street: int, corners: Ints, at: Floats) -> Entries:
+        """(cell, corner, chance) of the nearest corners of a street, in the cells that are on it."""
+        of = slice(there.indptr[street], there.indptr[street + 1])
+        cells, chance = there.indices[of], there.data[of]
+        few = min(CORNERS, len(corners))
+        metres, row = cKDTree(at[corners]).query(self._centers_m[cells], k=range(1, few + 1))
+        weight = np.exp((metres[:, :1] - metres) / NEAREST_M)
+        weight *= (chance / weight.sum(axis=1))[:, None]
+        return np.repeat(cells, few), corners[row].ravel(), weight.ravel()
+
+    def _metres(self, objects: Ints, names: Spelt | Addresses, reach_m: float) -> csr_array:
+        """[N, names] distance to the nearest of each name, as far as it is within reach."""
+        shape = (len(self._order), max(1, len(names)))
+        if not len(objects):
+            return csr_array(shape)
+        ways = ways_to(self._around, *cut(self._gazetteer, objects), reach_m)
+        entry = self._order[ways.point] * shape[1] + names.column[ways.item]
+        order = np.argsort(entry, kind="stable")
+        first = np.flatnonzero(np.diff(entry[order], prepend=-1))
+        metres = np.minimum.reduceat(ways.metres[order], first) if len(first) else np.zeros(0)
+        cell, name = np.divmod(entry[order[first]], shape[1])
+        return csr_array((metres, name, np.searchsorted(cell, np.arange(shape[0] + 1))), shape=shape)
+
+
+_EMPTY: Final = np.zeros(0)
+
+
+def _nearest(metres: csr_array) -> tuple[Ints, Floats]:
+    """The row of each entry, and the least of each row; infinite in empty ones."""
+    cell = np.repeat(np.arange(metres.shape[0]), np.diff(metres.indptr))
+    nearest = np.full(metres.shape[0], np.inf)
+    np.minimum.at(nearest, cell, metres.data)
+    return cell, nearest
+
+
+def shares(cell: Ints, weight: Floats) -> Floats:
+    """Weights of entries, made to add up to 1 in each cell."""
+    share: Floats = weight / np.bincount(cell, weight)[cell] if len(cell) else weight
+    return share
+
+
+def _is_seen(metres: Floats) -> Floats:
+    chance: Floats = 1 / (1 + np.exp(np.minimum((metres - SEEN_M) / SEEN_SOFT_M, 50.0)))
+    return chance

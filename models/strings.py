@@ -1,0 +1,134 @@
+"""Strings and what they stand for, in arrays: a city has a million, which open at once and take no object each."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
+from typing import Any, Final, overload
+
+import numpy as np
+import numpy.typing as npt
+from marisa_trie import Trie
+
+Column = npt.NDArray[Any]
+_NONE: Final = np.zeros(0, np.int64)
+
+
+class Strings(Sequence[str]):
+    """Strings in one array; each is made when it is asked for.
+
+    Args:
+        text: [B] uint8, UTF-8 of all of them.
+        ends: [S] int64, where each ends.
+    """
+
+    def __init__(self, text: Column, ends: Column) -> None:
+        self._text, self._ends = text, ends
+
+    @classmethod
+    def of(cls, strings: Iterable[str]) -> "Strings":
+        """Those of some."""
+        coded = [string.encode() for string in strings]
+        text = np.frombuffer(b"".join(coded), np.uint8)
+        return cls(text, np.cumsum([len(one) for one in coded], dtype=np.int64))
+
+    def __len__(self) -> int:
+        return len(self._ends)
+
+    @overload
+    def __getitem__(self, n: int) -> str: ...
+
+    @overload
+    def __getitem__(self, n: slice) -> list[str]: ...
+
+    def __getitem__(self, n: int | slice) -> str | list[str]:
+        """One string, or those of a slice."""
+        if isinstance(n, slice):
+            return [self[row] for row in range(*n.indices(len(self)))]
+        row = range(len(self))[n]
+        first = int(self._ends[row - 1]) if row else 0
+        return self._text[first : int(self._ends[row])].tobytes().decode()
+
+    def columns(self, name: str) -> dict[str, Column]:
+        """Arrays from which `of_columns` makes it."""
+        return {f"{name}.text": self._text, f"{name}.ends": self._ends}
+
+    @classmethod
+    def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Strings":
+        """What `columns` gave of a name."""
+        return cls(columns[f"{name}.text"], columns[f"{name}.ends"])
+
+
+@dataclass(frozen=True, eq=False)
+class Postings:
+    """The numbers of each of some keys.
+
+    Attributes:
+        keys: K of them, each with a row.
+        starts: [K + 1] int64, row k has the numbers starts[k] to starts[k + 1].
+        numbers: [Z] int32.
+    """
+
+    keys: Trie
+    starts: Column
+    numbers: Column
+
+    @classmethod
+    def of(cls, pairs: Iterable[tuple[str, int]]) -> "Postings":
+        """Those of pairs (key, number); the numbers of a key in the order in which they come, each once."""
+        pairs = list(dict.fromkeys(pairs))
+        keys = Trie([key for key, _ in pairs])
+        row = np.array([keys[key] for key, _ in pairs], np.int64)
+        order = np.argsort(row, kind="stable")
+        starts = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=len(keys)))])
+        return cls(keys, starts, np.array([number for _, number in pairs], np.int32)[order])
+
+    def __len__(self) -> int:
+        return len(self.keys)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self.keys
+
+    def find(self, key: str) -> Column:
+        """[k] the numbers of a key; none of one that is not there."""
+        row = self.keys.get(key)
+        return _NONE if row is None else self.of_row(row)
+
+    def key(self, row: int) -> str:
+        """The key of a row."""
+        found: str = self.keys.restore_key(row)
+        return found
+
+    def of_row(self, row: int) -> Column:
+        """[k] the numbers of a row."""
+        return self.numbers[self.starts[row] : self.starts[row + 1]]
+
+    def count(self, key: str) -> int:
+        """How many numbers a key has."""
+        return len(self.find(key))
+
+    @cached_property
+    def all_keys(self) -> list[str]:
+        """[K] the keys, in order of their rows."""
+        return [self.key(row) for row in range(len(self.keys))]
+
+    def below(self, prefix: str) -> Iterator[tuple[str, Column]]:
+        """The rest of each key that begins with some letters, and its numbers."""
+        for key, row in self.keys.iteritems(prefix):
+            yield key[len(prefix) :], self.of_row(row)
+
+    def columns(self, name: str) -> dict[str, Column]:
+        """Arrays from which `of_columns` makes it."""
+        keys = np.frombuffer(self.keys.tobytes(), np.uint8)
+        return {f"{name}.keys": keys, f"{name}.starts": self.starts, f"{name}.numbers": self.numbers}
+
+    @classmethod
+    def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Postings":
+        """What `columns` gave of a name."""
+        keys = Trie().frombytes(columns[f"{name}.keys"].tobytes())  # few bytes, even of a city
+        return cls(keys, columns[f"{name}.starts"], columns[f"{name}.numbers"])
+
+
+def joined(columns: Iterable[Mapping[str, Column]]) -> dict[str, Column]:
+    """Columns of several names together, as files of arrays take them."""
+    return {name: np.ascontiguousarray(column) for name, column in chain.from_iterable(map(Mapping.items, columns))}

@@ -1,0 +1,74 @@
+import pickle
+
+import numpy as np
+import pytest
+
+from models.strings import Postings, Strings, joined
+
+SOME = ["", "Café Zoë", "Кафе", "", "北京", "a"]
+
+
+def test_strings_come_back_as_they_were() -> None:
+    strings = Strings.of(SOME)
+    assert list(strings) == SOME
+    assert strings[-1] == "a"
+    assert strings[1:4] == SOME[1:4]
+    assert list(Strings.of_columns(strings.columns("x"), "x")) == SOME
+    with pytest.raises(IndexError):
+        strings[6]
+
+
+def test_no_strings() -> None:
+    assert list(Strings.of(())) == []
+
+
+PAIRS = [("b", 5), ("a b", 3), ("b", 2), ("a b", 3), ("", 9), ("a c", 1)]
+
+
+@pytest.fixture(params=["made", "opened", "pickled"])
+def postings(request) -> Postings:
+    made = Postings.of(PAIRS)
+    if request.param == "made":
+        return made
+    return Postings.of_columns(joined([made.columns("x")]), "x") if request.param == "opened" else again(made)
+
+
+def again(postings: Postings) -> Postings:
+    found: Postings = pickle.loads(pickle.dumps(postings))
+    return found
+
+
+def test_numbers_are_found_in_the_order_in_which_they_came(postings) -> None:
+    assert postings.find("b").tolist() == [5, 2]
+    assert postings.find("a b").tolist() == [3], "once"
+    assert postings.find("").tolist() == [9]
+    assert postings.find("a").tolist() == []
+    assert [postings.count(key) for key in ("b", "a")] == [2, 0]
+    assert "a b" in postings
+    assert "a" not in postings
+    assert len(postings) == 4
+
+
+def test_rows_have_keys_and_numbers(postings) -> None:
+    assert set(postings.all_keys) == {"", "b", "a b", "a c"}
+    for row, key in enumerate(postings.all_keys):
+        assert postings.key(row) == key
+        assert postings.of_row(row).tolist() == postings.find(key).tolist()
+
+
+def test_what_is_below_a_prefix(postings) -> None:
+    assert {rest: numbers.tolist() for rest, numbers in postings.below("a ")} == {"b": [3], "c": [1]}
+    assert list(postings.below("z")) == []
+
+
+def test_the_same_pairs_are_the_same_bytes() -> None:
+    one, other = (Postings.of(pairs).columns("x") for pairs in (PAIRS, sorted(PAIRS)))
+    assert one["x.keys"].tobytes() == other["x.keys"].tobytes()
+
+
+def test_no_postings() -> None:
+    none = Postings.of(())
+    assert not len(none)
+    assert not len(none.find("a"))
+    assert not len(Postings.of_columns(joined([none.columns("x")]), "x").find("a"))
+    assert np.diff(none.starts).tolist() == []
