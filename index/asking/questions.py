@@ -14,7 +14,7 @@ from index.query import MOST_REPLIES, Reply
 from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.points import Ints, ranges
+from models.city.points import Ints
 from models.city.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.asked import load_asked
@@ -23,13 +23,11 @@ from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors
 from models.posterior.sights import Seen, Sights
-from models.posterior.surroundings.surroundings import Surroundings
 
 LEAST_GAIN: Final = 0.1  # bits; what narrows no more is not worth asking
 EFFORT: Final = {"address": 1.0}  # bits that it must narrow more than what a word answers, to be asked instead
 PLACES: Final = 256  # cells that a question about things is chosen by
 NAMED_PLACES: Final = 4096  # and one for a name, which may leave few of a city's
-CELLS_AT_ONCE: Final = 4096  # of which the middles are found
 FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it has is not asked about
 
 
@@ -64,9 +62,7 @@ class Questions:
         self._gazetteer, self._cells, self._landmarks = gazetteer, cells, landmarks
         self._things = {label: n for n, label in enumerate(labels) if label in asked.things}
         self._owning = np.flatnonzero(np.diff(sights.surroundings.cell_starts))  # cells that have nodes
-        parts = range(0, len(self._owning), CELLS_AT_ONCE)
-        middles = [_middles(sights.surroundings, centers_m, self._owning[n : n + CELLS_AT_ONCE]) for n in parts]
-        self._middle = np.concatenate([np.zeros(0, np.int64), *middles])  # the node nearest to each one's centre
+        self._middle = sights.surroundings.middles(centers_m)
 
     @cached_property
     def _names(self) -> OpenQuestions:
@@ -202,16 +198,6 @@ class Questions:
         if asked.is_open:
             return self._names.has(asked.kind)
         return asked.names[0] in self._things and set(asked.names[1:]) <= set(self._words)
-
-
-def _middles(surroundings: Surroundings, centers_m: Floats, cells: Ints) -> Ints:
-    """The node of each of some cells, all of which have nodes, that is nearest to its centre."""
-    begin, end = surroundings.cell_starts[cells], surroundings.cell_starts[cells + 1]
-    nodes, of = ranges(begin, end), np.repeat(np.arange(len(cells)), end - begin)
-    apart = np.hypot(*(surroundings.positions_m(nodes) - centers_m[cells[of]]).T)
-    nearest = np.minimum.reduceat(apart, np.searchsorted(of, np.arange(len(cells))))
-    rows = np.flatnonzero(apart == nearest[of])
-    return nodes[rows[np.diff(of[rows], prepend=-1) > 0]]
 
 
 def _sampled(nodes: Ints, mass: Floats, count: int) -> tuple[Ints, Floats]:

@@ -32,6 +32,18 @@ def columns_away(drawn: Ints, shape: tuple[int, int], reach: int) -> Columns:
 
 
 @compiled
+def pixels_of(points_m: Floats, low_m: Floats, spacing_m: float, shape: tuple[int, int]) -> Ints:
+    """[n] pixel of points [n, 2] on a grid from a corner [2] on, -1 outside."""
+    pixel = np.empty(len(points_m), np.int64)
+    for n in range(len(points_m)):
+        column = np.rint((points_m[n, 0] - low_m[0]) / spacing_m)
+        row = np.rint((points_m[n, 1] - low_m[1]) / spacing_m)
+        is_in = 0 <= column < shape[0] and 0 <= row < shape[1]
+        pixel[n] = np.int64(column) * shape[1] + np.int64(row) if is_in else -1
+    return pixel
+
+
+@compiled
 def _scan(away: Columns) -> None:
     columns, rows = away.shape
     for x in range(1, columns):

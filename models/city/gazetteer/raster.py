@@ -15,8 +15,7 @@ from cachetools import LRUCache, cachedmethod
 from scipy.ndimage import distance_transform_edt
 
 from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.nearest import columns_away, pixels_away
-from models.city.gazetteer.ways import is_inside
+from models.city.gazetteer.nearest import columns_away, pixels_away, pixels_of
 from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.compiled import compiled, longer
@@ -81,21 +80,33 @@ class Raster:
         self._low = centers_m.min(axis=0) - MARGIN_M
         size = np.ceil((centers_m.max(axis=0) + MARGIN_M - self._low) / spacing_m).astype(int) + 1
         self._blocks = tuple((-(-size // BLOCK)).tolist())
-        self.shape = tuple(BLOCK * n for n in self._blocks)
+        self.shape = BLOCK * self._blocks[0], BLOCK * self._blocks[1]
         cell = self.pixels(centers_m)
         self._cell = np.full(self.shape, -1, np.int32)  # of each pixel; of several cells in one the last
         self._cell.ravel()[cell] = np.arange(len(cell))
         self.block_of = self._block(cell).astype(np.int32)
         self.cells_in = np.bincount(self.block_of, minlength=self._blocks[0] * self._blocks[1])
-        samples, self._starts = _samples(gazetteer)
-        self._pixel = self.pixels(samples).astype(np.int32)
+        self._pixel, self._starts = self._drawn(gazetteer)
         self._lately: LRUCache[tuple[bytes, ...], Away] = LRUCache(KEPT_BYTES, lambda away: away.nbytes)
 
     def pixels(self, points_m: Floats) -> Ints:
         """[n] pixel of points [n, 2], -1 outside."""
-        column = np.round((points_m - self._low) / self.spacing_m).astype(np.int64)
-        inside = ((column >= 0) & (column < self.shape)).all(axis=1)
-        return np.where(inside, column[:, 0] * self.shape[1] + column[:, 1], -1)
+        found: Ints = pixels_of(points_m, self._low, self.spacing_m, self.shape)
+        return found
+
+    def _drawn(self, gazetteer: Gazetteer) -> tuple[Ints, Ints]:
+        """[S] int32 pixels on every object's lines and inside large areas; starts [O + 1]."""
+        if not len(gazetteer):
+            return np.zeros(0, np.int32), np.zeros(1, np.int64)
+        lines = gazetteer.segments_m
+        steps = np.ceil(np.hypot(*(lines[:, 2:] - lines[:, :2]).T) / SAMPLED_M).astype(int) + 1
+        owner = np.repeat(np.repeat(np.arange(len(gazetteer)), np.diff(gazetteer.starts)), steps)
+        large = np.flatnonzero(gazetteer.is_area & (gazetteer.reach_m > LARGE_M))
+        inside, number = lattice(lines, gazetteer.starts, large, LATTICE_M)
+        drawn = [self.pixels(points).astype(np.int32) for points in (along(lines, steps), inside)]
+        of = np.concatenate([owner, number])
+        order = np.argsort(of, kind="stable")
+        return np.concatenate(drawn)[order], np.searchsorted(of[order], np.arange(len(gazetteer) + 1))
 
     @cachedmethod(lambda raster: raster._lately, _asked)
     def away(self, groups: Sequence[Ints], lines_m: Floats | None = None) -> Away:
@@ -152,29 +163,17 @@ def _steps(lines_m: Floats) -> Ints:
     return steps
 
 
+@compiled
 def along(lines_m: Floats, steps: Ints) -> Floats:
-    """Points along segments [n, 4], so many of each."""
-    line = np.repeat(np.arange(len(lines_m)), steps)
-    share = (np.arange(steps.sum()) - np.repeat(np.cumsum(steps) - steps, steps)) / np.repeat(
-        np.maximum(steps - 1, 1), steps
-    )
-    ends = lines_m[line].astype(np.float64)
-    points: Floats = ends[:, :2] + share[:, None] * (ends[:, 2:] - ends[:, :2])
+    """Points [S, 2] along segments [n, 4], so many of each."""
+    points, count = np.empty((steps.sum(), 2)), 0
+    for n in range(len(lines_m)):
+        x1, y1, x2, y2 = lines_m[n].astype(np.float64)
+        for k in range(steps[n]):
+            share = k / max(steps[n] - 1, 1)
+            points[count, 0], points[count, 1] = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
+            count += 1
     return points
-
-
-def _samples(gazetteer: Gazetteer) -> tuple[Floats, Ints]:
-    """Points [S, 2] on every object's lines and inside large areas; starts [O + 1]."""
-    if not len(gazetteer):
-        return np.zeros((0, 2)), np.zeros(1, np.int64)
-    lines = gazetteer.segments_m
-    steps = np.ceil(np.hypot(*(lines[:, 2:] - lines[:, :2]).T) / SAMPLED_M).astype(int) + 1
-    owner = np.repeat(np.repeat(np.arange(len(gazetteer)), np.diff(gazetteer.starts)), steps)
-    large = np.flatnonzero(gazetteer.is_area & (gazetteer.reach_m > LARGE_M))
-    inside, number = lattice(lines, gazetteer.starts, large, LATTICE_M)
-    joined, of = np.concatenate([along(lines, steps), inside]), np.concatenate([owner, number])
-    order = np.argsort(of, kind="stable")
-    return joined[order], np.searchsorted(of[order], np.arange(len(gazetteer) + 1))
 
 
 @compiled
@@ -192,11 +191,32 @@ def lattice(segments_m: Floats, starts: Ints, areas: Ints, apart_m: float) -> tu
         ends = segments_m[starts[number] : starts[number + 1]].astype(np.float64)
         low_x, high_x = min(ends[:, 0].min(), ends[:, 2].min()), max(ends[:, 0].max(), ends[:, 2].max())
         low_y, high_y = min(ends[:, 1].min(), ends[:, 3].min()), max(ends[:, 1].max(), ends[:, 3].max())
-        for x in np.arange(low_x + apart_m / 2, high_x, apart_m):
-            for y in np.arange(low_y + apart_m / 2, high_y, apart_m):
-                if is_inside(x, y, ends):
+        xs = np.arange(low_x + apart_m / 2, high_x, apart_m)
+        ys = np.arange(low_y + apart_m / 2, high_y, apart_m)
+        is_in = _inside(xs, ys, ends)
+        for column in range(len(xs)):
+            for row in range(len(ys)):
+                if is_in[column, row]:
                     if count == len(of):
                         points, of = longer(points), longer(of)
-                    points[count, 0], points[count, 1], of[count] = x, y, number
+                    points[count, 0], points[count, 1], of[count] = xs[column], ys[row], number
                     count += 1
     return points[:count].copy(), of[:count].copy()
+
+
+@compiled
+def _inside(xs: Floats, ys: Floats, ends: Floats) -> Mask:
+    """[columns, rows] whether the points of a lattice are inside rings, as `is_inside`; an edge is met once a row."""
+    is_in = np.zeros((len(xs), len(ys)), np.bool_)
+    for row in range(len(ys)):
+        is_odd = np.zeros(len(xs) + 1, np.bool_)  # where the number of edges to the east changes
+        for s in range(len(ends)):
+            x1, y1, x2, y2 = ends[s]
+            if (y1 > ys[row]) != (y2 > ys[row]):
+                before = np.searchsorted(xs, x1 + (ys[row] - y1) * (x2 - x1) / (y2 - y1))  # columns west of it
+                is_odd[before] = not is_odd[before]
+        crossed = False
+        for column in range(len(xs) - 1, -1, -1):
+            crossed = crossed != is_odd[column + 1]
+            is_in[column, row] = crossed
+    return is_in

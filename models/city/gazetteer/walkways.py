@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from models.city.gazetteer.gazetteer import WALKED, Gazetteer
-from models.city.gazetteer.nearest import columns_away, pixels_away
+from models.city.gazetteer.nearest import columns_away, pixels_away, pixels_of
 from models.city.gazetteer.raster import along, lattice
 from models.city.points import Ints, ranges
 from models.city.types import Floats
@@ -40,16 +40,17 @@ class Walkways:
 
     def _pixels(self, points_m: Floats) -> tuple[Ints, Ints]:
         """The pixels of those points that are inside, and which these are."""
-        column, row = np.round((points_m - self._low) / PIXEL_M).astype(np.int64).T
-        inside = np.flatnonzero((column >= 0) & (row >= 0) & (column < self._shape[0]) & (row < self._shape[1]))
-        return column[inside] * self._shape[1] + row[inside], inside
+        pixel = pixels_of(points_m, self._low, PIXEL_M, self._shape)
+        inside = np.flatnonzero(pixel >= 0)
+        return pixel[inside], inside
 
 
 def _lines(gazetteer: Gazetteer) -> Floats:
     objects = gazetteer.by_kind.get(WALKED, np.zeros(0, np.int64))
     lines = gazetteer.segments_m[ranges(gazetteer.starts[objects], gazetteer.starts[objects + 1])]
     steps = np.ceil(np.hypot(*(lines[:, 2:] - lines[:, :2]).T) / (PIXEL_M / 2)).astype(int) + 1
-    return along(lines, steps)
+    points: Floats = along(lines, steps)
+    return points
 
 
 def _squares(gazetteer: Gazetteer) -> Floats:

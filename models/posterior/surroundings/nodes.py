@@ -1,7 +1,7 @@
 """The positions that the posterior is over: nodes of a fine grid."""
 
 from collections.abc import Iterator
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,7 @@ from models.city.cells import CellTable
 from models.city.hints import BEST_CELL_REACH_M
 from models.city.points import Ints
 from models.city.types import Floats
+from models.compiled import compiled
 
 SPACING_M: Final = 1.5
 COLUMNS: Final = 256  # of the grid that are looked at together
@@ -46,6 +47,32 @@ def owner_of(cell_starts: Ints, nodes: Ints) -> Ints:
     """[n] the cell that owns each of some nodes, of cells that own cell_starts[n] to cell_starts[n + 1]."""
     owner: Ints = np.searchsorted(cell_starts, nodes, side="right") - 1
     return owner
+
+
+@compiled
+def nearest_nodes(
+    cell_starts: Ints, origins: npt.NDArray[Any], nodes: npt.NDArray[Any], step_m: float, centers_m: Floats
+) -> Ints:
+    """[C] of each cell that has nodes the first of these that is nearest to its centre.
+
+    Args:
+        cell_starts: [N + 1] cell n owns the nodes cell_starts[n] to cell_starts[n + 1].
+        origins: [N, 2] what a cell's nodes are counted from, in steps.
+        nodes: [M, 2] in steps.
+        step_m: how long one is.
+        centers_m: [N, 2] of the cells.
+    """
+    found, count = np.empty(len(centers_m), np.int64), 0
+    for n in range(len(centers_m)):
+        least = np.inf
+        for node in range(cell_starts[n], cell_starts[n + 1]):
+            x, y = (origins[n, 0] + nodes[node, 0]) * step_m, (origins[n, 1] + nodes[node, 1]) * step_m
+            apart = np.hypot(x - centers_m[n, 0], y - centers_m[n, 1])
+            if apart < least:
+                least, found[count] = apart, node
+        if least < np.inf:
+            count += 1
+    return found[:count].copy()
 
 
 def is_coarse(positions_m: Floats) -> npt.NDArray[np.bool_]:

@@ -20,7 +20,7 @@ from models.city.types import CutRules, Floats
 from models.errors import IndexBroken
 from models.files import mapped
 from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.nodes import SPACING_M, owner_of, slices
+from models.posterior.surroundings.nodes import SPACING_M, nearest_nodes, owner_of, slices
 from models.posterior.surroundings.things import Things
 
 FILE: Final = "pieces.safetensors"
@@ -77,6 +77,11 @@ class PieceSurroundings:
     def _positions_m(self, nodes: Ints, cell: Ints) -> Floats:
         """[n, 2] where some nodes are, which some cells own [n]."""
         return (_step_of(self.center_m[cell]) + self.offset[nodes]) * SPACING_M
+
+    def middles(self, centers_m: Floats) -> Ints:
+        """See Surroundings."""
+        found: Ints = nearest_nodes(self.cell_starts, _step_of(self.center_m), self.offset, SPACING_M, centers_m)
+        return found
 
     def owner(self, nodes: Ints) -> Ints:
         """See Surroundings."""

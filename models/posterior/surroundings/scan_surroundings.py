@@ -16,7 +16,7 @@ from models.city.points import Ints, ranges
 from models.city.types import Floats, Progress
 from models.errors import IndexBroken
 from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.nodes import grid, owner_of
+from models.posterior.surroundings.nodes import grid, nearest_nodes, owner_of
 from models.posterior.surroundings.scan_ways import ScanWays
 from models.posterior.surroundings.things import Things
 from models.processes import map_forked
@@ -112,6 +112,11 @@ class ScanSurroundings:
     def positions_m(self, nodes: Ints) -> Floats:
         """See Surroundings."""
         return self.nodes_m[nodes].astype(np.float64)
+
+    def middles(self, centers_m: Floats) -> Ints:
+        """See Surroundings."""
+        found: Ints = nearest_nodes(self.cell_starts, np.zeros((len(centers_m), 2)), self.nodes_m, 1.0, centers_m)
+        return found
 
     def owner(self, nodes: Ints) -> Ints:
         """See Surroundings."""

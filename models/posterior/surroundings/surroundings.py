@@ -42,6 +42,10 @@ class Surroundings(Protocol):
         """[n] the cell that owns each of some nodes."""
         ...
 
+    def middles(self, centers_m: Floats) -> Ints:
+        """[C] of each cell that owns nodes the one that is nearest to its centre, of centres [N, 2]."""
+        ...
+
     @property
     def cuts(self) -> bool:
         """Whether it can cut the parts of cells too, so that nothing else needs to have them."""

@@ -320,11 +320,9 @@ def test_who_has_begun_to_reply_is_asked_until_the_place_is_good(localizer):
     assert p50 <= GOOD_M or len(query.replies) == MOST_REPLIES
 
 
-def test_the_middles_of_cells_do_not_depend_on_how_many_are_looked_at_at_once(posterior, monkeypatch) -> None:
+def test_the_middle_of_a_cell_is_the_node_nearest_to_its_centre(posterior) -> None:
     given = posterior.nodes.sights, list(posterior.labels), posterior._palette, NOTHING_NAMED, posterior.gallery.cells
     once = Questions(*given)._middle
-    monkeypatch.setattr("index.asking.questions.CELLS_AT_ONCE", 37)
-    assert (Questions(*given)._middle == once).all()
     surroundings, centers = posterior.surroundings, posterior.gallery.cells.center_m[:, :2]
     owner = surroundings.owner(once)
     apart = np.hypot(*(surroundings.positions_m(once) - centers[owner]).T)

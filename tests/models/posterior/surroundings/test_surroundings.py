@@ -49,6 +49,17 @@ def test_every_node_belongs_to_its_nearest_cell(around) -> None:
     assert len(np.unique(np.round(nodes_m / SPACING_M), axis=0)) == len(nodes_m)
 
 
+@pytest.mark.parametrize("kind", ["scanned", "around"])
+def test_the_middle_of_a_cell_is_its_node_nearest_to_the_centre(kind, request) -> None:
+    cells, _, s = request.getfixturevalue(kind)
+    centers_m = cells.center_m[:, :2] + [0.3, -0.2]
+    apart = np.hypot(*(nodes_of(s) - np.repeat(centers_m, np.diff(s.cell_starts), axis=0)).T)
+    runs = zip(s.cell_starts[:-1].tolist(), s.cell_starts[1:].tolist(), strict=True)
+    naive = [first + int(apart[first:last].argmin()) for first, last in runs if last > first]
+    assert s.middles(centers_m).tolist() == naive
+    assert len(naive) > 100
+
+
 def test_ways_are_those_of_a_naive_search(scanned, scan) -> None:
     cells, bodies, s = scanned
     owner = np.repeat(np.arange(len(cells)), np.diff(s.cell_starts))
