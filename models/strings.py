@@ -19,7 +19,7 @@ class Strings(Sequence[str]):
 
     Args:
         text: [B] uint8, UTF-8 of all of them.
-        ends: [S] int64, where each ends.
+        ends: [S] where each ends.
     """
 
     def __init__(self, text: Column, ends: Column) -> None:
@@ -30,7 +30,7 @@ class Strings(Sequence[str]):
         """Those of some."""
         coded = [string.encode() for string in strings]
         text = np.frombuffer(b"".join(coded), np.uint8)
-        return cls(text, np.cumsum([len(one) for one in coded], dtype=np.int64))
+        return cls(text, compact(np.cumsum([len(one) for one in coded], dtype=np.int64)))
 
     def __len__(self) -> int:
         return len(self._ends)
@@ -65,7 +65,7 @@ class Postings:
 
     Attributes:
         keys: K of them, each with a row.
-        starts: [K + 1] int64, row k has the numbers starts[k] to starts[k + 1].
+        starts: [K + 1] row k has the numbers starts[k] to starts[k + 1].
         numbers: [Z] int32.
     """
 
@@ -81,7 +81,7 @@ class Postings:
         row = np.array([keys[key] for key, _ in pairs], np.int64)
         order = np.argsort(row, kind="stable")
         starts = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=len(keys)))])
-        return cls(keys, starts, np.array([number for _, number in pairs], np.int32)[order])
+        return cls(keys, compact(starts), np.array([number for _, number in pairs], np.int32)[order])
 
     def __len__(self) -> int:
         return len(self.keys)
@@ -132,3 +132,8 @@ class Postings:
 def joined(columns: Iterable[Mapping[str, Column]]) -> dict[str, Column]:
     """Columns of several names together, as files of arrays take them."""
     return {name: np.ascontiguousarray(column) for name, column in chain.from_iterable(map(Mapping.items, columns))}
+
+
+def compact(numbers: Column) -> Column:
+    """Ascending numbers in half the bytes, if they are small enough."""
+    return numbers.astype(np.int32) if not len(numbers) or numbers[-1] <= np.iinfo(np.int32).max else numbers

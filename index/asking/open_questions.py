@@ -56,7 +56,7 @@ class OpenQuestions:
         landmarks, names = self._landmarks, len(self._spelt(asked.kind))
         if asked.kind == "corner":
             return landmarks.crossings.rows(cells, self._street(replies)), names
-        return self._table(asked.kind).rows[cells], names
+        return self._table(asked.kind).rows(cells), names
 
     def likeliest(self, asked: Asked, share: Floats) -> list[str]:
         """At most LISTED names that are worth a button, likeliest first, of [K] the share of each."""

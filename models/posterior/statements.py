@@ -17,7 +17,7 @@ from models.city.cells import BLOCK
 from models.city.hints import ON_TOP_M
 from models.city.points import Ints
 from models.city.types import Floats
-from models.compiled import compiled
+from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
 from models.files import in_order, mapped
 from models.posterior.likelihood import Likelihood, Reading
@@ -130,7 +130,7 @@ class Statements:
         told = (weight.amax(dim=0) > FAINT).nonzero().flatten()  # few
         columns = known.index_select(0, told).numpy()
         held = np.full((len(place), self.cells), FLOOR, np.float32)
-        shares = self.share.view(np.uint16), _HALVES
+        shares = self.share.view(np.uint16), HALVES
         _add(self.starts, self.cell, *shares, columns, weight.index_select(1, told).numpy(), held)
         scores: Floats = (1 - reading.absent.numpy()) @ np.log(held, out=held)
         return scores
@@ -140,7 +140,7 @@ class Statements:
 def _add(starts: Ints, cell: Ints, share: Ints, halves: Floats, columns: Ints, weight: Floats, held: Floats) -> None:
     """Add some columns [F] of what holds in cells, times the weights [H, F] that are not faint, to [H, N].
 
-    Machine code knows no half precision: `share` is its bits, `halves` what each of them means.
+    `share` is bits, `halves` what each of them means.
     """
     for hint in range(len(held)):
         for n in range(len(columns)):
@@ -213,6 +213,5 @@ def _sectors_of_relations() -> Tensor:
     return table
 
 
-_HALVES = np.arange(1 << 16, dtype=np.uint16).view(np.float16).astype(np.float32)
 _SECTOR_OF_WAY = _sectors_of_ways()
 _SECTOR_OF_RELATION = _sectors_of_relations()

@@ -16,7 +16,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.errors import IndexBroken
 from models.files import mapped
-from models.strings import joined
+from models.strings import compact, joined
 
 ADDRESS: Final = "address"  # the kind of what has a house number alone
 WALKED: Final = "walked"  # the kind of the one object that is all lines people walk on
@@ -118,7 +118,7 @@ def build_gazetteer(
     streets, places = corners if corners is not None else (np.zeros((0, 2), np.int64), np.zeros((0, 2), np.float32))
     sizes = [len(some) for some in segments_m]
     segments = np.concatenate([np.zeros((0, 4)), *segments_m]).astype(np.float32)
-    starts = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+    starts = compact(np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64))
     return Gazetteer(WordTable.of(words), segments, starts, np.array(is_area, dtype=np.bool_), streets, places)
 
 

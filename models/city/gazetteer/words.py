@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from models.city.points import Ints
-from models.strings import Column, Strings, joined
+from models.strings import Column, Strings, compact, joined
 
 STREET: Final = "street"  # the kind of a street with all its pieces
 _SEVERAL: Final = re.compile("[;,&]")
@@ -66,7 +66,7 @@ class WordTable(Sequence[Words]):
         number = {kind: n for n, kind in enumerate(known)}
         kinds = np.array([number[kind] for some in words for kind in some.kinds], np.int32)
         written = np.array([[one is not None for one in _address(some)] for some in words], np.bool_).reshape(-1, 3)
-        starts = _ends(len(some.names) for some in words) + np.append(0, written.sum(axis=1).cumsum())
+        starts = _ends(len(some.names) for some in words) + np.append(0, written.sum(axis=1).cumsum()).astype(np.int32)
         strings = Strings.of(one for some in words for one in (*some.names, *_address(some)) if one is not None)
         return cls(known, _ends(len(some.kinds) for some in words), kinds, starts, written, strings)
 
@@ -138,4 +138,4 @@ def _address(words: Words) -> tuple[str | None, str | None, str | None]:
 
 def _ends(sizes: Iterable[int]) -> Ints:
     """[n + 1] where each of n runs begins, and the end."""
-    return np.append(0, np.cumsum(list(sizes), dtype=np.int64))
+    return compact(np.append(0, np.cumsum(list(sizes), dtype=np.int64)))

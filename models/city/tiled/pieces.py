@@ -35,7 +35,7 @@ class PieceTable:
         heights_m: [K, 2] float32 base and top.
         crown_m: [K] float32 radius of a tree's crown, 0 for what has none.
         worth: [K] float32 points that a sensor would see of it.
-        segment_starts: [K + 1], segments: [S, 4] int16 its lines and rings, see `segments_of`.
+        segment_starts: [K + 1] int32, segments: [S, 4] int16 its lines and rings, see `segments_of`.
         link_starts: [K + 1], links: piece k hangs together with links[link_starts[k]:link_starts[k + 1]].
     """
 
@@ -62,10 +62,10 @@ class PieceTable:
         shape = np.array([rows.column.max(), rows.row.max()], dtype=np.int64) - low + 1
         tile = (rows.column - low[0]) * shape[1] + rows.row - low[1]
         order = np.lexsort((rows.instance, tile))
-        starts = np.searchsorted(tile[order], np.arange(shape[0] * shape[1] + 1))
+        starts = np.searchsorted(tile[order], np.arange(shape[0] * shape[1] + 1)).astype(np.int32)
         ends = np.cumsum(rows.sizes)[order]
         segments = rows.segments[ranges(ends - rows.sizes[order], ends)]
-        segment_starts = np.concatenate([[0], np.cumsum(rows.sizes[order])])
+        segment_starts = np.concatenate([[0], np.cumsum(rows.sizes[order])]).astype(np.int32)
         instance, dimension = rows.instance[order], rows.dimension[order]
         stuff = rows.form[order] != FORMS.index("thing")
         links = _links(tile[order], shape, instance, segment_starts, segments, dimension, stuff)
@@ -146,7 +146,7 @@ def _links(
     order = np.lexsort((b, a))
     a, b = a[order], b[order]
     kept = (np.diff(a, prepend=-1) != 0) | (np.diff(b, prepend=-1) != 0)
-    return np.searchsorted(a[kept], np.arange(len(tile) + 1)), b[kept].astype(np.int32)
+    return np.searchsorted(a[kept], np.arange(len(tile) + 1)).astype(np.int32), b[kept].astype(np.int32)
 
 
 def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints) -> tuple[Ints, Ints]:

@@ -57,8 +57,8 @@ class Addresses:
                 shown.append(f"{number} {street}")
         by_street = Postings.of((f"{of}{BETWEEN}{number}", n) for (of, number), n in columns.items())
         by_number = Postings.of((number, n) for (_, number), n in columns.items())
-        objects = np.array([n for n, _, _ in rows], np.int64)
-        return cls(Strings.of(shown), objects, np.array(column, np.int64), streets, by_street, by_number)
+        objects = np.array([n for n, _, _ in rows], np.int32)
+        return cls(Strings.of(shown), objects, np.array(column, np.int32), streets, by_street, by_number)
 
     def __len__(self) -> int:
         return len(self.shown)

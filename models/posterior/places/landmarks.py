@@ -2,19 +2,20 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
-from scipy.sparse import csc_array, csr_array, find
+from scipy.sparse import csr_array, find
 
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.gazetteer.words import STREET
-from models.city.points import Ints
+from models.city.points import Ints, ranges
 from models.city.types import Floats
+from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
 from models.files import mapped
 from models.posterior.places.addresses import Addresses
@@ -23,41 +24,73 @@ from models.posterior.places.spelt import Spelt
 from models.strings import Column, joined
 
 FILE: Final = "landmarks.safetensors"
+FAINT: Final = 0.01  # what is said more seldom is not kept
 
 
+@dataclass(frozen=True, slots=True, eq=False)
 class Table:
-    """Chance [N, K] of names in cells; rows add up to 1, or to less where there may be none to say.
+    """Chance [N, K] of names in cells; rows add up to 1 about, or to less where there may be none to say.
 
-    Args:
-        rows: [N, K].
+    Attributes:
+        names: K.
+        starts: [N + 1] int32, cell n has the entries starts[n] to starts[n + 1].
+        name: [Z] uint16, int32 if there are too many for that.
+        chance: [Z] float16.
     """
 
-    def __init__(self, rows: csr_array) -> None:
-        self.rows = csr_array((rows.data.astype(np.float32, copy=False), rows.indices, rows.indptr), rows.shape)
+    names: int
+    starts: Ints
+    name: Ints
+    chance: npt.NDArray[np.float16]
 
-    @cached_property
-    def _columns(self) -> csc_array:
-        return self.rows.tocsc()  # a reply is about few names in all cells, a question about all names in few
+    @classmethod
+    def of_rows(cls, rows: csr_array) -> "Table":
+        """That of [N, K], without what is FAINT."""
+        cell = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
+        kept = rows.data >= FAINT
+        starts = np.searchsorted(cell[kept], np.arange(rows.shape[0] + 1)).astype(np.int32)
+        few = rows.shape[1] <= 1 << 16
+        name = rows.indices[kept].astype(np.uint16 if few else np.int32)
+        return cls(rows.shape[1], starts, name, rows.data[kept].astype(np.float16))
+
+    def rows(self, cells: Ints) -> csr_array:
+        """[C, K] of some cells."""
+        begin, end = self.starts[cells].astype(np.int64), self.starts[cells + 1].astype(np.int64)
+        entries = ranges(begin, end)
+        content = self.chance[entries].astype(np.float64), self.name[entries].astype(np.int64)
+        return csr_array((*content, np.concatenate([[0], np.cumsum(end - begin)])), shape=(len(cells), self.names))
 
     def of(self, names: Ints) -> Floats:
         """[N] chance of any of some names."""
-        chance: Floats = np.asarray(self._columns[:, names].sum(axis=1, dtype=np.float64)).ravel()
+        is_one = np.zeros(self.names, np.bool_)
+        is_one[names] = True
+        chance: Floats = _sums(self.starts, self.name, self.chance.view(np.uint16), HALVES, is_one)
         return chance
 
     def columns(self, name: str) -> dict[str, Column]:
         """Arrays from which `of_columns` makes it."""
-        rows = self.rows
-        shape = np.array(rows.shape, np.int64)
-        return {
-            f"{name}.chance": rows.data, f"{name}.column": rows.indices.astype(np.int32),
-            f"{name}.starts": rows.indptr.astype(np.int32), f"{name}.shape": shape,
-        }  # fmt: skip
+        arrays = {kind: getattr(self, kind) for kind in _ENTRIES} | {"names": np.array([self.names])}
+        return {f"{name}.{kind}": array for kind, array in arrays.items()}
 
     @classmethod
     def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Table":
         """What `columns` gave of a name."""
-        content = tuple(columns[f"{name}.{kind}"] for kind in ("chance", "column", "starts"))
-        return cls(csr_array(content, tuple(columns[f"{name}.shape"].tolist())))
+        starts, names, chance = (columns[f"{name}.{kind}"] for kind in _ENTRIES)
+        return cls(int(columns[f"{name}.names"][0]), starts, names, chance)
+
+
+_ENTRIES: Final = ("starts", "name", "chance")
+
+
+@compiled
+def _sums(starts: Ints, name: Ints, chance: Ints, halves: Floats, is_one: npt.NDArray[np.bool_]) -> Floats:
+    """[N] of each cell the chances, given as bits, of the names that are meant."""
+    found = np.zeros(len(starts) - 1)
+    for cell in range(len(found)):
+        for entry in range(starts[cell], starts[cell + 1]):
+            if is_one[name[entry]]:
+                found[cell] += halves[chance[entry]]
+    return found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +117,7 @@ class Crossings:
             on: the streets that people may have said to be on; none if they have not said. Where none of these is
                 near they were wrong, and are on any.
         """
-        row, pair, chance = find(self.pairs.rows[cells])
+        row, pair, chance = find(self.pairs.rows(cells))
         is_on = np.isin(self.on[pair], on)
         kept = is_on | (np.bincount(row, is_on, len(cells)) == 0)[row]
         row, pair, chance = row[kept], pair[kept], shares(row[kept], chance[kept])
@@ -94,7 +127,7 @@ class Crossings:
         """[N] the same of any of some names, in all cells."""
         is_on, is_other = np.isin(self.on, on), np.isin(self.other, names)
         sums = [self.pairs.of(np.flatnonzero(some)) for some in (is_on & is_other, is_on, is_other)]
-        everything = np.asarray(self.pairs.rows.sum(axis=1, dtype=np.float64)).ravel()
+        everything = self.pairs.of(np.arange(self.pairs.names))
         part, whole = np.where(sums[1] > 0, sums[0], sums[2]), np.where(sums[1] > 0, sums[1], everything)
         chance: Floats = part / np.maximum(whole, 1e-300)
         return chance
@@ -143,10 +176,10 @@ class Landmarks:
             streets,
             names,
             addresses,
-            Table(on_street),
-            Table(chances.said(known, names)),
-            Table(chances.numbered(addresses)),
-            Crossings(Table(pairs), on, other, max(1, len(streets))),
+            Table.of_rows(on_street),
+            Table.of_rows(chances.said(known, names)),
+            Table.of_rows(chances.numbered(addresses)),
+            Crossings(Table.of_rows(pairs), on, other, max(1, len(streets))),
         )
 
     @property

@@ -45,7 +45,7 @@ class Spelt:
         named = [(name, number) for some, number in zip(names, column, strict=True) for name in some]
         whole = Postings.of((_plain(name, are_streets), number) for name, number in named)
         part = Postings.of(_forms(named) if are_streets else ())
-        return cls(are_streets, Strings.of(shown), np.array(column, np.int64), whole, part)
+        return cls(are_streets, Strings.of(shown), np.array(column, np.int32), whole, part)
 
     def __len__(self) -> int:
         return len(self.shown)

@@ -22,6 +22,7 @@ from models.files import mapped
 from models.posterior.surroundings.around import STEP_M, Around
 from models.posterior.surroundings.nodes import SPACING_M, nearest_nodes, owner_of, slices
 from models.posterior.surroundings.things import Things
+from models.strings import compact
 
 FILE: Final = "pieces.safetensors"
 THINGS: Final = ("instance", "rgb", "parts", "is_flat")
@@ -56,7 +57,7 @@ class PieceSurroundings:
             offsets.append((steps - middle[owner]).astype(np.int8))
             owners.append(owner)
         owner = np.concatenate(owners)
-        starts = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(cells)))])
+        starts = compact(np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(cells)))]))
         offset = np.concatenate(offsets)[np.argsort(owner, kind="stable")]
         return cls(things, starts, offset, bodies.pieces, bodies.rules, center_m)
 

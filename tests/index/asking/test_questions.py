@@ -71,7 +71,7 @@ def test_the_chances_of_all_names_add_up_to_one_where_there_is_a_street(posterio
     told += [posterior.questions.answered([Reply("street", f"North Path {n}")]).cells for n in range(6)]
     assert len(posterior.questions.answered([Reply("street", "East Street 1")]).cells) == len(posterior.gallery.cells)
     chance = np.exp(told).sum(axis=0)
-    assert chance.max() == pytest.approx(1.0)
+    assert chance.max() == pytest.approx(1.0, abs=1e-3)  # to half precision
     assert np.median(chance) > 0.9
 
 

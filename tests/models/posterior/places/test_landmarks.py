@@ -16,13 +16,18 @@ def landmarks():
     return Landmarks.of(made_gazetteer(), CENTERS, ("shop", "amenity"))
 
 
+def dense(table):
+    """[N, K] all of a table."""
+    return table.rows(np.arange(len(table.starts) - 1)).toarray()
+
+
 def chance_of(table, names, name):
     """[N] chance of a name in each cell."""
     return table.of(names.find(name))
 
 
 def test_who_is_in_a_street_says_so(landmarks):
-    chance = landmarks.on_street.rows.toarray()
+    chance = dense(landmarks.on_street)
     assert [landmarks.streets.shown[n] for n in chance[[0, 3]].argmax(axis=1)] == ["West 25th Street"] * 2
     assert chance[0].max() > 0.99
     east, avenue = (chance_of(landmarks.on_street, landmarks.streets, name) for name in ("w 25TH st", "10th Avenue"))
@@ -30,7 +35,7 @@ def test_who_is_in_a_street_says_so(landmarks):
     assert east[1] > avenue[1] > 0.2
     assert chance[5].sum() == 0.0  # farther than ON_STREET_M from any
     assert ON_STREET_M < 90
-    assert (chance.sum(axis=1) < 1 + 1e-6).all()
+    assert (chance.sum(axis=1) < 1 + 1e-3).all()
 
 
 def test_a_sign_is_said_from_near_rather_than_from_far(landmarks):
@@ -38,7 +43,7 @@ def test_a_sign_is_said_from_near_rather_than_from_far(landmarks):
     assert chance[3] > 0.9  # at its door
     assert 0.2 < chance[0] < 0.6  # two restaurants are farther, it is 24 m away
     assert chance[4] == 0.0
-    assert (landmarks.said.rows.sum(axis=1) < 1 + 1e-9).all()
+    assert (dense(landmarks.said).sum(axis=1) < 1 + 1e-3).all()
     assert not len(landmarks.names.find("London Terrace Gardens"))  # a building has no sign
 
 
@@ -58,11 +63,11 @@ def test_the_number_of_the_nearest_house_is_said():
     chance = chance_of(town.numbered, town.addresses, "450 W 25th St")
     assert chance[0] > 0.7  # 7 m away, that across the street 23 m
     assert chance[1] == pytest.approx(chance_of(town.numbered, town.addresses, "449 West 25th Street")[1])
-    assert 0.8 < town.numbered.rows.sum(axis=1)[1] < 0.9
+    assert 0.8 < dense(town.numbered).sum(axis=1)[1] < 0.9
     assert chance_of(town.numbered, town.addresses, "402 W 25th")[2] == pytest.approx(
         chance_of(town.numbered, town.addresses, "410 W 25th")[2]
     )
-    assert town.numbered.rows.sum(axis=1)[3] == 0.0
+    assert dense(town.numbered).sum(axis=1)[3] == 0.0
 
 
 def test_the_street_that_crosses_is_the_nearest(landmarks):
@@ -87,21 +92,19 @@ def test_rows_and_columns_of_crossings_agree(landmarks, said):
 
 def test_cells_do_not_depend_on_which_others_there_are(landmarks):
     some = Landmarks.of(made_gazetteer(), CENTERS[[3, 1]], ("shop", "amenity"))
-    assert some.said.rows.toarray() == pytest.approx(landmarks.said.rows.toarray()[[3, 1]])
-    assert some.on_street.rows.toarray() == pytest.approx(landmarks.on_street.rows.toarray()[[3, 1]])
-    crossings = [one.crossings.pairs.rows.toarray() for one in (some, landmarks)]
+    assert dense(some.said) == pytest.approx(dense(landmarks.said)[[3, 1]])
+    assert dense(some.on_street) == pytest.approx(dense(landmarks.on_street)[[3, 1]])
+    crossings = [dense(one.crossings.pairs) for one in (some, landmarks)]
     assert crossings[0] == pytest.approx(crossings[1][[3, 1]])
 
 
 def test_what_is_saved_is_loaded(landmarks, tmp_path):
     landmarks.save(tmp_path)
     loaded = Landmarks.load(tmp_path)
-    for name in ("on_street", "said", "numbered"):
-        was, found = getattr(landmarks, name).rows, getattr(loaded, name).rows
-        assert was.shape == found.shape
-        assert (was != found).nnz == 0
-        assert found.nnz
-    assert (landmarks.crossings.pairs.rows != loaded.crossings.pairs.rows).nnz == 0
+    tables = [(getattr(landmarks, name), getattr(loaded, name)) for name in ("on_street", "said", "numbered")]
+    for was, found in [*tables, (landmarks.crossings.pairs, loaded.crossings.pairs)]:
+        assert (dense(was) == dense(found)).all()
+        assert dense(found).any()
     for name in ("on", "other"):
         assert (getattr(landmarks.crossings, name) == getattr(loaded.crossings, name)).all()
     assert loaded.crossings.streets == landmarks.crossings.streets
