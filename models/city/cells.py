@@ -21,6 +21,7 @@ from models.city.types import CutRules, Floats
 from models.processes import map_forked
 
 CHUNK = 128  # cubes a task
+AT_ONCE: Final = 100_000  # points of the grid, for which a tree is made of the locations around them
 BLOCK: Final = 1024  # cells that are encoded or tabulated together: their bits depend on no cell of another block
 
 
@@ -119,9 +120,16 @@ def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
 
 def centers_near(grid_m: Floats, locations_m: Floats, reach_m: float) -> Floats:
     """[N, 3] those of the [G, 2] points of a grid that are within reach of a location, at the nearest one's height."""
-    distance, nearest = cKDTree(locations_m[:, :2]).query(grid_m, distance_upper_bound=reach_m)
-    near = np.isfinite(distance)
-    return np.column_stack([grid_m[near], locations_m[nearest[near], 2]])
+    found = [np.zeros((0, 3))]
+    for n in range(0, len(grid_m), AT_ONCE):
+        some = grid_m[n : n + AT_ONCE]
+        low, high = some.min(axis=0) - reach_m, some.max(axis=0) + reach_m
+        around = locations_m[((locations_m[:, :2] >= low) & (locations_m[:, :2] <= high)).all(axis=1)]
+        if len(around):
+            distance, nearest = cKDTree(around[:, :2]).query(some, distance_upper_bound=reach_m)
+            near = np.isfinite(distance)
+            found.append(np.column_stack([some[near], around[nearest[near], 2]]))
+    return np.concatenate(found)
 
 
 def cut_cubes(

@@ -108,8 +108,14 @@ def ranges(begin: Ints, end: Ints) -> Ints:
 
 def thin(points: Floats, spacing_m: float) -> Floats:
     """One point of every square block of the plane, so that they lie about `spacing_m` apart."""
+    return points[np.sort(np.unique(block_keys(points, spacing_m), return_index=True)[1])]
+
+
+def block_keys(points: Floats, spacing_m: float) -> Ints:
+    """[P] one integer a square block of the plane, ascending from west to east, in a column from south to north."""
     block = np.floor(points[:, :2] / spacing_m).astype(np.int64)
-    return points[np.sort(np.unique(block, axis=0, return_index=True)[1])]
+    keys: Ints = _key(block[:, 0], block[:, 1])
+    return keys
 
 
 def first_in_voxel(xyz: Floats, voxel_m: float) -> Ints:

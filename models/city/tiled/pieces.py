@@ -9,14 +9,15 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from models.city.points import Ints, ranges, thin
+from models.city.points import Ints, block_keys, ranges, thin
 from models.city.tiled.rows import Rows, stuff_rows, thing_rows
 from models.city.tiled.segments import STEP_M, Steps, geometry_of
 from models.city.tiled.solids import FORMS, Solid
-from models.city.tiled.tiling import TILE_M, TOUCHING_M, Geometries
+from models.city.tiled.tiling import FAR_M, TILE_M, TOUCHING_M, Geometries
 from models.city.types import Floats
 
 AT_ONCE: Final = 20_000  # pieces whose geometry is put together for a moment
+COLUMNS: Final = 64  # of tiles whose pieces are linked together
 BORDER: Final = round(TILE_M / 2 / STEP_M)  # of a tile, in steps from its middle
 Mask = npt.NDArray[np.bool_]
 
@@ -60,18 +61,15 @@ class PieceTable:
         rows = Rows.joined([*stuff_rows(solids, "area"), *stuff_rows(solids, "line"), thing_rows(solids)])
         low = np.array([rows.column.min(), rows.row.min()], dtype=np.int64)
         shape = np.array([rows.column.max(), rows.row.max()], dtype=np.int64) - low + 1
+        rows = rows.take(np.lexsort((rows.instance, rows.row, rows.column)))
         tile = (rows.column - low[0]) * shape[1] + rows.row - low[1]
-        order = np.lexsort((rows.instance, tile))
-        starts = np.searchsorted(tile[order], np.arange(shape[0] * shape[1] + 1)).astype(np.int32)
-        ends = np.cumsum(rows.sizes)[order]
-        segments = rows.segments[ranges(ends - rows.sizes[order], ends)]
-        segment_starts = np.concatenate([[0], np.cumsum(rows.sizes[order])]).astype(np.int32)
-        instance, dimension = rows.instance[order], rows.dimension[order]
-        stuff = rows.form[order] != FORMS.index("thing")
-        links = _links(tile[order], shape, instance, segment_starts, segments, dimension, stuff)
+        starts = np.searchsorted(tile, np.arange(shape[0] * shape[1] + 1)).astype(np.int32)
+        segment_starts = np.concatenate([[0], np.cumsum(rows.sizes)]).astype(np.int32)
+        stuff = rows.form != FORMS.index("thing")
+        links = _links(tile, shape, rows.instance, segment_starts, rows.segments, rows.dimension, stuff)
         return cls(
-            low, shape, starts, instance, rows.form[order], dimension, rows.bounds_m[order], rows.heights_m[order],
-            rows.crown_m[order], rows.worth[order], segment_starts, segments, *links,
+            low, shape, starts, rows.instance, rows.form, rows.dimension, rows.bounds_m, rows.heights_m,
+            rows.crown_m, rows.worth, segment_starts, rows.segments, *links,
         )  # fmt: skip
 
     @classmethod
@@ -114,10 +112,23 @@ class PieceTable:
         return np.stack([number // self.shape[1], number % self.shape[1]], axis=1) + self.low
 
     def lattice(self, pieces: Ints, spacing_m: float) -> Floats:
-        """[n, 2] places in some areas, one a square block of `spacing_m` of which a corner or a middle is inside."""
-        some = [pieces[n : n + AT_ONCE] for n in range(0, len(pieces), AT_ONCE)]
-        inside = [self._inside(each, spacing_m) for each in some]
-        return thin(np.concatenate(inside) if inside else np.zeros((0, 2)), spacing_m)
+        """[n, 2] float32 places in some areas, one a square block of which a corner or a middle is inside.
+
+        Args:
+            pieces: rows of the areas, ascending.
+            spacing_m: edge of the blocks.
+        """
+        kept, seen = [np.zeros((0, 2), np.float32)], np.zeros(0, np.int64)
+        for n in range(0, len(pieces), AT_ONCE):
+            some = pieces[n : n + AT_ONCE]
+            xy = thin(self._inside(some, spacing_m), spacing_m)
+            block = block_keys(xy, spacing_m)
+            new = ~np.isin(block, seen)
+            kept.append(xy[new].astype(np.float32))
+            column_m = (self.tile[some[-1], 0] - 0.5) * TILE_M - spacing_m  # what is west of it does not come again
+            seen = np.concatenate([seen, block[new]])
+            seen = seen[seen >= block_keys(np.array([[column_m, -FAR_M]]), spacing_m)[0]]
+        return np.concatenate(kept)
 
     def _inside(self, pieces: Ints, spacing_m: float) -> Floats:
         """[n, 2] corners and middles of blocks that are inside some areas."""
@@ -136,21 +147,28 @@ class PieceTable:
 def _links(
     tile: Ints, shape: Ints, instance: Ints, starts: Ints, segments: Steps, dimension: Ints, stuff: Mask
 ) -> tuple[Ints, Ints]:
-    """CSR of pairs of pieces of one instance that touch across the border of two tiles."""
-    of = np.repeat(np.arange(len(tile)), np.diff(starts))
-    rows = np.flatnonzero((np.abs(segments) == BORDER).any(axis=1) & stuff[of])
+    """CSR of pairs of pieces of one instance that touch across the border of two tiles; `tile` ascending."""
     at = np.stack([tile // shape[1], tile % shape[1]], axis=1)
-    found = [_across(axis, of[rows], segments[rows], at, instance, dimension) for axis in (0, 1)]
-    one, other = (np.concatenate([some[n] for some in found]) for n in range(2))
-    a, b = np.concatenate([one, other]), np.concatenate([other, one])
-    order = np.lexsort((b, a))
-    a, b = a[order], b[order]
-    kept = (np.diff(a, prepend=-1) != 0) | (np.diff(b, prepend=-1) != 0)
-    return np.searchsorted(a[kept], np.arange(len(tile) + 1)).astype(np.int32), b[kept].astype(np.int32)
+    keys: list[Ints] = [np.zeros(0, np.int64)]
+    for first in range(0, int(shape[0]) + 1, COLUMNS):
+        # Their western neighbours too, for the border between; the one in their east comes with the next ones.
+        begin, own, end = np.searchsorted(at[:, 0], [first - 1, first, first + COLUMNS])
+        of = np.repeat(np.arange(begin, end), np.diff(starts[begin : end + 1]))
+        ends = segments[starts[begin] : starts[end]]
+        on_border = (np.abs(ends) == BORDER).any(axis=1) & stuff[of]
+        of, ends = of[on_border], ends[on_border]
+        pairs = _across(0, of, ends, at, instance, dimension, range(first, first + COLUMNS))
+        of, ends = of[of >= own], ends[of >= own]
+        pairs = np.concatenate([pairs, _across(1, of, ends, at, instance, dimension, range(int(shape[1]) + 1))])
+        keys.append(np.unique(np.concatenate([pairs, pairs[:, ::-1]]) @ [len(tile), 1]))
+    key = np.concatenate(keys)
+    key.sort()
+    starts = np.searchsorted(key, np.arange(len(tile) + 1) * len(tile))
+    return starts.astype(np.int32), (key % len(tile)).astype(np.int32)
 
 
-def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints) -> tuple[Ints, Ints]:
-    """Pairs of pieces that touch across borders where x (axis 0) or y (axis 1) is constant.
+def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints, wanted: range) -> Ints:
+    """[L, 2] pairs of pieces that touch across borders where x (axis 0) or y (axis 1) is constant.
 
     Args:
         axis: which.
@@ -159,16 +177,18 @@ def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dime
         at: [K, 2] column and row of each piece's tile, from the first.
         instance: [K].
         dimension: [K].
+        wanted: borders; one is west of the column or south of the row of its number.
     """
     is_line = dimension[of] == 1
     along_m = segments[:, [1 - axis, 3 - axis]] * STEP_M + at[of, 1 - axis, None] * TILE_M
     borders, intervals, pieces = [], [], []
     for side in (-1, 1):
         on = segments[:, [axis, 2 + axis]] == side * BORDER
+        number = at[of, axis] + (side + 1) // 2  # of the border, from low to high
+        on &= ((number >= wanted.start) & (number < wanted.stop))[:, None]
         for rows, ends in ((on.all(axis=1), [0, 1]), (on[:, 0] & is_line, [0, 0]), (on[:, 1] & is_line, [1, 1])):
             piece = of[rows]
-            number = at[piece, axis] + (side + 1) // 2  # of the border, from low to high
-            borders.append(np.stack([number, at[piece, 1 - axis], instance[piece]], axis=1))
+            borders.append(np.stack([number[rows], at[piece, 1 - axis], instance[piece]], axis=1))
             intervals.append(np.sort(along_m[rows][:, ends], axis=1))
             pieces.append(piece)
     border, interval, piece = (np.concatenate(some) for some in (borders, intervals, pieces))
@@ -178,9 +198,9 @@ def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dime
     # In each group, sweep along the border: what begins before all earlier ones have ended touches them.
     reach = _running_end(group, interval[:, 1])
     touches = np.flatnonzero((group[1:] == group[:-1]) & (interval[1:, 0] <= reach[:-1] + TOUCHING_M))
-    one, other = piece[touches], piece[touches + 1]
-    different = one != other
-    return one[different], other[different]
+    pairs: Ints = np.stack([piece[touches], piece[touches + 1]], axis=1)
+    different: Ints = pairs[pairs[:, 0] != pairs[:, 1]]
+    return different
 
 
 def _running_end(group: Ints, end: Floats) -> Floats:

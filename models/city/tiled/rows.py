@@ -1,14 +1,14 @@
 """The pieces of a map's solids as they are cut: a band of tiles at a time, in several processes."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import Final
 
 import numpy as np
 import shapely
 
-from models.city.points import Ints
+from models.city.points import Ints, ranges
 from models.city.tiled.segments import Steps, segments_of, snapped
 from models.city.tiled.solids import FORMS, Form, Solid
 from models.city.tiled.tiling import (
@@ -54,6 +54,12 @@ class Rows:
     def joined(cls, some: Sequence["Rows"]) -> "Rows":
         """All of some, one after the other."""
         return cls(*(np.concatenate([getattr(rows, f.name) for rows in some]) for f in fields(cls)))
+
+    def take(self, order: Ints) -> "Rows":
+        """Some of them, in the given order."""
+        ends = np.cumsum(self.sizes)[order]
+        columns = {f.name: getattr(self, f.name)[order] for f in fields(self) if f.name != "segments"}
+        return replace(self, **columns, segments=self.segments[ranges(ends - self.sizes[order], ends)])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
