@@ -12,18 +12,17 @@ from models.city.gallery import Gallery
 from models.city.templates import render_hint
 from models.city.types import DIRECTIONS, Hint
 from models.errors import IndexBroken
+from models.posterior.surroundings.things import Things
 from models.retrieval.retriever import Retriever
 
 FILE = "hints.safetensors"
 
 
-def template_hints(gallery: Gallery, palette: Palette) -> tuple[str, ...]:
-    """Every hint about the classes of a gallery, in each colour that they have and in none, by the template."""
-    parts = gallery.cells.parts
-    labels, of_instance = np.unique(np.array(gallery.labels), return_inverse=True)
-    number = of_instance[parts.instance]
-    words = [*palette.words, None]
-    seen = np.unique(number * len(words) + palette.word_index(parts.rgb) % len(words))  # -1 is the last of them
+def template_hints(gallery: Gallery, things: Things, palette: Palette) -> tuple[str, ...]:
+    """Every hint about the classes of what cells show, in each colour that they have and in none, by the template."""
+    labels, number = things.labels(gallery)
+    shown, words = things.parts > 0, [*palette.words, None]
+    seen = np.unique(number[shown] * len(words) + palette.word_index(things.rgb[shown]) % len(words))  # -1 is the last
     said = {(str(labels[row // len(words)]), words[row % len(words)]) for row in seen.tolist()}
     said |= {(label, None) for label, _ in said}
     pairs = sorted(said, key=lambda pair: (pair[0], pair[1] or ""))

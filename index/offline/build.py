@@ -5,13 +5,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from index.artifact import check_store, open_version
 from index.manifest import StoreName, check_model, fingerprint
 from index.offline.part import Part
 from index.offline.parts import Origin, Parts
-from index.offline.publish import Publisher, names_of, writing
+from index.offline.publish import Publisher, save_names, writing
 from index.offline.shard import Shard
 from models.city.cells import BLOCK
 from models.city.osm.extract import Region, extracted
@@ -98,12 +99,16 @@ class IndexJob:
         ready = self._ready(report)
         if current := self._current(ready):
             return current
-        with self._map(report) as path, forked(partial(names_of, path)) as names:
+        with (
+            TemporaryDirectory() as named,
+            self._map(report) as path,
+            forked(partial(save_names, path, Path(named))) as names,
+        ):
             source = open_source(path, self.split, report)
             surroundings = surroundings_of(source.bodies(), source.data.cells, report)
             rows = range(len(source.data.cells))
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source.data, surroundings, rows, report)
+            part = Part.of(encoder, likelihood, source, surroundings, rows, report)
             return self._publisher(ready).publish(source, [part], surroundings, names, report)
 
     def make_part(self, shard: Shard, report: Progress = silent) -> Path:
@@ -120,14 +125,14 @@ class IndexJob:
             parts.claim()
         with self._map(report) as path:
             source = open_source(path, self.split, report)
-            cells = source.data.cells
-            rows = shard.rows(len(cells), BLOCK)
-            surroundings = surroundings_of(source.bodies(), cells, report, rows)
+            count = len(source.data.cells)
+            rows = shard.rows(count, BLOCK)
+            surroundings = surroundings_of(source.bodies(), source.data.cells, report, rows)
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source.data, surroundings, rows, report)
+            part = Part.of(encoder, likelihood, source, surroundings, rows, report)
         report("write part", 0, 0)
         with writing(self.out_dir):
-            parts.write(shard, part, rows, len(cells))
+            parts.write(shard, part, rows, count)
         return parts.path(shard)
 
     def merge(self, count: int, report: Progress = silent) -> Path:
@@ -142,14 +147,15 @@ class IndexJob:
         if version is None:
             report("check parts", 0, 0)
             parts.check(count)
-            with self._map(report) as path:
+            with TemporaryDirectory() as named, self._map(report) as path:
                 source = open_source(path, self.split, report)
                 made = parts.read(count, self._encoder(ready).levels, source.data.cells)
                 scanned = [part.scanned for part in made if part.scanned is not None]
                 surroundings = (
                     ScanSurroundings.joined(scanned) if scanned else surroundings_of(source.bodies(), source.data.cells)
                 )
-                version = self._publisher(ready).publish(source, made, surroundings, partial(names_of, path), report)
+                names = partial(save_names, path, Path(named))
+                version = self._publisher(ready).publish(source, made, surroundings, names, report)
         parts.remove()
         return version
 

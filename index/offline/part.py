@@ -3,21 +3,23 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
+import numpy.typing as npt
 import torch
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
-from scipy.sparse import csr_array
 
 from index.stores.store import Floats
-from models.city.cells import CellTable
+from models.city.cells import BLOCK, CellTable
 from models.city.gallery import MapData
+from models.city.source import Source
 from models.city.types import Progress
 from models.errors import IndexBroken
 from models.posterior.likelihood import Likelihood
-from models.posterior.statements import statement_rows
+from models.posterior.statements import StatementRows, statement_rows
+from models.posterior.surroundings.piece_surroundings import PieceSurroundings
 from models.posterior.surroundings.scan_surroundings import FILE as SURROUNDINGS_FILE
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 from models.posterior.surroundings.surroundings import Surroundings
@@ -28,6 +30,7 @@ from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
 
 FILE: Final = "part.safetensors"
+AT_ONCE: Final = 64 * BLOCK  # cells
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,13 +40,13 @@ class Part:
     Attributes:
         vectors: [C, D] float32, the global level.
         levels: the others, if there are any.
-        rows: [C, S] of `statement_rows`.
+        rows: of `statement_rows`.
         scanned: what lies around them, of a scan; None of a map of pieces, which finds that when it is asked for.
     """
 
     vectors: Floats
     levels: LevelTable
-    rows: csr_array
+    rows: StatementRows
     scanned: ScanSurroundings | None
 
     @classmethod
@@ -51,42 +54,42 @@ class Part:
         cls,
         retriever: Retriever,
         likelihood: Likelihood,
-        data: MapData,
+        source: Source,
         surroundings: Surroundings,
         rows: range,
         report: Progress,
     ) -> "Part":
-        """Make the part of some cells.
+        """Make the part of some cells; what surroundings can cut again is then let go of.
 
         Args:
             retriever: makes the vectors, of all its levels.
             likelihood: makes the statements.
-            data: the whole map.
+            source: the whole map.
             surroundings: of these cells.
             rows: which they are.
             report: called as the work goes on.
         """
-        report("encode cells", 0, 0)
-        features = CellFeatures.of(data.cells, np.array(data.gallery.labels)).between(rows.start, rows.stop)
-        vectors, levels = encode_gallery(retriever, retriever.seen(features), map_forked)
+        vectors, levels = _encoded(retriever, source.data, rows, report)
+        if isinstance(surroundings, PieceSurroundings):
+            source.data = source.data.cut_anew(surroundings.cut)
         report("tabulate statements", 0, 0)
-        things = surroundings.things
+        data, things = source.data, surroundings.things
         label, rgb = torch.from_numpy(things.labels(data.gallery)[1]), torch.from_numpy(things.rgb.astype(np.float32))
         with torch.inference_mode():
             words = likelihood.words(rgb, data.palette)
         told = statement_rows(likelihood, surroundings, label, rgb, words)
         scanned = surroundings if isinstance(surroundings, ScanSurroundings) else None
-        return cls(vectors, NO_LEVELS if levels.is_empty else levels, told, scanned)
+        return cls(vectors, levels, told, scanned)
 
     def save(self, directory: Path) -> None:
         """Write some files, which `load` reads."""
-        columns = {
+        columns: dict[str, npt.NDArray[Any]] = {
             "vectors": self.vectors,
-            "holds": self.rows.data.astype(np.float16),  # as it was rounded
-            "statement": self.rows.indices.astype(np.int32),
-            "starts": self.rows.indptr.astype(np.int64),
+            "holds": self.rows.holds,
+            "statement": self.rows.statement,
+            "starts": self.rows.starts,
         }
-        save_file(columns, directory / FILE, {"statements": str(self.rows.shape[1])})
+        save_file(columns, directory / FILE, {"statements": str(self.rows.possible)})
         if not self.levels.is_empty:
             self.levels.save(directory)
         if self.scanned is not None:
@@ -107,12 +110,33 @@ class Part:
         try:
             with safe_open(directory / FILE, framework="numpy") as file:
                 columns = {name: file.get_tensor(name) for name in ("vectors", "holds", "statement", "starts")}
-                shape = len(columns["vectors"]), int(file.metadata()["statements"])
-            content = columns["holds"].astype(np.float32), columns["statement"], columns["starts"]
-            rows = csr_array(content, shape)
+                possible = int(file.metadata()["statements"])
+            rows = StatementRows(columns["starts"], columns["statement"], columns["holds"], possible)
+            whole = len(columns["vectors"]), columns["starts"][-1], possible
+            if whole != (len(rows.starts) - 1, len(rows.holds), max(possible, rows.statement.max(initial=-1) + 1)):
+                raise ValueError("its columns are of different lengths")
         except (OSError, SafetensorError, KeyError, TypeError, ValueError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; make this shard again") from error
         table = NO_LEVELS if tuple(levels) == ("global",) else LevelTable.load(directory, levels)
         is_scan = (directory / SURROUNDINGS_FILE).exists()
         scanned = ScanSurroundings.load(directory, cells) if is_scan else None
         return cls(columns["vectors"], table, rows, scanned)
+
+
+def _encoded(retriever: Retriever, data: MapData, rows: range, report: Progress) -> tuple[Floats, LevelTable]:
+    """Vectors [C, D] and the other levels of some cells, whose features are made some at a time."""
+    vectors, levels, labels = (
+        np.empty((len(rows), retriever.config.width), np.float32),
+        [],
+        np.array(data.gallery.labels),
+    )
+    report("encode cells", 0, len(rows))
+    for first in range(rows.start, rows.stop, AT_ONCE):
+        some = range(first, min(first + AT_ONCE, rows.stop))
+        features = CellFeatures.of(data.cells, labels, some)
+        at = slice(some.start - rows.start, some.stop - rows.start)
+        vectors[at], table = encode_gallery(retriever, retriever.seen(features), map_forked)
+        levels.append(table)
+        report("encode cells", at.stop, len(rows))
+    table = LevelTable.joined(levels) if levels else NO_LEVELS
+    return vectors, NO_LEVELS if table.is_empty else table

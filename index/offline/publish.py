@@ -1,10 +1,10 @@
 """The last step of the offline job: parts, and what is cheap beside them, become a version that the alias names."""
 
+import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from safetensors import SafetensorError
@@ -37,22 +37,6 @@ from models.retrieval.level_table import LevelTable
 from models.retrieval.retriever import Retriever
 
 
-class Names(NamedTuple):
-    """What a map names.
-
-    Attributes:
-        gazetteer: of the map.
-        table: what its objects are found by.
-        phrases: P names and nouns.
-        meant: [P, W] unit vectors, what each means.
-    """
-
-    gazetteer: Gazetteer
-    table: NameTable
-    phrases: list[str]
-    meant: Floats
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Publisher:
     """Makes versions.
@@ -76,7 +60,7 @@ class Publisher:
         source: Source,
         parts: Sequence[Part],
         surroundings: Surroundings,
-        names: Callable[[], Names],
+        names: Callable[[], Path],
         report: Progress,
     ) -> Path:
         """Write a version and let the alias "default" name it.
@@ -85,7 +69,7 @@ class Publisher:
             source: the map.
             parts: of all its cells, in order.
             surroundings: of all its cells.
-            names: waits for `names_of` the map.
+            names: waits for `save_names` of the map.
             report: called as the work goes on.
 
         Returns:
@@ -97,9 +81,10 @@ class Publisher:
         """
         data, origin = source.data, new_version(self.map_sha256, self.retriever.fingerprint)
         report("read names", 0, 0)
-        gazetteer, table, phrases, meant = names()
+        with writing(self.out_dir):
+            named = names()
         report("write index", 0, 0)
-        vectors = np.concatenate([part.vectors for part in parts])
+        vectors = parts[0].vectors if len(parts) == 1 else np.concatenate([part.vectors for part in parts])
         with (
             writing(self.out_dir),
             _in_milvus(origin["version"], vectors, data) if self.store == "milvus" else nullcontext() as collection,
@@ -107,13 +92,13 @@ class Publisher:
         ):
             if collection is None:
                 FaissStore.of(vectors).save(directory / VECTORS_FILE)
-            self._save_parts(directory, parts, data)
+            self._save_parts(directory, parts, data, surroundings)
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)
-            gazetteer.save(directory)
-            table.save(directory)
+            for file in named.iterdir():
+                shutil.move(file, directory)
+            gazetteer = Gazetteer.load(directory)
             landmarks_of(gazetteer, data.cells).save(directory)
-            Meanings.of(phrases, meant, load_text_encoder().embed).save(directory)
             save_scenery(directory, source.scenery(gazetteer))
             manifest = Manifest(
                 **origin,
@@ -129,22 +114,25 @@ class Publisher:
             set_alias(self.out_dir, "default", manifest.version)
         return self.out_dir / manifest.version
 
-    def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData) -> None:
+    def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData, surroundings: Surroundings) -> None:
         """Write what the parts are joined to, but for the vectors, and what is said of them."""
         levels = LevelTable.joined([part.levels for part in parts])
         if not levels.is_empty:
             levels.save(directory)
-        save_hint_features(directory, self.retriever, template_hints(data.gallery, data.palette))
+        save_hint_features(directory, self.retriever, template_hints(data.gallery, surroundings.things, data.palette))
         statements = Statements.joined([part.rows for part in parts], len(colour_words(data.palette)))
         statements.save(directory, self.posterior_fingerprint)
 
 
-def names_of(path: Path) -> Names:
-    """What a map names."""
+def save_names(path: Path, directory: Path) -> Path:
+    """Write what a map names, what that is found by, and what it means, into a directory, which is returned."""
     gazetteer, vocabulary, encoder = gazetteer_of(path), load_vocabulary(), load_text_encoder()
+    gazetteer.save(directory)
     table = NameTable.of(gazetteer, vocabulary, encoder.is_everyday)
+    table.save(directory)
     phrases = Lookup(gazetteer, vocabulary, encoder.is_everyday, table).phrases()
-    return Names(gazetteer, table, *meanings_of(phrases, encoder.embed))
+    Meanings.of(*meanings_of(phrases, encoder.embed), encoder.embed).save(directory)
+    return directory
 
 
 @contextmanager

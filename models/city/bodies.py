@@ -22,8 +22,8 @@ Cut = Callable[[int, int], None]  # cubes cut, cubes to cut
 class Bodies(Protocol):
     """Something that cubes can be cut out of."""
 
-    def cut(self, centers_m: Floats, progress: Cut | None = None) -> Parts:
-        """What lies in the cubes around centres [N, 3]."""
+    def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
+        """What lies in the cubes around centres [N, 3]; those of fewer parts than `least` may be left empty."""
         ...
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
@@ -43,8 +43,9 @@ class PointBodies:
     points: PointTable
     rules: CutRules
 
-    def cut(self, centers_m: Floats, progress: Cut | None = None) -> Parts:
+    def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
         """See Bodies."""
+        del least
         return cut_cubes(self.points, centers_m, self.rules, progress)
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
@@ -68,9 +69,9 @@ class PieceBodies:
     shapes: tuple[str, ...]
     rules: CutRules
 
-    def cut(self, centers_m: Floats, progress: Cut | None = None) -> Parts:
+    def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
         """See Bodies."""
-        return cut_pieces(self.pieces, self.rgb, centers_m, self.rules, progress)
+        return cut_pieces(self.pieces, self.rgb, centers_m, self.rules, progress, least)
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
         """See Bodies."""
@@ -123,7 +124,7 @@ def cut_cells(city_map: CityMap, bodies: Bodies, progress: Cut | None = None) ->
     """
     rules = city_map.rules
     centers = grid_centers(city_map.locations_m, rules)
-    parts = bodies.cut(centers, progress)
+    parts = bodies.cut(centers, progress, rules.min_instances)
     kept = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)
     if not len(kept):
         raise MapError(

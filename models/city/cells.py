@@ -5,7 +5,7 @@ One function cuts both the cells of the grid and the cell around a pose from whi
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from typing import Any, Final
 
@@ -59,6 +59,10 @@ class Parts:
     def take(self, cubes: Ints) -> "Parts":
         """The rows of some cubes, in the given order."""
         begin, end = self.starts[cubes], self.starts[cubes + 1]
+        if (
+            len(cubes) and (begin[1:] == end[:-1]).all() and end[-1] - begin[0] == len(self.instance)
+        ):  # others are empty
+            return replace(self, starts=np.append(begin, end[-1]))  # the others are empty
         rows = ranges(begin, end)
         columns = {f.name: getattr(self, f.name)[rows] for f in fields(self) if f.name != "starts"}
         return Parts(starts=np.concatenate([[0], np.cumsum(end - begin)]), **columns)

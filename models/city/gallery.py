@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -124,6 +124,12 @@ class MapData:
     def cells(self) -> CellTable:
         """The cells."""
         return self.gallery.cells
+
+    def cut_anew(self, cut: Callable[[Floats], Parts]) -> "MapData":
+        """The same without the parts of cells, which are cut (round centres [N, 3]) when they are asked for."""
+        centers_m = self.cells.center_m
+        cells = replace(self.cells, content=lambda rows: cut(centers_m[rows]))
+        return replace(self, gallery=replace(self.gallery, cells=cells))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 import torch
 from safetensors import SafetensorError
 from safetensors.numpy import save
-from scipy.sparse import coo_array, csr_array, vstack
+from scipy.sparse import coo_array
 from torch import Tensor
 
 from models.city.cells import BLOCK
@@ -30,6 +30,23 @@ FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"
 FLOOR: Final = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
 FAINT: Final = 1e-4  # what no hint says
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StatementRows:
+    """How much of each of C cells' nodes every statement holds at, cell by cell.
+
+    Attributes:
+        starts: [C + 1] cell n has the entries starts[n] to starts[n + 1].
+        statement: [Z] int32 number of each, see Statements.
+        holds: [Z] float16.
+        possible: how many statements there may be.
+    """
+
+    starts: Ints
+    statement: Ints
+    holds: npt.NDArray[np.float16]
+    possible: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,18 +83,23 @@ class Statements:
         return cls.joined([statement_rows(likelihood, surroundings, label, rgb, words)], words.shape[1])
 
     @classmethod
-    def joined(cls, rows: Sequence[csr_array], words: int) -> "Statements":
+    def joined(cls, rows: Sequence["StatementRows"], words: int) -> "Statements":
         """Those of a gallery that was tabulated in parts.
 
         Args:
             rows: of `statement_rows`, part by part, at least one.
             words: how many colour words there are.
         """
-        holds = vstack(rows, format="csc")
-        number = np.flatnonzero(np.diff(holds.indptr))  # of what holds anywhere: some thousands
-        holds = holds[:, number]
-        columns = holds.indptr.astype(np.int64), holds.indices.astype(np.int32), holds.data.astype(np.float16)
-        return cls._of(holds.shape[0], *columns, number, words)
+        count = np.sum([np.bincount(some.statement, minlength=some.possible) for some in rows], axis=0)
+        number = np.flatnonzero(count)  # of what holds anywhere: some thousands
+        starts = np.concatenate([[0], np.cumsum(count[number])])
+        cell, share = np.empty(starts[-1], np.int32), np.empty(starts[-1], np.float16)
+        place = np.cumsum(count) - count  # of the next of each
+        cells = 0
+        for some in rows:
+            _spread(cells, some.starts, some.statement, some.holds.view(np.uint16), place, cell, share.view(np.uint16))
+            cells += len(some.starts) - 1
+        return cls._of(cells, starts, cell, share, number, words)
 
     @classmethod
     def _of(
@@ -137,6 +159,16 @@ class Statements:
 
 
 @compiled
+def _spread(first: int, starts: Ints, statement: Ints, holds: Ints, place: Ints, cell: Ints, share: Ints) -> None:
+    """Put what holds in some cells, from one on, where each statement's next place is; these move on."""
+    for n in range(len(starts) - 1):
+        for k in range(starts[n], starts[n + 1]):
+            at = place[statement[k]]
+            cell[at], share[at] = first + n, holds[k]
+            place[statement[k]] = at + 1
+
+
+@compiled
 def _add(starts: Ints, cell: Ints, share: Ints, halves: Floats, columns: Ints, weight: Floats, held: Floats) -> None:
     """Add some columns [F] of what holds in cells, times the weights [H, F] that are not faint, to [H, N].
 
@@ -151,8 +183,8 @@ def _add(starts: Ints, cell: Ints, share: Ints, halves: Floats, columns: Ints, w
 
 def statement_rows(
     likelihood: Likelihood, surroundings: Surroundings, label: Tensor, rgb: Tensor, words: Tensor
-) -> csr_array:
-    """[C, S] how much of each cell's nodes every possible statement holds at, half precision in float32.
+) -> StatementRows:
+    """How much of each cell's nodes every possible statement holds at.
 
     In several processes when there is much to do. A row depends on no cell of another block.
 
@@ -168,8 +200,8 @@ def statement_rows(
     columns = (int(pair.max(initial=-1)) + 1) * SECTORS
     starts = surroundings.cell_starts
 
-    def tabulated(first: int) -> csr_array:
-        """Cells from one on."""
+    def tabulated(first: int) -> tuple[Ints, Ints, npt.NDArray[np.float16]]:
+        """(how many, statements, how much they hold) in the cells from one on."""
         last = min(first + BLOCK, len(starts) - 1)
         size = np.diff(starts[first : last + 1])
         batch = NodeBatch.of(
@@ -180,17 +212,14 @@ def statement_rows(
         cell = np.repeat(np.arange(last - first), size)[around.node]
         said = pair[around.part] * SECTORS + _SECTOR_OF_WAY[batch.way.numpy()]
         value = share.numpy() / np.maximum(1, size)[cell]
-        return _rounded(coo_array((value, (cell, said)), (last - first, columns)).tocsr())
+        rows = coo_array((value, (cell, said)), (last - first, columns)).tocsr()
+        holds = rows.data.astype(np.float32).astype(np.float16)
+        return np.diff(rows.indptr), rows.indices.astype(np.int32), holds
 
     found = list(map_forked(tabulated, range(0, len(starts) - 1, BLOCK)))
-    return vstack(found, format="csr") if found else csr_array((0, columns), dtype=np.float32)
-
-
-def _rounded(holds: csr_array) -> csr_array:
-    """The same in float32, to half precision."""
-    holds = holds.astype(np.float32)
-    holds.data = holds.data.astype(np.float16).astype(np.float32)
-    return holds
+    none = np.zeros(0, np.int64), np.zeros(0, np.int32), np.zeros(0, np.float16)
+    size, statement, holds = (np.concatenate(some) for some in zip(none, *found, strict=True))
+    return StatementRows(np.concatenate([[0], np.cumsum(size)]), statement, holds, columns)
 
 
 def _sectors_of_ways() -> Ints:

@@ -59,13 +59,17 @@ class CellFeatures:
     shape: npt.NDArray[Any]
 
     @classmethod
-    def of(cls, cells: CellTable, instance_labels: npt.NDArray[Any]) -> "CellFeatures":
+    def of(cls, cells: CellTable, instance_labels: npt.NDArray[Any], rows: range | None = None) -> "CellFeatures":
         """Features of a cell table.
 
         Args:
             cells: the gallery.
             instance_labels: [I] label of each instance of the map.
+            rows: those of some cells, one after the other, with the labels of all; None for all.
         """
+        known, number = np.unique(instance_labels, return_inverse=True)
+        used = np.unique(number[np.bincount(cells.parts.instance, minlength=len(number)) > 0])
+        cells = cells if rows is None else cells.take(np.arange(rows.start, rows.stop))
         parts, half = cells.parts, cells.size_m / 2
         geometry = np.empty((len(parts.instance), NUM_GEOMETRY), dtype=np.float32)  # filled without another of its size
         position, closest, size, count, colour = np.split(geometry, np.cumsum(list(GEOMETRY.values()))[:-1], axis=1)
@@ -78,10 +82,8 @@ class CellFeatures:
         count[:, 0] = np.log1p(parts.count) / 10
         colour[:, 3] = ~np.isnan(parts.rgb).any(axis=1)
         colour[:, :3] = np.where(colour[:, 3:] > 0, parts.rgb, 0.0)
-        known, number = np.unique(instance_labels, return_inverse=True)
-        label = number.astype(np.int32)[parts.instance]
-        used = np.flatnonzero(np.bincount(label, minlength=len(known)))
-        label, shape = np.searchsorted(used, label).astype(np.int32), np.zeros((len(label), 0), dtype=np.float32)
+        label = np.searchsorted(used, number).astype(np.int32)[parts.instance]
+        shape = np.zeros((len(label), 0), dtype=np.float32)
         return cls(parts.starts, geometry, label, tuple(known[used].tolist()), cells.sample, shape)
 
     def seen(self, encoder: PointEncoder | None) -> "CellFeatures":
@@ -143,18 +145,6 @@ class CellFeatures:
 
     def __len__(self) -> int:
         return len(self.starts) - 1
-
-    def between(self, first: int, last: int) -> "CellFeatures":
-        """Those of the cells first to last - 1, with the labels of all."""
-        rows, sample = slice(self.starts[first], self.starts[last]), self.sample
-        return replace(
-            self,
-            starts=self.starts[first : last + 1] - self.starts[first],
-            geometry=self.geometry[rows],
-            label=self.label[rows],
-            sample=sample and (lambda cells: sample(cells + first)),
-            shape=self.shape[rows],
-        )
 
     def batch(self, cells: npt.NDArray[Any]) -> "CellBatch":
         """Some cells, padded to the largest of them."""

@@ -102,6 +102,7 @@ def cut_pieces(
     centers_m: Floats,
     rules: CutRules,
     progress: Callable[[int, int], None] | None = None,
+    least: int = 0,
 ) -> Parts:
     """What lies in the cubes around some centres; arguments and return as `models.city.cells.cut_cubes`.
 
@@ -111,11 +112,12 @@ def cut_pieces(
         centers_m: [N, 3] centres, metres.
         rules: size of the cubes and how to clip.
         progress: called with (cubes cut, cubes to cut).
+        least: cubes of fewer parts are left empty.
     """
     chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
     whole = Wholes.of(table)
     results, done = [], 0
-    for result in map_forked(partial(_cut_chunk, table, whole, rules), chunks):
+    for result in map_forked(partial(_cut_chunk, table, whole, rules, least), chunks):
         results.append(result)
         done += len(result.starts) - 1
         if progress:
@@ -179,7 +181,7 @@ class _Grouped:
         return cls(cubes, order, starts, kept)
 
 
-def _cut_chunk(table: PieceTable, whole: Wholes, rules: CutRules, centers: Floats) -> Parts:
+def _cut_chunk(table: PieceTable, whole: Wholes, rules: CutRules, least: int, centers: Floats) -> Parts:
     """Parts without colours of some cubes."""
     grouped = _Grouped.of(table, whole, rules, centers)
     cubes, order, starts = grouped.cubes, grouped.order, grouped.starts
@@ -200,6 +202,7 @@ def _cut_chunk(table: PieceTable, whole: Wholes, rules: CutRules, centers: Float
     count = np.where(thing, whole.worth[instance], np.add.reduceat(cubes.worth[order], starts))
     top = np.where(thing, top, np.minimum(top, np.maximum(centers[cube, 2] + rules.cell_size_m / 2, base)))
     rows = np.flatnonzero(grouped.kept)
+    rows = rows[(np.bincount(cube[rows], minlength=len(centers)) >= least)[cube[rows]]]
     return Parts(
         starts=np.searchsorted(cube[rows], np.arange(len(centers) + 1)),
         instance=instance[rows].astype(np.int32),
@@ -207,7 +210,7 @@ def _cut_chunk(table: PieceTable, whole: Wholes, rules: CutRules, centers: Float
         low_m=np.column_stack([box[:, :2], base])[rows].astype(np.float32),
         high_m=np.column_stack([box[:, 2:], top])[rows].astype(np.float32),
         closest_m=np.column_stack([closest, np.clip(centers[cube, 2], base, top)])[rows].astype(np.float32),
-        rgb=np.zeros((len(rows), 3), np.float32),
+        rgb=np.zeros((0, 3), np.float32),  # of the instances, which all chunks have
     )
 
 
@@ -256,11 +259,11 @@ def _empty(cubes: int) -> Parts:
 
 
 def _joined(results: list[Parts], instance_rgb: Floats) -> Parts:
+    """All of some, which are let go as they are joined."""
     results = results or [_empty(0)]
     sizes = np.concatenate([np.diff(some.starts) for some in results])
-    instance = np.concatenate([some.instance for some in results])
-    columns = {
-        n: np.concatenate([getattr(some, n) for some in results]) for n in ("count", "low_m", "high_m", "closest_m")
-    }
-    starts = np.concatenate([[0], np.cumsum(sizes)])
-    return Parts(starts=starts, instance=instance, rgb=instance_rgb[instance].astype(np.float32), **columns)
+    columns = {n: [getattr(some, n) for some in results] for n in ("instance", "count", "low_m", "high_m", "closest_m")}
+    results.clear()
+    joined = {name: np.concatenate(columns.pop(name)) for name in list(columns)}
+    rgb = instance_rgb[joined["instance"]].astype(np.float32)
+    return Parts(starts=np.concatenate([[0], np.cumsum(sizes)]), rgb=rgb, **joined)

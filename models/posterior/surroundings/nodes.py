@@ -43,6 +43,15 @@ def slices(cells: CellTable) -> Iterator[tuple[Ints, Ints]]:
             yield steps[near], rows[nearest[near]]
 
 
+@compiled
+def put_in_order(owner: Ints, rows: npt.NDArray[Any], place: Ints, ordered: npt.NDArray[Any]) -> None:
+    """Put rows [m, 2] of some owners [m] where the next of each belongs among all; these places [N] move on."""
+    for n in range(len(owner)):
+        at = place[owner[n]]
+        ordered[at, 0], ordered[at, 1] = rows[n, 0], rows[n, 1]
+        place[owner[n]] = at + 1
+
+
 def owner_of(cell_starts: Ints, nodes: Ints) -> Ints:
     """[n] the cell that owns each of some nodes, of cells that own cell_starts[n] to cell_starts[n + 1]."""
     owner: Ints = np.searchsorted(cell_starts, nodes, side="right") - 1

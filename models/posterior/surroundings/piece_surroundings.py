@@ -20,7 +20,7 @@ from models.city.types import CutRules, Floats
 from models.errors import IndexBroken
 from models.files import mapped
 from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.nodes import SPACING_M, nearest_nodes, owner_of, slices
+from models.posterior.surroundings.nodes import SPACING_M, nearest_nodes, owner_of, put_in_order, slices
 from models.posterior.surroundings.things import Things
 from models.strings import compact
 
@@ -52,14 +52,14 @@ class PieceSurroundings:
     def of(cls, bodies: PieceBodies, cells: CellTable) -> "PieceSurroundings":
         """Those of a gallery."""
         things, center_m = Things.of_instances(bodies, cells.parts), cells.center_m[:, :2]
-        middle, offsets, owners = _step_of(center_m), [], []
-        for steps, owner in slices(cells):
-            offsets.append((steps - middle[owner]).astype(np.int8))
-            owners.append(owner)
-        owner = np.concatenate(owners)
-        starts = compact(np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(cells)))]))
-        offset = np.concatenate(offsets)[np.argsort(owner, kind="stable")]
-        return cls(things, starts, offset, bodies.pieces, bodies.rules, center_m)
+        middle = _step_of(center_m)
+        found = [(owner, (steps - middle[owner]).astype(np.int8)) for steps, owner in slices(cells)]
+        count = sum(np.bincount(owner, minlength=len(cells)) for owner, _ in found)
+        starts = np.concatenate([[0], np.cumsum(count)])
+        offset, place = np.empty((starts[-1], 2), np.int8), starts[:-1].copy()
+        for owner, some in found:
+            put_in_order(owner, some, place, offset)
+        return cls(things, compact(starts), offset, bodies.pieces, bodies.rules, center_m)
 
     @property
     def cuts(self) -> bool:

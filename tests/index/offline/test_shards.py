@@ -40,7 +40,9 @@ def given(job, monkeypatch):
     """The part of the second shard is gone; who makes it anew has it at once."""
     kept = job.out_dir / "kept"
     part_of(job, SECOND).rename(kept)
-    monkeypatch.setattr(Part, "of", lambda _encoder, _likelihood, data, *_: Part.load(kept, LEVELS, data.cells))
+    monkeypatch.setattr(
+        Part, "of", lambda _encoder, _likelihood, source, *_: Part.load(kept, LEVELS, source.data.cells)
+    )
 
 
 def part_of(job, shard):
@@ -138,9 +140,11 @@ def test_who_is_killed_leaves_nothing_that_is_taken_for_a_part(job, given, monke
 
     pid = os.fork()
     if not pid:
-        Part.save = killed
-        job.make_part(SECOND)
-        os._exit(0)
+        try:
+            Part.save = killed
+            job.make_part(SECOND)
+        finally:  # or a fork of pytest goes on
+            os._exit(1)
     assert os.waitpid(pid, 0)[1] == signal.SIGKILL
     directory = part_of(job, FIRST).parent
     assert len(list(directory.glob(f"{BUILDING}*"))) == 1

@@ -106,16 +106,17 @@ def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
 
 
 def test_a_slice_that_begins_at_a_block_gives_the_bits_of_the_whole(
-    features, text_encoder, monkeypatch, tmp_path
+    city, cells, text_encoder, monkeypatch, tmp_path
 ) -> None:
     for module in ("instance_encoder", "level_table", "retriever"):
         monkeypatch.setattr(f"models.retrieval.{module}.BLOCK", 16)
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
     torch.manual_seed(0)
-    features = first_cells(features, 90)
+    cells, labels = cells.take(np.arange(90)), np.array([i.label for i in city.instances])
     model = Mncl(text_encoder, MnclConfig(width=32, inputs=(*OURS, "points"))).eval()
-    vectors, table = encode_gallery(model, model.seen(features))
-    parts = [encode_gallery(model, model.seen(features.between(*ends))) for ends in ((0, 48), (48, 48), (48, 90))]
+    vectors, table = encode_gallery(model, model.seen(CellFeatures.of(cells, labels)))
+    slices = (CellFeatures.of(cells, labels, range(*ends)) for ends in ((0, 48), (48, 48), (48, 90)))
+    parts = [encode_gallery(model, model.seen(some)) for some in slices]
     assert np.array_equal(np.concatenate([part[0] for part in parts]), vectors)
     joined = LevelTable.joined([part[1] for part in parts])
     assert np.array_equal(joined.starts, table.starts)
