@@ -5,7 +5,6 @@ connections of their own, one for queries and one for what needs no model. It en
 connections do, so that none outlives the service.
 """
 
-import ctypes
 import os
 import signal
 import sys
@@ -21,6 +20,7 @@ from app.faults import where
 from app.startup import no_collection
 from app.workers.order import FORK, WorkerFault
 from models.errors import HereaboutsError
+from models.processes import give_back
 
 if TYPE_CHECKING:
     from index.localizer import Localizer
@@ -95,16 +95,6 @@ def _answer(localizer: "Localizer", asked: Connection) -> None:
             asked.send(answer)
         except OSError:
             return
-
-
-def give_back() -> None:
-    """Give memory that is free back to the system.
-
-    glibc keeps what lies free between what is not: of the arrays of unusual texts, a hundred megabytes in the end.
-    """
-    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
-    if trim is not None:  # glibc has it
-        trim(0)
 
 
 def _as_sent(error: Exception) -> Exception:

@@ -20,10 +20,11 @@ from app.main import create_app
 from app.settings import Settings
 from app.workers import pool
 from app.workers.order import WorkerFault
-from app.workers.process import _answer, give_back
+from app.workers.process import _answer
 from app.workers.remote import open_workers
 from index.query import Query
 from models.errors import IndexBroken, ReplyError
+from models.processes import give_back
 
 
 @pytest.fixture(autouse=True)
