@@ -29,6 +29,7 @@ from app.settings import Settings, is_local
 from app.threads import usable_cpus
 from app.workers.order import OpenOrder
 from app.workers.remote import open_workers
+from app.workers.sums import check_version
 from index.artifact import read_aliases
 from index.manifest import MANIFEST
 from index.snapshot import SNAPSHOTS
@@ -57,7 +58,8 @@ def create_app(
         page_dir: what the page's build wrote.
     """
     if open_localizer is None:
-        indexes = Indexes(partial(_open_workers, settings), partial(_aliases, settings.index_dir), settings)
+        opener, read = partial(_open_workers, settings), partial(_aliases, settings.index_dir)
+        indexes = Indexes(opener, read, settings, partial(check_version, settings.index_dir))
     else:
         indexes = Indexes(lambda _alias, _version: [open_localizer()], dict, settings)
     jobs = EvaluationJobs(settings.max_jobs, settings.jobs_dir)

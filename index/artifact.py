@@ -22,7 +22,7 @@ from typing import Final
 from filelock import FileLock
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 
-from index.manifest import ADVICE, MANIFEST, Manifest, Name, Sha256, check_files, read_manifest
+from index.manifest import ADVICE, MANIFEST, Manifest, Name, Sha256, check_files, check_sums, read_manifest
 from index.stores.milvus_store import MilvusStore
 from models.errors import IndexBroken, StoreUnavailable
 from models.files import replace_file, sha256
@@ -88,6 +88,7 @@ def register(root: Path, version: str) -> Manifest:
         return verify(root / version)
     manifest = read_manifest(root / version)
     check_files(root / version, manifest)
+    check_sums(root / version, manifest)
     check_store(manifest)
     _change(root, aliases={}, versions={version: sha256(root / version / MANIFEST)})
     return manifest
@@ -119,12 +120,33 @@ def read_aliases(root: Path) -> Aliases:
         raise IndexBroken(f"{root / ALIASES} is broken or of another version of hereabouts; {advice}") from error
 
 
-def open_version(path: Path, alias: str = DEFAULT) -> tuple[Path, Manifest]:
-    """Find and check an index version.
+def find_version(path: Path, alias: str = DEFAULT) -> tuple[Path, Manifest]:
+    """Find an index version without reading its files, for the service, which reads them once it is ready.
 
     Args:
         path: an index directory, or one version of it.
-        alias: what to open of an index directory.
+        alias: what to find in an index directory.
+
+    Returns:
+        The version's directory and its manifest, which is what was registered; every file is there, and as long as it
+        was.
+
+    Raises:
+        IndexBroken: it is missing or incomplete, or its manifest was changed.
+    """
+    directory = path if (path / MANIFEST).is_file() else _named(path, alias)
+    known = read_aliases(directory.parent).versions
+    manifest = read_manifest(directory, known.get(directory.name))
+    check_files(directory, manifest)
+    return directory, manifest
+
+
+def open_version(path: Path, alias: str = DEFAULT) -> tuple[Path, Manifest]:
+    """Find and read an index version: for whatever answers once and ends, and could not take a wrong answer back.
+
+    Args:
+        path: as `find_version`.
+        alias: as there.
 
     Returns:
         The version's directory and its manifest; every file is there and unchanged.
@@ -132,10 +154,8 @@ def open_version(path: Path, alias: str = DEFAULT) -> tuple[Path, Manifest]:
     Raises:
         IndexBroken: it is missing, incomplete or changed.
     """
-    directory = path if (path / MANIFEST).is_file() else _named(path, alias)
-    known = read_aliases(directory.parent).versions
-    manifest = read_manifest(directory, known.get(directory.name))
-    check_files(directory, manifest)
+    directory, manifest = find_version(path, alias)
+    check_sums(directory, manifest)
     return directory, manifest
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from index.answers import Answer, CellDetail, CellInstance, CellSummary, Described, IndexFacts, LatLon, ModelName
-from index.artifact import open_version
+from index.artifact import find_version, open_version
 from index.finding import CellLocalizer, to_answer
 from index.hint_features import load_hint_features
 from index.manifest import ADVICE, Manifest, check_model
@@ -88,6 +88,7 @@ class Localizer:
         weights_dir: Path | None = None,
         fine_weights_dir: Path | None = None,
         posterior_weights_dir: Path | None = None,
+        with_sums: bool = True,
     ) -> "Localizer":
         """Open an index directory (what its alias "default" names) or one version of it.
 
@@ -96,6 +97,7 @@ class Localizer:
             weights_dir: the retriever's; None for those that ship with the package.
             fine_weights_dir: the same of a fine stage, see `load_refiner`; read when the first query asks for it.
             posterior_weights_dir: the same of the hint posterior.
+            with_sums: read all files first and compare their sums; the service does so later, beside queries.
 
         Raises:
             IndexBroken: the index is missing, incomplete or changed.
@@ -103,7 +105,7 @@ class Localizer:
             WeightsError: the model cannot be loaded.
             StoreUnavailable: its vectors are in Milvus, and nothing says where that is.
         """
-        directory, manifest = open_version(index_dir)
+        directory, manifest = (open_version if with_sums else find_version)(index_dir)
         retriever = load_retriever(weights_dir)
         check_model(manifest, retriever.fingerprint)
         load_fine = partial(load_refiner, directory=fine_weights_dir)

@@ -1,7 +1,7 @@
 """The indexes that are served: a queue an alias, exchanged under load when the alias names another version."""
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from functools import partial
@@ -14,7 +14,7 @@ from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue, refuse
 from app.settings import Settings
 from index.artifact import DEFAULT
-from models.errors import IndexMismatch, IndexUnusable
+from models.errors import HereaboutsError, IndexBroken, IndexMismatch, IndexUnusable
 
 LOOKED_AT_S: Final = 1.0  # how often aliases are read again
 
@@ -27,6 +27,7 @@ class _Served:
 
     queue: InferenceQueue
     version: str | None  # that its alias named when it was opened; None: nobody knew
+    checking: asyncio.Task[None] | None = None  # reads its files again
     leases: int = 0
     unused: asyncio.Event = field(default_factory=asyncio.Event)
 
@@ -38,6 +39,7 @@ class Indexes:
         open_index: what answers for an alias and the version that it names; blocks, runs on a thread.
         read_aliases: the version that each alias names; blocks.
         settings: limits of the queues.
+        check_files: reads all files of a version that is served, or raises IndexBroken; None: they need not be.
     """
 
     def __init__(
@@ -45,20 +47,24 @@ class Indexes:
         open_index: Callable[[str, str | None], Sequence[LocalizerLike]],
         read_aliases: Callable[[], Mapping[str, str]],
         settings: Settings,
+        check_files: Callable[[str], Awaitable[None]] | None = None,
     ) -> None:
         self._open_index, self._read_aliases, self._settings = open_index, read_aliases, settings
+        self._check_files = check_files
         self._served: dict[str, _Served] = {}
         self._retiring: set[asyncio.Task[None]] = set()
         self._watching: asyncio.Task[None] | None = None
-        self._switching = asyncio.Lock()
+        self._switching, self._checking = asyncio.Lock(), asyncio.Lock()
         self._is_draining = False
         self._unreadable = ""  # why, when it was last logged
 
     async def start(self) -> None:
         """Begin to open what the aliases name, and to watch them."""
-        self._is_draining, self._switching = False, asyncio.Lock()
+        self._is_draining, self._switching, self._checking = False, asyncio.Lock(), asyncio.Lock()
         named = await self._named()
         self._served = {alias: self._begin(alias, named.get(alias)) for alias in {DEFAULT, *named}}
+        for alias, served in self._served.items():
+            served.checking = asyncio.create_task(self._check(alias, served))
         self._watching = asyncio.create_task(self._watch())
 
     def queue(self, alias: str = DEFAULT) -> InferenceQueue:
@@ -140,9 +146,10 @@ class Indexes:
         if self._watching is not None:
             self._watching.cancel()
             await asyncio.gather(self._watching, return_exceptions=True)
-        for task in self._retiring:
+        tasks = [*self._retiring, *(served.checking for served in self._served.values() if served.checking)]
+        for task in tasks:
             task.cancel()
-        await asyncio.gather(*self._retiring, return_exceptions=True)
+        await asyncio.gather(*tasks, return_exceptions=True)
         await asyncio.gather(*(served.queue.close() for served in self._served.values()))
 
     async def switch(self, alias: str, version: str, keep: Coroutine[None, None, None] | None = None) -> None:
@@ -184,6 +191,7 @@ class Indexes:
             await new.queue.close()
             raise
         old, self._served[alias] = self._served.get(alias), new
+        new.checking = asyncio.create_task(self._check(alias, new))
         log.info("index switched", alias=alias, index_version=new.queue.localizer.facts.version)
         if old is not None:
             task = asyncio.create_task(self._retire(old))
@@ -201,10 +209,30 @@ class Indexes:
 
     async def _retire(self, served: _Served) -> None:
         """End a queue once no request uses it."""
+        if served.checking is not None:
+            served.checking.cancel()
+            await asyncio.gather(served.checking, return_exceptions=True)
         while served.leases:
             served.unused.clear()
             await served.unused.wait()
         await served.queue.close()
+
+    async def _check(self, alias: str, served: _Served) -> None:
+        """Read the files of a version once it is ready, one version at a time; what is broken answers no more."""
+        await served.queue.opened()
+        if self._check_files is None or not served.queue.num_workers:
+            return
+        version = served.queue.localizer.facts.version
+        try:
+            async with self._checking:
+                await self._check_files(version)
+        except IndexBroken as error:
+            served.queue.fail(str(error))
+            log.error("index broken", alias=alias, index_version=version, reason=str(error))
+        except (HereaboutsError, OSError) as error:
+            log.error("index not verified", alias=alias, index_version=version, reason=str(error))
+        else:
+            log.info("index verified", alias=alias, index_version=version)
 
     async def _named(self) -> dict[str, str]:
         try:

@@ -88,7 +88,7 @@ class InferenceQueue:
         self._computing = 0
         self._query_s = FIRST_S  # that a worker takes for a query, a moving average
         self._localizers: Sequence[LocalizerLike] = ()
-        self._failure: str | None = None
+        self._failure: str | None = None  # why nothing is answered, as clients are told
         self._error: Exception | None = None
         self._is_draining = False
         self._is_closed = False
@@ -110,7 +110,7 @@ class InferenceQueue:
 
     async def opened(self) -> None:
         """Wait until the localizers are there, or cannot be opened."""
-        await asyncio.wrap_future(self._opened)
+        await asyncio.shield(asyncio.wrap_future(self._opened))  # who waits no more must not cancel it for others
 
     @property
     def failure(self) -> Exception | None:
@@ -124,8 +124,8 @@ class InferenceQueue:
 
     @property
     def num_workers(self) -> int:
-        """Localizers that answer; 0 until they are there."""
-        return len(self._localizers)
+        """Localizers that answer; 0 until they are there, and once they must not."""
+        return 0 if self._failure is not None else len(self._localizers)
 
     @property
     def is_draining(self) -> bool:
@@ -158,6 +158,19 @@ class InferenceQueue:
     def drain(self) -> None:
         """Refuse new queries; the waiting ones are answered. Takes no lock: a signal handler may call it."""
         self._is_draining = True
+
+    def fail(self, reason: str) -> None:
+        """Refuse all queries from now on, those that wait too: what was opened is not what it should be.
+
+        Args:
+            reason: what is wrong and what to do, for clients.
+        """
+        with self._changed:
+            self._failure = reason
+            waiting = [self._jobs.popleft() for _ in range(len(self._jobs))]
+        for job in waiting:
+            if job.begins():
+                job.result.set_exception(Problem(Code.LOAD_FAILED, reason))
 
     async def close(self) -> None:
         """Drain, wait for the waiting queries, end the threads."""

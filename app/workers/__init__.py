@@ -1,5 +1,7 @@
 """The processes that hold a model: `process` is theirs, `pool` starts them, `remote` is what the service talks to.
 
+`sums` reads the files of what they have opened again, in one more.
+
 One process opens an index; workers are forked from it, so that they share its memory, and one that dies is forked anew.
 The service itself holds no model and imports no torch. May import index.
 """

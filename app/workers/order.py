@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from index.artifact import open_version
+
 if TYPE_CHECKING:
     from index.localizer import Localizer
 
@@ -32,10 +34,18 @@ class OpenOrder:
     posterior_weights_dir: Path | None = None
 
     def open(self) -> "Localizer":
-        """The localizer, with everything read that its usual queries need."""
+        """The localizer, with everything read that its usual queries need; `app.workers.sums` checks the files.
+
+        Raises:
+            HereaboutsError: as `Localizer.open`.
+        """
         from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
 
         dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
-        localizer = Localizer.open(self.index_dir, *dirs)
-        localizer.warm()
+        try:
+            localizer = Localizer.open(self.index_dir, *dirs, with_sums=False)
+            localizer.warm()
+        except Exception:
+            open_version(self.index_dir)  # which names the file, if one was changed
+            raise
         return localizer

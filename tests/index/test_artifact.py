@@ -1,10 +1,12 @@
+import errno
 import json
+import os
 import shutil
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from index.artifact import open_version, read_aliases, register, set_alias
+from index.artifact import find_version, open_version, read_aliases, register, set_alias
 from index.localizer import Localizer
 from index.manifest import check_model
 from models.errors import IndexBroken, IndexMismatch
@@ -59,14 +61,17 @@ def test_cut_changed_and_missing_files_are_noticed(copy, name) -> None:
     path = version_file(copy, name)
     whole = path.read_bytes()
     path.write_bytes(whole[:-1])
-    with pytest.raises(IndexBroken, match="cut short"):
-        open_version(copy)
+    for check in (open_version, find_version):
+        with pytest.raises(IndexBroken, match="cut short"):
+            check(copy)
     path.write_bytes(bytes([whole[0] ^ 1]) + whole[1:])
     with pytest.raises(IndexBroken, match="changed"):
         open_version(copy)
+    find_version(copy)  # which does not read it: the service does so once it is ready
     path.unlink()
-    with pytest.raises(IndexBroken, match="missing"):
-        open_version(copy)
+    for check in (open_version, find_version):
+        with pytest.raises(IndexBroken, match="missing"):
+            check(copy)
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 9}'])
@@ -148,6 +153,25 @@ def test_a_version_from_elsewhere_is_registered_once_it_is_whole(copy) -> None:
     path.write_text(path.read_text().replace("1.0", "1.1"))
     with pytest.raises(IndexBroken, match="changed"):
         register(copy, version)
+
+
+@pytest.mark.parametrize("name", ["vectors.faiss", "statements.safetensors"])
+def test_who_answers_once_refuses_a_file_with_a_flipped_bit(copy, weights_dir, name) -> None:
+    path = version_file(copy, name)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))  # in the data: nothing else would see it
+    with pytest.raises(IndexBroken, match=f"{name} was changed"):
+        Localizer.open(copy, weights_dir)
+    assert Localizer.open(copy, weights_dir, with_sums=False)
+
+
+def test_a_file_that_the_disk_does_not_give_is_named(copy, monkeypatch) -> None:
+    def fails(_path):
+        raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    monkeypatch.setattr("index.manifest.sha256", fails)
+    with pytest.raises(IndexBroken, match=r"cannot be read \(Input/output error\); see to its disk"):
+        open_version(copy)
 
 
 def test_two_writers_lose_nothing(index_dir, tmp_path) -> None:

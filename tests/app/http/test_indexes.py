@@ -13,7 +13,7 @@ from app.http.errors import Code, Problem
 from app.http.indexes import Indexes
 from app.settings import Settings
 from index.query import Query
-from models.errors import IndexBroken
+from models.errors import HereaboutsError, IndexBroken
 
 
 class City:
@@ -34,8 +34,8 @@ class City:
 
 
 @asynccontextmanager
-async def serving(city):
-    indexes = Indexes(city.open, lambda: city.aliases, Settings(max_wait_ms=60_000))
+async def serving(city, check_files=None):
+    indexes = Indexes(city.open, lambda: city.aliases, Settings(max_wait_ms=60_000), check_files)
     await indexes.start()
     try:
         for alias in indexes.names():
@@ -194,6 +194,94 @@ def test_aliases_that_cannot_be_read_change_nothing_until_they_can(error):
             city.aliases = {"default": "v2"}
             indexes._read_aliases = lambda: city.aliases
             await soon(lambda: indexes.queue().localizer.facts.version == "v2")
+
+    asyncio.run(run())
+
+
+def refusal(indexes, alias="default"):
+    """Why an index answers nothing; None if it does."""
+    try:
+        indexes.queue(alias).check_accepting()
+    except Problem as problem:
+        return problem.detail
+    return None
+
+
+def test_every_version_that_is_opened_is_read_and_a_broken_one_answers_no_more():
+    city, read = City(default="v1", berlin="b1", paris="p1"), []
+
+    async def check(version):
+        read.append(version)
+        assert len(city.opened) >= 3, "before it is ready"
+        await asyncio.sleep(0.02)
+        if version in ("b1", "v2"):
+            raise IndexBroken(f"{version} is broken")
+        if version == "p1":
+            raise HereaboutsError("nobody knows")
+
+    async def run():
+        async with serving(city, check) as indexes:
+            await soon(lambda: refusal(indexes, "berlin"))
+            await soon(lambda: len(read) == 3)
+            assert sorted(read) == ["b1", "p1", "v1"]
+            assert indexes.versions() == {"default": "v1", "paris": "p1"}
+            assert await asked(indexes) == "v1"
+            city.aliases["default"] = "v2"
+            await soon(lambda: refusal(indexes))
+            assert refusal(indexes) == "v2 is broken"
+            await asyncio.sleep(0.05)
+            assert read.count("v2") == 1, "and not again and again"
+            city.aliases["default"] = "v3"
+            await soon(lambda: not refusal(indexes))
+            assert await asked(indexes) == "v3"
+            await soon(lambda: city.opened["v2"].is_closed)
+
+    asyncio.run(run())
+
+
+def test_what_waits_for_a_version_that_is_found_broken_is_refused():
+    city, is_found = City(default="v1"), asyncio.Event()
+
+    async def check(_version):
+        await is_found.wait()
+        raise IndexBroken("a file was changed")
+
+    async def run():
+        async with serving(city, check) as indexes:
+            fake = city.opened["v1"]
+            fake.gate.clear()
+            computed, waiting = (asyncio.create_task(asked(indexes)) for _ in range(2))
+            await asyncio.to_thread(fake.entered.acquire, timeout=5)
+            is_found.set()
+            with pytest.raises(Problem) as refused:
+                await waiting
+            assert (refused.value.code, refused.value.detail) == (Code.LOAD_FAILED, "a file was changed")
+            fake.gate.set()
+            with pytest.raises(Problem):
+                await computed  # it was, but nothing is said of what it came from any more
+            assert indexes.is_idle
+
+    asyncio.run(run())
+
+
+def test_a_check_ends_with_the_version_or_the_service_that_it_is_of():
+    city, begun, ended = City(default="v1"), [], []
+
+    async def check(version):
+        begun.append(version)
+        try:
+            await asyncio.sleep(60)
+        finally:
+            ended.append(version)
+
+    async def run():
+        async with serving(city, check) as indexes:
+            await soon(lambda: begun == ["v1"])
+            city.aliases = {"default": "v2"}
+            await soon(lambda: begun == ["v1", "v2"])
+            assert ended == ["v1"]
+            assert await asked(indexes) == "v2"
+        assert ended == ["v1", "v2"]
 
     asyncio.run(run())
 

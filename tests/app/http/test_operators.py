@@ -81,6 +81,7 @@ def test_a_version_that_cannot_be_served_is_refused_and_the_old_one_answers(root
     default = read_aliases(root).aliases["default"]
     with served(root, tmp_path, model, until) as api:
         until(lambda: api.get("/readyz").status_code == 200, 60)
+        until(api.app.state.indexes._served["default"].checking.done, 60)  # it was whole when it was read
         (root / default / "cells.json").write_text("{}")
         change = {"alias": "default", "version": default}
         for response in (
