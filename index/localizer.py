@@ -29,6 +29,7 @@ from models.city.points import Ints
 from models.city.scenery.files import SceneryPart, file_name, is_scenery
 from models.city.types import Floats
 from models.errors import IndexBroken
+from models.files import hold
 from models.language.places.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
 from models.localization.checkpoint import load_refiner
@@ -64,6 +65,7 @@ class Localizer:
         load_refiner: Callable[[FineMethod], FineModel] = load_refiner,
         load_model: Callable[[], PosteriorModel] = load_posterior,
     ) -> None:
+        hold(directory, self)  # some files are read when they are first needed
         self.manifest, self.retriever = manifest, retriever
         self._directory, self._load_refiner, self._load_model = directory, load_refiner, load_model
         self._refined: dict[str, VectorLocalizer] = {}

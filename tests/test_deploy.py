@@ -24,6 +24,7 @@ SERVICES = yaml.safe_load((ROOT.parent / "docker-compose.yml").read_text())["ser
 COMPOSE = {"base": ("index", "api"), "milvus": ("index-milvus", "api-milvus")}
 OLDEST, NEWEST = "1.27", "1.37"  # releases whose schemas are asked
 OF_MILVUS = {variable.removeprefix("HEREABOUTS_").lower() for variable in (URI, TOKEN)}  # read where they are used
+OF_FILES = {"cache_dir"}  # as `models.files.cache_directory` reads it
 MADE = {("job", "hereabouts-index-3")}  # of a CronJob, by a command on the page
 PROBES = ("startupProbe", "livenessProbe", "readinessProbe")
 BESIDE = {name: list(yaml.safe_load_all((ROOT / name).read_text())) for name in ("maps.yaml", "shards.yaml")}
@@ -260,5 +261,5 @@ def test_the_page_names_what_is_there() -> None:
     assert named
     assert named <= there
     assert set(re.findall(r"docker/kubernetes/([\w.]+)", text)) == {*LAYERS, *BESIDE}
-    fields = {field.upper() for field in set(Settings.model_fields) | OF_MILVUS}
+    fields = {field.upper() for field in set(Settings.model_fields) | OF_MILVUS | OF_FILES}
     assert set(re.findall(r"HEREABOUTS_(\w+)", text)) <= fields

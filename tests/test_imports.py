@@ -30,7 +30,15 @@ SERVED = (
 )
 TRAINED = (*SERVED, GRAMMAR, "models.city.synthetic", "models.training", "models.training.engine")
 FITTED = (*TRAINED, "models.training.posterior")
-INDEX = ("index", "index.offline", "index.asking", "index.posterior", "index.stores", "index.words")
+INDEX = (
+    "index",
+    "index.offline",
+    "index.asking",
+    "index.posterior",
+    "index.remote",
+    "index.stores",
+    "index.words",
+)
 ANSWERS = (*SERVED, *INDEX)
 MEASURES = (*FITTED, *INDEX, "index.evaluation")
 REPRODUCES = (*MEASURES, "index.reproduction")
@@ -71,6 +79,7 @@ MAY_IMPORT = {
     "index.offline": ANSWERS,
     "index.asking": (*SERVED, "index"),
     "index.stores": (*CITY, "index"),
+    "index.remote": (*CITY, "index"),
     "index.posterior": ANSWERS,
     "index.words": (*SERVED, "index"),
     "index.evaluation": MEASURES,
@@ -95,6 +104,8 @@ ONLY = {
         "models.strings",
     },
     ("models.posterior", "models.localization"): {"models.localization.located"},
+    ("index.remote", "index"): {"index.artifact", "index.manifest"},
+    ("index.remote", "models.city"): {"models.city.types"},
     ("index.stores", "index"): {"index.manifest", "index.query"},  # where they are, and the box of a filter
     ("index.stores", "models.city"): {"models.city.types"},
 }
@@ -111,6 +122,7 @@ ONLY_IN = {
     "pymilvus": "index/stores",
     "grpc": "index/stores",
     "ray": "index/offline/on_ray.py",
+    "fsspec": "index/remote",
     "marisa_trie": "models/strings.py",
     "fastapi": "app",
     "starlette": "app",

@@ -16,6 +16,7 @@ from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
 from app.http.schemas.requests import Body
+from app.settings import Settings
 from index.artifact import read_aliases, register, set_alias
 from index.artifact import verify as verify_version
 from index.manifest import MANIFEST, NAME, Name
@@ -107,7 +108,7 @@ def list_indexes(indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
 @router.post("/indexes", status_code=201, responses=problems(*ERRORS, Code.NOT_WRITABLE))
 def register_index(asked: Registration, settings: SettingsNow) -> Verified:
     """Take a version that lies in the service's directory, once it is whole; no name serves it yet."""
-    return _verified(settings.index_dir, asked.version, takes_it=True)
+    return _verified(settings, asked.version, takes_it=True)
 
 
 @router.post(
@@ -116,9 +117,9 @@ def register_index(asked: Registration, settings: SettingsNow) -> Verified:
 )
 async def change_alias(asked: AliasChange, indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
     """Let a name serve another version: it is opened first, no request is dropped, each is answered by one version."""
-    await asyncio.to_thread(_verified, settings.index_dir, asked.version)
-    keep = asyncio.to_thread(set_alias, settings.index_dir, asked.alias, asked.version)
-    with _writing():
+    await asyncio.to_thread(_verified, settings, asked.version)
+    with _writing(settings):
+        keep = asyncio.to_thread(set_alias, settings.index_dir, asked.alias, asked.version)
         await indexes.switch(asked.alias, asked.version, keep)
     return await asyncio.to_thread(list_indexes, indexes, settings)
 
@@ -126,30 +127,31 @@ async def change_alias(asked: AliasChange, indexes: AllIndexes, settings: Settin
 @router.post("/indexes/{version}/verify", responses=problems(*ERRORS))
 def verify(version: Version, _body: Nothing, settings: SettingsNow) -> Verified:
     """Read every file of a version again, and compare it with its manifest; rows in Milvus are counted."""
-    return _verified(settings.index_dir, version)
+    return _verified(settings, version)
 
 
 @router.post("/indexes/{version}/snapshot", status_code=201, responses=problems(*ERRORS, Code.NOT_WRITABLE))
 def take_snapshot(version: Version, _body: Nothing, settings: SettingsNow) -> Snapshot:
     """Write a version into one file, whole or not at all."""
-    _verified(settings.index_dir, version)
-    with _writing():
+    _verified(settings, version)
+    with _writing(settings):
         path, digest = snapshot(settings.index_dir, version)
     return Snapshot(version=version, file=f"{SNAPSHOTS}/{path.name}", bytes=path.stat().st_size, sha256=digest)
 
 
-def _verified(root: Path, version: str, takes_it: bool = False) -> Verified:
-    """A version of a directory, checked, and registered if that is asked for.
+def _verified(settings: Settings, version: str, takes_it: bool = False) -> Verified:
+    """A version of the service's directory, checked, and registered if that is asked for.
 
     Raises:
         Problem: there is none, it is broken, or it is not registered.
         StoreUnavailable: its vectors are in Milvus, which does not answer.
     """
+    root = settings.index_dir
     if not (root / version / MANIFEST).is_file():
         raise Problem(Code.VERSION_NOT_FOUND)
     try:
         if takes_it:
-            with _writing():
+            with _writing(settings):
                 manifest = register(root, version)
         else:
             manifest = verify_version(root / version)
@@ -174,12 +176,14 @@ def _registered(root: Path) -> Mapping[str, str]:
 
 
 @contextmanager
-def _writing() -> Iterator[None]:
+def _writing(settings: Settings) -> Iterator[None]:
     """Say so where the directory cannot be written.
 
     Raises:
-        Problem: it is read-only, or the disk is full.
+        Problem: it is read-only, the disk is full, or it is a copy of another, which is what has to be changed.
     """
+    if settings.index is not None:
+        raise Problem(Code.NOT_WRITABLE, "This is a copy of an index elsewhere; change that one (hereabouts push).")
     try:
         yield
     except OSError as error:

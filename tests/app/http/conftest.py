@@ -1,10 +1,7 @@
-import hashlib
-
 import pytest
 
 from index.artifact import register
-from index.manifest import NEEDED, FrameRecord, Manifest, write_manifest
-from models.files import FileRecord
+from tests.versions import write_version
 
 
 @pytest.fixture(scope="module")
@@ -12,36 +9,7 @@ def versions_dir(tmp_path_factory):
     """An index directory without a model's work in it: v1 is registered, copied is whole, broken was changed."""
     root = tmp_path_factory.mktemp("index")
     for version in ("v1", "copied", "broken"):
-        _write_version(root / version)
+        write_version(root / version)
     register(root, "v1")
     (root / "broken" / "cells.json").write_text("changed")
     return root
-
-
-def _write_version(directory):
-    """Files that are what their manifest says, whatever that is."""
-    directory.mkdir()
-    for name in NEEDED:
-        (directory / name).write_text(name)
-    files = {
-        name: FileRecord(sha256=hashlib.sha256(name.encode()).hexdigest(), bytes=len(name)) for name in sorted(NEEDED)
-    }
-    manifest = Manifest(
-        version=directory.name,
-        created="2026-01-01T00:00:00+00:00",
-        software="0",
-        map_name="fakeville",
-        map_sha256="ab" * 32,
-        attribution="© nobody",
-        frame=FrameRecord(frame_id="map", origin_lat=60.17, origin_lon=24.94, epsg=None),
-        palette="basic",
-        cell_size_m=30.0,
-        grid_m=10.0,
-        model="fake",
-        model_fingerprint="ab" * 32,
-        dim=8,
-        cells=2,
-        instances=3,
-        files=files,
-    )
-    write_manifest(directory, manifest)

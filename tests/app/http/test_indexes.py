@@ -259,7 +259,7 @@ def test_what_waits_for_a_version_that_is_found_broken_is_refused():
             fake.gate.set()
             with pytest.raises(Problem):
                 await computed  # it was, but nothing is said of what it came from any more
-            assert indexes.is_idle
+            await soon(lambda: indexes.is_idle)
 
     asyncio.run(run())
 

@@ -1,0 +1,35 @@
+"""Index versions without a model's work in them."""
+
+import hashlib
+
+from index.manifest import NEEDED, FrameRecord, Manifest, write_manifest
+from models.files import FileRecord
+
+
+def write_version(directory):
+    """Files that are what their manifest says, whatever that is."""
+    directory.mkdir()
+    for name in NEEDED:
+        (directory / name).write_text(name)
+    files = {
+        name: FileRecord(sha256=hashlib.sha256(name.encode()).hexdigest(), bytes=len(name)) for name in sorted(NEEDED)
+    }
+    manifest = Manifest(
+        version=directory.name,
+        created="2026-01-01T00:00:00+00:00",
+        software="0",
+        map_name="fakeville",
+        map_sha256="ab" * 32,
+        attribution="© nobody",
+        frame=FrameRecord(frame_id="map", origin_lat=60.17, origin_lon=24.94, epsg=None),
+        palette="basic",
+        cell_size_m=30.0,
+        grid_m=10.0,
+        model="fake",
+        model_fingerprint="ab" * 32,
+        dim=8,
+        cells=2,
+        instances=3,
+        files=files,
+    )
+    write_manifest(directory, manifest)
