@@ -99,6 +99,25 @@ def test_the_grid_is_regular_and_within_reach(city) -> None:
     assert distance.max() <= city.rules.reach_m + 15
 
 
+def test_a_grid_is_the_same_however_much_of_it_is_looked_at_together(city, monkeypatch) -> None:
+    whole = grid_centers(city.locations_m, city.rules)
+    monkeypatch.setattr("models.city.cells.AT_ONCE", 7)
+    assert np.array_equal(grid_centers(city.locations_m, city.rules), whole)
+
+
+def test_the_rows_of_all_cubes_but_empty_ones_are_not_copied(scan, points) -> None:
+    centers = grid_centers(scan.locations_m, scan.rules)
+    centers = np.concatenate([centers[:9], centers[:1] + 1e5, centers[9:]])
+    parts = cut_cubes(points, centers, scan.rules)
+    kept = np.flatnonzero(np.diff(parts.starts))
+    assert 9 not in kept
+    taken = parts.take(kept)
+    assert taken.instance is parts.instance
+    assert np.array_equal(np.diff(taken.starts), np.diff(parts.starts)[kept])
+    assert len(parts.take(kept[:-1]).instance) == parts.starts[kept[-1]]
+    assert parts.take(kept[::-1]).instance.tolist() != parts.instance.tolist()
+
+
 def test_cells_are_numbered_and_rich_enough(city, cells) -> None:
     sizes = np.diff(cells.parts.starts)
     assert sizes.min() >= city.rules.min_instances

@@ -89,6 +89,17 @@ def test_processes_give_what_one_gives(bodies, cells, monkeypatch):
         assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)
 
 
+def test_cubes_of_few_parts_are_left_empty_for_whom_they_are_too_few(bodies, cells):
+    parts = bodies.cut(cells.center_m)
+    sizes = np.diff(parts.starts)
+    least = int(np.median(sizes)) + 1
+    rich = bodies.cut(cells.center_m, least=least)
+    kept = np.flatnonzero(sizes >= least)
+    assert 0 < len(kept) < len(cells)
+    assert np.array_equal(np.diff(rich.starts), np.where(sizes >= least, sizes, 0))
+    assert np.array_equal(rich.closest_m, parts.take(kept).closest_m)
+
+
 def test_no_cube_and_empty_cubes_have_no_parts(bodies):
     assert bodies.cut(np.zeros((0, 3))).starts.tolist() == [0]
     far = bodies.cut(np.array([[1e5, 0.0, 0.0], [0.0, -1e5, 0.0]]))

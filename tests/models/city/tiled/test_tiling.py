@@ -96,3 +96,29 @@ def test_solids_are_worth_their_points(shape, geometry, height):
     assert points[:, 2].max() == pytest.approx(solid.top_m if shape != "crown" else 9.0, abs=0.3)
     reach = shapely.distance(shapely.points(points[:, :2]), geometry).max()
     assert reach <= solid.radius_m * 1.5 + 1e-6
+
+
+@pytest.mark.parametrize("columns", [1, 2, 3])
+def test_pieces_of_some_columns_at_a_time_hang_together_as_all_do(columns, monkeypatch) -> None:
+    rng = np.random.default_rng(columns)
+    solids = [Solid(n % 3, "ground", blob(rng, 30), 0.0, 0.0) for n in range(9)]
+    solids += [Solid(3 + n % 2, "wall", shapely.LineString(rng.uniform(-80, 80, (6, 2))), 0.0, 2.0) for n in range(4)]
+    whole = PieceTable.of(solids)
+    assert whole.shape[0] > 6
+    assert len(whole.links)
+    monkeypatch.setattr("models.city.tiled.pieces.COLUMNS", columns)
+    some = PieceTable.of(solids)
+    assert np.array_equal(some.link_starts, whole.link_starts)
+    assert np.array_equal(some.links, whole.links)
+
+
+@pytest.mark.parametrize("at_once", [1, 5, 17])
+def test_places_to_stand_are_the_same_however_many_areas_are_looked_at_together(at_once, monkeypatch) -> None:
+    rng = np.random.default_rng(at_once)
+    table = PieceTable.of([Solid(n, "ground", blob(rng, 25), 0.0, 0.0) for n in range(6)])
+    rows = np.flatnonzero(table.dimension == 2)
+    whole = table.lattice(rows, 2.0)
+    block = np.floor(whole / 2.0)
+    assert len(np.unique(block, axis=0)) == len(whole) > 500
+    monkeypatch.setattr("models.city.tiled.pieces.AT_ONCE", at_once)
+    assert np.array_equal(table.lattice(rows, 2.0), whole)
