@@ -3,7 +3,7 @@
 import asyncio
 import os
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
-from contextlib import asynccontextmanager
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
@@ -65,11 +65,7 @@ def create_app(
     if settings.index is not None:
         copying = Copying.of(settings.index)
         settings = settings.model_copy(update={"index_dir": copying.directory})
-    if open_localizer is None:
-        opener, read = partial(_open_workers, settings), partial(_aliases, settings.index_dir)
-        indexes = Indexes(opener, read, settings, partial(check_version, settings.index_dir))
-    else:
-        indexes = Indexes(lambda _alias, _version: [open_localizer()], dict, settings)
+    indexes = _indexes(settings, open_localizer)
     jobs = EvaluationJobs(settings.max_jobs, settings.jobs_dir)
     traces = _open_traces(os.environ)
 
@@ -91,17 +87,7 @@ def create_app(
             if traces is not None:
                 await asyncio.to_thread(traces.close)
 
-    app = FastAPIOffline(
-        title="Hereabouts",
-        version=version("hereabouts"),
-        description=ABOUT + error_table(),
-        lifespan=lifespan,
-        redoc_url=None,  # its page loads a logo from another origin
-        redirect_slashes=False,  # a redirect would repeat the client's Host header
-        swagger_ui_parameters={"validatorUrl": None},  # else Swagger shows a badge from swagger.io
-        # Its own spans have the query string and the path, its own logs what faults say.
-        telemetry=dict.fromkeys(("tracing", "metrics", "logs", "auto_configure"), False),
-    )
+    app = _fastapi(lifespan)
     app.state.settings = settings
     app.state.indexes = indexes
     app.state.metrics = Metrics(indexes)
@@ -115,6 +101,29 @@ def create_app(
         needs_admin_key=settings.admin_key is not None,
     )
     return app
+
+
+def _indexes(settings: Settings, open_localizer: Callable[[], LocalizerLike] | None) -> Indexes:
+    """What is served: indexes in workers, or what a test gives."""
+    if open_localizer is not None:
+        return Indexes(lambda _alias, _version: [open_localizer()], dict, settings)
+    opener, read = partial(_open_workers, settings), partial(_aliases, settings.index_dir)
+    return Indexes(opener, read, settings, partial(check_version, settings.index_dir))
+
+
+def _fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]]) -> FastAPI:
+    """An application without routes."""
+    return FastAPIOffline(
+        title="Hereabouts",
+        version=version("hereabouts"),
+        description=ABOUT + error_table(),
+        lifespan=lifespan,
+        redoc_url=None,  # its page loads a logo from another origin
+        redirect_slashes=False,  # a redirect would repeat the client's Host header
+        swagger_ui_parameters={"validatorUrl": None},  # else Swagger shows a badge from swagger.io
+        # Its own spans have the query string and the path, its own logs what faults say.
+        telemetry=dict.fromkeys(("tracing", "metrics", "logs", "auto_configure"), False),
+    )
 
 
 def _add_routes(app: FastAPI, settings: Settings, page_dir: Path, traces: "Traces | None") -> None:
