@@ -45,12 +45,12 @@ REPRODUCES = (*MEASURES, "index.reproduction")
 # A package: whose modules it may import, beside its own. "models" stands for the modules right in models/.
 MAY_IMPORT = {
     "models": ("models.language",),
-    "models.city": ("models", "models.city.tiled"),
+    "models.city": ("models", "models.city.scenery", "models.city.tiled"),
     "models.city.tiled": CITY,
     "models.city.kinds": ("models",),
     "models.city.gazetteer": CITY,
     "models.city.scenery": CITY,
-    "models.city.osm": (*CITY, *NAMES, "models.city.tiled"),
+    "models.city.osm": (*CITY, *NAMES, "models.city.scenery", "models.city.tiled"),
     "models.city.kitti360pose": CITY,
     "models.city.kitti360": (*CITY, "models.city.kitti360pose"),
     "models.city.store": (*CITY, "models.city.kitti360pose"),

@@ -14,7 +14,7 @@ from safetensors.numpy import save_file
 from index.stores.store import Floats
 from models.city.cells import BLOCK, CellTable
 from models.city.gallery import MapData
-from models.city.source import Source
+from models.city.source import MapSource, Source
 from models.city.types import Progress
 from models.errors import IndexBroken
 from models.posterior.likelihood import Likelihood
@@ -23,7 +23,7 @@ from models.posterior.surroundings.piece_surroundings import PieceSurroundings
 from models.posterior.surroundings.scan_surroundings import FILE as SURROUNDINGS_FILE
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 from models.posterior.surroundings.surroundings import Surroundings
-from models.processes import map_forked
+from models.processes import give_back, map_forked
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Level
@@ -70,8 +70,9 @@ class Part:
             report: called as the work goes on.
         """
         vectors, levels = _encoded(retriever, source.data, rows, report)
-        if isinstance(surroundings, PieceSurroundings):
-            source.data = source.data.cut_anew(surroundings.cut)
+        if isinstance(source, MapSource) and isinstance(surroundings, PieceSurroundings):
+            source.lighten(surroundings.cut)
+            give_back()
         report("tabulate statements", 0, 0)
         data, things = source.data, surroundings.things
         label, rgb = torch.from_numpy(things.labels(data.gallery)[1]), torch.from_numpy(things.rgb.astype(np.float32))

@@ -15,6 +15,7 @@ from models.city.tiled.cutting import cut_pieces, sample_pieces
 from models.city.tiled.pieces import PieceTable
 from models.city.types import CityMap, CutRules, Floats
 from models.errors import MapError
+from models.processes import give_back
 
 Cut = Callable[[int, int], None]  # cubes cut, cubes to cut
 
@@ -125,6 +126,7 @@ def cut_cells(city_map: CityMap, bodies: Bodies, progress: Cut | None = None) ->
     rules = city_map.rules
     centers = grid_centers(city_map.locations_m, rules)
     parts = bodies.cut(centers, progress, rules.min_instances)
+    give_back()
     kept = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)
     if not len(kept):
         raise MapError(

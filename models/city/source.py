@@ -4,7 +4,8 @@ Indexing, training and measuring come through here, so that they see the same ce
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from models.city.bodies import Bodies, PieceBodies, PointBodies, bodies_of, cut_cells
-from models.city.cells import CellTable
+from models.city.cells import CellTable, Parts
 from models.city.colours import KITTI360_PALETTE
 from models.city.gallery import Clouds, Gallery, MapData
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
@@ -25,7 +26,7 @@ from models.city.points import Ints
 from models.city.queries import Queries, Statements
 from models.city.regions import SPLITS, split_regions
 from models.city.scenery.cloud import encode_cloud
-from models.city.scenery.shapes import Place, encode_shapes
+from models.city.scenery.shapes import Outlines, Place
 from models.city.store.files import load_data
 from models.city.store.pose_store import PoseStore
 from models.city.types import CityMap, CutRules, Floats, Progress
@@ -164,6 +165,15 @@ class MapSource(Source):
         is_thing, least = ~points.is_stuff, rules.min_part_points
         return Clouds(points.xyz, points.starts, is_thing, scene, of_part, rules.thing_share, least)
 
+    def lighten(self, cut: Callable[[Floats], Parts]) -> None:
+        """Let go of all but what an index is made of; there are no queries and no bodies after that.
+
+        Args:
+            cut: cuts the parts of cells round centres [N, 3], when they are asked for.
+        """
+        self.data, nowhere = self.data.cut_anew(cut), self._locations_m[:0]
+        self._map, self._locations_m = replace(self._map, instances=(), locations_m=nowhere), nowhere
+
     def gazetteer(self) -> Gazetteer:
         """See Source; of the whole file, whatever the split."""
         return load_gazetteer(self._path, self.data.frame)
@@ -172,7 +182,8 @@ class MapSource(Source):
         """See Source; of the whole file, whatever the split."""
         named = gazetteer.named.tolist()
         places = [(gazetteer.middles_m[n].tolist(), gazetteer.words[n]) for n in named]
-        yield encode_shapes(self._map.shapes, [Place((x, y), w.names[0], w.kinds[0]) for (x, y), w in places])
+        outlines = self._map.outlines or Outlines.of(())
+        yield outlines.encode([Place((x, y), w.names[0], w.kinds[0]) for (x, y), w in places])
 
 
 class StoreSource(Source):

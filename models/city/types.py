@@ -17,6 +17,7 @@ from models.city.frame import Frame
 if TYPE_CHECKING:
     import shapely
 
+    from models.city.scenery.shapes import Outlines
     from models.city.tiled.pieces import PieceTable
 
 Floats = npt.NDArray[np.floating[Any]]
@@ -108,7 +109,7 @@ class CityMap:
         palette: the colour words used for this map.
         rules: how to cut it; the least size of a part depends on how dense the points are.
         attribution: what the data's licence asks to show.
-        shapes: how it is drawn, what lies on top first; none where it is points.
+        outlines: how it is drawn; None where it is points.
         pieces: what stands there, where the map is geometry.
     """
 
@@ -120,7 +121,7 @@ class CityMap:
     palette: Palette = KITTI360_PALETTE
     rules: CutRules = CutRules()
     attribution: str = ""
-    shapes: tuple[MapShape, ...] = ()
+    outlines: "Outlines | None" = None
     pieces: "PieceTable | None" = None
 
 

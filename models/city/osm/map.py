@@ -19,6 +19,7 @@ from models.city.colours import BASIC_PALETTE
 from models.city.frame import Frame
 from models.city.osm.classes import OsmClass, class_of, load_classes
 from models.city.osm.features import Feature, as_feature, merge
+from models.city.scenery.shapes import Outlines
 from models.city.tiled.pieces import PieceTable
 from models.city.tiled.tiling import Geometries
 from models.city.types import CityMap, CutRules, Floats, Instance, MapShape
@@ -222,7 +223,7 @@ def _city_map(name: str, features: list[Feature], frame: Frame) -> CityMap:
         palette=BASIC_PALETTE,
         rules=CutRules(min_part_points=MIN_PART_POINTS),
         attribution=ATTRIBUTION,
-        shapes=tuple(_shape(feature) for feature in features),
+        outlines=Outlines.of([_shape(feature) for feature in features]),
         pieces=pieces,
     )
 

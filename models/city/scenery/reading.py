@@ -59,7 +59,7 @@ class Drawn:
 
 
 def read_scenery(path: Path) -> Drawn:
-    """A part, as `encode_shapes` or `encode_cloud` wrote it and `save_scenery` compressed it."""
+    """A part, as `Outlines.encode` or `encode_cloud` wrote it and `save_scenery` compressed it."""
     blob = gzip.decompress(path.read_bytes())
     (size,) = struct.unpack("<Q", blob[:8])
     told = json.loads(blob[8 : 8 + size])["__metadata__"]

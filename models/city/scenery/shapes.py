@@ -34,53 +34,67 @@ class Place:
     kind: str
 
 
-def encode_shapes(shapes: Sequence[MapShape], places: Sequence[Place] = ()) -> bytes:
-    """A safetensors file of O objects of R paths of V vertices; numbers are decimetres.
+@dataclass(frozen=True, slots=True, eq=False)
+class Outlines:
+    """O objects of R paths of V vertices as they are drawn; numbers are decimetres.
 
-    Objects stand by label, within a label by where they are. Tensors of O: "label" (number in metadata "labels"),
-    "form" (0 point, 1 line, 2 area), "base", "top", "width", "paths" (how many), "source" (OpenStreetMap's number times
-    4, and 0 node, 1 way, 2 relation; -1 for none). Of R: "size" (vertices), "hole" (of an area). "steps" [V, 2]: each
-    vertex from the one before it, the first from the origin. Metadata, as JSON: "labels", "names" {object: name},
-    "places" [[x, y, name, kind]].
+    Objects stand by label, within a label by where they are.
 
-    Args:
-        shapes: what there is, those that lie on top of others first; labels keep this order.
-        places: what has a name.
+    Attributes:
+        labels: those that lie on top of others first.
+        names: of objects that have one, by number.
+        tensors: of O: "label" (number in `labels`), "form" (0 point, 1 line, 2 area), "base", "top", "width", "paths"
+            (how many), "source" (OpenStreetMap's number times 4, and 0 node, 1 way, 2 relation; -1 for none). Of R:
+            "size" (vertices), "hole" (of an area). "steps" [V, 2]: each vertex from the one before it, the first from
+            the origin.
     """
-    order = list(dict.fromkeys(shape.label for shape in shapes))
-    geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLER_M)
-    drawn = ~(shapely.is_missing(geometry) | shapely.is_empty(geometry))
-    number = {label: n for n, label in enumerate(order)}
-    label = np.array([number[shape.label] for shape in shapes], dtype=np.uint16)
-    sorted_by = np.lexsort((_morton(geometry), label))
-    chosen = sorted_by[drawn[sorted_by]]
-    shapes, geometry = [shapes[n] for n in chosen], geometry[chosen]
-    form = shapely.get_dimensions(geometry).astype(np.uint8) if shapes else np.zeros(0, np.uint8)
-    path, owner, hole = _paths(geometry, form)
-    xy, of_path = shapely.get_coordinates(path, return_index=True)
-    whole = np.rint(xy * UNITS_A_METRE).astype(np.int32)
-    tensors = {
-        "label": label[chosen],
-        "form": form,
-        "base": _heights([shape.base_m for shape in shapes]),
-        "top": _heights([shape.top_m for shape in shapes]),
-        "width": _heights([shape.width_m for shape in shapes]),
-        "paths": np.bincount(owner, minlength=len(shapes)).astype(np.uint32),
-        "source": np.array([_number_of(shape.source_id) for shape in shapes], dtype=np.float64),
-        "size": np.bincount(of_path, minlength=len(path)).astype(np.uint32),
-        "hole": hole.astype(np.uint8),
-        "steps": np.diff(whole, axis=0, prepend=np.zeros((1, 2), np.int32)).astype(np.int32),
-    }
-    return in_order(save(tensors, {"kind": "shapes", **_words(shapes, order, places)}))
 
+    labels: list[str]
+    names: dict[int, str]
+    tensors: dict[str, npt.NDArray[Any]]
 
-def _words(shapes: Sequence[MapShape], order: Sequence[str], places: Sequence[Place]) -> dict[str, str]:
-    told: dict[str, Any] = {
-        "labels": list(order),
-        "names": {n: shape.name for n, shape in enumerate(shapes) if shape.name},
-        "places": [[*(round(v * UNITS_A_METRE) for v in place.at_m), place.name, place.kind] for place in places],
-    }
-    return {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in told.items()}
+    @classmethod
+    def of(cls, shapes: Sequence[MapShape]) -> "Outlines":
+        """Those of what there is, what lies on top of others first; labels keep this order."""
+        order = list(dict.fromkeys(shape.label for shape in shapes))
+        geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLER_M)
+        drawn = ~(shapely.is_missing(geometry) | shapely.is_empty(geometry))
+        number = {label: n for n, label in enumerate(order)}
+        label = np.array([number[shape.label] for shape in shapes], dtype=np.uint16)
+        sorted_by = np.lexsort((_morton(geometry), label))
+        chosen = sorted_by[drawn[sorted_by]]
+        shapes, geometry = [shapes[n] for n in chosen], geometry[chosen]
+        form = shapely.get_dimensions(geometry).astype(np.uint8) if shapes else np.zeros(0, np.uint8)
+        path, owner, hole = _paths(geometry, form)
+        xy, of_path = shapely.get_coordinates(path, return_index=True)
+        whole = np.rint(xy * UNITS_A_METRE).astype(np.int32)
+        tensors = {
+            "label": label[chosen],
+            "form": form,
+            "base": _heights([shape.base_m for shape in shapes]),
+            "top": _heights([shape.top_m for shape in shapes]),
+            "width": _heights([shape.width_m for shape in shapes]),
+            "paths": np.bincount(owner, minlength=len(shapes)).astype(np.uint32),
+            "source": np.array([_number_of(shape.source_id) for shape in shapes], dtype=np.float64),
+            "size": np.bincount(of_path, minlength=len(path)).astype(np.uint32),
+            "hole": hole.astype(np.uint8),
+            "steps": np.diff(whole, axis=0, prepend=np.zeros((1, 2), np.int32)).astype(np.int32),
+        }
+        return cls(order, {n: shape.name for n, shape in enumerate(shapes) if shape.name}, tensors)
+
+    def encode(self, places: Sequence[Place] = ()) -> bytes:
+        """A safetensors file of it, with "labels", "names" and "places" [[x, y, name, kind]] as JSON in its metadata.
+
+        Args:
+            places: what has a name.
+        """
+        told: dict[str, Any] = {
+            "labels": self.labels,
+            "names": self.names,
+            "places": [[*(round(v * UNITS_A_METRE) for v in place.at_m), place.name, place.kind] for place in places],
+        }
+        words = {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in told.items()}
+        return in_order(save(self.tensors, {"kind": "shapes", **words}))
 
 
 def _paths(geometry: Any, form: npt.NDArray[np.uint8]) -> tuple[Any, npt.NDArray[np.intp], npt.NDArray[np.bool_]]:

@@ -14,7 +14,7 @@ from models.city.types import Floats
 from models.compiled import compiled
 
 SPACING_M: Final = 1.5
-COLUMNS: Final = 256  # of the grid that are looked at together
+COLUMNS: Final = 32  # of the grid that are looked at together
 
 
 def grid(cells: CellTable) -> tuple[Floats, Ints]:

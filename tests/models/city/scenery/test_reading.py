@@ -5,7 +5,7 @@ import shapely
 from models.city.scenery.cloud import encode_cloud
 from models.city.scenery.files import file_name, save_scenery
 from models.city.scenery.reading import AREA, LINE, POINT, look, read_scenery
-from models.city.scenery.shapes import Place, encode_shapes
+from models.city.scenery.shapes import Outlines, Place
 from models.city.types import MapShape
 
 
@@ -16,7 +16,7 @@ def test_shapes_are_read_as_they_were_written(tmp_path) -> None:
         MapShape("building", yard, name="Kauppahalli"),
         MapShape("road", shapely.MultiLineString([[(0, 0), (100, 1)], [(200, 5), (300, 5)]]), width_m=6.5),
     ]
-    save_scenery(tmp_path, [encode_shapes(shapes, [Place((1.0, -2.0), "Café Ö", "amenity/cafe")])])
+    save_scenery(tmp_path, [Outlines.of(shapes).encode([Place((1.0, -2.0), "Café Ö", "amenity/cafe")])])
     drawn = read_scenery(tmp_path / file_name(0))
     assert [(o.label, o.form, o.name, o.width_m) for o in drawn.outlines] == [
         ("tree", POINT, None, 0.0),
@@ -34,7 +34,7 @@ def test_shapes_are_read_as_they_were_written(tmp_path) -> None:
 def test_a_map_of_nothing_and_points_are_read(tmp_path) -> None:
     xyz = np.random.default_rng(0).uniform(-50, 50, (20, 3)).round(1)
     rgb = np.arange(60, dtype=np.uint8).reshape(20, 3)
-    save_scenery(tmp_path, [encode_shapes([]), *encode_cloud(xyz, rgb)])
+    save_scenery(tmp_path, [Outlines.of([]).encode(), *encode_cloud(xyz, rgb)])
     assert read_scenery(tmp_path / file_name(0)).outlines == []
     drawn = read_scenery(tmp_path / file_name(1))
     order, read = np.lexsort(xyz.T), np.lexsort(drawn.xyz_m.T)

@@ -7,7 +7,7 @@ import shapely
 from safetensors.numpy import load
 
 from models.city.osm.map import load_osm
-from models.city.scenery.shapes import Place, encode_shapes
+from models.city.scenery.shapes import KINDS, Outlines, Place
 from models.city.types import MapShape
 
 HOUSE = shapely.Polygon([(0, 0), (20, 0), (20, 10), (0, 10)], [[(5, 2), (8, 2), (8, 5), (5, 5)]])
@@ -25,16 +25,15 @@ def decoded(blob):
 
 
 def test_shapes_are_what_was_encoded() -> None:
-    blob = encode_shapes(
+    outlines = Outlines.of(
         [
             MapShape("tree", shapely.Point(-3.21, 4), top_m=8.06, source_id="node/7"),
             MapShape("building", HOUSE, 3, 21.5, name="Kauppahalli", source_id="relation/9"),
             MapShape("road", shapely.MultiLineString([[(0, 0), (100, 1)], [(200, 5), (300, 5)]]), width_m=6.5),
             MapShape("tree", shapely.Point(), source_id="node/8"),
-        ],
-        [Place((1.04, -2.0), "Café Ö", "amenity/cafe")],
+        ]
     )
-    told, tensors, objects = decoded(blob)
+    told, tensors, objects = decoded(outlines.encode([Place((1.04, -2.0), "Café Ö", "amenity/cafe")]))
     assert told["labels"] == ["tree", "building", "road"]
     assert [told["labels"][n] for n in tensors["label"]] == ["tree", "building", "road"], (
         "what has no place is left out"
@@ -55,7 +54,7 @@ def test_shapes_are_what_was_encoded() -> None:
 
 def test_what_a_clip_leaves_over_is_not_drawn() -> None:
     left_over = shapely.GeometryCollection([HOUSE, shapely.Point(50, 50), shapely.LineString([(0, 0), (9, 9)])])
-    _, tensors, objects = decoded(encode_shapes([MapShape("building", left_over)]))
+    _, tensors, objects = decoded(Outlines.of([MapShape("building", left_over)]).encode())
     assert tensors["paths"].tolist() == [2]
     assert shapely.Polygon(objects[0][0]).area == 200
 
@@ -63,13 +62,13 @@ def test_what_a_clip_leaves_over_is_not_drawn() -> None:
 def test_neighbours_stand_together() -> None:
     rng = np.random.default_rng(0)
     trees = [MapShape("tree", shapely.Point(*rng.uniform(-900, 900, 2))) for _ in range(500)]
-    _, tensors, _ = decoded(encode_shapes(trees))
+    _, tensors, _ = decoded(Outlines.of(trees).encode())
     apart = np.hypot(*tensors["steps"][1:].T / 10)
     assert np.median(apart) < 100, "in the order in which they came it is 900 m"
 
 
 def test_nothing_is_a_map_too() -> None:
-    told, tensors, _ = decoded(encode_shapes([]))
+    told, tensors, _ = decoded(Outlines.of([]).encode())
     assert told["labels"] == []
     assert len(tensors["steps"]) == 0
 
@@ -77,11 +76,15 @@ def test_nothing_is_a_map_too() -> None:
 @pytest.mark.parametrize(("label", "form"), [("building", 2), ("road", 1), ("tree", 0)])
 def test_a_map_from_openstreetmap_has_its_geometry(osm_file, label, form) -> None:
     city_map = load_osm(osm_file)
-    shapes = [shape for shape in city_map.shapes if shape.label == label]
-    assert {int(shapely.get_dimensions(shape.geometry)) for shape in shapes} == {form}
-    ids = {instance.source_id for instance in city_map.instances if instance.label == label}
-    assert ids <= {shape.source_id for shape in shapes}
+    assert city_map.outlines is not None
+    tensors = city_map.outlines.tensors
+    of_label = tensors["label"] == city_map.outlines.labels.index(label)
+    assert set(tensors["form"][of_label].tolist()) == {form}
+    ids = {i.source_id for i in city_map.instances if i.label == label and i.source_id}
+    numbers = {4 * int(number) + KINDS.index(kind) for kind, number in (of.split("/") for of in ids)}
+    assert numbers <= set(tensors["source"][of_label].tolist())
     if label == "road":
-        assert all(shape.width_m > 0 and shape.top_m == 0 for shape in shapes)
+        assert (tensors["width"][of_label] > 0).all()
+        assert (tensors["top"][of_label] == 0).all()
     else:
-        assert all(shape.top_m > 0 for shape in shapes)
+        assert (tensors["top"][of_label] > 0).all()
