@@ -6,15 +6,11 @@ tests.
 
 import json
 from pathlib import Path
-from typing import Any, Final, Self
+from typing import Any, Self
 
-import torch
 from pydantic import BaseModel
 from safetensors import safe_open
 from torch import Tensor, nn
-
-LEAST_ROWS: Final = 8  # that oneDNN is given; their number is a multiple of it
-HAS_ONEDNN: Final = torch.backends.mkldnn.is_available()
 
 
 class BertConfig(BaseModel):
@@ -74,30 +70,6 @@ class _Embeddings(nn.Module):
         return embedded
 
 
-class Linear(nn.Linear):
-    """As torch's but for the last bits, by oneDNN where nothing is learnt.
-
-    Torch asks MKL, which on the processors of other makers than its own is half as fast. oneDNN keeps machine code for
-    every number of rows that it has met, about a megabyte: so it meets few, with rows of zeros below.
-    """
-
-    def forward(self, x: Tensor) -> Tensor:
-        """[..., I] to [..., O]."""
-        if not HAS_ONEDNN or torch.is_grad_enabled() or x.device.type != "cpu" or x.dtype != torch.float32:
-            return super().forward(x)
-        rows = x.reshape(-1, x.shape[-1])
-        given = nn.functional.pad(rows, (0, 0, 0, rows_given(len(rows)) - len(rows)))
-        made = torch.ops.mkldnn._linear_pointwise(given, self.weight, self.bias, "none", [], "")
-        found: Tensor = made[: len(rows)].view(*x.shape[:-1], self.out_features)
-        return found
-
-
-def rows_given(rows: int) -> int:
-    """How many rows oneDNN is given for some: at most a quarter more, or up to the next LEAST_ROWS."""
-    step = max(LEAST_ROWS, 1 << rows.bit_length() >> 3)
-    return -(-rows // step) * step
-
-
 class Layer(nn.Module):
     """Attention over all tokens, and two linear layers on each."""
 
@@ -105,9 +77,9 @@ class Layer(nn.Module):
         super().__init__()
         width = config.hidden_size
         self.heads = config.num_attention_heads
-        heads = nn.ModuleDict({name: Linear(width, width) for name in ("query", "key", "value")})
+        heads = nn.ModuleDict({name: nn.Linear(width, width) for name in ("query", "key", "value")})
         self.attention = nn.ModuleDict({"self": heads, "output": _added(width, width, config)})
-        self.intermediate = nn.ModuleDict({"dense": Linear(width, config.intermediate_size)})
+        self.intermediate = nn.ModuleDict({"dense": nn.Linear(width, config.intermediate_size)})
         self.output = _added(config.intermediate_size, width, config)
 
     def forward(self, hidden: Tensor, shut: Tensor | None) -> Tensor:
@@ -121,7 +93,7 @@ class Layer(nn.Module):
 
 
 def _added(width: int, to: int, config: BertConfig) -> nn.ModuleDict:
-    return nn.ModuleDict({"dense": Linear(width, to), "LayerNorm": nn.LayerNorm(to, config.layer_norm_eps)})
+    return nn.ModuleDict({"dense": nn.Linear(width, to), "LayerNorm": nn.LayerNorm(to, config.layer_norm_eps)})
 
 
 def _add(output: Any, told: Tensor, hidden: Tensor) -> Tensor:

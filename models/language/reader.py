@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
 from models.language.lexicon.lexicon import load_lexicon
+from models.language.packed import PackedLayer, may_pack, run_packed
 from models.language.parsed_hint import RELATIONS, SENTENCE_END, ParsedHint, resolve
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures, run_layers
 
@@ -76,13 +77,26 @@ class Reader(OnTextEncoder):
         self.relation = _head(width, len(RELATIONS))
         self.colour = _head(width, len(COLOURS) + 1)
         self.absent = _head(width, 1)
+        self._packed: list[PackedLayer] | None = None
 
     def forward(self, tokens: TokenFeatures) -> Tensor:
         """[B, T, D] features of tokens in their text, from what the frozen layers make of them."""
-        x: Tensor = self.project(run_layers(self.tuned, tokens.values, tokens.mask))
+        x: Tensor = self.project(self._run(tokens.values, tokens.mask))
         for layer in self.near:
             x = layer(x, tokens.mask)
         return x
+
+    def _run(self, hidden: Tensor, mask: Tensor) -> Tensor:
+        if self.training or not may_pack(self.tuned, hidden):
+            return run_layers(self.tuned, hidden, mask)
+        if self._packed is None:
+            self._packed = [PackedLayer(layer) for layer in self.tuned]
+        return run_packed(self._packed, hidden, mask)
+
+    def train(self, mode: bool = True) -> "Reader":
+        """As torch does; layers that were packed are forgotten."""
+        self._packed = None
+        return super().train(mode)
 
     def attributes(self, spans: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Logits of nouns from their features [S, D]: relation [S, 10], colour [S, C + 1], absent [S]."""

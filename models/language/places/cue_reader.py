@@ -10,6 +10,7 @@ from cachetools import LRUCache, cachedmethod
 from torch import Tensor, nn
 from torch.func import functional_call
 
+from models.language.packed import PackedLayer, may_pack, run_packed, shut_of
 from models.language.places.cues import Relation
 from models.language.places.spans import Form
 from models.language.text_encoder import TextEncoder, TokenFeatures
@@ -76,7 +77,7 @@ class CueReader(nn.Module):
             nn.Linear(2 * width, WIDTH), nn.GELU(), nn.Dropout(DROPOUT),
             nn.Linear(WIDTH, len(ANGLES) + len(RELATIONS) + len(FLAGS)),
         )  # fmt: skip
-        self._merged: list[dict[str, Tensor]] | None = None
+        self._packed: list[PackedLayer] | None = None  # with what is added merged
         self._kept: LRUCache[tuple[str, tuple[Place, ...]], list[ReadCue]] = LRUCache(KEPT_TEXTS)
 
     def forward(self, tokens: TokenFeatures, spans: Sequence[Sequence[tuple[int, int, int]]]) -> tuple[Tensor, ...]:
@@ -132,7 +133,7 @@ class CueReader(nn.Module):
 
     def train(self, mode: bool = True) -> "CueReader":
         """As torch does; what was merged of the weights, and read with them, is forgotten."""
-        self._merged = None
+        self._packed = None
         self._kept.clear()
         return super().train(mode)
 
@@ -142,22 +143,21 @@ class CueReader(nn.Module):
 
     def _weights(self) -> list[dict[str, Tensor]]:
         """All parameters of each layer, with what is added to them."""
-        if self._merged is not None:
-            return self._merged
         added = (up @ down for up, down in zip(self.up, self.down, strict=True))
-        found = [
+        return [
             {name: p.detach() + next(added) if p.dim() == 2 else p.detach() for name, p in layer.named_parameters()}
             for layer in self._base[1]
         ]
-        if not self.training and not torch.is_grad_enabled():
-            self._merged = found
-        return found
 
     def _run(self, x: Tensor, mask: Tensor) -> Tensor:
-        shut = torch.zeros(mask.shape, device=mask.device).masked_fill(~mask, float("-inf"))[:, None, None]
-        for layer, weights in zip(self._base[1], self._weights(), strict=True):
-            x = functional_call(layer, weights, (x, shut))
-        return x
+        layers = self._base[1]
+        if self.training or not may_pack(layers, x):
+            for layer, weights in zip(layers, self._weights(), strict=True):
+                x = functional_call(layer, weights, (x, shut_of(mask, x)))
+            return x
+        if self._packed is None:
+            self._packed = [PackedLayer(*each) for each in zip(layers, self._weights(), strict=True)]
+        return run_packed(self._packed, x, mask)
 
 
 def _likely(angles: Sequence[float]) -> tuple[tuple[float | None, float], ...]:

@@ -199,3 +199,16 @@ def test_a_binding_reads_what_was_noticed(matcher):
     assert reading.distance_m[0] == 4.0
     assert reading.distance_m[1].isnan()
     assert binding.nothing().label.shape == (1, len(KITTI))
+
+
+def test_layers_that_were_packed_are_forgotten_in_training(reader, text_encoder) -> None:
+    tokens, _ = text_encoder.read(["The bank is north of me."], reader.config.frozen_layers)
+    with torch.no_grad():
+        before = reader(tokens)
+        assert reader._packed is not None
+        try:
+            reader.train()
+            assert reader._packed is None
+        finally:
+            reader.eval()
+        assert torch.equal(reader(tokens), before)

@@ -8,8 +8,8 @@ from transformers import AutoModel, AutoTokenizer, PreTrainedTokenizerFast, T5Co
 
 from models.errors import WeightsError
 from models.language import text_encoder as module
-from models.language.bert import LEAST_ROWS, Linear, rows_given
-from models.language.text_encoder import MINILM_SHA256, load_text_encoder
+from models.language.packed import LEAST_ROWS, PackedLayer, may_pack, rows_given, run_packed
+from models.language.text_encoder import MINILM_SHA256, load_text_encoder, run_layers
 
 SENTENCES = ["I am north of a gray building.", "A tree."]
 
@@ -40,18 +40,32 @@ def test_minilm_is_what_transformers_make_of_its_files(text_encoder) -> None:
     assert torch.allclose(found.values, expected * mask[..., None], atol=1e-5)
 
 
-@pytest.mark.parametrize("shape", [(1, 42), (7,), (3, 0)])
-@pytest.mark.parametrize("bias", [True, False])
-def test_a_layer_without_gradients_is_the_same_layer(shape, bias) -> None:
+@pytest.mark.parametrize("lengths", [[42], [1], [7, 3, 11]])
+def test_packed_layers_are_the_same_layers(text_encoder, lengths) -> None:
     torch.manual_seed(0)
-    layer, x = Linear(24, 40, bias=bias), torch.randn(*shape, 24)
-    expected = torch.nn.functional.linear(x, layer.weight, layer.bias)
-    with torch.inference_mode():
-        assert torch.allclose(layer(x), expected, atol=1e-5)
-        assert torch.equal(layer(x.mT.contiguous().mT) if x.dim() > 1 else layer(x), layer(x))
-    learnt = layer(x)
-    assert torch.equal(learnt, expected), "gradients go through torch's own"
-    assert learnt.requires_grad
+    layers, hidden = text_encoder.layers(0, 3), torch.randn(len(lengths), max(lengths), 384)
+    mask = torch.arange(max(lengths)) < torch.tensor(lengths)[:, None]
+    with torch.no_grad():
+        expected = run_layers(layers, hidden, mask)
+        found = run_packed([PackedLayer(layer) for layer in layers], hidden, mask)
+    assert torch.allclose(found[mask], expected[mask], atol=1e-5)
+
+
+def test_layers_with_weights_of_others(text_encoder) -> None:
+    first, second = text_encoder.layers(0, 2)
+    x = torch.randn(9, 384)
+    with torch.no_grad():
+        found = PackedLayer(first, dict(second.named_parameters()))(x, torch.Size((1, 9, 384)), None)
+        assert torch.allclose(found, second(x[None], None)[0], atol=1e-5)
+
+
+def test_what_learns_is_not_packed(text_encoder) -> None:
+    layers, x = text_encoder.layers(0, 1), torch.zeros(1, 384)
+    assert not may_pack(layers, x)
+    with torch.no_grad():
+        assert may_pack(layers, x)
+        assert not may_pack([torch.nn.Linear(2, 2)], x)
+        assert not may_pack(layers, x.double())
 
 
 def test_it_is_frozen(text_encoder) -> None:
@@ -121,7 +135,7 @@ def test_layers_keep_little_of_texts_of_all_lengths(text_encoder, monkeypatch) -
         met.add(len(made := pad(*given)))
         return made
 
-    monkeypatch.setattr("models.language.bert.nn.functional.pad", padded)
+    monkeypatch.setattr("models.language.packed.nn.functional.pad", padded)
     with torch.inference_mode():
         for words in range(1, 60):
             text_encoder.read(["cafe " * words], 1)

@@ -69,7 +69,7 @@ def test_merged_weights_are_forgotten_in_training(cues) -> None:
     before = cues.read(text, places)
     try:
         cues.train()
-        assert cues._merged is None
+        assert cues._packed is None
         assert not cues._kept
     finally:
         cues.eval()
