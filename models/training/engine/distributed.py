@@ -33,6 +33,7 @@ def process_group() -> Iterator[None]:
     dist.init_process_group("nccl" if torch.cuda.is_available() else "gloo", timeout=LONGEST_WAIT)
     try:
         yield
+        dist.barrier()  # who leaves first breaks what the others still send
     finally:
         dist.destroy_process_group()
 
