@@ -14,6 +14,7 @@ from models.posterior.surroundings.around import STEP_M
 
 HABITS: Final = 3
 FAINT: Final = 5e-3  # what fits a hint less than this is left to chance
+SPOKEN: Final = 0.05  # of being absent, from which on that is heeded
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -135,7 +136,7 @@ class Likelihood(nn.Module):
 
     def places(self, reading: Reading, ways: Tensor) -> Tensor:
         """[K, H] p(direction) p(distance) for K rows of the method `ways`."""
-        place = ways[:, :-1] @ reading.relation.T + self.relation_slip.exp()
+        place = torch.addmm(self.relation_slip.exp(), ways[:, :-1], reading.relation.T)
         said = reading.distance_m
         if bool((~said.isnan()).any()):
             known = said.nan_to_num(1.0)  # a NaN that is not chosen would still be in the gradients
@@ -187,7 +188,7 @@ class Likelihood(nn.Module):
         single = torch.exp(-self.twice.exp() * (load.index_select(1, row) - 1).clamp(min=0).log1p())
         total = torch.zeros_like(first).index_add(1, key, terms * single)
         said = (total.view(HABITS, nodes, hints) + eps).log()
-        if bool((reading.absent > 0.05).any()):
+        if bool((reading.absent > SPOKEN).any()):
             # "There is none": the less there is of it, the likelier.
             around = first.view_as(said) / eps.detach().clamp(min=1e-2)
             none = torch.exp(-3 * around).clamp(min=1e-2).log()

@@ -14,6 +14,7 @@ from models.compiled import compiled
 from models.posterior.surroundings.around import STEP_M, Around
 
 RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
+MOST: Final = tuple(size - 1 for size in RANKS)
 OFFSET: Final = 128  # ways are int8; a pair of them numbers a row of the tables
 
 
@@ -69,36 +70,36 @@ def ranks_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
         label: [R] label of each row.
     """
     ranks = np.empty((len(node), len(RANKS) + 2), np.int64)
-    _count(node.numpy(), label.numpy(), way.numpy(), _SECTOR_OF_WAY.numpy(), *(most - 1 for most in RANKS), ranks)
+    _count(node.numpy(), label.numpy(), SECTOR_OF_WAY[way].numpy(), ranks)
     return torch.from_numpy(ranks)
 
 
 @compiled
-def _count(
-    node: Ints, label: Ints, way: Ints, sector: Ints, most: int, most_alike: int, most_beside: int, ranks: Ints
-) -> None:
-    """Fill `ranks` for rows that are in order of node: there are few of each node, so that any two are compared."""
+def _count(node: Ints, label: Ints, sector: Ints, ranks: Ints) -> None:
+    """Fill `ranks` for rows that are in order of node."""
     begin, rows = 0, len(node)
     while begin < rows:
         end = begin + 1
         while end < rows and node[end] == node[begin]:
             end += 1
-        for i in range(begin, end):
-            alike, beside, label_i, sector_i = 0, 0, label[i], sector[way[i]]
-            for j in range(begin, i):
-                if label[j] == label_i:
-                    alike += 1
-                    ranks[j, 3] += 1
-                if sector[way[j]] == sector_i:
-                    beside += 1
-                    ranks[j, 4] += 1
-            ranks[i, 0], ranks[i, 1], ranks[i, 2] = (
-                min(i - begin, most),
-                min(alike, most_alike),
-                min(beside, most_beside),
-            )
-            ranks[i, 3], ranks[i, 4] = alike + 1, beside + 1
+        count_ranks(label[begin:end], sector[begin:end], ranks[begin:end])
         begin = end
+
+
+@compiled
+def count_ranks(label: Ints, sector: Ints, ranks: Ints) -> None:
+    """Fill `ranks` [R, 5], see `ranks_of`, for rows of one node: there are few, so that any two are compared."""
+    for i in range(len(label)):
+        alike, beside = 0, 0
+        for j in range(i):
+            if label[j] == label[i]:
+                alike += 1
+                ranks[j, 3] += 1
+            if sector[j] == sector[i]:
+                beside += 1
+                ranks[j, 4] += 1
+        ranks[i, 0], ranks[i, 1], ranks[i, 2] = min(i, MOST[0]), min(alike, MOST[1]), min(beside, MOST[2])
+        ranks[i, 3], ranks[i, 4] = alike + 1, beside + 1
 
 
 def _sectors_of_ways() -> Tensor:
@@ -109,7 +110,7 @@ def _sectors_of_ways() -> Tensor:
     return torch.where(torch.hypot(east.float(), north.float()) * STEP_M < ON_TOP_M, 4, sector)
 
 
-_SECTOR_OF_WAY = _sectors_of_ways()
+SECTOR_OF_WAY: Final = _sectors_of_ways()
 
 
 def usual_statements(label: Tensor, rgb: Tensor, parts: Tensor, palette: Palette) -> Tensor:

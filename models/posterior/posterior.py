@@ -7,7 +7,6 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 import torch
-from torch import Tensor
 
 from models.city.cells import CellTable
 from models.city.colours import Palette
@@ -15,11 +14,11 @@ from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import NodeBatch, usual_statements
+from models.posterior.node_likelihood import NodeLikelihood
 from models.posterior.places.field import Told
 from models.posterior.questions import Answered
 from models.posterior.sights import Sights
 from models.posterior.statements import Statements
-from models.posterior.surroundings.around import Around
 from models.posterior.surroundings.nodes import is_coarse
 from models.posterior.surroundings.surroundings import Surroundings
 
@@ -90,6 +89,7 @@ class HintPosterior:
         self._words = likelihood.words(self._rgb, palette)
         self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
         self._ways, self._log_pi = likelihood.ways(), likelihood.log_pi()
+        self._nodes = NodeLikelihood(likelihood, self._label, self._words, self.usual)
         self.statements = statements or Statements.of(likelihood, surroundings, self._label, self._rgb, self._words)
         self.extent_m = cells.extent_m
         self.sights = Sights(surroundings, label, self._words.numpy())
@@ -131,7 +131,7 @@ class HintPosterior:
         if coarse is not None:
             kept = is_coarse(positions_m) == coarse
             nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
-        log_p = np.zeros(len(nodes)) if reading is None else self._log_p(reading, nodes)
+        log_p = np.zeros(len(nodes)) if reading is None else self._nodes.log_p(reading, s.around(nodes), len(nodes))
         if told is not None:
             log_p = log_p + told.at(positions_m, cell)
         if answered is not None:
@@ -140,24 +140,15 @@ class HintPosterior:
             log_p = log_p + log_prior(positions_m)
         return Field(cells, nodes, cell, log_p)
 
-    def _log_p(self, reading: Reading, nodes: Ints) -> Floats:
-        """[M] log p(hints | x) of some nodes."""
-        model, batch = self.likelihood, self._batch(self.surroundings.around(nodes), len(nodes))
-        fits = model.parts(reading, batch.label, self._words.index_select(0, batch.parts))
-        pairs = model.pairs(reading, fits, batch.part, self._ways, batch.way)
-        share, eps = self._share_of(batch).index_select(0, pairs.row), model.chance(reading, self.usual)
-        log_p: Floats = model.combine(reading, batch.node, len(nodes), pairs, share, eps).double().numpy()
-        return log_p
-
     @torch.inference_mode()
     def explain(self, reading: Reading, node: int) -> list[Explained]:
         """For each hint what explains it best at a node."""
         around = self.surroundings.around(np.array([node]))
         if not len(around.part):
             return [NOT_EXPLAINED] * len(reading.label)
-        model, batch = self.likelihood, self._batch(around, 1)
+        model, batch = self.likelihood, NodeBatch.of(around, 1, self._label, self._rgb)
         fits = model.parts(reading, batch.label, self._words.index_select(0, batch.parts))
-        share = self._share_of(batch).mean(dim=1, keepdim=True)
+        share = model.share_of(batch, self._log_pi).mean(dim=1, keepdim=True)
         terms = fits[batch.part] * model.places(reading, self._ways[batch.way]) * share
         eps = model.chance(reading, self.usual)
         best, total = terms.argmax(dim=0), terms.sum(dim=0)
@@ -168,9 +159,3 @@ class HintPosterior:
         return [
             Explained(p, int(around.part[row]), way_m[row]) for row, p in zip(best.tolist(), explained, strict=True)
         ]
-
-    def _batch(self, around: Around, nodes: int) -> NodeBatch:
-        return NodeBatch.of(around, nodes, self._label, self._rgb)
-
-    def _share_of(self, batch: NodeBatch) -> Tensor:
-        return self.likelihood.share_of(batch, self._log_pi)

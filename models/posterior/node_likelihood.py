@@ -1,0 +1,218 @@
+"""`Likelihood` at the nodes of a map, compiled: node by node, without arrays of all that is around them."""
+
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from torch import Tensor
+
+from models.city.points import Ints
+from models.city.types import Floats
+from models.compiled import compiled
+from models.posterior.likelihood import FAINT, HABITS, SPOKEN, Likelihood, Reading
+from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, count_ranks
+from models.posterior.surroundings.around import Around
+
+TINY: Final = 1e-200  # a product of chances goes into the sum of their logarithms before it is smaller
+LEAST_MASS: Final = 1e-3
+
+
+class NodeLikelihood:
+    """As `Likelihood` but for the last bits, where nothing is learnt; weights that change later make no difference.
+
+    Args:
+        likelihood: fitted.
+        label: [P] label of each of a map's things.
+        words: [P, W] chance of each colour word, likewise.
+        usual: as `usual_statements`.
+    """
+
+    @torch.inference_mode()
+    def __init__(self, likelihood: Likelihood, label: Tensor, words: Tensor, usual: Tensor) -> None:
+        self._model, self._label, self._words, self._usual = likelihood, label, words, usual
+        self._ways, sector = likelihood.ways(), SECTOR_OF_WAY.numpy().astype(np.int8)
+        ranks = np.ones((len(RANKS), max(RANKS), HABITS))
+        for n, weights in enumerate(likelihood.ranks):
+            ranks[n, : len(weights)] = weights.exp().numpy()
+        told = likelihood.partly.exp(), likelihood.crowding, likelihood.twice.exp(), likelihood.temper.exp()
+        numbers = np.array([float(number) for number in told])
+        habit = likelihood.habit.log_softmax(0).double().numpy()
+        by_way = likelihood.log_pi().exp().numpy()
+        self._weights = sector, by_way, ranks, likelihood.among.double().numpy(), numbers, habit
+        self._least = FAINT / (1.0 + float(likelihood.relation_slip.exp()))  # what fits less does so in no direction
+        self._lately: tuple[Reading, Floats] | None = None
+        self._place = np.full(len(label), -1, np.int32)  # of things among those of a text; -1 between texts
+
+    @torch.inference_mode()
+    def log_p(self, reading: Reading, around: Around, nodes: int) -> Floats:
+        """[M] log p(T | x) of so many nodes."""
+        parts, part = _distinct(around.part, self._place)
+        chosen, model = torch.from_numpy(parts), self._model
+        label = self._label.index_select(0, chosen)
+        fits = model.parts(reading, label, self._words.index_select(0, chosen)).numpy()
+        said = torch.stack([reading.absent, model.chance(reading, self._usual)]).double().numpy()
+        log_p: Floats = _log_p(
+            nodes, around.node, part, around.way, around.whole, label.numpy(), fits, self._places(reading), self._least,
+            said, *self._weights,
+        )  # fmt: skip
+        return log_p
+
+    def _places(self, reading: Reading) -> Floats:
+        """[65536, H] p(direction) p(distance) of every way; what was made last is kept, a text is asked of twice."""
+        if self._lately is None or self._lately[0] is not reading:
+            self._lately = reading, self._model.places(reading, self._ways).numpy()
+        return self._lately[1]
+
+
+@compiled
+def _distinct(part: Ints, place: Ints) -> tuple[Ints, Ints]:
+    """The things [P] that rows [R] are of, as they come, and which of these each row is of; `place` is as before."""
+    parts, found, count = np.empty(len(part), np.int64), np.empty(len(part), np.int64), 0
+    for r in range(len(part)):
+        if place[part[r]] < 0:
+            place[part[r]], parts[count] = count, part[r]
+            count += 1
+        found[r] = place[part[r]]
+    for n in range(count):
+        place[parts[n]] = -1
+    return parts[:count].copy(), found
+
+
+@compiled
+def _log_p(
+    nodes: int, node: Ints, part: Ints, way: Ints, whole: npt.NDArray[np.bool_], label: Ints, fits: Floats,
+    places: Floats, least: float, said: Floats, sector_of: Ints, by_way: Floats, ranks: Floats, among: Floats,
+    numbers: Floats, habit: Floats,
+) -> Floats:  # fmt: skip
+    """[M] log p(T | x).
+
+    Args:
+        nodes: M.
+        node: [R] of each thing around them, ascending.
+        part: [R] which of the next.
+        way: [R, 2] see `Around`.
+        whole: [R] likewise.
+        label: [P] of each part.
+        fits: [P, H] p(class) p(colour).
+        places: [65536, H] p(direction) p(distance) of each way.
+        least: what fits a hint less than this is left to chance in any direction.
+        said: [2, H] chance that the text says there is none of it, and of what nothing explains.
+        sector_of: [65536] of each way.
+        by_way: [65536, 3] pi of each way by habit.
+        ranks: [3, most, 3] by which a habit heeds those that come behind so many.
+        among: [2, 3] powers of how many there are.
+        numbers: factor of what is not whole, powers of crowding, of what is meant twice, and of the whole.
+        habit: [3] log weights.
+    """
+    most, begin, hints = _longest(node), 0, fits.shape[1]
+    powers, share, number = _powers(among, most), np.empty((most, 3)), np.empty(most, np.int64)
+    here, sector, rank = np.empty(most, np.int64), np.empty(most, np.int64), np.empty((most, 5), np.int64)
+    row, hint, fit = np.empty(most * hints, np.int64), np.empty(most * hints, np.int64), np.empty(most * hints)
+    sums, load = np.empty((2, hints)), np.empty(most)
+    log_p = np.full(nodes, _of_node(row[:0], hint, fit, share, said, numbers, habit, sums, load))
+    while begin < len(node):
+        end, pairs = begin, 0
+        while end < len(node) and node[end] == node[begin]:
+            r = end - begin
+            number[r] = (np.int64(way[end, 0]) + OFFSET) * 256 + np.int64(way[end, 1]) + OFFSET
+            here[r], sector[r] = label[part[end]], sector_of[number[r]]
+            for h in range(hints):
+                if fits[part[end], h] > least:
+                    chance = fits[part[end], h] * places[number[r], h]
+                    if chance > FAINT:
+                        row[pairs], hint[pairs], fit[pairs] = r, h, chance
+                        pairs += 1
+            end += 1
+        if pairs:
+            rows = end - begin
+            count_ranks(here[:rows], sector[:rows], rank)
+            _shares(number[:rows], whole[begin:end], rank, by_way, ranks, powers, numbers, share)
+            log_p[node[begin]] = _of_node(row[:pairs], hint, fit, share, said, numbers, habit, sums, load)
+        begin = end
+    return log_p
+
+
+@compiled
+def _longest(node: Ints) -> int:
+    """How many rows the node with most of them has."""
+    most, begin = 0, 0
+    for r in range(1, len(node) + 1):
+        if r == len(node) or node[r] != node[begin]:
+            most, begin = max(most, r - begin), r
+    return most
+
+
+@compiled
+def _powers(among: Floats, most: int) -> Floats:
+    """[2, most + 1, 3] what a habit makes of so many that it tells one of."""
+    powers = np.ones((len(among), most + 1, HABITS))
+    for n in range(len(among)):
+        for many in range(2, most + 1):
+            for h in range(HABITS):
+                powers[n, many, h] = float(many) ** -among[n, h]
+    return powers
+
+
+@compiled
+def _shares(
+    number: Ints, whole: npt.NDArray[np.bool_], rank: Ints, by_way: Floats, ranks: Floats, powers: Floats,
+    numbers: Floats, share: Floats,
+) -> None:  # fmt: skip
+    """Fill in pi [R, 3] of what is around one node, shared among it."""
+    mass = (LEAST_MASS, LEAST_MASS, LEAST_MASS)
+    for r in range(len(number)):
+        part = 1.0 if whole[r] else numbers[0]
+        for h in range(HABITS):
+            nearer = ranks[0, rank[r, 0], h] * ranks[1, rank[r, 1], h] * ranks[2, rank[r, 2], h]
+            many = powers[0, rank[r, 3], h] * powers[1, rank[r, 4], h]
+            share[r, h] = by_way[number[r], h] * part * nearer * many
+        mass = (mass[0] + share[r, 0], mass[1] + share[r, 1], mass[2] + share[r, 2])
+    first, second, third = mass[0] ** -numbers[1], mass[1] ** -numbers[1], mass[2] ** -numbers[1]
+    for r in range(len(number)):
+        share[r, 0] *= first
+        share[r, 1] *= second
+        share[r, 2] *= third
+
+
+@compiled
+def _of_node(
+    row: Ints, hint: Ints, fit: Floats, share: Floats, said: Floats, numbers: Floats, habit: Floats, sums: Floats,
+    load: Floats,
+) -> float:  # fmt: skip
+    """Log p(T | x) of pairs [K] of what is around a node and what a hint may mean; `sums` and `load` are room."""
+    highest, mass, first, total = -np.inf, 0.0, sums[0], sums[1]
+    for k in range(HABITS):
+        first[:], total[:] = 0.0, 0.0
+        for n in range(len(row)):
+            first[hint[n]] += fit[n] * share[row[n], k]
+            load[row[n]] = 0.0
+        for n in range(len(row)):
+            load[row[n]] += fit[n] * share[row[n], k] / (first[hint[n]] + said[1, hint[n]])
+        for n in range(len(row)):
+            over = load[row[n]]
+            total[hint[n]] += fit[n] * share[row[n], k] * (over ** -numbers[2] if over > 1.0 else 1.0)
+        mixed = habit[k] + _of_hints(first, total, said)
+        if mixed > highest:
+            mass, highest = mass * np.exp(highest - mixed) + 1.0, mixed
+        else:
+            mass += np.exp(mixed - highest)
+    log_p: float = numbers[3] * (highest + np.log(mass))
+    return log_p
+
+
+@compiled
+def _of_hints(first: Floats, total: Floats, said: Floats) -> float:
+    """Sum of the hints' logarithms, of what explains each [H], in all and with what is meant twice counted less."""
+    product, found, is_absent = 1.0, 0.0, said[0].max() > SPOKEN
+    for h in range(len(total)):
+        chance = total[h] + said[1, h]
+        if is_absent:  # the less there is of it, the likelier
+            none = max(np.exp(-3 * first[h] / max(said[1, h], 1e-2)), 1e-2)
+            found += np.log(chance) * (1 - said[0, h]) + np.log(none) * said[0, h]
+        else:
+            product *= chance
+        if product < TINY:
+            found, product = found + np.log(product), 1.0
+    log_p: float = found + np.log(product)
+    return log_p

@@ -1,0 +1,65 @@
+import math
+
+import numpy as np
+import pytest
+import torch
+
+from models.city.colours import KITTI360_PALETTE
+from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.node_batch import NodeBatch, colour_words, usual_statements
+from models.posterior.node_likelihood import NodeLikelihood
+from models.posterior.surroundings.around import Around
+
+LABELS, THINGS, NODES = 4, 30, 40
+WORDS = len(colour_words(KITTI360_PALETTE))
+
+
+@pytest.fixture
+def model():
+    torch.manual_seed(0)
+    fitted = Likelihood()
+    with torch.no_grad():
+        for weight in fitted.parameters():
+            weight.add_(torch.randn_like(weight) * 0.3)
+    return fitted
+
+
+def surroundings(rng, most=12) -> Around:
+    """What lies around some nodes; around the third there is nothing."""
+    node = np.repeat(np.arange(NODES), [0 if n == 2 else int(rng.integers(1, most)) for n in range(NODES)])
+    way = rng.integers(-90, 90, (len(node), 2)).astype(np.int8)
+    return Around(node, rng.integers(0, THINGS, len(node)), way, rng.random(len(node)) < 0.8)
+
+
+def reading(rng, hints, absent, metres) -> Reading:
+    relation, label, colour = (
+        torch.from_numpy(rng.dirichlet(np.full(width, 0.2), hints)).float() for width in (10, LABELS + 1, WORDS + 1)
+    )
+    return Reading(relation, label[:, :-1], colour, torch.full((hints,), metres), torch.full((hints,), absent))
+
+
+@pytest.mark.parametrize(
+    ("hints", "absent", "metres"), [(1, 0.0, math.nan), (6, 0.0, math.nan), (6, 0.0, 8.0), (4, 0.9, math.nan)]
+)
+def test_it_is_what_torch_makes_of_it(model, hints, absent, metres) -> None:
+    rng = np.random.default_rng(hints)
+    label, rgb = torch.from_numpy(rng.integers(0, LABELS, THINGS)), torch.from_numpy(rng.random((THINGS, 3))).float()
+    label[:LABELS] = torch.arange(LABELS)
+    usual = usual_statements(label, rgb, torch.ones(THINGS), KITTI360_PALETTE)
+    with torch.no_grad():
+        compiled = NodeLikelihood(model, label, model.words(rgb, KITTI360_PALETTE), usual)
+        for _ in range(3):
+            around, said = surroundings(rng), reading(rng, hints, absent, metres)
+            expected = model(said, NodeBatch.of(around, NODES, label, rgb), KITTI360_PALETTE, usual)
+            assert np.allclose(compiled.log_p(said, around, NODES), expected.numpy(), rtol=1e-4, atol=1e-4)
+
+
+def test_a_long_text_does_not_vanish(model) -> None:
+    """A product of so many chances is less than any number."""
+    rng, label, rgb = np.random.default_rng(0), torch.arange(THINGS) % LABELS, torch.rand(THINGS, 3)
+    usual = usual_statements(label, rgb, torch.ones(THINGS), KITTI360_PALETTE)
+    with torch.no_grad():
+        compiled = NodeLikelihood(model, label, model.words(rgb, KITTI360_PALETTE), usual)
+        around, said = surroundings(rng), reading(rng, 200, 0.0, math.nan)
+        expected = model(said, NodeBatch.of(around, NODES, label, rgb), KITTI360_PALETTE, usual)
+        assert np.allclose(compiled.log_p(said, around, NODES), expected.numpy(), rtol=1e-4)
