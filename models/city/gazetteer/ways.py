@@ -71,7 +71,7 @@ def ways_to(around: Around, segments_m: Floats, starts: Ints, is_area: npt.NDArr
     """
     return Ways(*_all_ways(
         around.points_m, around.starts, around.centers_m, around.radius_m,
-        segments_m.astype(np.float64), starts, is_area, float(reach_m),
+        segments_m.astype(np.float64, copy=False), starts, is_area, float(reach_m),
     ))  # fmt: skip
 
 
@@ -98,7 +98,7 @@ def _all_ways(
                 continue
             ends = segments_m[starts[i] : starts[i + 1]]
             for s in range(len(ends)):
-                metres[s] = np.hypot(*_way(x, y, ends[s]))
+                metres[s] = _length(_way(x, y, ends[s]))
             nearest = metres[: len(ends)].min()
             if nearest > reach_m + radius_m and not (is_area[i] and is_inside(x, y, ends)):
                 continue
@@ -106,7 +106,7 @@ def _all_ways(
                 found = _closest(points_m[p, 0], points_m[p, 1], ends, metres, nearest + 2 * radius_m)
                 if is_area[i] and is_inside(points_m[p, 0], points_m[p, 1], ends):
                     found = (0.0, 0.0)
-                if np.hypot(*found) > reach_m:
+                if _length(found) > reach_m:
                     continue
                 if count == room:
                     room *= 2
@@ -137,6 +137,13 @@ def _way(x: float, y: float, ends: Floats) -> tuple[float, float]:
     square = along_x * along_x + along_y * along_y
     share = min(1.0, max(0.0, (away_x * along_x + away_y * along_y) / max(square, 1e-9)))
     return share * along_x - away_x, share * along_y - away_y
+
+
+@compiled
+def _length(way: tuple[float, float]) -> float:
+    """Metres; a third of the time that `hypot` takes, which heeds numbers as large as none here."""
+    metres: float = np.sqrt(way[0] * way[0] + way[1] * way[1])
+    return metres
 
 
 @compiled

@@ -1,12 +1,14 @@
 """A text's mentions on a map: log p(T | x) at cells, roughly, and at nodes, with the speaker's heading summed out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import log, pi, radians
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 import torch
+from cachetools import LRUCache, cachedmethod
 from torch import Tensor
 
 from models.city.gazetteer.gazetteer import WALKED, Gazetteer
@@ -18,7 +20,8 @@ from models.city.types import Floats
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.posterior.places.explained import NOT_EXPLAINED, Explained, Places
-from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of
+from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of, with_angle
+from models.posterior.places.way_kernels import WayKernels
 
 FEW_REACH, MANY_REACH = 5.0, 2.5  # scales of a kernel, as far as which objects are looked at
 MANY: Final = 60  # objects
@@ -28,6 +31,7 @@ SAID_REACH, FARTHEST_M = 2.5, 600.0  # the same of distances that were said
 ROUGH_M: Final = 5.0  # what a distance on the grid may be too long by
 LEAST: Final = 1e-6  # of a kernel's mean
 FAINT: Final = 0.02  # what fits nowhere better than this is not near the map
+KEPT: Final = 32  # mentions: those of one text
 TIERS: Final = (1.0, 0.7, 0.4, 0.2)  # weights on the grid are rounded to these
 
 
@@ -76,6 +80,8 @@ class PlaceField:
 
     def __init__(self, kernels: PlaceKernels, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         self.kernels, self.gazetteer, self._centers_m = kernels, gazetteer, centers_m
+        self._of_ways = WayKernels(kernels)
+        self._lately: LRUCache[Mention, tuple[Floats, Ints, npt.NDArray[np.bool_]]] = LRUCache(KEPT)
         self.raster = Raster(gazetteer, centers_m, spacing_m)
         self._cells_in = torch.from_numpy(self.raster.cells_in).float()
         self._has_cells = self._cells_in > 0
@@ -145,9 +151,9 @@ class PlaceField:
         if places.mentions:
             around = Around.of(points_m, group)
             for mention, mean in zip(places.mentions, places.common, strict=True):
-                total = total + self.worth(
-                    mention, self.fits(mention, self.ways_from(mention, around), len(points_m)), mean
-                )
+                ways = self.ways_from(mention, around)
+                fits = torch.from_numpy(self._of_ways.fits(mention, ways, ways.point, len(points_m)))
+                total = total + self.worth(mention, fits, mean)
         return total
 
     @torch.inference_mode()
@@ -155,7 +161,10 @@ class PlaceField:
         """What explains each mention at a position [1, 2], in the heading that fits best there."""
         around, found = Around.of(point_m, np.zeros(1, np.int64)), []
         ways = [self.ways_from(mention, around) for mention in places.mentions]
-        fits = [self._fits_of_ways(mention, each) for mention, each in zip(places.mentions, ways, strict=True)]
+        fits = [
+            torch.from_numpy(self._of_ways.fits(mention, each, np.arange(len(each.item)), len(each.item)))
+            for mention, each in zip(places.mentions, ways, strict=True)
+        ]
         total = torch.zeros(HEADINGS)
         for mention, fit, mean in zip(places.mentions, fits, places.common, strict=True):
             total = total + self.worth(mention, fit.amax(dim=0) if len(fit) else torch.zeros(1), mean)
@@ -172,13 +181,18 @@ class PlaceField:
 
     def ways_from(self, mention: Mention, around: Around) -> Ways:
         """As `ways`, of positions that are grouped already."""
+        return ways_to(around, *self._outline(mention), self._reach_m(mention))
+
+    @cachedmethod(lambda field: field._lately)
+    def _outline(self, mention: Mention) -> tuple[Floats, Ints, npt.NDArray[np.bool_]]:
+        """Segments, starts and `is_area` of what a mention may mean; a text asks for them again and again."""
         segments, starts, is_area = cut(self.gazetteer, mention.objects)
         lines = len(mention.lines_m)
         if lines:
             segments = np.concatenate([segments, mention.lines_m])
             starts = np.concatenate([starts, starts[-1] + 1 + np.arange(lines)])
             is_area = np.concatenate([is_area, np.zeros(lines, np.bool_)])
-        return ways_to(around, segments, starts, is_area, self._reach_m(mention))
+        return segments.astype(np.float64), starts, is_area
 
     def _reach_m(self, mention: Mention) -> float:
         """How far away what may be meant is looked for; of much that may be meant the nearest will do."""
@@ -213,7 +227,7 @@ class PlaceField:
         return self.roughly(mention, rough).mean().clamp(min=LEAST)
 
     def fits(self, mention: Mention, ways: Ways, points: int) -> Tensor:
-        """[M, 1] or [M, HEADINGS] the kernel of the best thing that may be meant, at so many positions."""
+        """[M, 1] or [M, HEADINGS] the kernel of the best thing that may be meant, at so many positions; learns."""
         fits = self._fits_of_ways(mention, ways)
         index = torch.from_numpy(ways.point)[:, None].expand_as(fits)
         return torch.zeros(points, fits.shape[1]).scatter_reduce(0, index, fits, "amax")
@@ -239,7 +253,7 @@ class PlaceField:
         total = torch.zeros(1, 1)
         first: float | None = None
         for angle, p in cue.angles or ((cue.angle, 1.0),):
-            kernel = kernel_of(replace(mention, cue=replace(cue, angle=angle)))
+            kernel = kernel_of(with_angle(mention, angle))
             fits = (p * self._near(kernel, cue, metres))[:, None]
             if angle is None:
                 total = total + fits

@@ -1,5 +1,6 @@
 """How likely something is said of a place that is so far away, in that direction (docs/method.md, places)."""
 
+from dataclasses import replace
 from typing import Final
 
 import torch
@@ -90,6 +91,11 @@ def kernel_of(mention: Mention) -> int:
         off = abs(mention.cue.angle)
         return TYPES.index("ahead" if off < ASIDE else "behind" if off > 180.0 - ASIDE else "side")
     return TYPES.index(relation)
+
+
+def with_angle(mention: Mention, angle: float | None) -> Mention:
+    """A mention of whose angles one is meant."""
+    return replace(mention, cue=replace(mention.cue, angle=angle))
 
 
 def sure_of(mention: Mention) -> str:
