@@ -109,7 +109,7 @@ def _log_p(
     powers, share, number = _powers(among, most), np.empty((most, 3)), np.empty(most, np.int64)
     here, sector, rank = np.empty(most, np.int64), np.empty(most, np.int64), np.empty((most, 5), np.int64)
     row, hint, fit = np.empty(most * hints, np.int64), np.empty(most * hints, np.int64), np.empty(most * hints)
-    sums, load = np.empty((2, hints)), np.empty(most)
+    sums, load = np.empty((3, hints)), np.empty(most)
     log_p = np.full(nodes, _of_node(row[:0], hint, fit, share, said, numbers, habit, sums, load))
     while begin < len(node):
         end, pairs = begin, 0
@@ -181,17 +181,21 @@ def _of_node(
     load: Floats,
 ) -> float:  # fmt: skip
     """Log p(T | x) of pairs [K] of what is around a node and what a hint may mean; `sums` and `load` are room."""
-    highest, mass, first, total = -np.inf, 0.0, sums[0], sums[1]
+    highest, mass, first, total, per = -np.inf, 0.0, sums[0], sums[1], sums[2]
     for k in range(HABITS):
         first[:], total[:] = 0.0, 0.0
         for n in range(len(row)):
             first[hint[n]] += fit[n] * share[row[n], k]
             load[row[n]] = 0.0
+        per[:] = 1.0 / (first + said[1])
         for n in range(len(row)):
-            load[row[n]] += fit[n] * share[row[n], k] / (first[hint[n]] + said[1, hint[n]])
+            load[row[n]] += fit[n] * share[row[n], k] * per[hint[n]]
+        last, single = -1, 1.0
         for n in range(len(row)):
-            over = load[row[n]]
-            total[hint[n]] += fit[n] * share[row[n], k] * (over ** -numbers[2] if over > 1.0 else 1.0)
+            if row[n] != last:
+                last = row[n]
+                single = share[last, k] * (load[last] ** -numbers[2] if load[last] > 1.0 else 1.0)
+            total[hint[n]] += fit[n] * single
         mixed = habit[k] + _of_hints(first, total, said)
         if mixed > highest:
             mass, highest = mass * np.exp(highest - mixed) + 1.0, mixed
@@ -204,7 +208,9 @@ def _of_node(
 @compiled
 def _of_hints(first: Floats, total: Floats, said: Floats) -> float:
     """Sum of the hints' logarithms, of what explains each [H], in all and with what is meant twice counted less."""
-    product, found, is_absent = 1.0, 0.0, said[0].max() > SPOKEN
+    product, found, is_absent = 1.0, 0.0, False
+    for h in range(len(total)):
+        is_absent |= said[0, h] > SPOKEN
     for h in range(len(total)):
         chance = total[h] + said[1, h]
         if is_absent:  # the less there is of it, the likelier

@@ -52,10 +52,18 @@ def put_in_order(owner: Ints, rows: npt.NDArray[Any], place: Ints, ordered: npt.
         place[owner[n]] = at + 1
 
 
+@compiled
 def owner_of(cell_starts: Ints, nodes: Ints) -> Ints:
-    """[n] the cell that owns each of some nodes, of cells that own cell_starts[n] to cell_starts[n + 1]."""
-    owner: Ints = np.searchsorted(cell_starts, nodes, side="right") - 1
-    return owner
+    """[n] the cell that owns each of some nodes, of cells that own cell_starts[n] to cell_starts[n + 1].
+
+    Soonest where those of a cell stand together.
+    """
+    found, cell = np.empty(len(nodes), np.int64), 0
+    for n in range(len(nodes)):
+        if not cell_starts[cell] <= nodes[n] < cell_starts[cell + 1]:
+            cell = np.searchsorted(cell_starts, nodes[n], side="right") - 1
+        found[n] = cell
+    return found
 
 
 @compiled
@@ -84,7 +92,11 @@ def nearest_nodes(
     return found[:count].copy()
 
 
+@compiled
 def is_coarse(positions_m: Floats) -> npt.NDArray[np.bool_]:
     """[M] which nodes [M, 2] are of the grid that is twice as coarse."""
-    coarse: npt.NDArray[np.bool_] = (np.round(positions_m / SPACING_M) % 2 == 0).all(axis=1)
+    coarse = np.empty(len(positions_m), np.bool_)
+    for n in range(len(positions_m)):
+        x, y = np.rint(positions_m[n, 0] / SPACING_M), np.rint(positions_m[n, 1] / SPACING_M)
+        coarse[n] = x % 2 == 0 and y % 2 == 0
     return coarse

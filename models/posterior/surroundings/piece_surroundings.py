@@ -17,6 +17,7 @@ from models.city.tiled.cutting import cut_pieces
 from models.city.tiled.pieces import PieceTable
 from models.city.tiled.ways import ways_around
 from models.city.types import CutRules, Floats
+from models.compiled import compiled
 from models.errors import IndexBroken
 from models.files import mapped
 from models.posterior.surroundings.around import STEP_M, Around
@@ -77,7 +78,8 @@ class PieceSurroundings:
 
     def _positions_m(self, nodes: Ints, cell: Ints) -> Floats:
         """[n, 2] where some nodes are, which some cells own [n]."""
-        return (_step_of(self.center_m[cell]) + self.offset[nodes]) * SPACING_M
+        found: Floats = _positions_m(self.center_m, self.offset, nodes, cell)
+        return found
 
     def middles(self, centers_m: Floats) -> Ints:
         """See Surroundings."""
@@ -86,7 +88,8 @@ class PieceSurroundings:
 
     def owner(self, nodes: Ints) -> Ints:
         """See Surroundings."""
-        return owner_of(self.cell_starts, nodes)
+        found: Ints = owner_of(self.cell_starts, nodes)
+        return found
 
     def around(self, nodes: Ints) -> Around:
         """See Surroundings."""
@@ -103,7 +106,9 @@ class PieceSurroundings:
             STEP_M,
         )
         known = self.things.parts[part] > 0
-        return Around(node[known], part[known], way[known], np.ones(int(known.sum()), np.bool_))
+        if not known.all():  # of a part of a map
+            node, part, way = node[known], part[known], way[known]
+        return Around(node, part, way, np.ones(len(node), np.bool_))
 
     def cut(self, centers_m: Floats) -> Parts:
         """What lies in the cubes of some cells around centres [N, 3]."""
@@ -152,6 +157,15 @@ class PieceSurroundings:
             "rules": np.array(astuple(self.rules), dtype=np.float64),
         }
         return {name: np.ascontiguousarray(column) for name, column in columns.items()}
+
+
+@compiled
+def _positions_m(center_m: Floats, offset: Ints, nodes: Ints, cell: Ints) -> Floats:
+    found = np.empty((len(nodes), 2))
+    for n in range(len(nodes)):
+        for axis in range(2):
+            found[n, axis] = (np.rint(center_m[cell[n], axis] / SPACING_M) + offset[nodes[n], axis]) * SPACING_M
+    return found
 
 
 def _step_of(center_m: Floats) -> Ints:

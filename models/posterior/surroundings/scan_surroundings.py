@@ -120,7 +120,8 @@ class ScanSurroundings:
 
     def owner(self, nodes: Ints) -> Ints:
         """See Surroundings."""
-        return owner_of(self.cell_starts, nodes)
+        found: Ints = owner_of(self.cell_starts, nodes)
+        return found
 
     def around(self, nodes: Ints) -> Around:
         """See Surroundings."""
