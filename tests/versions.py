@@ -2,6 +2,7 @@
 
 import hashlib
 
+from index.artifact import set_alias
 from index.manifest import NEEDED, FrameRecord, Manifest, write_manifest
 from models.files import FileRecord
 
@@ -33,3 +34,12 @@ def write_version(directory):
         files=files,
     )
     write_manifest(directory, manifest)
+
+
+def write_index(root):
+    """An index directory with v1, which is the default, and v2, which nothing names; it is returned."""
+    root.mkdir()
+    for version in ("v2", "v1"):
+        write_version(root / version)
+        set_alias(root, "default", version)
+    return root

@@ -113,8 +113,7 @@ class Part:
                 columns = {name: file.get_tensor(name) for name in ("vectors", "holds", "statement", "starts")}
                 possible = int(file.metadata()["statements"])
             rows = StatementRows(columns["starts"], columns["statement"], columns["holds"], possible)
-            whole = len(columns["vectors"]), columns["starts"][-1], possible
-            if whole != (len(rows.starts) - 1, len(rows.holds), max(possible, rows.statement.max(initial=-1) + 1)):
+            if (len(rows.starts) - 1, rows.starts[-1]) != (len(columns["vectors"]), len(rows.holds)):
                 raise ValueError("its columns are of different lengths")
         except (OSError, SafetensorError, KeyError, TypeError, ValueError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; make this shard again") from error
@@ -126,11 +125,8 @@ class Part:
 
 def _encoded(retriever: Retriever, data: MapData, rows: range, report: Progress) -> tuple[Floats, LevelTable]:
     """Vectors [C, D] and the other levels of some cells, whose features are made some at a time."""
-    vectors, levels, labels = (
-        np.empty((len(rows), retriever.config.width), np.float32),
-        [],
-        np.array(data.gallery.labels),
-    )
+    vectors, levels = np.empty((len(rows), retriever.config.width), np.float32), list[LevelTable]()
+    labels = np.array(data.gallery.labels)
     report("encode cells", 0, len(rows))
     for first in range(rows.start, rows.stop, AT_ONCE):
         some = range(first, min(first + AT_ONCE, rows.stop))

@@ -52,6 +52,8 @@ class LevelTable:
         """The table of some galleries, one after the other; at least one."""
         if tables[0].is_empty:
             return NO_LEVELS
+        if len(tables) == 1:
+            return tables[0]
         sizes = np.concatenate([np.diff(table.starts) for table in tables])
         vectors = {n: np.concatenate([table.vectors[n] for table in tables]) for n in tables[0].vectors}
         return cls(np.concatenate([[0], np.cumsum(sizes)]), vectors)

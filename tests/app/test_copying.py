@@ -18,7 +18,7 @@ from index.remote.place import Place
 from index.remote.push import push
 from models.errors import RemoteUnavailable
 from models.files import hold
-from tests.versions import write_version
+from tests.versions import write_index
 
 URL = "memory://bucket/town"
 
@@ -43,13 +43,7 @@ def silent(*_):
 
 @pytest.fixture
 def index(tmp_path):
-    """An index directory with v1, which is the default, and v2."""
-    root = tmp_path / "index"
-    root.mkdir()
-    for version in ("v2", "v1"):
-        write_version(root / version)
-        set_alias(root, "default", version)
-    return root
+    return write_index(tmp_path / "index")
 
 
 @pytest.fixture

@@ -8,21 +8,14 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 import fsspec
 import pytest
 
-from index.artifact import set_alias
 from index.remote.copy import LocalCopy
 from index.remote.place import Place
-from tests.versions import write_version
+from tests.versions import write_index
 
 
 @pytest.fixture
 def index(tmp_path):
-    """An index directory with v1, which is the default, and v2, which nothing names."""
-    root = tmp_path / "index"
-    root.mkdir()
-    for version in ("v2", "v1"):
-        write_version(root / version)
-        set_alias(root, "default", version)
-    return root
+    return write_index(tmp_path / "index")
 
 
 @pytest.fixture
