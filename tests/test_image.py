@@ -109,6 +109,28 @@ def test_a_stop_waits_for_the_longest_request(name: str) -> None:
     assert given("CMD").startswith("["), "through a shell the signal would not reach the service"
 
 
+def test_what_is_compiled_with_the_image_is_where_it_may_be_written(tmp_path) -> None:
+    assert json.loads(given("ENTRYPOINT")) == ["start"]
+    assert ("COPY", "docker/start.sh /usr/local/bin/start") in instructions()
+    assert ("COPY", "--from=build /opt/numba /opt/numba") in instructions()
+    start = (ROOT / "docker/start.sh").read_text()
+    compiled, cache = tmp_path / "compiled", tmp_path / "cache"
+    compiled.mkdir()
+    (compiled / "some.nbc").write_text("code")
+    script = tmp_path / "start"
+    script.write_text(start.replace("/opt/numba", str(compiled)))
+    words, environ = ["sh", str(script), "sh", "-c", "exit 7"], os.environ | {"NUMBA_CACHE_DIR": str(cache)}
+    assert subprocess.run(words, env=environ, check=False).returncode == 7
+    assert (cache / "some.nbc").read_text() == "code"
+    (cache / "some.nbc").write_text("newer")
+    assert subprocess.run(words, env=environ, check=False).returncode == 7
+    assert (cache / "some.nbc").read_text() == "newer", "another start takes nothing away"
+    nowhere = environ | {"NUMBA_CACHE_DIR": "/proc/numba"}
+    refused = subprocess.run(words, env=nowhere, capture_output=True, check=False)
+    assert refused.returncode == 7, "it starts all the same"
+    assert b"compiling instead" in refused.stderr
+
+
 def test_health_is_asked_for() -> None:
     assert "/readyz" in given("HEALTHCHECK")
     assert not any("healthcheck" in SERVICES[name] for name in APIS), "the image's own"
