@@ -1,17 +1,25 @@
 """What a query says of the place besides its description: where it must be, and where it is likely."""
 
+from typing import Final
+
 import numpy as np
 import numpy.typing as npt
 
 from index.query import Box, Circle, Crs, Query
 from models.city.frame import Frame
+from models.city.hints import BEST_CELL_REACH_M
+from models.city.points import ranges
 from models.city.types import Floats
+from models.posterior.posterior import Inside
 from models.posterior.surroundings.surroundings import Surroundings
 
-NODES_AT_ONCE = 1 << 17
+REACH_M: Final = BEST_CELL_REACH_M + 0.5  # of a cell's nodes from its centre, and by how much an edge may bend
+EDGE_POINTS: Final = 65  # of a box in degrees, between which its edges are straight
+MARGIN_DEG: Final = 1e-3
+Mask = npt.NDArray[np.bool_]
 
 
-def inside(query: Query, points_m: Floats, frame: Frame) -> npt.NDArray[np.bool_]:
+def inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
     """[M] True where points [M, 2] of the map are inside `within`; everywhere without one."""
     within = query.within
     if isinstance(within, Circle):
@@ -25,14 +33,61 @@ def inside(query: Query, points_m: Floats, frame: Frame) -> npt.NDArray[np.bool_
     return np.ones(len(points_m), dtype=bool)
 
 
-def nodes_inside(query: Query, surroundings: Surroundings, frame: Frame) -> npt.NDArray[np.bool_]:
-    """[M] which of all nodes are inside `within`."""
-    count = int(surroundings.cell_starts[-1])
-    found = np.zeros(count, np.bool_)
-    for first in range(0, count, NODES_AT_ONCE):
-        some = np.arange(first, min(first + NODES_AT_ONCE, count))
-        found[some] = inside(query, surroundings.positions_m(some), frame)
-    return found
+def where_inside(query: Query, surroundings: Surroundings, centers_m: Floats, frame: Frame) -> Inside | None:
+    """The nodes that are inside `within`, of cells with centres [N, 2]; None without one.
+
+    Exact: of cells that its border may cross each node is looked at.
+    """
+    if query.within is None:
+        return None
+    near, sure = (
+        _of_circle(query, centers_m, frame)
+        if isinstance(query.within, Circle)
+        else _of_box(query, query.within, centers_m, frame)
+    )
+    starts = surroundings.cell_starts
+    border = np.flatnonzero(near & ~sure)
+    nodes = ranges(starts[border], starts[border + 1])
+    cells = sure & (np.diff(starts) > 0)
+    nodes = nodes[inside(query, surroundings.positions_m(nodes), frame)]
+    cells[surroundings.owner(nodes)] = True
+    return Inside(cells, lambda points_m: inside(query, points_m, frame))
+
+
+def _of_circle(query: Query, centers_m: Floats, frame: Frame) -> tuple[Mask, Mask]:
+    """[N] whether some nodes of a cell may be inside, and whether all are."""
+    assert isinstance(query.within, Circle)
+    away_m = np.hypot(*(centers_m - position_m(query.within.center, query.crs, frame)).T)
+    return away_m <= query.within.radius_m + REACH_M, away_m <= query.within.radius_m - REACH_M
+
+
+def _of_box(query: Query, box: Box, centers_m: Floats, frame: Frame) -> tuple[Mask, Mask]:
+    """As `_of_circle`."""
+    outer = inner = np.array([[box.west, box.south], [box.east, box.north]])
+    if query.crs == "wgs84":
+        low, high = centers_m.min(axis=0) - REACH_M, centers_m.max(axis=0) + REACH_M
+        lat, lon = frame.to_wgs84(_edges(low, high).reshape(-1, 2))
+        # Of a box round half the world no more than is about the map: the rest may have no metres.
+        west, south = max(box.west, lon.min() - MARGIN_DEG), max(box.south, lat.min() - MARGIN_DEG)
+        east, north = min(box.east, lon.max() + MARGIN_DEG), min(box.north, lat.max() + MARGIN_DEG)
+        if west > east or south > north:
+            nowhere = np.zeros(len(centers_m), np.bool_)
+            return nowhere, nowhere
+        at = _edges(np.array([west, south]), np.array([east, north]))
+        edges = frame.from_wgs84(at[..., 1], at[..., 0])  # [4, E, 2] of west, east, south and north
+        outer = np.array([edges.reshape(-1, 2).min(axis=0), edges.reshape(-1, 2).max(axis=0)])
+        inner = np.array([[edges[0, :, 0].max(), edges[2, :, 1].max()], [edges[1, :, 0].min(), edges[3, :, 1].min()]])
+    near = ((centers_m >= outer[0] - REACH_M) & (centers_m <= outer[1] + REACH_M)).all(axis=1)
+    return near, ((centers_m >= inner[0] + REACH_M) & (centers_m <= inner[1] - REACH_M)).all(axis=1)
+
+
+def _edges(low: Floats, high: Floats) -> Floats:
+    """[4, E, 2] points on the west, east, south and north edge of a box."""
+    along = np.linspace(0.0, 1.0, EDGE_POINTS)
+    x, y = (low[axis] + along * (high[axis] - low[axis]) for axis in (0, 1))
+    sides = [(np.full_like(y, low[0]), y), (np.full_like(y, high[0]), y)]
+    sides += [(x, np.full_like(x, low[1])), (x, np.full_like(x, high[1]))]
+    return np.array([np.stack(side, axis=-1) for side in sides])
 
 
 def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:

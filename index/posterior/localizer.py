@@ -10,7 +10,7 @@ import numpy as np
 from index.answers import Evidence, Method, ModelName, Question
 from index.asking.heard import Heard
 from index.asking.questions import Questions
-from index.filters import inside, log_prior, nodes_inside, position_m
+from index.filters import log_prior, position_m, where_inside
 from index.finding import Finding, is_ambiguous, pair
 from index.posterior.meaning import Meanings
 from index.posterior.place_reader import PlaceReader, may_be_near, near_hints
@@ -37,7 +37,7 @@ from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.posterior.places.field import Told
 from models.posterior.places.landmarks import Landmarks
-from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
+from models.posterior.posterior import CANDIDATES, Explained, HintPosterior, Inside
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 from models.posterior.surroundings.surroundings import Surroundings
@@ -171,8 +171,8 @@ class PosteriorLocalizer:
         """What to ask about a refused text; nothing on a map without names, and of a text that is not in English."""
         if not self.questions.has_names or language != ENGLISH or _is_elsewhere(query):
             return None
-        centers_m = self.gallery.cells.center_m[:, :2].astype(np.float64)
-        log_p = np.where(inside(query, centers_m, self.frame), log_prior(query, centers_m, self.frame), -np.inf)
+        log_p, inside = log_prior(query, self.gallery.cells.center_m[:, :2], self.frame), self._inside(query)
+        log_p = log_p if inside is None else np.where(inside.cells, log_p, -np.inf)
         return self.questions.ask_anywhere(log_p, heard, query.replies)
 
     def _told_of(
@@ -222,13 +222,16 @@ class PosteriorLocalizer:
             self.nodes,
             reading,
             None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
-            None if query.within is None else nodes_inside(query, self.surroundings, self.frame),
+            self._inside(query),
             PLACE_CANDIDATES if told is not None else count,
             also=None if reading is None else self.candidates(hints, reading),
             told=told,
             answered=answered,
         )
         return located and self._honest(located, query, told)
+
+    def _inside(self, query: Query) -> Inside | None:
+        return where_inside(query, self.surroundings, self.gallery.cells.center_m[:, :2], self.frame)
 
     def _honest(self, located: Located, query: Query, told: Told | None) -> Located:
         """With radii that hold what they say, as on validation data."""

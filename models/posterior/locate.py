@@ -1,17 +1,16 @@
 """From a posterior over nodes to an answer: cells in order, positions, how far the truth may be, evidence."""
 
 import numpy as np
-import numpy.typing as npt
 import torch
 from torch import Tensor
 
 from models.city.cells import CellTable
-from models.city.points import Ints
+from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.localization.located import Located
 from models.posterior.likelihood import Reading
 from models.posterior.places.field import Told
-from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
+from models.posterior.posterior import CANDIDATES, Field, HintPosterior, Inside, LogPrior
 from models.posterior.questions import Answered
 from models.posterior.surroundings.nodes import SPACING_M
 
@@ -21,14 +20,13 @@ BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked 
 MEAN_M = 3.0  # and are then the mean of the mass this near
 HEAVY = 256  # nodes that the mass within reach is added up from: the likeliest
 _TAIL = 30  # candidates at the end, from which the mass of the cells behind them is guessed
-Mask = npt.NDArray[np.bool_]
 
 
 def locate(
     posterior: HintPosterior,
     reading: Reading | None,
     log_prior: LogPrior | None = None,
-    inside: Mask | None = None,
+    inside: Inside | None = None,
     candidates: int = CANDIDATES,
     also: Ints | None = None,
     told: Told | None = None,
@@ -40,7 +38,7 @@ def locate(
         posterior: of the gallery.
         reading: hints about what is near, at least one; None for none.
         log_prior: log-density of positions [M, 2], any constant.
-        inside: [nodes] bool, False where it cannot be.
+        inside: where alone it can be; None for everywhere.
         candidates: cells to look at, the best by the inverted list.
         also: [A] rows of further cells to look at, found in another way.
         told: the places that were named, if any.
@@ -102,28 +100,36 @@ def _field(
     reading: Reading | None,
     chosen: Ints,
     log_prior: LogPrior | None,
-    inside: Mask | None,
+    inside: Inside | None,
     told: Told | None,
     answered: Answered | None,
 ) -> Field:
     """The posterior over the nodes of some cells; of those that are far behind on a coarser grid, that will do.
 
-    Where only some nodes are inside all of them are looked at, and where some are likelier beforehand and no place is
-    named.
+    Where some are likelier beforehand and no place is named, all are looked at.
     """
-    if inside is not None or (log_prior is not None and told is None):
+    if log_prior is not None and told is None:
         return posterior.field(reading, chosen, log_prior, inside, told, answered)
-    rough = posterior.field(reading, chosen, log_prior, None, told, answered, coarse=True)
+    rough = posterior.field(reading, chosen, log_prior, inside, told, answered, coarse=True)
     mass = _mass(rough)
     near = np.flatnonzero((mass > mass.max() - BEHIND) | (mass == -np.inf))
-    fine = posterior.field(reading, chosen[near], log_prior, None, told, answered, coarse=False)
-    starts = posterior.surroundings.cell_starts
-    stands_for = (starts[chosen + 1] - starts[chosen]) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
+    fine = posterior.field(reading, chosen[near], log_prior, inside, told, answered, coarse=False)
+    stands_for = _counts(posterior, chosen, inside) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
     stands_for[near] = 1.0
     cell = np.concatenate([near[fine.cell], rough.cell])
     log_p = np.concatenate([fine.log_p, rough.log_p + np.log(stands_for)[rough.cell]])
     order = np.argsort(cell, kind="stable")
     return Field(chosen, np.concatenate([fine.nodes, rough.nodes])[order], cell[order], log_p[order])
+
+
+def _counts(posterior: HintPosterior, chosen: Ints, inside: Inside | None) -> Ints:
+    """[K] how many nodes of each of some cells are inside."""
+    starts = posterior.surroundings.cell_starts
+    count = starts[chosen + 1] - starts[chosen]
+    if inside is None:
+        return count
+    held = inside.holds(posterior.surroundings.positions_m(ranges(starts[chosen], starts[chosen + 1])))
+    return np.bincount(np.repeat(np.arange(len(chosen)), count), held, len(chosen)).astype(np.int64)
 
 
 def _mass(field: Field) -> Floats:
@@ -139,7 +145,7 @@ def _mass(field: Field) -> Floats:
 
 
 def _cell_scores(
-    posterior: HintPosterior, reading: Reading | None, log_prior: LogPrior | None, inside: Mask | None
+    posterior: HintPosterior, reading: Reading | None, log_prior: LogPrior | None, inside: Inside | None
 ) -> Floats:
     """[N] about the log mass of each cell, up to one constant; -inf where no node is, or none that is inside."""
     scores: Floats = np.zeros(len(posterior.surroundings.cell_starts) - 1)
@@ -148,9 +154,7 @@ def _cell_scores(
     if log_prior is not None:
         scores = scores + log_prior(posterior.cells.center_m[:, :2])
     starts = posterior.surroundings.cell_starts
-    if inside is not None:
-        starts = np.concatenate([[0], np.cumsum(inside)])[starts]
-    return np.where(starts[1:] > starts[:-1], scores, -np.inf)
+    return np.where(starts[1:] > starts[:-1] if inside is None else inside.cells, scores, -np.inf)
 
 
 def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable, reach_m: float) -> Floats:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,19 @@ from models.posterior.surroundings.surroundings import Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
 LogPrior = Callable[[Floats], Floats]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inside:
+    """Where somebody may be alone.
+
+    Attributes:
+        cells: [N] whether a node of each cell is there.
+        holds: whether positions [M, 2] are.
+    """
+
+    cells: npt.NDArray[np.bool_]
+    holds: Callable[[Floats], npt.NDArray[np.bool_]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,7 +118,7 @@ class HintPosterior:
         reading: Reading | None,
         cells: Ints,
         log_prior: LogPrior | None = None,
-        inside: Any = None,
+        inside: Inside | None = None,
         told: Told | None = None,
         answered: Answered | None = None,
         coarse: bool | None = None,
@@ -116,7 +129,7 @@ class HintPosterior:
             reading: hints about what is near; None for none.
             cells: [K] rows.
             log_prior: log-density of positions [M, 2]; None for none.
-            inside: [M of all] bool, False where it cannot be; None for everywhere.
+            inside: where alone it can be; None for everywhere.
             told: the places that were named, if any.
             answered: what answers to questions tell, if any.
             coarse: True for the nodes of a grid twice as coarse alone, False for those between; None for all.
@@ -124,10 +137,10 @@ class HintPosterior:
         s = self.surroundings
         begin, end = s.cell_starts[cells], s.cell_starts[cells + 1]
         nodes, cell = ranges(begin, end), np.repeat(np.arange(len(cells)), end - begin)
-        if inside is not None:
-            kept = inside[nodes]
-            nodes, cell = nodes[kept], cell[kept]
         positions_m = s.positions_m(nodes)
+        if inside is not None:
+            kept = inside.holds(positions_m)
+            nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
         if coarse is not None:
             kept = is_coarse(positions_m) == coarse
             nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]

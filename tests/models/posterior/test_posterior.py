@@ -11,7 +11,7 @@ from models.language.parsed_hint import RELATIONS
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
 from models.posterior.node_batch import colour_words
-from models.posterior.posterior import HintPosterior
+from models.posterior.posterior import HintPosterior, Inside
 from models.training.posterior.fit_likelihood import Texts, around_cells, fit_likelihood, surprise
 from models.training.posterior.places import Place
 
@@ -151,16 +151,16 @@ def test_a_filter_is_exact(town):
     nodes_m = all_nodes_m(town)
     for q in range(0, 30, 3):
         truth = town.place.positions_m[q]
-        inside = np.abs(nodes_m - truth).max(axis=1) <= 20.0
+        held = np.abs(nodes_m - truth).max(axis=1) <= 20.0
+        cells = np.repeat(np.arange(len(town.place.cells)), np.diff(town.place.surroundings.cell_starts))[held]
+        has_one = np.bincount(cells, minlength=len(town.place.cells)) > 0
+        inside = Inside(has_one, lambda points_m, truth=truth: np.abs(points_m - truth).max(axis=1) <= 20.0)
         found = locate(town.posterior, town.readings[q], inside=inside, candidates=10)
         assert (np.abs(found.points_m - truth).max(axis=1) <= 20.0).all()
         every = locate(town.posterior, town.readings[q], inside=inside, candidates=10_000)
         assert found.rows[0] == every.rows[0]
-        cells = np.unique(
-            np.repeat(np.arange(len(town.place.cells)), np.diff(town.place.surroundings.cell_starts))[inside]
-        )
         assert set(every.rows.tolist()) == set(cells.tolist()), "nothing inside is lost"
-    nowhere = np.zeros(len(nodes_m), dtype=bool)
+    nowhere = Inside(np.zeros(len(town.place.cells), np.bool_), lambda points_m: np.zeros(len(points_m), np.bool_))
     assert locate(town.posterior, town.readings[0], inside=nowhere) is None
 
 
