@@ -10,7 +10,7 @@ from models.city.frame import Frame
 from models.city.hints import BEST_CELL_REACH_M
 from models.city.points import ranges
 from models.city.types import Floats
-from models.posterior.posterior import Inside
+from models.posterior.inside import Inside
 from models.posterior.surroundings.surroundings import Surroundings
 
 REACH_M: Final = BEST_CELL_REACH_M + 0.5  # of a cell's nodes from its centre, and by how much an edge may bend

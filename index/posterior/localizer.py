@@ -32,12 +32,13 @@ from models.language.places.reader import is_meeting, listener_wind
 from models.language.reader import COLOURS
 from models.localization.located import Located
 from models.posterior.binding import Binding
+from models.posterior.inside import Inside
 from models.posterior.likelihood import Reading
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.posterior.places.field import Told
 from models.posterior.places.landmarks import Landmarks
-from models.posterior.posterior import CANDIDATES, Explained, HintPosterior, Inside
+from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 from models.posterior.surroundings.surroundings import Surroundings

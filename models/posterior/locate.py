@@ -8,9 +8,10 @@ from models.city.cells import CellTable
 from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.localization.located import Located
+from models.posterior.inside import Inside
 from models.posterior.likelihood import Reading
 from models.posterior.places.field import Told
-from models.posterior.posterior import CANDIDATES, Field, HintPosterior, Inside, LogPrior
+from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
 from models.posterior.questions import Answered
 from models.posterior.surroundings.nodes import SPACING_M
 

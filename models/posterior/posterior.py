@@ -12,6 +12,7 @@ from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.points import Ints, ranges
 from models.city.types import Floats
+from models.posterior.inside import Inside
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import NodeBatch, usual_statements
 from models.posterior.node_likelihood import NodeLikelihood
@@ -24,19 +25,6 @@ from models.posterior.surroundings.surroundings import Surroundings
 
 CANDIDATES = 100  # cells whose nodes are looked at
 LogPrior = Callable[[Floats], Floats]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Inside:
-    """Where somebody may be alone.
-
-    Attributes:
-        cells: [N] whether a node of each cell is there.
-        holds: whether positions [M, 2] are.
-    """
-
-    cells: npt.NDArray[np.bool_]
-    holds: Callable[[Floats], npt.NDArray[np.bool_]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
