@@ -65,7 +65,8 @@ def _of_box(query: Query, box: Box, centers_m: Floats, frame: Frame) -> tuple[Ma
     """As `_of_circle`."""
     outer = inner = np.array([[box.west, box.south], [box.east, box.north]])
     if query.crs == "wgs84":
-        low, high = centers_m.min(axis=0) - REACH_M, centers_m.max(axis=0) + REACH_M
+        low = np.array([axis.min() for axis in centers_m.T]) - REACH_M
+        high = np.array([axis.max() for axis in centers_m.T]) + REACH_M
         lat, lon = frame.to_wgs84(_edges(low, high).reshape(-1, 2))
         # Of a box round half the world no more than is about the map: the rest may have no metres.
         west, south = max(box.west, lon.min() - MARGIN_DEG), max(box.south, lat.min() - MARGIN_DEG)
@@ -77,8 +78,15 @@ def _of_box(query: Query, box: Box, centers_m: Floats, frame: Frame) -> tuple[Ma
         edges = frame.from_wgs84(at[..., 1], at[..., 0])  # [4, E, 2] of west, east, south and north
         outer = np.array([edges.reshape(-1, 2).min(axis=0), edges.reshape(-1, 2).max(axis=0)])
         inner = np.array([[edges[0, :, 0].max(), edges[2, :, 1].max()], [edges[1, :, 0].min(), edges[3, :, 1].min()]])
-    near = ((centers_m >= outer[0] - REACH_M) & (centers_m <= outer[1] + REACH_M)).all(axis=1)
-    return near, ((centers_m >= inner[0] + REACH_M) & (centers_m <= inner[1] - REACH_M)).all(axis=1)
+    return _between(centers_m, outer[0] - REACH_M, outer[1] + REACH_M), _between(
+        centers_m, inner[0] + REACH_M, inner[1] - REACH_M
+    )
+
+
+def _between(points_m: Floats, low: Floats, high: Floats) -> Mask:
+    """[n] whether points [n, 2] lie in a box; axis by axis, which takes a tenth of the time."""
+    x, y = points_m.T
+    return np.asarray((x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1]))
 
 
 def _edges(low: Floats, high: Floats) -> Floats:
