@@ -3,6 +3,7 @@
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
@@ -27,6 +28,7 @@ def place_text(gazetteer: Gazetteer, position: Floats) -> str | None:
 def nearest_street(gazetteer: Gazetteer, position: Floats) -> tuple[int, Floats] | None:
     """The street that a position [2] is on, and the way [2] to its line; None where there is none."""
     streets = gazetteer.by_kind.get(STREET, np.zeros(0, np.int64))
+    streets = streets[_may_be_near(gazetteer.middles_m[streets].T, gazetteer.reach_m[streets], position, ON_STREET_M)]
     ways = ways_from(gazetteer, streets, position, ON_STREET_M)
     if not len(ways.item):
         return None
@@ -58,9 +60,7 @@ def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
 
 
 def _beside(gazetteer: Gazetteer, position: Floats) -> str | None:
-    middles_m, reach_m = gazetteer.where_named
-    east, north = middles_m - position[:, None]
-    near = gazetteer.named[east * east + north * north <= (reach_m + NAMED_M) ** 2]
+    near = gazetteer.named[_may_be_near(*gazetteer.where_named, position, NAMED_M)]
     ways = ways_from(gazetteer, near, position, NAMED_M)
     if not len(ways.item):
         return None
@@ -69,6 +69,12 @@ def _beside(gazetteer: Gazetteer, position: Floats) -> str | None:
     if metres < 1.0:
         return f"at {name}"
     return f"{metres:.0f} m {wind_of(-ways.way_m[best])} of {name}"
+
+
+def _may_be_near(middles_m: Floats, reach_m: Floats, position: Floats, apart_m: float) -> npt.NDArray[np.bool_]:
+    """[n] whether something of a reach [n] round a middle [2, n] may be so near to a position [2]."""
+    east, north = middles_m - position[:, None]
+    return np.asarray(east * east + north * north <= (reach_m + apart_m) ** 2)
 
 
 def wind_of(way_m: Floats) -> str:

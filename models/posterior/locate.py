@@ -20,6 +20,8 @@ PLACE_HIT_M = 10.0  # the same where places are named: what is far away leaves a
 BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
 MEAN_M = 3.0  # and are then the mean of the mass this near
 HEAVY = 256  # nodes that the mass within reach is added up from: the likeliest
+NOTHING = 40.0  # this far behind (nats) not even a million cells have any mass
+_SHARE = 16  # of the scores one is looked at first
 _TAIL = 30  # candidates at the end, from which the mass of the cells behind them is guessed
 
 
@@ -61,15 +63,14 @@ def locate(
     more = np.unique(also[possible[also]]) if also is not None else listed[:0]
     possible[more] = False
     chosen = np.concatenate([listed, more])
-    left_out = np.flatnonzero(possible)
+    others = np.where(possible, scores, -np.inf)  # what is not looked at
     field = _field(posterior, reading, chosen, log_prior, inside, told, answered)
     mass = _mass(field)
     rest = -np.inf
-    if len(left_out):
+    if (highest := others.max()) > -np.inf:
         tail = slice(max(0, len(listed) - _TAIL), len(listed))
         gap = np.median(mass[tail] - scores[chosen][tail])
-        highest = scores[left_out].max()
-        rest = float(gap + highest + np.log(np.exp(scores[left_out] - highest).sum()))
+        rest = float(gap + highest + np.log(np.exp(others[others > highest - NOTHING] - highest).sum()))
     total = np.logaddexp(np.logaddexp.reduce(mass), rest)
     order = np.lexsort((chosen, -mass))
     weight = np.exp(field.log_p - total)
@@ -90,10 +91,16 @@ def locate(
 
 def _best(scores: Floats, count: int) -> Ints:
     """The rows of the highest scores, highest first, of equal ones the first."""
-    least = np.partition(scores, -count)[-count]
-    above = np.flatnonzero(scores > least)
-    chosen = np.concatenate([above, np.flatnonzero(scores == least)[: count - len(above)]])
-    return chosen[np.lexsort((chosen, -scores[chosen]))]
+    some = scores[::_SHARE]
+    # So many of some scores are at least this high, and so many of all.
+    floor = np.partition(some, -count)[-count] if len(some) > count else -np.inf
+    rows = np.flatnonzero(scores >= floor)
+    high = scores[rows]
+    least = np.partition(high, -count)[-count]
+    above = np.flatnonzero(high > least)
+    chosen = rows[np.concatenate([above, np.flatnonzero(high == least)[: count - len(above)]])]
+    found: Ints = chosen[np.lexsort((chosen, -scores[chosen]))]
+    return found
 
 
 def _field(

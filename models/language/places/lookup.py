@@ -181,12 +181,13 @@ class Lookup:
 
     def of_kinds(self, kinds: Mapping[str, float]) -> Match | None:
         """Objects of some kinds, each as surely as the surest of its kinds."""
-        weights = np.zeros(len(self.gazetteer))
-        for kind, weight in kinds.items():
-            some = self.gazetteer.by_kind.get(kind, _NONE)
-            weights[some] = np.maximum(weights[some], weight)
-        objects = np.flatnonzero(weights)
-        return Match(objects, weights[objects], 1.0, False) if len(objects) else None
+        some = [self.gazetteer.by_kind.get(kind, _NONE) for kind in kinds]
+        objects, row = np.unique(np.concatenate([_NONE, *some]), return_inverse=True)
+        if not len(objects):
+            return None
+        weights = np.zeros(len(objects))
+        np.maximum.at(weights, row, np.repeat(list(kinds.values()), [len(rows) for rows in some]))
+        return Match(objects, weights, 1.0, False)
 
     @cached_property
     def noun_words(self) -> frozenset[str]:
