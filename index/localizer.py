@@ -1,6 +1,6 @@
 """An index, opened: from descriptions to answers, and what is in its cells."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -210,10 +210,6 @@ class Localizer:
         return Describer(self.gallery, self.palette, self.frame, self._surroundings, self._gazetteer)
 
     @cached_property
-    def _row(self) -> Mapping[str, int]:
-        return {cell_id: row for row, cell_id in enumerate(self.gallery.cells.ids)}
-
-    @cached_property
     def _vectors(self) -> VectorLocalizer:
         """Vector search on this gallery, by all levels that the index has."""
         has_levels = STARTS_FILE in self.manifest.files
@@ -264,10 +260,11 @@ class Localizer:
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """A cell and what is in it; None if there is no such cell."""
-        row = self._row.get(cell_id)
-        if row is None:
-            return None
         gallery = self.gallery
+        try:
+            row = gallery.cells.ids.index(cell_id)
+        except ValueError:
+            return None
         parts = gallery.cells.take(np.array([row])).parts
         return CellDetail(
             **self._place(row),

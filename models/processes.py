@@ -1,15 +1,17 @@
 """Sharing work over forked processes, which see the parent's arrays without a copy."""
 
 import ctypes
+import gc
 import multiprocessing
 import os
+import pickle
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager, nullcontext
 from functools import partial
 from multiprocessing.connection import Connection
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
 from models.errors import DataError
 
@@ -17,6 +19,7 @@ Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 FEW = 4  # tasks that are done at once in this process
+ARRAY: Final = 2**20  # bytes; what is smaller travels in the pickle
 
 _work: Callable[[Any], Any] | None = None  # what forked workers inherit, set before they start
 _alone = False
@@ -46,12 +49,16 @@ def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterato
         return
     _work = work
     give_back()  # or every worker has it too
+    was_frozen = gc.get_freeze_count() > 0
+    gc.freeze()  # or every worker that looks for garbage gets a copy of each page that holds an object
     try:
         context = multiprocessing.get_context("fork")
         with ProcessPoolExecutor(mp_context=context, initializer=_watch_parent) as pool:
             yield from pool.map(_call, tasks)
     finally:
         _work = None
+        if not was_frozen:
+            gc.unfreeze()
         give_back()
 
 
@@ -89,12 +96,35 @@ def _do(work: Callable[[], Any], result: Connection, alone: bool) -> None:
             done = True, work()
     except Exception as error:  # whoever waits for it raises it
         done = False, error
-    result.send(done)
+    give_back()
+    _send(result, done)
+
+
+def _send(to: Connection, value: Any) -> None:
+    """Send a value whose arrays are not copied first, as they would be into one pickle."""
+    arrays = list[pickle.PickleBuffer]()
+
+    def is_small(array: pickle.PickleBuffer) -> bool:
+        small = array.raw().nbytes < ARRAY
+        if not small:
+            arrays.append(array)
+        return small
+
+    to.send_bytes(pickle.dumps(value, protocol=5, buffer_callback=is_small))
+    to.send(len(arrays))
+    for array in arrays:
+        to.send_bytes(array.raw())
+
+
+def _receive(sender: Connection) -> Any:
+    """What `_send` has sent."""
+    pickled = sender.recv_bytes()
+    return pickle.loads(pickled, buffers=[bytearray(sender.recv_bytes()) for _ in range(sender.recv())])
 
 
 def _result_of(result: Connection) -> Any:
     try:
-        is_done, value = result.recv()
+        is_done, value = _receive(result)
     except EOFError as error:
         raise DataError(
             "a process of this job was killed; give it more memory, or take a part of the map (--within)"

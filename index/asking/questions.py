@@ -57,16 +57,20 @@ class Questions:
         cells: CellTable,
         landmarks: Landmarks | None = None,
     ) -> None:
-        asked, centers_m = load_asked(), cells.center_m[:, :2].astype(np.float64)
+        asked = load_asked()
         self._sights, self._words = sights, tuple(colour_words(palette))
         self._gazetteer, self._cells, self._landmarks = gazetteer, cells, landmarks
         self._things = {label: n for n, label in enumerate(labels) if label in asked.things}
         self._owning = np.flatnonzero(np.diff(sights.surroundings.cell_starts))  # cells that have nodes
-        self._middle = sights.surroundings.middles(centers_m)
 
     @cached_property
     def _names(self) -> OpenQuestions:
         return OpenQuestions(self._landmarks or landmarks_of(self._gazetteer, self._cells))
+
+    @cached_property
+    def _middle(self) -> Ints:
+        """A node in the middle of each cell that has any."""
+        return self._sights.surroundings.middles(self._cells.center_m[:, :2].astype(np.float64))
 
     def answered(self, replies: Sequence[Reply]) -> Answered | None:
         """What answers tell of positions; None if they tell nothing.

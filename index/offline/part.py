@@ -59,7 +59,7 @@ class Part:
         rows: range,
         report: Progress,
     ) -> "Part":
-        """Make the part of some cells; what surroundings can cut again is then let go of.
+        """Make the part of some cells; what no index is made of, and what surroundings can cut again, is let go of.
 
         Args:
             retriever: makes the vectors, of all its levels.
@@ -69,9 +69,12 @@ class Part:
             rows: which they are.
             report: called as the work goes on.
         """
+        if isinstance(source, MapSource):
+            source.lighten()
+            give_back()
         vectors, levels = _encoded(retriever, source.data, rows, report)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceSurroundings):
-            source.lighten(surroundings.cut)
+            source.cut_anew(surroundings.cut)
             give_back()
         report("tabulate statements", 0, 0)
         data, things = source.data, surroundings.things

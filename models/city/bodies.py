@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 
 from models.city.cells import CellTable, Parts, cut_cubes, grid_centers, sample_cubes
-from models.city.gallery import Finder, numbered
+from models.city.gallery import Finder, Numbered
 from models.city.points import Ints, PointTable
 from models.city.tiled.cutting import cut_pieces, sample_pieces
 from models.city.tiled.pieces import PieceTable
@@ -134,7 +134,7 @@ def cut_cells(city_map: CityMap, bodies: Bodies, progress: Cut | None = None) ->
             "too few to tell places apart; take a larger or richer map"
         )
     return CellTable(
-        ids=numbered(city_map.name, len(kept)),
+        ids=Numbered(city_map.name, len(kept)),
         scenes=(city_map.name,) * len(kept),
         center_m=centers[kept],
         size_m=rules.cell_size_m,

@@ -4,7 +4,7 @@ One function cuts both the cells of the grid and the cell around a pose from whi
 (docs/formats.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from typing import Any, Final
@@ -81,7 +81,7 @@ class CellTable:
         sample: gives points of the parts; None where they are not at hand, as in an index.
     """
 
-    ids: tuple[str, ...]
+    ids: Sequence[str]
     scenes: tuple[str, ...]
     center_m: Floats
     size_m: float

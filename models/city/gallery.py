@@ -3,8 +3,9 @@
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields, replace
+from operator import eq
 from pathlib import Path
-from typing import Any
+from typing import Any, Final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +24,7 @@ from models.files import mapped
 Finder = Callable[[Floats], tuple[Floats, int]]  # position [2] -> way [2] to the nearest instance, and which it is
 CELLS_FILE = "cells.safetensors"
 NAMES_FILE = "cells.json"
+MOST_DIGITS: Final = 19  # of a number of a cell
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,10 +59,10 @@ class Gallery:
         if with_parts:
             arrays |= {f.name: np.ascontiguousarray(getattr(cells.parts, f.name)) for f in fields(Parts)}
         save_file(arrays, directory / CELLS_FILE)
-        scene = cells.scenes[0] if cells.ids == numbered(cells.scenes[0], len(cells)) else None
+        scene = cells.scenes[0] if cells.ids == Numbered(cells.scenes[0], len(cells)) else None
         names: dict[str, Any] = {
             "scene": scene,
-            "ids": None if scene else cells.ids,
+            "ids": None if scene else tuple(cells.ids),
             "scenes": None if scene else cells.scenes,
             "size_m": cells.size_m,
             "labels": self.labels,
@@ -84,7 +86,7 @@ class Gallery:
             arrays = mapped(directory / CELLS_FILE)[0]
             names = json.loads((directory / NAMES_FILE).read_text())
             center_m, scene = arrays.pop("center_m"), names["scene"]
-            ids = numbered(scene, len(center_m)) if scene else tuple(names["ids"])
+            ids = Numbered(scene, len(center_m)) if scene else tuple(names["ids"])
             scenes = (scene,) * len(center_m) if scene else tuple(names["scenes"])
             content = Parts(**arrays) if arrays or cut is None else cut
             cells = CellTable(ids, scenes, center_m, names["size_m"], content)
@@ -93,9 +95,46 @@ class Gallery:
             raise IndexBroken(f"the cells in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
 
 
-def numbered(scene: str, count: int) -> tuple[str, ...]:
-    """The names of so many cells of one scene."""
-    return tuple(f"{scene}_{n:05d}" for n in range(count))
+class Numbered(Sequence[str]):
+    """The names of the cells of one scene: a city has a million, each of which is made when it is asked for.
+
+    Args:
+        scene: its name.
+        count: of the cells.
+    """
+
+    def __init__(self, scene: str, count: int) -> None:
+        self._scene, self._count = scene, count
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, n: int) -> str: ...
+
+    @overload
+    def __getitem__(self, n: slice) -> tuple[str, ...]: ...
+
+    def __getitem__(self, n: int | slice) -> str | tuple[str, ...]:
+        """The name of one cell, or those of a slice."""
+        if isinstance(n, slice):
+            return tuple(self[row] for row in range(*n.indices(self._count)))
+        return f"{self._scene}_{range(self._count)[n]:05d}"
+
+    def index(self, value: str, start: int = 0, stop: int | None = None) -> int:
+        """Which cell has a name, as sequences do, without looking at others."""
+        number = value.rpartition("_")[2]
+        rows = range(*slice(start, stop).indices(self._count))
+        if number.isdecimal() and len(number) < MOST_DIGITS and int(number) in rows and self[int(number)] == value:
+            return int(number)
+        raise ValueError(f"no cell is named {value}")
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Numbered):
+            return (self._scene, self._count) == (other._scene, other._count)
+        return isinstance(other, Sequence) and len(self) == len(other) and all(map(eq, self, other))
+
+    __hash__ = None  # type: ignore[assignment]  # as of a list: equal to others
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -165,14 +165,14 @@ class MapSource(Source):
         is_thing, least = ~points.is_stuff, rules.min_part_points
         return Clouds(points.xyz, points.starts, is_thing, scene, of_part, rules.thing_share, least)
 
-    def lighten(self, cut: Callable[[Floats], Parts]) -> None:
-        """Let go of all but what an index is made of; there are no queries and no bodies after that.
-
-        Args:
-            cut: cuts the parts of cells round centres [N, 3], when they are asked for.
-        """
-        self.data, nowhere = self.data.cut_anew(cut), self._locations_m[:0]
+    def lighten(self) -> None:
+        """Let go of what queries alone need; there are none after that."""
+        nowhere = self._locations_m[:0]
         self._map, self._locations_m = replace(self._map, instances=(), locations_m=nowhere), nowhere
+
+    def cut_anew(self, cut: Callable[[Floats], Parts]) -> None:
+        """Let go of the parts of cells, which are then cut (round centres [N, 3]) when they are asked for."""
+        self.data = self.data.cut_anew(cut)
 
     def gazetteer(self) -> Gazetteer:
         """See Source; of the whole file, whatever the split."""

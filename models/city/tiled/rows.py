@@ -64,10 +64,17 @@ class Rows:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Chosen:
-    """N solids of one form, by column; `rank` is the first of the same instance: what comes first covers."""
+    """N solids of one form, by column.
+
+    Attributes:
+        first, last: [N] columns of tiles that each reaches over.
+        rank: [N] the first of the same instance: what comes first covers.
+    """
 
     form: int
     geometry: Geometries
+    first: Ints
+    last: Ints
     instance: Ints
     rank: Ints
     heights_m: Floats
@@ -85,6 +92,7 @@ class _Chosen:
         return cls(
             FORMS.index(form),
             geometry,
+            *band_of(shapely.bounds(geometry)[:, [0, 2]]),
             instance,
             first[np.searchsorted(known, instance)],
             np.array([(solid.base_m, solid.top_m) for solid in some]).reshape(-1, 2),
@@ -117,8 +125,7 @@ def stuff_rows(solids: Sequence[Solid], form: Form) -> list[Rows]:
     chosen = _Chosen.of(solids, form)
     if not len(chosen.geometry):
         return []
-    first, last = band_of(shapely.bounds(chosen.geometry)[:, [0, 2]])
-    bands = [(low, low + BAND) for low in range(int(first.min()), int(last.max()) + 1, BAND)]
+    bands = [(low, low + BAND) for low in range(int(chosen.first.min()), int(chosen.last.max()) + 1, BAND)]
     return list(map_forked(partial(_stuff_of, chosen), bands))
 
 
@@ -145,8 +152,10 @@ def thing_rows(solids: Sequence[Solid]) -> Rows:
 
 def _joined(chosen: _Chosen, band: Span) -> tuple[Ints, Ints, Ints, Geometries]:
     """(column, row, first feature, geometry) of each instance in each tile; of areas, what nothing covers."""
-    cut = clip_to_tiles(chosen.geometry, band)
-    rank = chosen.rank[cut.feature]
+    # Of others no geometry is looked at: a process that does so has a copy of it.
+    rows = np.flatnonzero((chosen.first < band[1]) & (chosen.last >= band[0]))
+    cut = clip_to_tiles(chosen.geometry[rows], band)
+    rank = chosen.rank[rows[cut.feature]]
     order = np.lexsort((rank, cut.row, cut.column))
     column, row, rank, geometry = cut.column[order], cut.row[order], rank[order], cut.geometry[order]
     new = (np.diff(column, prepend=column[:1] - 1) != 0) | (np.diff(row, prepend=0) != 0)

@@ -65,5 +65,6 @@ class Things:
 
     def labels(self, gallery: Gallery) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
         """The gallery's labels, each once, and which of them each thing has [P]."""
-        labels, number = np.unique(np.array(gallery.labels), return_inverse=True)
-        return tuple(labels.tolist()), number.astype(np.int64)[self.instance]
+        labels = tuple(sorted(set(gallery.labels)))
+        number = {label: n for n, label in enumerate(labels)}
+        return labels, np.array([number[label] for label in gallery.labels], np.int64)[self.instance]

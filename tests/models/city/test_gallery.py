@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from models.city.gallery import CELLS_FILE, NAMES_FILE, Gallery
+from models.city.gallery import CELLS_FILE, NAMES_FILE, Gallery, Numbered
 from models.errors import IndexBroken
 
 
@@ -14,6 +14,35 @@ def test_a_gallery_comes_back(source, tmp_path) -> None:
     assert (again.cells.ids, again.cells.scenes) == (gallery.cells.ids, gallery.cells.scenes)
     assert (again.labels, again.names, again.sources) == (gallery.labels, gallery.names, gallery.sources)
     assert (again.cells.parts.closest_m == gallery.cells.parts.closest_m).all()
+
+
+def test_numbered_names_are_found_without_a_list_of_them() -> None:
+    names = Numbered("town", 100_002)
+    assert (len(names), names[7], names[-1], names[1:3]) == (
+        100_002,
+        "town_00007",
+        "town_100001",
+        ("town_00001", "town_00002"),
+    )
+    assert [names.index(names[row]) for row in (0, 99_999, 100_001)] == [0, 99_999, 100_001]
+    for name in (
+        "town_7",
+        "town_000007",
+        "town_100002",
+        "city_00007",
+        "town_",
+        "town_\u0667",
+        "",
+        "town_" + 9999 * "9",
+    ):
+        assert name not in names
+        with pytest.raises(ValueError, match="no cell"):
+            names.index(name)
+    with pytest.raises(IndexError):
+        names[100_002]
+    assert Numbered("town", 2) == ("town_00000", "town_00001") == Numbered("town", 2)
+    assert Numbered("town", 2) != Numbered("town", 3)
+    assert Numbered("town", 2) != ("town_00000", "town_00002")
 
 
 def test_names_that_are_no_numbers_of_one_scene_come_back_too(source, tmp_path) -> None:
