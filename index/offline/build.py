@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 from index.artifact import check_store, open_version
 from index.manifest import StoreName, check_model, fingerprint
-from index.offline.part import Part
+from index.offline.part import Part, writing
 from index.offline.parts import Origin, Parts
-from index.offline.publish import Publisher, save_names, writing
+from index.offline.publish import Publisher, save_names
 from index.offline.shard import Shard
 from models.city.cells import BLOCK
 from models.city.osm.extract import Region, extracted
@@ -107,8 +107,10 @@ class IndexJob:
             source = open_source(path, self.split, report)
             surroundings = surroundings_of(source.bodies(), source.data.cells, report)
             rows = range(len(source.data.cells))
+            with writing(self.out_dir):
+                self.out_dir.mkdir(parents=True, exist_ok=True)
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source, surroundings, rows, report)
+            part = Part.of(encoder, likelihood, source, surroundings, rows, self.out_dir, report)
             return self._publisher(ready).publish(source, [part], surroundings, names, report)
 
     def make_part(self, shard: Shard, report: Progress = silent) -> Path:
@@ -129,7 +131,7 @@ class IndexJob:
             rows = shard.rows(count, BLOCK)
             surroundings = surroundings_of(source.bodies(), source.data.cells, report, rows)
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source, surroundings, rows, report)
+            part = Part.of(encoder, likelihood, source, surroundings, rows, self.out_dir, report)
         report("write part", 0, 0)
         with writing(self.out_dir):
             parts.write(shard, part, rows, count)

@@ -1,8 +1,10 @@
 """What is heavy to make of some cells of a map: a whole index is made of one part or of several, to the same bytes."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any, Final
 
 import numpy as np
@@ -16,7 +18,7 @@ from models.city.cells import BLOCK, CellTable
 from models.city.gallery import MapData
 from models.city.source import MapSource, Source
 from models.city.types import Progress
-from models.errors import IndexBroken
+from models.errors import DataError, IndexBroken
 from models.posterior.likelihood import Likelihood
 from models.posterior.statements import StatementRows, statement_rows
 from models.posterior.surroundings.piece_surroundings import PieceSurroundings
@@ -30,7 +32,7 @@ from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
 
 FILE: Final = "part.safetensors"
-AT_ONCE: Final = 64 * BLOCK  # cells
+AT_ONCE: Final = 32 * BLOCK  # cells
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,6 +59,7 @@ class Part:
         source: Source,
         surroundings: Surroundings,
         rows: range,
+        room: Path,
         report: Progress,
     ) -> "Part":
         """Make the part of some cells; what no index is made of, and what surroundings can cut again, is let go of.
@@ -67,12 +70,13 @@ class Part:
             source: the whole map.
             surroundings: of these cells.
             rows: which they are.
+            room: a directory on the disk where the vectors lie meanwhile.
             report: called as the work goes on.
         """
         if isinstance(source, MapSource):
             source.lighten()
             give_back()
-        vectors, levels = _encoded(retriever, source.data, rows, report)
+        vectors, levels = _encoded(retriever, source.data, rows, room, report)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceSurroundings):
             source.cut_anew(surroundings.cut)
             give_back()
@@ -126,17 +130,33 @@ class Part:
         return cls(columns["vectors"], table, rows, scanned)
 
 
-def _encoded(retriever: Retriever, data: MapData, rows: range, report: Progress) -> tuple[Floats, LevelTable]:
-    """Vectors [C, D] and the other levels of some cells, whose features are made some at a time."""
-    vectors, levels = np.empty((len(rows), retriever.config.width), np.float32), list[LevelTable]()
-    labels = np.array(data.gallery.labels)
+@contextmanager
+def writing(out_dir: Path) -> Iterator[None]:
+    """Say so where an index cannot be written."""
+    try:
+        yield
+    except (OSError, SafetensorError) as error:
+        raise DataError(f"{out_dir} cannot be written: {error}; make room, or give another directory") from error
+
+
+def _encoded(
+    retriever: Retriever, data: MapData, rows: range, room: Path, report: Progress
+) -> tuple[Floats, LevelTable]:
+    """Vectors [C, D] and the other levels of some cells, some at a time; the vectors lie in a file without a name."""
+    width, levels, labels = retriever.config.width, list[LevelTable](), np.array(data.gallery.labels)
     report("encode cells", 0, len(rows))
-    for first in range(rows.start, rows.stop, AT_ONCE):
-        some = range(first, min(first + AT_ONCE, rows.stop))
-        features = CellFeatures.of(data.cells, labels, some)
-        at = slice(some.start - rows.start, some.stop - rows.start)
-        vectors[at], table = encode_gallery(retriever, retriever.seen(features), map_forked)
-        levels.append(table)
-        report("encode cells", at.stop, len(rows))
+    spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
+    with writing(room):
+        file = TemporaryFile(dir=room)  # noqa: SIM115 - closed by the next block
+    with file:
+        for span, features in zip(spans, CellFeatures.in_turn(data.cells, labels, spans), strict=True):
+            vectors, table = encode_gallery(retriever, retriever.seen(features), map_forked)
+            with writing(room):
+                file.write(vectors.data)
+                file.flush()
+            levels.append(table)
+            report("encode cells", span.stop - rows.start, len(rows))
+        none = np.empty((0, width), np.float32)
+        whole = np.memmap(file, np.float32, "r", shape=(len(rows), width)) if spans else none
     table = LevelTable.joined(levels) if levels else NO_LEVELS
-    return vectors, NO_LEVELS if table.is_empty else table
+    return whole, NO_LEVELS if table.is_empty else table

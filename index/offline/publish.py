@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from safetensors import SafetensorError
 
 from index.artifact import set_alias
 from index.asking.questions import landmarks_of
 from index.hint_features import save_hint_features, template_hints
 from index.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
-from index.offline.part import Part
+from index.offline.part import Part, writing
 from index.posterior.meaning import Meanings, meanings_of
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_store import MilvusStore
@@ -25,7 +24,6 @@ from models.city.kinds.vocabulary import load_vocabulary
 from models.city.scenery.files import save_scenery
 from models.city.source import Source, gazetteer_of
 from models.city.types import Progress
-from models.errors import DataError
 from models.files import file_records, new_directory
 from models.language.places.lookup import Lookup
 from models.language.places.name_table import NameTable
@@ -133,15 +131,6 @@ def save_names(path: Path, directory: Path) -> Path:
     phrases = Lookup(gazetteer, vocabulary, encoder.is_everyday, table).phrases()
     Meanings.of(*meanings_of(phrases, encoder.embed), encoder.embed).save(directory)
     return directory
-
-
-@contextmanager
-def writing(out_dir: Path) -> Iterator[None]:
-    """Say so where an index cannot be written."""
-    try:
-        yield
-    except (OSError, SafetensorError) as error:
-        raise DataError(f"{out_dir} cannot be written: {error}; make room, or give another directory") from error
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 import hashlib
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any, Literal
@@ -67,9 +67,23 @@ class CellFeatures:
             instance_labels: [I] label of each instance of the map.
             rows: those of some cells, one after the other, with the labels of all; None for all.
         """
+        return next(cls.in_turn(cells, instance_labels, [range(len(cells)) if rows is None else rows]))
+
+    @classmethod
+    def in_turn(
+        cls, cells: CellTable, instance_labels: npt.NDArray[Any], spans: Iterable[range]
+    ) -> Iterator["CellFeatures"]:
+        """Features of some cells, then of others: those of a city take more room than all else of it; as `of`."""
         known, number = np.unique(instance_labels, return_inverse=True)
         used = np.unique(number[np.bincount(cells.parts.instance, minlength=len(number)) > 0])
-        cells = cells if rows is None else cells.take(np.arange(rows.start, rows.stop))
+        known, number = known[used], np.searchsorted(used, number).astype(np.int32)
+        for span in spans:
+            some = cells if len(span) == len(cells) else cells.take(np.arange(span.start, span.stop))
+            yield cls._of(some, tuple(known.tolist()), number)
+
+    @classmethod
+    def _of(cls, cells: CellTable, labels: tuple[str, ...], number: npt.NDArray[Any]) -> "CellFeatures":
+        """Features of all of some cells; `number` [I] the label of each instance of the map."""
         parts, half = cells.parts, cells.size_m / 2
         geometry = np.empty((len(parts.instance), NUM_GEOMETRY), dtype=np.float32)  # filled without another of its size
         position, closest, size, count, colour = np.split(geometry, np.cumsum(list(GEOMETRY.values()))[:-1], axis=1)
@@ -82,9 +96,9 @@ class CellFeatures:
         count[:, 0] = np.log1p(parts.count) / 10
         colour[:, 3] = ~np.isnan(parts.rgb).any(axis=1)
         colour[:, :3] = np.where(colour[:, 3:] > 0, parts.rgb, 0.0)
-        label = np.searchsorted(used, number).astype(np.int32)[parts.instance]
+        label = number[parts.instance]
         shape = np.zeros((len(label), 0), dtype=np.float32)
-        return cls(parts.starts, geometry, label, tuple(known[used].tolist()), cells.sample, shape)
+        return cls(parts.starts, geometry, label, labels, cells.sample, shape)
 
     def seen(self, encoder: PointEncoder | None) -> "CellFeatures":
         """The same with `shape`, computed a few cells at a time, or read where an earlier process left it.
