@@ -4,6 +4,7 @@ import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass
+from mmap import MADV_DONTNEED, mmap
 from pathlib import Path
 
 import numpy as np
@@ -90,6 +91,8 @@ class Publisher:
         ):
             if collection is None:
                 FaissStore.of(vectors).save(directory / VECTORS_FILE)
+            if isinstance(vectors.base, mmap):
+                vectors.base.madvise(MADV_DONTNEED)  # its pages are in the file
             self._save_parts(directory, parts, data, surroundings)
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)

@@ -167,7 +167,7 @@ class MapSource(Source):
 
     def lighten(self) -> None:
         """Let go of what queries alone need; there are none after that."""
-        nowhere = self._locations_m[:0]
+        nowhere = np.zeros((0, 3), np.float32)  # no view of what there was
         self._map, self._locations_m = replace(self._map, instances=(), locations_m=nowhere), nowhere
 
     def cut_anew(self, cut: Callable[[Floats], Parts]) -> None:

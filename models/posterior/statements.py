@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 import torch
 from safetensors import SafetensorError
-from safetensors.numpy import save
 from scipy.sparse import coo_array
 from torch import Tensor
 
@@ -19,7 +18,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
-from models.files import in_order, mapped
+from models.files import mapped, save_in_order
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.posterior.surroundings.around import STEP_M
@@ -90,7 +89,7 @@ class Statements:
             rows: of `statement_rows`, part by part, at least one.
             words: how many colour words there are.
         """
-        count = np.sum([np.bincount(some.statement, minlength=some.possible) for some in rows], axis=0)
+        count = np.sum([_counted(some.statement, some.possible) for some in rows], axis=0)
         number = np.flatnonzero(count)  # of what holds anywhere: some thousands
         starts = np.concatenate([[0], np.cumsum(count[number])])
         cell, share = np.empty(starts[-1], np.int32), np.empty(starts[-1], np.float16)
@@ -118,7 +117,7 @@ class Statements:
             "number": self.number,
         }
         facts = {"cells": str(self.cells), "words": str(self.words), "model": fingerprint}
-        (directory / FILE).write_bytes(in_order(save(columns, facts)))
+        save_in_order(columns, facts, directory / FILE)
 
     @classmethod
     def load(cls, directory: Path, fingerprint: str) -> "Statements | None":
@@ -156,6 +155,15 @@ class Statements:
         _add(self.starts, self.cell, *shares, columns, weight.index_select(1, told).numpy(), held)
         scores: Floats = (1 - reading.absent.numpy()) @ np.log(held, out=held)
         return scores
+
+
+@compiled
+def _counted(statement: Ints, possible: int) -> Ints:
+    """[possible] how often there is each; NumPy's has a copy of all of them twice the size."""
+    count = np.zeros(possible, np.int64)
+    for number in statement:
+        count[number] += 1
+    return count
 
 
 @compiled
