@@ -153,7 +153,7 @@ def _encoded(
             vectors, table = encode_gallery(retriever, retriever.seen(features), map_forked)
             with writing(room):
                 file.write(vectors.data)
-                file.flush()
+                file.flush()  # or each process that is forked next has it to write too
             levels.append(table)
             report("encode cells", span.stop - rows.start, len(rows))
         none = np.empty((0, width), np.float32)
