@@ -136,7 +136,7 @@ def serve(
     ] = Path("data/jobs"),
 ) -> None:
     """Serve an index over HTTP; the other settings are HEREABOUTS_ variables."""
-    from app.workers.pool import prepared
+    from app.workers.launch import prepared
 
     with prepared():
         from app.logs import configure_logging

@@ -1,4 +1,4 @@
-"""The processes that hold a model: `process` is theirs, `pool` starts them, `remote` is what the service talks to.
+"""The processes that hold a model: `process` is theirs, `launch` and `pool` start them, `remote` is for the service.
 
 `sums` reads the files of what they have opened again, in one more.
 

@@ -1,59 +1,22 @@
-"""Starting the processes that hold a model."""
+"""The process that opens an index, and the workers that are forked from it."""
 
 import os
 import signal
 import socket
 import subprocess
-import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Sequence
+from contextlib import suppress
 from multiprocessing.connection import Connection
 from multiprocessing.reduction import send_handle
-from pathlib import Path
 from threading import Lock
 from typing import Final
 
-from app.threads import THREAD_VARIABLES
+from app.workers.launch import PROCESS, launch, take_prepared
 from app.workers.order import FORK, OpenOrder
 from index.answers import IndexFacts
 from models.city.frame import Frame
 
-PROCESS: Final = (sys.executable, "-m", "app.workers.process")
-AHEAD: Final = "index.localizer"  # brings torch, which takes seconds
-ROOT: Final = Path(__file__).parents[2]  # where the processes find this very code
 EXIT_S: Final = 5.0
-
-
-def launch(command: Sequence[str]) -> tuple[subprocess.Popen[bytes], Connection]:
-    """Start a process that opens what it is told to, and ends when its connection does."""
-    own, other = socket.socketpair()
-    with own, other:
-        process = subprocess.Popen(
-            [*command, str(other.fileno())],
-            stdin=subprocess.DEVNULL,
-            pass_fds=[other.fileno()],
-            cwd=ROOT,
-            env={**os.environ, **dict.fromkeys(THREAD_VARIABLES, "1"), "TOKENIZERS_PARALLELISM": "false"},
-            start_new_session=True,  # what a terminal sends is for the service alone
-        )
-        return process, Connection(own.detach())
-
-
-@contextmanager
-def prepared() -> Iterator[None]:
-    """Have the process of the next pool import what it needs while the service imports the rest."""
-    _prepared.append(launch((*PROCESS, AHEAD)))
-    try:
-        yield
-    finally:
-        while _prepared:  # no pool was opened
-            process, control = _prepared.pop()
-            control.close()
-            process.kill()
-            process.wait()
-
-
-_prepared: Final[list[tuple[subprocess.Popen[bytes], Connection]]] = []
 
 
 class WorkerPool:
@@ -75,9 +38,9 @@ class WorkerPool:
         self._start()
 
     def _start(self) -> None:
-        if _prepared and self._command == PROCESS:
+        if self._command == PROCESS and (ahead := take_prepared()) is not None:
             try:
-                self._open(*_prepared.pop())
+                self._open(*ahead)
             except (EOFError, OSError):  # somebody killed it
                 self._bury()
             else:

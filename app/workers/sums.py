@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
-from app.workers.pool import ROOT
+from app.workers.launch import ROOT
 from index.artifact import open_version
 from index.manifest import MANIFEST
 from models.errors import HereaboutsError, IndexBroken

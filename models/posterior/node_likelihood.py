@@ -1,5 +1,6 @@
 """`Likelihood` at the nodes of a map, compiled: node by node, without arrays of all that is around them."""
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -24,12 +25,12 @@ class NodeLikelihood:
     Args:
         likelihood: fitted.
         label: [P] label of each of a map's things.
-        words: [P, W] chance of each colour word, likewise.
+        words: says the chance of each colour word [n, W] of some things [n].
         usual: as `usual_statements`.
     """
 
     @torch.inference_mode()
-    def __init__(self, likelihood: Likelihood, label: Tensor, words: Tensor, usual: Tensor) -> None:
+    def __init__(self, likelihood: Likelihood, label: Tensor, words: Callable[[Tensor], Tensor], usual: Tensor) -> None:
         self._model, self._label, self._words, self._usual = likelihood, label, words, usual
         self._ways, sector = likelihood.ways(), SECTOR_OF_WAY.numpy().astype(np.int8)
         ranks = np.ones((len(RANKS), max(RANKS), HABITS))
@@ -50,7 +51,7 @@ class NodeLikelihood:
         parts, part = _distinct(around.part, self._place)
         chosen, model = torch.from_numpy(parts), self._model
         label = self._label.index_select(0, chosen)
-        fits = model.parts(reading, label, self._words.index_select(0, chosen)).numpy()
+        fits = model.parts(reading, label, self._words(chosen)).numpy()
         said = torch.stack([reading.absent, model.chance(reading, self._usual)]).double().numpy()
         log_p: Floats = _log_p(
             nodes, around.node, part, around.way, around.whole, label.numpy(), fits, self._places(reading), self._least,

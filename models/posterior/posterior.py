@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 import torch
+from torch import Tensor
 
 from models.city.cells import CellTable
 from models.city.colours import Palette
@@ -87,13 +88,15 @@ class HintPosterior:
         self.likelihood, self.surroundings, self.cells = likelihood, surroundings, cells
         self._label = torch.from_numpy(label)
         self._rgb = torch.from_numpy(surroundings.things.rgb.astype(np.float32))
-        self._words = likelihood.words(self._rgb, palette)
+        self._palette = palette
         self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
         self._ways, self._log_pi = likelihood.ways(), likelihood.log_pi()
         self._nodes = NodeLikelihood(likelihood, self._label, self._words, self.usual)
-        self.statements = statements or Statements.of(likelihood, surroundings, self._label, self._rgb, self._words)
+        self.statements = statements or Statements.of(
+            likelihood, surroundings, self._label, self._rgb, likelihood.words(self._rgb, palette)
+        )
         self.extent_m = cells.extent_m
-        self.sights = Sights(surroundings, label, self._words.numpy())
+        self.sights = Sights(surroundings, label, lambda things: self._words(torch.from_numpy(things)).numpy())
 
     @torch.inference_mode()
     def cell_scores(self, reading: Reading) -> Floats:
@@ -142,13 +145,18 @@ class HintPosterior:
         return Field(cells, nodes, cell, log_p)
 
     @torch.inference_mode()
+    def _words(self, things: Tensor) -> Tensor:
+        """[n, W] chance of each colour word of some things [n]: a table of all would be the largest of a city."""
+        return self.likelihood.words(self._rgb.index_select(0, things), self._palette)
+
+    @torch.inference_mode()
     def explain(self, reading: Reading, node: int) -> list[Explained]:
         """For each hint what explains it best at a node."""
         around = self.surroundings.around(np.array([node]))
         if not len(around.part):
             return [NOT_EXPLAINED] * len(reading.label)
         model, batch = self.likelihood, NodeBatch.of(around, 1, self._label, self._rgb)
-        fits = model.parts(reading, batch.label, self._words.index_select(0, batch.parts))
+        fits = model.parts(reading, batch.label, self._words(batch.parts))
         share = model.share_of(batch, self._log_pi).mean(dim=1, keepdim=True)
         terms = fits[batch.part] * model.places(reading, self._ways[batch.way]) * share
         eps = model.chance(reading, self.usual)

@@ -1,6 +1,6 @@
 """What of the things around them people say when asked: whether one is near, in which wind, and what colour it has."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -17,6 +17,7 @@ FAR_M, FAR_SOFT_M = 15.0, 2.0  # beyond, a thing is none that is asked for; surr
 APART_M = 2.0  # by which of two things one must be nearer to be the nearest to most people
 TURN: Final = 12.0  # degrees that people are off by, near the border between two winds
 QUARTERS: Final = ("north", "east", "south", "west")
+Words = Callable[[Ints], Floats]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,12 +52,11 @@ class Sights:
     Args:
         surroundings: of the gallery.
         label: [P] number of the class of each of the surroundings' things.
-        words: [P, W] chance of each colour word, likewise.
+        words: says the chance of each colour word [n, W] of some things [n].
     """
 
-    def __init__(self, surroundings: Surroundings, label: npt.NDArray[np.int64], words: Floats) -> None:
-        self.surroundings, self._label = surroundings, label
-        self._words = words / words.sum(axis=1, keepdims=True)
+    def __init__(self, surroundings: Surroundings, label: npt.NDArray[np.int64], words: Words) -> None:
+        self.surroundings, self._label, self._words = surroundings, label, words
 
     def seen(self, nodes: Ints, classes: Sequence[int]) -> "Seen":
         """What is around some nodes [M] of some classes."""
@@ -90,10 +90,10 @@ class Seen:
 
     Args:
         near: the things of each class.
-        words: [P, W] chance of each colour word, of the surroundings' things.
+        words: says the chance of each colour word [n, W] of some of the surroundings' things [n].
     """
 
-    def __init__(self, near: Mapping[int, Near], words: Floats) -> None:
+    def __init__(self, near: Mapping[int, Near], words: Words) -> None:
         self._near, self._words = near, words
 
     def share(self, label: int, mass: Floats) -> float:
@@ -117,14 +117,20 @@ class Seen:
     def colour(self, label: int, words: Ints) -> Floats:
         """[M, K + 1] chance of each of K colour words, and another, of the nearest of a class; alike where none is."""
         near = self._near[label]
-        found = near.mean(self._words[near.part][:, words])
+        found = near.mean(self._of(near)[:, words])
         found = np.concatenate([found, 1 - found.sum(axis=1, keepdims=True)], axis=1)
         return np.where(np.isfinite(near.nearest_m)[:, None], found, 1 / found.shape[1])
 
     def colours(self, label: int, mass: Floats) -> Floats:
         """[W] how much of a mass [M] has each colour word at the nearest of a class."""
         near = self._near[label]
-        share: Floats = (near.weight * mass[near.node]) @ self._words[near.part]
+        share: Floats = (near.weight * mass[near.node]) @ self._of(near)
+        return share
+
+    def _of(self, near: Near) -> Floats:
+        """[R, W] share of each colour word, of things that are near."""
+        chance = self._words(near.part)
+        share: Floats = chance / chance.sum(axis=1, keepdims=True)
         return share
 
 

@@ -182,7 +182,7 @@ def test_serve_takes_a_directory_or_a_url(monkeypatch, arguments, environ, wante
     monkeypatch.setattr("app.main.create_app", seen.append)
     monkeypatch.setattr("app.server.serve", lambda *_: None)
     monkeypatch.setattr("app.workers.pool.launch", lambda *_: pytest.skip("starts a process"))
-    monkeypatch.setattr("app.workers.pool.prepared", lambda: memoryview(b""))  # does nothing around a block
+    monkeypatch.setattr("app.workers.launch.prepared", lambda: memoryview(b""))  # does nothing around a block
     monkeypatch.setattr("app.logs.configure_logging", lambda *_: None)
     result = CliRunner().invoke(commands, ["serve", *arguments], env=environ)
     assert result.exit_code == 0, result.output

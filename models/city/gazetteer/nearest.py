@@ -26,26 +26,15 @@ def columns_away(drawn: Ints, shape: tuple[int, int], reach: int) -> Columns:
         reach: pixels, at most MOST_REACH; there is a margin of as many at both ends of rows.
     """
     away = np.full((shape[0], shape[1] + 2 * reach), reach + 1, np.uint8)
-    away[drawn // shape[1], reach + drawn % shape[1]] = 0
-    _scan(away)
+    _scan(away, drawn, reach)
     return away
 
 
 @compiled
-def pixels_of(points_m: Floats, low_m: Floats, spacing_m: float, shape: tuple[int, int]) -> Ints:
-    """[n] pixel of points [n, 2] on a grid from a corner [2] on, -1 outside."""
-    pixel = np.empty(len(points_m), np.int64)
-    for n in range(len(points_m)):
-        column = np.rint((points_m[n, 0] - low_m[0]) / spacing_m)
-        row = np.rint((points_m[n, 1] - low_m[1]) / spacing_m)
-        is_in = 0 <= column < shape[0] and 0 <= row < shape[1]
-        pixel[n] = np.int64(column) * shape[1] + np.int64(row) if is_in else -1
-    return pixel
-
-
-@compiled
-def _scan(away: Columns) -> None:
+def _scan(away: Columns, drawn: Ints, reach: int) -> None:
     columns, rows = away.shape
+    for pixel in drawn:
+        away[pixel // (rows - 2 * reach), reach + pixel % (rows - 2 * reach)] = 0
     for x in range(1, columns):
         for y in range(rows):
             away[x, y] = min(away[x, y], np.uint8(away[x - 1, y] + 1))

@@ -18,7 +18,7 @@ from ordered import Broken, Order
 
 from app.main import create_app
 from app.settings import Settings
-from app.workers import pool
+from app.workers import launch
 from app.workers.order import WorkerFault
 from app.workers.process import _answer
 from app.workers.remote import open_workers
@@ -65,9 +65,9 @@ def test_workers_are_processes_of_one_mould(workers):
 @pytest.fixture
 def ahead(monkeypatch):
     """A process is prepared that imports what takes a moment."""
-    monkeypatch.setattr(pool, "AHEAD", "colorsys")
-    with pool.prepared():
-        [(process, _)] = pool._prepared
+    monkeypatch.setattr(launch, "AHEAD", "colorsys")
+    with launch.prepared():
+        [(process, _)] = launch._prepared
         yield process
 
 
@@ -90,11 +90,11 @@ def test_a_prepared_process_that_was_killed_is_replaced(ahead):
 
 
 def test_a_prepared_process_that_nobody_needs_ends():
-    with pool.prepared():
-        [(process, _)] = pool._prepared
+    with launch.prepared():
+        [(process, _)] = launch._prepared
     assert process.poll() is not None
-    assert not pool._prepared
-    process, control = pool.launch((*pool.PROCESS, "colorsys"))
+    assert not launch._prepared
+    process, control = launch.launch((*launch.PROCESS, "colorsys"))
     control.close()
     assert process.wait(20) == 0, "and by itself, when the service is gone"
 

@@ -25,7 +25,7 @@ def sights(*nodes):
         way=np.rint(way).astype(np.int8),
         whole=np.ones(len(rows), np.bool_),
     )
-    return Sights(surroundings, LABEL, WORDS)
+    return Sights(surroundings, LABEL, WORDS.__getitem__)
 
 
 def test_near_is_what_is_near():
