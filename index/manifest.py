@@ -23,7 +23,7 @@ from models.errors import IndexBroken, IndexMismatch
 from models.files import FileRecord, sha256
 
 MANIFEST: Final = "manifest.json"
-FORMAT: Final = 9
+FORMAT: Final = 10
 ADVICE: Final = "build it with 'hereabouts index --map MAP --out DIR'"
 NEEDED: Final = frozenset(
     {"vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "gazetteer.safetensors"}

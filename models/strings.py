@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
+from operator import eq
 from typing import Any, Final, overload
 
 import numpy as np
@@ -57,6 +58,56 @@ class Strings(Sequence[str]):
     def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Strings":
         """What `columns` gave of a name."""
         return cls(columns[f"{name}.text"], columns[f"{name}.ends"])
+
+
+class Categorical(Sequence[Any]):
+    """Strings of which many are alike, and what is none.
+
+    Args:
+        categories: each of them once, ascending.
+        codes: [I] which of these each is, -1 for None.
+    """
+
+    def __init__(self, categories: Sequence[str], codes: Column) -> None:
+        self.categories, self.codes = categories, codes
+
+    @classmethod
+    def of(cls, strings: Sequence[str | None]) -> "Categorical":
+        """That of some strings."""
+        if isinstance(strings, Categorical):
+            return strings
+        categories = tuple(sorted({string for string in strings if string is not None}))
+        number: dict[str | None, int] = {string: n for n, string in enumerate(categories)} | {None: -1}
+        kind = np.min_scalar_type(-len(categories) - 1)
+        return cls(categories, np.fromiter(map(number.__getitem__, strings), kind, len(strings)))
+
+    def __len__(self) -> int:
+        return len(self.codes)
+
+    def __getitem__(self, n: Any) -> Any:
+        """One string or None, or those of a slice."""
+        if isinstance(n, slice):
+            return tuple(self[row] for row in range(*n.indices(len(self))))
+        code = int(self.codes[n])
+        return None if code < 0 else self.categories[code]
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Column:
+        values = [*self.categories] if len(self) and self.codes.min() >= 0 else [*self.categories, None]
+        return np.array(values, dtype)[self.codes]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and len(self) == len(other) and all(map(eq, self, other))
+
+    __hash__ = None  # type: ignore[assignment]  # as of a list: equal to others
+
+    def columns(self, name: str) -> dict[str, Column]:
+        """Arrays from which `of_columns` makes it."""
+        return {f"{name}.codes": self.codes} | Strings.of(self.categories).columns(name)
+
+    @classmethod
+    def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Categorical":
+        """What `columns` gave of a name."""
+        return cls(Strings.of_columns(columns, name), columns[f"{name}.codes"])
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,10 +20,13 @@ from models.city.points import Ints
 from models.city.types import CityMap, Floats
 from models.errors import IndexBroken
 from models.files import mapped
+from models.strings import Categorical, joined
 
 Finder = Callable[[Floats], tuple[Floats, int]]  # position [2] -> way [2] to the nearest instance, and which it is
 CELLS_FILE = "cells.safetensors"
 NAMES_FILE = "cells.json"
+SAID: Final = ("labels", "names", "sources")  # of each instance
+PARTS: Final = tuple(f.name for f in fields(Parts))
 MOST_DIGITS: Final = 19  # of a number of a cell
 
 
@@ -37,9 +40,9 @@ class Gallery:
     """
 
     cells: CellTable
-    labels: tuple[str, ...]
-    names: tuple[str | None, ...]
-    sources: tuple[str | None, ...]
+    labels: Sequence[str]
+    names: Sequence[str | None]
+    sources: Sequence[str | None]
 
     @classmethod
     def of(cls, city_map: CityMap, cells: CellTable) -> "Gallery":
@@ -55,19 +58,17 @@ class Gallery:
     def save(self, directory: Path, *, with_parts: bool = True) -> None:
         """Write cells.safetensors and cells.json; without parts, if something else can cut them."""
         cells = self.cells
-        arrays = {"center_m": np.ascontiguousarray(cells.center_m)}
+        arrays = {"center_m": cells.center_m}
         if with_parts:
-            arrays |= {f.name: np.ascontiguousarray(getattr(cells.parts, f.name)) for f in fields(Parts)}
-        save_file(arrays, directory / CELLS_FILE)
+            arrays |= {name: getattr(cells.parts, name) for name in PARTS}
+        said = (Categorical.of(getattr(self, name)).columns(name) for name in SAID)
+        save_file(joined([arrays, *said]), directory / CELLS_FILE)
         scene = cells.scenes[0] if cells.ids == Numbered(cells.scenes[0], len(cells)) else None
         names: dict[str, Any] = {
             "scene": scene,
             "ids": None if scene else tuple(cells.ids),
             "scenes": None if scene else cells.scenes,
             "size_m": cells.size_m,
-            "labels": self.labels,
-            "names": self.names,
-            "sources": self.sources,
         }
         (directory / NAMES_FILE).write_text(json.dumps(names, ensure_ascii=False))
 
@@ -88,9 +89,10 @@ class Gallery:
             center_m, scene = arrays.pop("center_m"), names["scene"]
             ids = Numbered(scene, len(center_m)) if scene else tuple(names["ids"])
             scenes = (scene,) * len(center_m) if scene else tuple(names["scenes"])
-            content = Parts(**arrays) if arrays or cut is None else cut
+            parts = {name: column for name, column in arrays.items() if name in PARTS}
+            content = Parts(**parts) if parts or cut is None else cut
             cells = CellTable(ids, scenes, center_m, names["size_m"], content)
-            return cls(cells, tuple(names["labels"]), tuple(names["names"]), tuple(names["sources"]))
+            return cls(cells, *(Categorical.of_columns(arrays, name) for name in SAID))
         except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
             raise IndexBroken(f"the cells in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
 

@@ -3,7 +3,7 @@ import pickle
 import numpy as np
 import pytest
 
-from models.strings import Postings, Strings, joined
+from models.strings import Categorical, Postings, Strings, joined
 
 SOME = ["", "Café Zoë", "Кафе", "", "北京", "a"]
 
@@ -72,3 +72,24 @@ def test_no_postings() -> None:
     assert not len(none.find("a"))
     assert not len(Postings.of_columns(joined([none.columns("x")]), "x").find("a"))
     assert np.diff(none.starts).tolist() == []
+
+
+@pytest.mark.parametrize("strings", [("b", None, "ä", "b", ""), ("x",) * 300, (), (None,)])
+def test_categories_come_back(strings) -> None:
+    found = Categorical.of(strings)
+    again = Categorical.of_columns(joined([found.columns("x")]), "x")
+    for one in (found, again):
+        assert one == strings
+        assert Categorical.of(one) is one
+        assert one[1:] == strings[1:]
+        assert np.array(one).tolist() == list(strings)
+    assert list(again.categories) == sorted({*strings} - {None})
+    assert found.codes.dtype == np.int8
+    assert found != (*strings, "x")
+
+
+def test_many_categories_take_more_bytes() -> None:
+    strings = [str(n) for n in range(200)]
+    assert Categorical.of(strings).codes.dtype == np.int16
+    assert Categorical.of(strings) == strings
+    assert np.array(Categorical.of(strings[:3])).dtype.kind == "U"

@@ -11,6 +11,7 @@ from models.city.cells import CellTable, Parts
 from models.city.gallery import Gallery
 from models.city.points import Ints, ranges
 from models.city.types import Floats
+from models.strings import Categorical
 
 FLAT_M: Final = 0.5  # what is no higher is ground
 
@@ -65,6 +66,5 @@ class Things:
 
     def labels(self, gallery: Gallery) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
         """The gallery's labels, each once, and which of them each thing has [P]."""
-        labels = tuple(sorted(set(gallery.labels)))
-        number = {label: n for n, label in enumerate(labels)}
-        return labels, np.array([number[label] for label in gallery.labels], np.int64)[self.instance]
+        labels = Categorical.of(gallery.labels)
+        return tuple(labels.categories), labels.codes[self.instance].astype(np.int64)

@@ -78,7 +78,7 @@ def test_what_is_no_gallery_is_named(source, tmp_path) -> None:
         Gallery.load(tmp_path)  # nothing can cut them
     gallery.save(tmp_path)
     names = json.loads((tmp_path / NAMES_FILE).read_text())
-    (tmp_path / NAMES_FILE).write_text(json.dumps({name: names[name] for name in names if name != "labels"}))
+    (tmp_path / NAMES_FILE).write_text(json.dumps({name: names[name] for name in names if name != "scene"}))
     with pytest.raises(IndexBroken, match="hereabouts index"):
         Gallery.load(tmp_path)
     (tmp_path / CELLS_FILE).write_bytes(b"no")

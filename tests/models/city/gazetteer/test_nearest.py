@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import distance_transform_edt
 
-from models.city.gazetteer.nearest import MOST_REACH, columns_away, pixels_away, pixels_of
+from models.city.gazetteer.nearest import MOST_REACH, columns_away, pixels_away
 
 
 @pytest.mark.parametrize("drawn", [0, 1, 3, 40, 400])
@@ -25,10 +25,3 @@ def test_the_largest_reach_does_not_overflow() -> None:
     away = columns_away(np.array([0]), (600, 2), MOST_REACH)
     found = pixels_away(away, np.array([0, 2 * MOST_REACH, 2 * (MOST_REACH + 1), 2 * 599]), MOST_REACH)
     assert found.tolist() == [0, MOST_REACH, np.inf, np.inf]
-
-
-def test_points_fall_on_the_nearest_pixel_or_outside() -> None:
-    low, spacing_m, shape = np.array([100.0, -50.0]), 10.0, (3, 4)
-    points = np.array([(100, -50), (104.9, -50), (105.1, -50), (124.9, -15.1), (94.9, -50), (125.1, -20), (100, -14.9)])
-    assert pixels_of(points, low, spacing_m, shape).tolist() == [0, 0, 4, 11, -1, -1, -1]
-    assert pixels_of(np.zeros((0, 2)), low, spacing_m, shape).tolist() == []

@@ -3,8 +3,7 @@ import pytest
 import shapely
 
 from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.city.gazetteer.raster import BLOCK, MARGIN_M, NEAR_M, Raster, lattice
-from models.city.gazetteer.ways import is_inside
+from models.city.gazetteer.raster import BLOCK, MARGIN_M, NEAR_M, Raster
 from models.city.gazetteer.words import Words
 from tests.models.city.gazetteer.made_town import MARKET, PARK, line, made_gazetteer, numbered, point
 
@@ -129,24 +128,3 @@ def test_what_is_larger_than_all_that_is_kept_is_found_and_not_kept(town, raster
     small = Raster(town, CENTERS, GRID_M)
     assert (away(small, np.array([0])) == away(raster, np.array([0]))).all()
     assert not small._lately
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_a_lattice_has_the_points_that_are_inside_one_by_one(seed) -> None:
-    rng, apart_m = np.random.default_rng(seed), 2.5
-    rings = []
-    for reach in (30.0, 12.0):  # a ragged area, and a ragged hole in it
-        angle = np.sort(rng.uniform(0, 2 * np.pi, 17))
-        xy = rng.uniform(0.6, 1.0, (17, 1)) * reach * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        rings.append(np.concatenate([xy, np.roll(xy, -1, axis=0)], axis=1))
-    outer, hole = rings
-    segments = np.concatenate([outer + 100.0, outer, hole]).astype(np.float32)
-    starts = np.array([0, len(outer), len(segments)])
-    found, of = lattice(segments, starts, np.array([1]), apart_m)
-    ends = segments[starts[1] :].astype(np.float64)
-    low, high = (edge(ends.reshape(-1, 2), axis=0) for edge in (np.min, np.max))
-    xs, ys = (np.arange(low[axis] + apart_m / 2, high[axis], apart_m) for axis in (0, 1))
-    naive = [(x, y) for x in xs for y in ys if is_inside(x, y, ends)]
-    assert found.tolist() == [list(point) for point in naive]
-    assert len(naive) > 50
-    assert set(of.tolist()) == {1}
