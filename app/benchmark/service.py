@@ -4,6 +4,7 @@ import itertools
 import tempfile
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -106,8 +107,8 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
     for text in texts:
         [hints] = _timed(steps["read"], posterior.texts.parse, [" ".join(text)])
         reading = posterior.binding.reading(hints)
-        also = _timed(steps["candidates"], posterior.candidates, hints, reading)
-        _timed(steps["posterior"], partial(locate, also=also), posterior.nodes, reading)
+        rows = _timed(steps["candidates"], _candidates, posterior, hints, reading)
+        _timed(steps["posterior"], partial(locate, also=partial(np.copy, rows)), posterior.nodes, reading)
         encoded = _timed(steps["encode"], retriever.encode_texts, [text])
         _timed(steps["vector_search"], ranker.rank, encoded, DEPTH)
     surroundings, cells = posterior.surroundings, len(localizer.gallery.cells)
@@ -124,6 +125,12 @@ def open_index(index_dir: Path) -> "Localizer":
 
     settings = load_settings(index_dir=index_dir)
     return Localizer.open(index_dir, settings.weights_dir, posterior_weights_dir=settings.posterior_weights_dir)
+
+
+def _candidates(posterior: Any, hints: Any, reading: Any) -> Any:
+    """Rows of the vector index, while nothing else is done."""
+    with ThreadPoolExecutor(1) as beside:
+        return posterior.search(hints, reading, beside)()
 
 
 def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:

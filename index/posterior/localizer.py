@@ -1,7 +1,8 @@
 """The hint posterior on one gallery: a description read, candidates from the vector index and the inverted list."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
@@ -219,16 +220,17 @@ class PosteriorLocalizer:
         answered: Answered | None,
     ) -> Located | None:
         count = REPLY_CANDIDATES if reading is None else CANDIDATES
-        located = locate(
-            self.nodes,
-            reading,
-            None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
-            self._inside(query),
-            PLACE_CANDIDATES if told is not None else count,
-            also=None if reading is None else self.candidates(hints, reading),
-            told=told,
-            answered=answered,
-        )
+        with ThreadPoolExecutor(1) as beside:
+            located = locate(
+                self.nodes,
+                reading,
+                None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
+                self._inside(query),
+                PLACE_CANDIDATES if told is not None else count,
+                also=None if reading is None else self.search(hints, reading, beside),
+                told=told,
+                answered=answered,
+            )
         return located and self._honest(located, query, told)
 
     def _inside(self, query: Query) -> Inside | None:
@@ -242,14 +244,13 @@ class PosteriorLocalizer:
         is_told_to = query.prior is not None or is_meeting(query.description)
         return replace(located, radius_scale=config.meeting_scale if is_told_to else config.place_scale)
 
-    def candidates(self, hints: Sequence[ParsedHint], reading: Reading) -> Ints:
-        """[A] the cells that the vector index finds for hints, in the retriever's words."""
+    def search(self, hints: Sequence[ParsedHint], reading: Reading, beside: ThreadPoolExecutor) -> Callable[[], Ints]:
+        """Ask the vector index for cells, in the retriever's words, beside other work; what waits for them [A]."""
         sentences = self.binding.sentences(hints, reading)
         if not sentences:
-            return np.empty(0, np.int64)
-        text = self.ranker.retriever.encode_description(sentences)
-        rows: Ints = self.ranker.search([text], CANDIDATES)[1][0]
-        return rows
+            return lambda: np.empty(0, np.int64)
+        found = beside.submit(self.ranker.search, [self.ranker.retriever.encode_description(sentences)], CANDIDATES)
+        return lambda: found.result()[1][0]
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
         """Descriptions in the retriever's words, as far as they were read: template sentences of the map's classes."""

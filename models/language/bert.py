@@ -8,6 +8,7 @@ import json
 from pathlib import Path
 from typing import Any, Self
 
+import torch
 from pydantic import BaseModel
 from safetensors import safe_open
 from torch import Tensor, nn
@@ -43,7 +44,8 @@ class Bert(nn.Module):
         Raises:
             OSError, ValueError: they are missing, or of another kind of model.
         """
-        model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
+        with torch.device("meta"):  # nothing is drawn at random that is read anyway
+            model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
         with safe_open(directory / "model.safetensors", framework="pt") as file:
             wanted = model.state_dict()
             if missing := set(wanted) - set(file.keys()):

@@ -1,5 +1,7 @@
 """From a posterior over nodes to an answer: cells in order, positions, how far the truth may be, evidence."""
 
+from collections.abc import Callable
+
 import numpy as np
 import torch
 from torch import Tensor
@@ -31,7 +33,7 @@ def locate(
     log_prior: LogPrior | None = None,
     inside: Inside | None = None,
     candidates: int = CANDIDATES,
-    also: Ints | None = None,
+    also: Callable[[], Ints] | None = None,
     told: Told | None = None,
     answered: Answered | None = None,
 ) -> Located | None:
@@ -43,7 +45,7 @@ def locate(
         log_prior: log-density of positions [M, 2], any constant.
         inside: where alone it can be; None for everywhere.
         candidates: cells to look at, the best by the inverted list.
-        also: [A] rows of further cells to look at, found in another way.
+        also: gives rows [A] of further cells to look at, found in another way meanwhile.
         told: the places that were named, if any.
         answered: what answers to questions tell, if any.
 
@@ -60,7 +62,8 @@ def locate(
         return None
     listed = _best(scores, min(candidates, int(possible.sum())))
     possible[listed] = False
-    more = np.unique(also[possible[also]]) if also is not None else listed[:0]
+    further = also() if also is not None else listed[:0]
+    more = np.unique(further[possible[further]])
     possible[more] = False
     chosen = np.concatenate([listed, more])
     others = np.where(possible, scores, -np.inf)  # what is not looked at
