@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from index.query import Box, Circle, Crs, Query
+from index.query import Box, Circle, Query, position_m
 from models.city.frame import Frame
 from models.city.hints import BEST_CELL_REACH_M
 from models.city.points import ranges
@@ -105,8 +105,3 @@ def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:
     offset = points_m - position_m(query.prior.position, query.crs, frame)
     density: Floats = -(offset**2).sum(axis=1) / (2 * query.prior.sigma_m**2)
     return density
-
-
-def position_m(position: tuple[float, float], crs: Crs, frame: Frame) -> Floats:
-    """[2] metres of a position: (x, y), or (lon, lat) with crs wgs84."""
-    return np.asarray(position, dtype=np.float64) if crs == "map" else frame.from_wgs84(position[1], position[0])

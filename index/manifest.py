@@ -18,7 +18,7 @@ from pydantic import (
 )
 
 from models.city.kitti360pose.files import list_scenes, select_scenes
-from models.city.store.files import MANIFEST as STORE_MANIFEST
+from models.city.store.layout import MANIFEST as STORE_MANIFEST
 from models.errors import IndexBroken, IndexMismatch
 from models.files import FileRecord, sha256
 

@@ -135,7 +135,8 @@ def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path
 def _store(data: Path, out: Path, show: Callable[[str, int, int], None]) -> Path:
     """Data as a store, which each training opens in no time; an OpenStreetMap file and a store stay what they are."""
     from index.manifest import fingerprint
-    from models.city.store.files import MANIFEST, convert
+    from models.city.store.files import convert
+    from models.city.store.layout import MANIFEST
 
     if not data.is_dir() or (data / MANIFEST).is_file():
         return data

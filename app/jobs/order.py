@@ -15,16 +15,16 @@ from app.settings import Settings
 from index.artifact import open_version
 from index.query import DEFAULT_REFINE, Refine
 from models.city.frame import Frame
-from models.city.queries import Queries
-from models.city.source import Source, open_source
 from models.city.types import Progress
 from models.errors import DataError
 
-if TYPE_CHECKING:  # torch takes seconds
+if TYPE_CHECKING:  # torch takes seconds, and the service itself does without SciPy and Numba too
     from index.finding import CellLocalizer
     from index.posterior.localizer import PosteriorLocalizer
     from index.ranking import Ranker
     from index.vector_localizer import VectorLocalizer
+    from models.city.queries import Queries
+    from models.city.source import Source
     from models.retrieval.retriever import Retriever
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
@@ -69,6 +69,7 @@ class Evaluation(BaseModel):
         """
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415  # brings torch, which takes seconds
         from index.localizer import Localizer  # noqa: PLC0415
+        from models.city.queries import Queries  # noqa: PLC0415
 
         if self.data is not None:
             source, queries = self._open(progress)
@@ -83,16 +84,18 @@ class Evaluation(BaseModel):
         answering = localizer.posterior if self.refine == "posterior" else localizer.by_vectors(self.refine).raw()
         return evaluate(data, queries, answering, report_dir, self.grow_m, progress)
 
-    def _open(self, progress: Progress) -> tuple[Source, Queries]:
+    def _open(self, progress: Progress) -> "tuple[Source, Queries]":
+        from models.city.source import open_source  # noqa: PLC0415
+
         assert self.data is not None
         source = open_source(self.data, self.split, progress)
         progress("describe positions", 0, 0)
         return source, source.queries()
 
-    def _localizer(self, source: Source, progress: Progress) -> "CellLocalizer":
+    def _localizer(self, source: "Source", progress: Progress) -> "CellLocalizer":
         return self._posterior(source, progress) if self.refine == "posterior" else self._vectors(source, progress)
 
-    def _posterior(self, source: Source, progress: Progress) -> "PosteriorLocalizer":
+    def _posterior(self, source: "Source", progress: Progress) -> "PosteriorLocalizer":
         """The hint posterior of a data set."""
         from index.posterior.localizer import PosteriorLocalizer  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
@@ -104,7 +107,7 @@ class Evaluation(BaseModel):
         model = load_posterior(self.posterior_weights_dir)
         return PosteriorLocalizer.of_map(model, source.data, ranker, surroundings, source.gazetteer())
 
-    def _vectors(self, source: Source, progress: Progress) -> "VectorLocalizer":
+    def _vectors(self, source: "Source", progress: Progress) -> "VectorLocalizer":
         """Vector search of a data set: raw text, all levels."""
         from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
         from models.localization.checkpoint import load_refiner  # noqa: PLC0415
@@ -117,7 +120,7 @@ class Evaluation(BaseModel):
         return VectorLocalizer.of_map(source.data, ranker, refiner)
 
     @staticmethod
-    def _ranker(source: Source, retriever: "Retriever", progress: Progress) -> "Ranker":
+    def _ranker(source: "Source", retriever: "Retriever", progress: Progress) -> "Ranker":
         from index.ranking import Ranker  # noqa: PLC0415
 
         progress("encode cells", 0, 0)

@@ -11,12 +11,12 @@ import numpy as np
 from index.answers import Evidence, Method, ModelName, Question
 from index.asking.heard import Heard
 from index.asking.questions import Questions
-from index.filters import log_prior, position_m, where_inside
+from index.filters import log_prior, where_inside
 from index.finding import Finding, is_ambiguous, pair
 from index.posterior.meaning import Meanings
 from index.posterior.place_reader import PlaceReader, may_be_near, near_hints
 from index.posterior.texts import Texts, as_read, in_the_text
-from index.query import Query
+from index.query import Query, position_m
 from index.ranking import Ranker
 from index.words.place_text import place_text
 from models.city.colours import Palette

@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import cKDTree
 
 from models.city.types import CityMap, Floats
 
@@ -135,6 +134,8 @@ def first_in_voxel(xyz: Floats, voxel_m: float) -> Ints:
 
 def _neighbour_pairs(xyz: Floats, instance: Ints, is_stuff: npt.NDArray[np.bool_], eps_m: float) -> tuple[Ints, Ints]:
     rows = np.flatnonzero(is_stuff[instance])
+    from scipy.spatial import cKDTree  # noqa: PLC0415 - 40 MB, for who reads scans alone
+
     rows = rows[np.argsort(xyz[rows, 0], kind="stable")]
     # A fourth axis keeps instances further apart than eps, so that no pair crosses from one to another.
     apart = np.column_stack([xyz[rows].astype(np.float64), instance[rows] * (4.0 * eps_m)])

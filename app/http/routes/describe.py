@@ -15,7 +15,7 @@ from app.http.routes.localize import check_reach
 from app.http.schemas.requests import DescribeRequest, describe_model
 from app.http.schemas.responses import DescribeResponse
 from app.settings import Settings
-from index.filters import position_m
+from index.query import position_m
 
 ERRORS = (
     *REFUSALS,

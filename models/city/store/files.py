@@ -23,13 +23,12 @@ from models.city.kitti360pose.files import (
     select_scenes,
 )
 from models.city.store.columns import ColumnWriter, DiskSink, MemorySink
-from models.city.store.layout import COLUMNS, Column, find_problem
+from models.city.store.layout import COLUMNS, MANIFEST, STRINGS, Column, find_problem
 from models.city.store.pose_store import PoseStore, StoredScene
 from models.errors import DataError
 from models.files import FileRecord, file_records, new_directory, sha256
 
 FORMAT = 2
-MANIFEST, STRINGS = "manifest.json", "strings.json"
 ADVICE = "convert the published files again with 'hereabouts convert --data DIR --out DIR'"
 Progress = Callable[[int, int], None]
 Step = Callable[[int], None]

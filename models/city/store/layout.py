@@ -14,6 +14,7 @@ import numpy.typing as npt
 from models.city.points import Ints
 from models.city.types import DIRECTIONS, Floats
 
+MANIFEST, STRINGS = "manifest.json", "strings.json"
 Column = npt.NDArray[Any]
 # Name: what its rows are, dtype, shape of a row. Numbers of rows inside rows are counts, so that scenes append.
 COLUMNS: dict[str, tuple[str, str, tuple[int, ...]]] = {
