@@ -44,8 +44,7 @@ class Bert(nn.Module):
         Raises:
             OSError, ValueError: they are missing, or of another kind of model.
         """
-        with torch.device("meta"):  # nothing is drawn at random that is read anyway
-            model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
+        model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
         with safe_open(directory / "model.safetensors", framework="pt") as file:
             wanted = model.state_dict()
             if missing := set(wanted) - set(file.keys()):
