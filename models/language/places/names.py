@@ -22,6 +22,8 @@ _TENS = {"twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "sixty": 60, "sev
 _ORDINALS: Final = {word: n for n, word in enumerate(_ONES) if word} | {
     f"{word[:-1]}ieth": n for word, n in _TENS.items()
 }
+_SIMPLE: Final = re.compile(r"[a-z]+(?: [a-z]+)*")
+_SPELT: Final = frozenset(_ORDINALS) | frozenset(_TENS)  # of which "forty second" is made
 _CARDINALS: Final = {
     word: n
     for n, word in enumerate(
@@ -103,7 +105,9 @@ def _owner(word: str) -> str:
 @lru_cache(maxsize=4096)
 def plain_words(name: str) -> tuple[str, ...]:
     """The words of a name, without a leading article."""
-    words = tuple(word.plain for word in words_of(name))
+    words = tuple(name.split(" "))
+    if not _SIMPLE.fullmatch(name) or not _SPELT.isdisjoint(words):  # thousands of nouns are, and their words are plain
+        words = tuple(word.plain for word in words_of(name))
     return words[1:] if len(words) > 1 and words[0] in ARTICLES else words
 
 
