@@ -154,7 +154,8 @@ class Localizer:
         store, self.ranker.store = self.ranker.store, FaissStore.of(np.zeros((1, self.manifest.dim), np.float32))
         try:
             words = self._gazetteer.words
-            street = next((words[n].names[0] for n in np.flatnonzero(words.is_street & words.has_name)), "Main Street")
+            streets = np.flatnonzero(words.is_street & words.has_name)
+            street = words[int(streets[0])].names[0] if len(streets) else "Main Street"
             self.localize([Query("I am north of a building."), Query(f"I am on {street}, near a pharmacy.")])
         finally:
             self.ranker.store = store

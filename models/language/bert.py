@@ -8,7 +8,6 @@ import json
 from pathlib import Path
 from typing import Any, Self
 
-import torch
 from pydantic import BaseModel
 from safetensors import safe_open
 from torch import Tensor, nn
