@@ -29,9 +29,9 @@ class Strings(Sequence[str]):
     @classmethod
     def of(cls, strings: Iterable[str]) -> "Strings":
         """Those of some."""
-        coded = [string.encode() for string in strings]
-        text = np.frombuffer(b"".join(coded), np.uint8)
-        return cls(text, compact(np.cumsum([len(one) for one in coded], dtype=np.int64)))
+        strings = tuple(strings)
+        sizes = np.fromiter((len(string.encode()) for string in strings), np.int64, len(strings))
+        return cls(np.frombuffer("".join(strings).encode(), np.uint8), compact(np.cumsum(sizes)))
 
     def __len__(self) -> int:
         return len(self._ends)
@@ -77,7 +77,8 @@ class Categorical(Sequence[Any]):
         if isinstance(strings, Categorical):
             return strings
         categories = tuple(sorted({string for string in strings if string is not None}))
-        number: dict[str | None, int] = {string: n for n, string in enumerate(categories)} | {None: -1}
+        number: dict[str | None, int] = {string: n for n, string in enumerate(categories)}
+        number[None] = -1
         kind = np.min_scalar_type(-len(categories) - 1)
         return cls(categories, np.fromiter(map(number.__getitem__, strings), kind, len(strings)))
 
