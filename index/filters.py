@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from index.query import Box, Circle, Query, position_m
+from index.query import Box, Circle, Query
 from models.city.frame import Frame
 from models.city.hints import BEST_CELL_REACH_M
 from models.city.points import ranges
@@ -23,7 +23,7 @@ def inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
     """[M] True where points [M, 2] of the map are inside `within`; everywhere without one."""
     within = query.within
     if isinstance(within, Circle):
-        offset = points_m - position_m(within.center, query.crs, frame)
+        offset = points_m - frame.position_m(within.center, query.crs)
         return np.asarray(np.hypot(offset[:, 0], offset[:, 1]) <= within.radius_m)
     if isinstance(within, Box):
         x, y = points_m.T
@@ -57,7 +57,7 @@ def where_inside(query: Query, surroundings: Surroundings, centers_m: Floats, fr
 def _of_circle(query: Query, centers_m: Floats, frame: Frame) -> tuple[Mask, Mask]:
     """[N] whether some nodes of a cell may be inside, and whether all are."""
     assert isinstance(query.within, Circle)
-    away_m = np.hypot(*(centers_m - position_m(query.within.center, query.crs, frame)).T)
+    away_m = np.hypot(*(centers_m - frame.position_m(query.within.center, query.crs)).T)
     return away_m <= query.within.radius_m + REACH_M, away_m <= query.within.radius_m - REACH_M
 
 
@@ -102,6 +102,6 @@ def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:
     """[M] logarithm of the prior's density at points [M, 2], up to a constant; 0 without one."""
     if query.prior is None:
         return np.zeros(len(points_m))
-    offset = points_m - position_m(query.prior.position, query.crs, frame)
+    offset = points_m - frame.position_m(query.prior.position, query.crs)
     density: Floats = -(offset**2).sum(axis=1) / (2 * query.prior.sigma_m**2)
     return density

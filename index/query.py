@@ -3,11 +3,6 @@
 from dataclasses import dataclass
 from typing import Final, Literal
 
-import numpy as np
-
-from models.city.frame import Frame
-from models.city.types import Floats
-
 Crs = Literal["map", "wgs84"]
 Refine = Literal["none", "matching", "regressor", "posterior"]
 DEFAULT_REFINE: Final[Refine] = "posterior"
@@ -73,8 +68,3 @@ class Query:
     refine: Refine = DEFAULT_REFINE
     heat_map: bool = False
     replies: tuple[Reply, ...] = ()
-
-
-def position_m(position: tuple[float, float], crs: Crs, frame: Frame) -> Floats:
-    """[2] metres of a position: (x, y), or (lon, lat) with crs wgs84."""
-    return np.asarray(position, dtype=np.float64) if crs == "map" else frame.from_wgs84(position[1], position[0])

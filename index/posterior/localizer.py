@@ -16,7 +16,7 @@ from index.finding import Finding, is_ambiguous, pair
 from index.posterior.meaning import Meanings
 from index.posterior.place_reader import PlaceReader, may_be_near, near_hints
 from index.posterior.texts import Texts, as_read, in_the_text
-from index.query import Query, position_m
+from index.query import Query
 from index.ranking import Ranker
 from index.words.place_text import place_text
 from models.city.colours import Palette
@@ -200,7 +200,7 @@ class PosteriorLocalizer:
         """The hints that tell of what is near, what they say, what the text names besides, and what that tells."""
         if self.places is None:
             return hints, self.binding.reading(hints) if hints else None, [], None
-        listener_m = None if query.prior is None else position_m(query.prior.position, query.crs, self.frame)
+        listener_m = None if query.prior is None else self.frame.position_m(query.prior.position, query.crs)
         text = as_read(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
         mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +31,14 @@ class Frame:
     def is_georeferenced(self) -> bool:
         """Whether positions have a latitude and longitude."""
         return self.origin_lat is not None and self.origin_lon is not None
+
+    def position_m(self, position: tuple[float, float], crs: Literal["map", "wgs84"]) -> Floats:
+        """[2] metres of a position: (x, y), or (lon, lat) with crs wgs84.
+
+        Raises:
+            ValueError: as `from_wgs84`.
+        """
+        return np.asarray(position, np.float64) if crs == "map" else self.from_wgs84(position[1], position[0])
 
     def from_wgs84(self, lat: Floats | float, lon: Floats | float) -> Floats:
         """[..., 2] metres (east, north) of WGS84 degrees.

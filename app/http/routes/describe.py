@@ -15,7 +15,6 @@ from app.http.routes.localize import check_reach
 from app.http.schemas.requests import DescribeRequest, describe_model
 from app.http.schemas.responses import DescribeResponse
 from app.settings import Settings
-from index.query import position_m
 
 ERRORS = (
     *REFUSALS,
@@ -45,7 +44,7 @@ def build_router(settings: Settings) -> APIRouter:
             queue.check_accepting()
             localizer = queue.localizer
             check_reach(asked, localizer.frame)
-            x, y = position_m(asked.position, asked.crs, localizer.frame).tolist()
+            x, y = localizer.frame.position_m(asked.position, asked.crs).tolist()
             # It reads what the localizer holds and runs no model: a thread of its own will do.
             work = asyncio.to_thread(localizer.describe, (x, y))
             try:
