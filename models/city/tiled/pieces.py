@@ -15,6 +15,7 @@ from models.city.tiled.segments import STEP_M, Steps, geometry_of
 from models.city.tiled.solids import FORMS, Solid
 from models.city.tiled.tiling import FAR_M, TILE_M, TOUCHING_M, Geometries
 from models.city.types import Floats
+from models.compiled import compiled
 
 AT_ONCE: Final = 20_000  # pieces whose geometry is put together for a moment
 COLUMNS: Final = 64  # of tiles whose pieces are linked together
@@ -107,9 +108,9 @@ class PieceTable:
 
     @cached_property
     def tile(self) -> Ints:
-        """[K, 2] column and row of each piece's tile."""
-        number = np.repeat(np.arange(len(self.tile_starts) - 1), np.diff(self.tile_starts))
-        return np.stack([number // self.shape[1], number % self.shape[1]], axis=1) + self.low
+        """[K, 2] int32, column and row of each piece's tile."""
+        tile: Ints = _tiles(self.tile_starts, self.low, self.shape)
+        return tile
 
     def lattice(self, pieces: Ints, spacing_m: float) -> Floats:
         """[n, 2] float32 places in some areas, one a square block of which a corner or a middle is inside.
@@ -142,6 +143,17 @@ class PieceTable:
         shapely.prepare(areas)
         found: Floats = xy[shapely.contains_xy(areas[of], *xy.T)]
         return found
+
+
+@compiled
+def _tiles(tile_starts: Ints, low: Ints, shape: Ints) -> Ints:
+    """See `PieceTable.tile`."""
+    tile = np.empty((tile_starts[-1], 2), np.int32)
+    for number in range(len(tile_starts) - 1):
+        column, row = low[0] + number // shape[1], low[1] + number % shape[1]
+        for k in range(tile_starts[number], tile_starts[number + 1]):
+            tile[k, 0], tile[k, 1] = column, row
+    return tile
 
 
 def _links(
