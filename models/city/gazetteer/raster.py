@@ -75,14 +75,13 @@ class Raster:
     """
 
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
-        self.spacing_m = spacing_m
         west_south = centers_m.min(axis=0) - MARGIN_M
         size = np.ceil((centers_m.max(axis=0) + MARGIN_M - west_south) / spacing_m).astype(int) + 1
         self._blocks = tuple((-(-size // BLOCK)).tolist())
-        self.shape = BLOCK * self._blocks[0], BLOCK * self._blocks[1]
-        self._grid = Grid(west_south[0], west_south[1], spacing_m, *self.shape)
-        cell = self.pixels(centers_m)
-        self._cell = np.full(self.shape, -1, np.int32)  # of each pixel; of several cells in one the last
+        shape = BLOCK * self._blocks[0], BLOCK * self._blocks[1]
+        self._grid = Grid(west_south[0], west_south[1], spacing_m, *shape)
+        cell = pixels_of(self._grid, centers_m)
+        self._cell = np.full(shape, -1, np.int32)  # of each pixel; of several cells in one the last
         self._cell.ravel()[cell] = np.arange(len(cell))
         self.block_of = self._block(cell).astype(np.int32)
         self.cells_in = np.bincount(self.block_of, minlength=self._blocks[0] * self._blocks[1])
@@ -91,11 +90,6 @@ class Raster:
         self._insides = draw_areas(self._grid, *shapes, np.flatnonzero(large), LATTICE_M)
         self._area = np.concatenate([[0], np.cumsum(large)])  # large ones before each object
         self._lately: LRUCache[tuple[bytes, ...], Away] = LRUCache(KEPT_BYTES, lambda away: away.nbytes)
-
-    def pixels(self, points_m: Floats) -> Ints:
-        """[n] pixel of points [n, 2], -1 outside."""
-        found: Ints = pixels_of(self._grid, points_m)
-        return found
 
     @cachedmethod(lambda raster: raster._lately, _asked)
     def away(self, groups: Sequence[Ints], lines_m: Floats | None = None) -> Away:
@@ -114,14 +108,14 @@ class Raster:
     def _away(self, groups: Sequence[Ints]) -> Away:
         """The same of pixels."""
         blocks = np.stack([self._metres_of_blocks(pixels) for pixels in groups])
-        reach_m = NEAR_M + DIAGONAL * BLOCK * self.spacing_m
+        reach_m = NEAR_M + DIAGONAL * BLOCK * self._grid.spacing_m
         is_near = blocks.min(axis=0).reshape(self._blocks) <= reach_m
         near = _pixels_near(is_near, self._cell)
         rows = self._cell.ravel()[near].astype(np.int64)
         far = blocks[:, self.block_of[rows]]
-        reach = BLOCK + math.ceil(reach_m / self.spacing_m)
-        away = np.stack([pixels_away(columns_away(pixels, self.shape, reach), near, reach) for pixels in groups])
-        metres = away * np.float32(self.spacing_m)
+        reach = BLOCK + math.ceil(reach_m / self._grid.spacing_m)
+        away = np.stack([pixels_away(columns_away(pixels, self._cell.shape, reach), near, reach) for pixels in groups])
+        metres = away * np.float32(self._grid.spacing_m)
         metres = np.where(metres <= NEAR_M, metres, np.minimum(metres, np.maximum(far, NEAR_M)))
         return Away(self.block_of, blocks, rows, metres)
 
@@ -130,12 +124,14 @@ class Raster:
             return np.full(self._blocks[0] * self._blocks[1], np.inf, np.float32)
         empty = np.ones(self._blocks, np.bool_)
         empty.ravel()[self._block(pixels)] = False
-        metres: Floats = distance_transform_edt(empty).astype(np.float32).ravel() * np.float32(BLOCK * self.spacing_m)
+        metres: Floats = distance_transform_edt(empty).astype(np.float32).ravel() * np.float32(
+            BLOCK * self._grid.spacing_m
+        )
         return metres
 
     def _block(self, pixels: Ints) -> Ints:
         """[n] block of each pixel."""
-        column, row = np.divmod(pixels, self.shape[1])
+        column, row = np.divmod(pixels, self._grid.rows)
         block: Ints = column // BLOCK * self._blocks[1] + row // BLOCK
         return block
 

@@ -32,3 +32,26 @@ def test_memory_counts_what_another_thread_has_started() -> None:
         thread.join()
         with started[0]:
             started[0].stdin.close()
+
+
+def test_memory_counts_pages_of_a_file_whole_whoever_has_it_open(tmp_path) -> None:
+    size, file = 64 << 20, tmp_path / "library"
+    file.write_bytes(bytes(size))
+    code = f"""
+import mmap, sys
+held = mmap.mmap(open({str(file)!r}, "rb").fileno(), 0, access=mmap.ACCESS_READ)
+assert not any(held[n] for n in range(0, {size}, 4096))
+print("ready", flush=True)
+sys.stdin.read()
+"""
+    pipe = subprocess.PIPE
+    twins = [subprocess.Popen([sys.executable, "-c", code], stdin=pipe, stdout=pipe) for _ in range(3)]
+    try:
+        for twin in twins:
+            twin.stdout.readline()
+        alone = [processes._memory_mib(twin.pid) for twin in twins]
+        assert all(64 <= mib < 128 for mib in alone), "as PSS it would be a third of the file"
+    finally:
+        for twin in twins:
+            with twin:
+                twin.stdin.close()

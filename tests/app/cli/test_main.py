@@ -139,7 +139,11 @@ def test_serve_takes_options_then_environment(monkeypatch):
 
 @pytest.mark.parametrize(
     ("module", "heavy"),
-    [("app.cli.main", "torch faiss fastapi numpy"), ("app.main", "torch faiss numba scipy shapely osmium")],
+    [
+        ("app.cli.main", "torch faiss fastapi numpy"),
+        ("app.workers.launch", "index models numpy pydantic"),
+        ("app.main", "torch faiss numba scipy shapely osmium"),
+    ],
 )
 def test_import_is_light(module, heavy):
     code = f"import sys, {module}; print(set('{heavy}'.split()) & set(sys.modules))"
