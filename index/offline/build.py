@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from index.artifact import check_store, open_version
 from index.manifest import StoreName, check_model, fingerprint
+from index.offline.earlier import Earlier
 from index.offline.part import Part, writing
 from index.offline.parts import Origin, Parts
 from index.offline.publish import Publisher, save_names
@@ -71,6 +72,7 @@ class IndexJob:
         levels: keep the retriever's other levels too: any `refine` but the default ranks by them.
         store: where the vectors go: a file of the version, or the Milvus that HEREABOUTS_MILVUS_URI names.
         within: the part of an OpenStreetMap file that is wanted; None for all of it.
+        update: of cells that have not changed since the default version, `build` takes the vectors from there.
     """
 
     map_path: Path
@@ -81,6 +83,7 @@ class IndexJob:
     levels: bool = False
     store: StoreName = "faiss"
     within: Region | None = None
+    update: bool = False
 
     def build(self, report: Progress = silent) -> Path:
         """Build a version in this process.
@@ -95,10 +98,12 @@ class IndexJob:
             MapError, DataError: the map cannot be read or cut, or the index cannot be written; what is there stays.
             WeightsError: a model cannot be loaded.
             StoreUnavailable: Milvus does not take the vectors; nothing is left there.
+            IndexUnusable: there is nothing that could be updated.
         """
         ready = self._ready(report)
         if current := self._current(ready):
             return current
+        earlier = Earlier.open(self.out_dir, ready.retriever.fingerprint) if self.update else None
         with (
             TemporaryDirectory() as named,
             self._map(report) as path,
@@ -110,8 +115,8 @@ class IndexJob:
             with writing(self.out_dir):
                 self.out_dir.mkdir(parents=True, exist_ok=True)
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source, surroundings, rows, self.out_dir, report)
-            return self._publisher(ready).publish(source, [part], surroundings, names, report)
+            part = Part.of(encoder, likelihood, source, surroundings, rows, self.out_dir, report, earlier)
+            return self._publisher(ready, earlier).publish(source, [part], surroundings, names, report)
 
     def make_part(self, shard: Shard, report: Progress = silent) -> Path:
         """Make the part of a shard, if it is not there; arguments and errors as `build`.
@@ -185,8 +190,9 @@ class IndexJob:
         )
         return Parts(self.out_dir, origin)
 
-    def _publisher(self, ready: _Ready) -> Publisher:
-        return Publisher(self.out_dir, ready.retriever, ready.posterior.fingerprint, ready.map_sha256, self.store)
+    def _publisher(self, ready: _Ready, earlier: Earlier | None = None) -> Publisher:
+        of_models = ready.retriever, ready.posterior.fingerprint
+        return Publisher(self.out_dir, *of_models, ready.map_sha256, self.store, earlier)
 
     @contextmanager
     def _map(self, report: Progress) -> Iterator[Path]:

@@ -13,9 +13,11 @@ import torch
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 
+from index.offline.earlier import Earlier
 from index.stores.store import Floats
 from models.city.cells import BLOCK, CellTable
 from models.city.gallery import MapData
+from models.city.points import Ints
 from models.city.source import MapSource, Source
 from models.city.types import Progress
 from models.errors import DataError, IndexBroken
@@ -32,6 +34,7 @@ from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
 
 FILE: Final = "part.safetensors"
+COLUMNS: Final = ("vectors", "digests", "holds", "statement", "starts")
 AT_ONCE: Final = 32 * BLOCK  # cells
 
 
@@ -41,12 +44,14 @@ class Part:
 
     Attributes:
         vectors: [C, D] float32, the global level.
+        digests: [C] of what they were made of, `CellFeatures.digests`.
         levels: the others, if there are any.
         rows: of `statement_rows`.
         scanned: what lies around them, of a scan; None of a map of pieces, which finds that when it is asked for.
     """
 
     vectors: Floats
+    digests: Ints
     levels: LevelTable
     rows: StatementRows
     scanned: ScanSurroundings | None
@@ -61,6 +66,7 @@ class Part:
         rows: range,
         room: Path,
         report: Progress,
+        earlier: Earlier | None = None,
     ) -> "Part":
         """Make the part of some cells; what no index is made of, and what surroundings can cut again, is let go of.
 
@@ -72,11 +78,12 @@ class Part:
             rows: which they are.
             room: a directory on the disk where the vectors lie meanwhile.
             report: called as the work goes on.
+            earlier: has the vectors of some of these cells, perhaps, but no other levels.
         """
         if isinstance(source, MapSource):
             source.lighten()
             give_back()
-        vectors, levels = _encoded(retriever, source.data, rows, room, report)
+        vectors, digests, levels = _encoded(retriever, source.data, rows, room, report, earlier)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceSurroundings):
             source.cut_anew(surroundings.cut)
             give_back()
@@ -87,12 +94,13 @@ class Part:
             words = likelihood.words(rgb, data.palette)
         told = statement_rows(likelihood, surroundings, label, rgb, words)
         scanned = surroundings if isinstance(surroundings, ScanSurroundings) else None
-        return cls(vectors, levels, told, scanned)
+        return cls(vectors, digests, levels, told, scanned)
 
     def save(self, directory: Path) -> None:
         """Write some files, which `load` reads."""
         columns: dict[str, npt.NDArray[Any]] = {
             "vectors": self.vectors,
+            "digests": self.digests,
             "holds": self.rows.holds,
             "statement": self.rows.statement,
             "starts": self.rows.starts,
@@ -117,7 +125,7 @@ class Part:
         """
         try:
             with safe_open(directory / FILE, framework="numpy") as file:
-                columns = {name: file.get_tensor(name) for name in ("vectors", "holds", "statement", "starts")}
+                columns = {name: file.get_tensor(name) for name in COLUMNS}
                 possible = int(file.metadata()["statements"])
             rows = StatementRows(columns["starts"], columns["statement"], columns["holds"], possible)
             if (len(rows.starts) - 1, rows.starts[-1]) != (len(columns["vectors"]), len(rows.holds)):
@@ -127,7 +135,7 @@ class Part:
         table = NO_LEVELS if tuple(levels) == ("global",) else LevelTable.load(directory, levels)
         is_scan = (directory / SURROUNDINGS_FILE).exists()
         scanned = ScanSurroundings.load(directory, cells) if is_scan else None
-        return cls(columns["vectors"], table, rows, scanned)
+        return cls(columns["vectors"], columns["digests"], table, rows, scanned)
 
 
 @contextmanager
@@ -140,17 +148,23 @@ def writing(out_dir: Path) -> Iterator[None]:
 
 
 def _encoded(
-    retriever: Retriever, data: MapData, rows: range, room: Path, report: Progress
-) -> tuple[Floats, LevelTable]:
-    """Vectors [C, D] and the other levels of some cells, some at a time; the vectors lie in a file without a name."""
+    retriever: Retriever, data: MapData, rows: range, room: Path, report: Progress, earlier: Earlier | None
+) -> tuple[Floats, Ints, LevelTable]:
+    """Vectors [C, D], what they were made of [C], and the other levels of some cells, some at a time.
+
+    The vectors lie in a file without a name.
+    """
     width, levels, labels = retriever.config.width, list[LevelTable](), np.array(data.gallery.labels)
+    digests: list[Ints] = [np.empty(0, np.uint64)]
     report("encode cells", 0, len(rows))
     spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
     with writing(room):
         file = TemporaryFile(dir=room)  # noqa: SIM115 - closed by the next block
     with file:
         for span, features in zip(spans, CellFeatures.in_turn(data.cells, labels, spans), strict=True):
-            vectors, table = encode_gallery(retriever, retriever.seen(features), map_forked)
+            seen = retriever.seen(features)
+            digests.append(seen.digests())
+            vectors, table = _vectors_of(retriever, seen, digests[-1], earlier)
             with writing(room):
                 file.write(vectors.data)
                 file.flush()  # or each process that is forked next has it to write too
@@ -159,4 +173,23 @@ def _encoded(
         none = np.empty((0, width), np.float32)
         whole = np.memmap(file, np.float32, "r", shape=(len(rows), width)) if spans else none
     table = LevelTable.joined(levels) if levels else NO_LEVELS
-    return whole, NO_LEVELS if table.is_empty else table
+    told = np.concatenate(digests)
+    if earlier is not None:
+        report(f"{np.count_nonzero(earlier.known(told) >= 0)} cells kept", 1, 1)
+    return whole, told, NO_LEVELS if table.is_empty else table
+
+
+def _vectors_of(
+    retriever: Retriever, cells: CellFeatures, digests: Ints, earlier: Earlier | None
+) -> tuple[Floats, LevelTable]:
+    """Vectors [C, D] of some cells, which an earlier version may have, and the other levels."""
+    if earlier is None:
+        return encode_gallery(retriever, cells, map_forked)
+    known = earlier.known(digests)
+    kept, new = np.flatnonzero(known >= 0), np.flatnonzero(known < 0)
+    vectors = np.empty((len(cells), retriever.config.width), np.float32)
+    vectors[kept], vectors[new] = (
+        earlier.vectors(known[kept]),
+        encode_gallery(retriever, cells.take(new), map_forked)[0],
+    )
+    return vectors, NO_LEVELS

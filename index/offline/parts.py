@@ -23,7 +23,7 @@ from models.files import FileRecord, file_records, new_directory, sha256
 from models.retrieval.levels import Level
 
 PARTS: Final = ".parts"
-FORMAT: Final = 1
+FORMAT: Final = 2
 
 
 class Origin(BaseModel):

@@ -13,6 +13,8 @@ from index.artifact import set_alias
 from index.asking.questions import landmarks_of
 from index.hint_features import save_hint_features, template_hints
 from index.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
+from index.offline.earlier import FILE as ENCODED_FILE
+from index.offline.earlier import Earlier
 from index.offline.part import Part, writing
 from index.posterior.meaning import Meanings, meanings_of
 from index.stores.faiss_store import FaissStore
@@ -46,6 +48,7 @@ class Publisher:
         posterior_fingerprint: of the model that made their statements.
         map_sha256: of the map.
         store: where the vectors go.
+        earlier: that some of them are from; None for none.
     """
 
     out_dir: Path
@@ -53,6 +56,7 @@ class Publisher:
     posterior_fingerprint: str
     map_sha256: str
     store: StoreName
+    earlier: Earlier | None = None
 
     def publish(
         self,
@@ -90,7 +94,8 @@ class Publisher:
             new_directory(self.out_dir / origin["version"]) as directory,
         ):
             if collection is None:
-                FaissStore.of(vectors).save(directory / VECTORS_FILE)
+                like = None if self.earlier is None else self.earlier.store
+                FaissStore.of(vectors, like=like).save(directory / VECTORS_FILE)
             if isinstance(vectors.base, mmap):
                 vectors.base.madvise(MADV_DONTNEED)  # its pages are in the file
             self._save_parts(directory, parts, data, surroundings)
@@ -117,6 +122,7 @@ class Publisher:
 
     def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData, surroundings: Surroundings) -> None:
         """Write what the parts are joined to, but for the vectors, and what is said of them."""
+        np.save(directory / ENCODED_FILE, np.concatenate([part.digests for part in parts]))
         levels = LevelTable.joined([part.levels for part in parts])
         if not levels.is_empty:
             levels.save(directory)

@@ -32,14 +32,28 @@ class FaissStore:
 
     @classmethod
     def of(
-        cls, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]] | None = None, bits: int | None = None
+        cls,
+        vectors: Floats,
+        positions_m: npt.NDArray[np.floating[Any]] | None = None,
+        bits: int | None = None,
+        like: "FaissStore | None" = None,
     ) -> "FaissStore":
-        """A store of vectors [N, D]; see the class. `bits` of each number: 32, 16 or 8, None by how many there are."""
+        """A store of vectors [N, D]; see the class.
+
+        Args:
+            vectors: float32.
+            positions_m: see the class.
+            bits: of each number, 32, 16 or 8; None by how many vectors there are.
+            like: a store that some of them are from; if all lie where its steps of 8 bits do, these stay as they are.
+        """
         dim, bits = vectors.shape[1], bits or (8 if len(vectors) > EXACT else 32)
         index: Any = faiss.IndexFlatIP(dim)
         if bits in QUANTIZED:
             index = faiss.IndexScalarQuantizer(dim, QUANTIZED[bits], faiss.METRIC_INNER_PRODUCT)
-            index.train(np.ascontiguousarray(vectors))
+            if bits == 8 and like is not None and like._rounds(vectors):
+                index.sq.trained, index.is_trained = like._index.sq.trained, True
+            else:
+                index.train(np.ascontiguousarray(vectors))
         index.add(np.ascontiguousarray(vectors))
         return cls(index, positions_m)
 
@@ -75,6 +89,15 @@ class FaissStore:
             for i in range(0, len(queries), QUERIES_PER_CALL)
         ]
         return best_first(np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found]), k)
+
+    def _rounds(self, vectors: Floats) -> bool:
+        """Whether this rounds to 8 bits, and no number of these vectors lies beyond its steps."""
+        if getattr(self._index, "sq", None) is None or self._index.sq.qtype != QUANTIZED[8]:
+            return False
+        least, span = faiss.vector_to_array(self._index.sq.trained).reshape(2, -1)
+        half = span / 255 * 0.51  # a step: what was rounded to the last one lies so far beyond it
+        low, high = vectors.min(axis=0, initial=np.inf), vectors.max(axis=0, initial=-np.inf)
+        return bool((low >= least - half).all() and (high <= least + span + half).all())
 
     def _inside(self, within: Box) -> Rows:
         """The rows of the cells in a box."""

@@ -39,7 +39,8 @@ def test_memory_counts_pages_of_a_file_whole_whoever_has_it_open(tmp_path) -> No
     file.write_bytes(bytes(size))
     code = f"""
 import mmap, sys
-held = mmap.mmap(open({str(file)!r}, "rb").fileno(), 0, access=mmap.ACCESS_READ)
+with open({str(file)!r}, "rb") as file:
+    held = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
 assert not any(held[n] for n in range(0, {size}, 4096))
 print("ready", flush=True)
 sys.stdin.read()

@@ -46,3 +46,15 @@ def test_another_kind_of_index_is_refused(vectors, tmp_path) -> None:
     faiss.write_index(graph, str(tmp_path / "graph"))
     with pytest.raises(IndexBroken, match="hereabouts index"):
         FaissStore.load(tmp_path / "graph")
+
+
+def test_8_bits_are_those_of_another_store_while_its_steps_reach(vectors) -> None:
+    first = FaissStore.of(vectors, bits=8)
+    rounded = first.vectors(np.arange(len(vectors)))
+    again = FaissStore.of(rounded[::-1], bits=8, like=first)
+    np.testing.assert_array_equal(again.vectors(np.arange(len(vectors))), rounded[::-1])
+    beyond = np.concatenate([rounded, 2 * rounded[:1]])
+    wider = FaissStore.of(beyond, bits=8, like=first)
+    np.testing.assert_allclose(wider.vectors(np.arange(len(beyond))), beyond, atol=np.ptp(beyond, axis=0).max() / 255)
+    assert FaissStore.of(rounded, bits=32, like=first).vectors(np.array([0])).tolist() == rounded[:1].tolist()
+    assert len(FaissStore.of(rounded, bits=8, like=FaissStore.of(vectors))) == len(rounded)
