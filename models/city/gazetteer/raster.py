@@ -1,7 +1,6 @@
 """How far every cell of a map is from some objects, to the cells' grid where they are near, and else by block.
 
-A name is near few of a city's cells: only these are looked at one by one, and for all others a distance transform of
-blocks will do, of which there are a sixteenth as many.
+Distances on the grid are few, and so are blocks: what is made of distances is made of these, and looked up for cells.
 """
 
 import math
@@ -11,11 +10,10 @@ from typing import Final
 
 import numpy as np
 from cachetools import LRUCache, cachedmethod
-from scipy.ndimage import distance_transform_edt
 
 from models.city.gazetteer.drawing import Grid, Mask, draw_areas, draw_lines, pixels_of
 from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.nearest import columns_away, pixels_away
+from models.city.gazetteer.nearest import MOST_SQUARED, Squares, columns_away, squares_away
 from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.compiled import compiled
@@ -35,29 +33,52 @@ class Away:
     """How far the cells of a map are from T groups of objects.
 
     Attributes:
-        block_of: [N] block of each cell.
-        blocks: [T, P] metres from the middle of each block to the block of the nearest object; inf if there is none.
-        rows: [R] cells that are looked at one by one, each once.
-        metres: [T, R] metres from each of these to the nearest, to the grid.
+        raster: of the map.
+        squares: [T, columns, rows] of `squares_away`, of pixels.
+        blocks: [T, ...] the same of blocks.
+        is_near: of each block, whether pixels of it may be near.
     """
 
-    block_of: Ints
-    blocks: Floats
-    rows: Ints
-    metres: Floats
+    raster: "Raster"
+    squares: Squares
+    blocks: Squares
+    is_near: Mask
 
-    def at(self, cells: Ints) -> Floats:
-        """[T, n] metres of some cells."""
-        number = np.full(len(self.block_of), -1, np.int64)
-        number[self.rows] = np.arange(len(self.rows))
-        found, row = self.blocks[:, self.block_of[cells]], number[cells]
-        found[:, row >= 0] = self.metres[:, row[row >= 0]]
+    def metres(self, cells: Ints) -> Floats:
+        """[T, n] metres from some cells to the nearest."""
+        raster = self.raster
+        column, row = np.divmod(raster.pixel_of[cells], raster.shape[1])
+        square, at = self.squares[:, column, row], (column // BLOCK, row // BLOCK)
+        block = self.blocks[:, *at]
+        known = np.where(self.is_near[at], raster.limits[block], raster.limits[0])
+        found: Floats = np.where(
+            square <= known, raster.steps_m[np.minimum(square, known)], raster.block_steps_m[block]
+        )
         return found
+
+    def over_cells(self, by_step: Floats, by_block: Floats) -> tuple[float, float]:
+        """The mean over cells of what the best of the groups is, and the most, which are at least 0; as `add`."""
+        total, most = np.zeros(self.raster.shape[1]), np.zeros(self.raster.shape[1], np.float32)
+        _over_cells(*self._given(by_step, by_block), self.raster.cells_in, total, most)
+        return float(total.sum()) / len(self.raster.pixel_of), float(most.max())
+
+    def add(self, by_step: Floats, by_block: Floats, total: Floats) -> None:
+        """Add to every pixel what the best of the groups is there.
+
+        Args:
+            by_step: [T, S] float32 for each distance of `Raster.steps_m`.
+            by_block: [T, B] float32 for each distance of `Raster.block_steps_m`.
+            total: [columns, rows] float32.
+        """
+        _add(*self._given(by_step, by_block), total)
+
+    def _given(self, by_step: Floats, by_block: Floats) -> tuple[Squares, Squares, Mask, Squares, Floats, Floats]:
+        return self.squares, self.blocks, self.is_near, self.raster.limits, by_step, by_block
 
     @property
     def nbytes(self) -> int:
         """What it takes, beside what all of a raster have."""
-        return self.blocks.nbytes + self.rows.nbytes + self.metres.nbytes
+        return sum(array.nbytes for array in (self.squares, self.blocks, self.is_near))
 
 
 def _asked(_: "Raster", groups: Sequence[Ints], lines_m: Floats | None = None) -> tuple[bytes, ...]:
@@ -77,14 +98,21 @@ class Raster:
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         west_south = centers_m.min(axis=0) - MARGIN_M
         size = np.ceil((centers_m.max(axis=0) + MARGIN_M - west_south) / spacing_m).astype(int) + 1
-        self._blocks = tuple((-(-size // BLOCK)).tolist())
-        shape = BLOCK * self._blocks[0], BLOCK * self._blocks[1]
-        self._grid = Grid(west_south[0], west_south[1], spacing_m, *shape)
-        cell = pixels_of(self._grid, centers_m)
-        self._cell = np.full(shape, -1, np.int32)  # of each pixel; of several cells in one the last
-        self._cell.ravel()[cell] = np.arange(len(cell))
-        self.block_of = self._block(cell).astype(np.int32)
-        self.cells_in = np.bincount(self.block_of, minlength=self._blocks[0] * self._blocks[1])
+        self.blocks = tuple((-(-size // BLOCK)).tolist())
+        self.shape = BLOCK * self.blocks[0], BLOCK * self.blocks[1]
+        self._grid = Grid(west_south[0], west_south[1], spacing_m, *self.shape)
+        self.pixel_of = pixels_of(self._grid, centers_m).astype(np.int32)
+        count = np.bincount(self.pixel_of, minlength=self.shape[0] * self.shape[1])
+        self.cells_in = count.astype(np.float32).reshape(self.shape)
+        near_m = NEAR_M + DIAGONAL * BLOCK * spacing_m
+        self._reach = min(BLOCK + math.ceil(near_m / spacing_m), MOST_SQUARED)
+        self._block_reach = min(math.ceil(math.hypot(*self.blocks)), MOST_SQUARED)
+        self.steps_m = _steps(self._reach) * np.float32(spacing_m)
+        apart_m = np.append(_steps(self._block_reach), np.float32(np.inf)) * np.float32(BLOCK * spacing_m)
+        self._is_near = apart_m <= near_m
+        self.block_steps_m = np.maximum(apart_m, np.float32(NEAR_M))  # what is nearer, pixels tell of
+        known = np.minimum(self.block_steps_m / spacing_m, self._reach)
+        self.limits = (known * known).astype(np.uint16)  # squares up to which pixels of a near block tell
         large, shapes = gazetteer.is_area & (gazetteer.reach_m > LARGE_M), (gazetteer.segments_m, gazetteer.starts)
         self._lines = draw_lines(self._grid, *shapes, np.arange(len(gazetteer)), SAMPLED_M)
         self._insides = draw_areas(self._grid, *shapes, np.flatnonzero(large), LATTICE_M)
@@ -107,42 +135,79 @@ class Raster:
 
     def _away(self, groups: Sequence[Ints]) -> Away:
         """The same of pixels."""
-        blocks = np.stack([self._metres_of_blocks(pixels) for pixels in groups])
-        reach_m = NEAR_M + DIAGONAL * BLOCK * self._grid.spacing_m
-        is_near = blocks.min(axis=0).reshape(self._blocks) <= reach_m
-        near = _pixels_near(is_near, self._cell)
-        rows = self._cell.ravel()[near].astype(np.int64)
-        far = blocks[:, self.block_of[rows]]
-        reach = BLOCK + math.ceil(reach_m / self._grid.spacing_m)
-        away = np.stack([pixels_away(columns_away(pixels, self._cell.shape, reach), near, reach) for pixels in groups])
-        metres = away * np.float32(self._grid.spacing_m)
-        metres = np.where(metres <= NEAR_M, metres, np.minimum(metres, np.maximum(far, NEAR_M)))
-        return Away(self.block_of, blocks, rows, metres)
-
-    def _metres_of_blocks(self, pixels: Ints) -> Floats:
-        if not len(pixels):
-            return np.full(self._blocks[0] * self._blocks[1], np.inf, np.float32)
-        empty = np.ones(self._blocks, np.bool_)
-        empty.ravel()[self._block(pixels)] = False
-        metres: Floats = distance_transform_edt(empty).astype(np.float32).ravel() * np.float32(
-            BLOCK * self._grid.spacing_m
-        )
-        return metres
+        squares = np.stack([squares_away(columns_away(one, self.shape, self._reach), self._reach) for one in groups])
+        reach = self._block_reach
+        of_blocks = [squares_away(columns_away(self._block(one), self.blocks, reach), reach) for one in groups]
+        blocks = np.minimum(np.stack(of_blocks), np.uint16(reach**2 + 1))
+        return Away(self, squares, blocks, self._is_near[blocks].any(axis=0))
 
     def _block(self, pixels: Ints) -> Ints:
         """[n] block of each pixel."""
-        column, row = np.divmod(pixels, self._grid.rows)
-        block: Ints = column // BLOCK * self._blocks[1] + row // BLOCK
+        column, row = np.divmod(pixels, self.shape[1])
+        block: Ints = column // BLOCK * self.blocks[1] + row // BLOCK
         return block
 
 
+def _steps(reach: int) -> Floats:
+    """[S] float32 the roots of all whole numbers up to the square of a reach."""
+    return np.sqrt(np.arange(reach**2 + 1)).astype(np.float32)
+
+
 @compiled
-def _pixels_near(is_near: Mask, cell: Ints) -> Ints:
-    """[R] the pixels of some blocks that have a cell, ascending."""
-    near, count = np.empty(cell.size, np.int64), 0
-    for x in range(cell.shape[0]):
-        for y in range(cell.shape[1]):
-            if is_near[x // BLOCK, y // BLOCK] and cell[x, y] >= 0:
-                near[count] = x * cell.shape[1] + y
-                count += 1
-    return near[:count].copy()
+def _over_cells(
+    squares: Squares, blocks: Squares, is_near: Mask, limits: Squares, by_step: Floats, by_block: Floats,
+    cells: Floats, total: Floats, most: Floats,
+) -> None:  # fmt: skip
+    """Add up rows [rows] over columns, and raise the most of each; see `Away.over_cells`."""
+    line, limit, beyond = _lines(squares)
+    for x in range(squares.shape[1]):
+        if x % BLOCK == 0:
+            _of_blocks(blocks, is_near, limits, by_block, x // BLOCK, limit, beyond)
+        _take_highest(squares, by_step, x, limit, beyond, line)
+        for y in range(len(line)):
+            total[y] += line[y] * cells[x, y]
+            most[y] = max(most[y], line[y] if cells[x, y] > 0.0 else np.float32(0.0))
+
+
+@compiled
+def _add(
+    squares: Squares, blocks: Squares, is_near: Mask, limits: Squares, by_step: Floats, by_block: Floats, total: Floats
+) -> None:
+    """See `Away.add`."""
+    line, limit, beyond = _lines(squares)
+    for x in range(len(total)):
+        if x % BLOCK == 0:
+            _of_blocks(blocks, is_near, limits, by_block, x // BLOCK, limit, beyond)
+        _take_highest(squares, by_step, x, limit, beyond, line)
+        for y in range(len(line)):
+            total[x, y] += line[y]
+
+
+@compiled
+def _lines(squares: Squares) -> tuple[Floats, Squares, Floats]:
+    """Room for a column of pixels [rows], and for what the blocks that it passes have [T, rows]."""
+    groups, rows = squares.shape[0], squares.shape[2]
+    return np.empty(rows, np.float32), np.empty((groups, rows), np.uint16), np.empty((groups, rows), np.float32)
+
+
+@compiled
+def _of_blocks(
+    blocks: Squares, is_near: Mask, limits: Squares, by_block: Floats, x: int, limit: Squares, beyond: Floats
+) -> None:
+    """Fill in what a column of blocks has."""
+    for t in range(len(blocks)):
+        for y in range(limit.shape[1]):
+            block = blocks[t, x, y // BLOCK]
+            limit[t, y] = limits[block] if is_near[x, y // BLOCK] else limits[0]
+            beyond[t, y] = by_block[t, block]
+
+
+@compiled
+def _take_highest(squares: Squares, by_step: Floats, x: int, limit: Squares, beyond: Floats, line: Floats) -> None:
+    """Fill in what the best of the groups is at a column of pixels; the processor takes many of them at once."""
+    for t in range(len(squares)):
+        square, of_step, most, of_block = squares[t, x], by_step[t], limit[t], beyond[t]
+        for y in range(len(line)):
+            value = of_step[min(square[y], most[y])]
+            value = value if square[y] <= most[y] else of_block[y]
+            line[y] = value if t == 0 else max(line[y], value)

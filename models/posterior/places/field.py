@@ -83,8 +83,6 @@ class PlaceField:
         self._of_ways = WayKernels(kernels)
         self._lately: LRUCache[Mention, tuple[Floats, Ints, npt.NDArray[np.bool_]]] = LRUCache(KEPT)
         self.raster = Raster(gazetteer, centers_m, spacing_m)
-        self._cells_in = torch.from_numpy(self.raster.cells_in).float()
-        self._has_cells = self._cells_in > 0
         self._walkways: Walkways | None = None
         if WALKED in gazetteer.by_kind:
             self._walkways = Walkways(gazetteer, centers_m.min(axis=0), centers_m.max(axis=0))
@@ -106,31 +104,26 @@ class PlaceField:
             listener_wind: degrees from the listener to the speaker, if that is said.
             is_meeting: whether the place told of is not where the speaker stands.
         """
-        known = tuple(m for m in mentions if len(m.objects) or len(m.lines_m))
-        raster, common, kept = self.raster, [], []
-        by_block, closer = torch.zeros(len(raster.cells_in)), []
-        for mention in known:
+        kept, common, total = [], [], np.zeros(self.raster.shape, np.float32)
+        for mention in mentions:
+            if not len(mention.objects) and not len(mention.lines_m):
+                continue
             weights, away = self._away(mention)
-            of_block = torch.from_numpy(away.block_of[away.rows])
-            far = self.roughly(mention, _rough(weights, away.blocks))
-            near = self.roughly(mention, _rough(weights, away.metres))
-            there = far * self._has_cells
-            mean = (far @ self._cells_in + (near - far[of_block]).sum()) / len(self._centers_m)
-            if max(float(there.max()), float(near.max()) if len(near) else 0.0) < FAINT:
+            both = (torch.from_numpy(steps_m) for steps_m in (self.raster.steps_m, self.raster.block_steps_m))
+            fits = [self._by_tier(mention, _rough(weights, steps_m.expand(len(weights), -1))) for steps_m in both]
+            mean, most = away.over_cells(fits[0].numpy(), fits[1].numpy())
+            if most < FAINT:
                 continue  # none of it is near the map
             kept.append(mention)
-            common.append(mean.clamp(min=LEAST))
-            worth = self.worth(mention, far, common[-1])
-            by_block += worth
-            closer.append((torch.from_numpy(away.rows), self.worth(mention, near, common[-1]) - worth[of_block]))
-        total = by_block[torch.from_numpy(raster.block_of)]
-        for rows, more in closer:
-            total[rows] += more
+            common.append(torch.tensor(mean).clamp(min=LEAST))
+            worth = [self.worth(mention, each, common[-1]).numpy() for each in fits]
+            away.add(worth[0], worth[1], total)
         places = Places(
             tuple(kept), torch.stack(common) if common else torch.zeros(0), listener_m, listener_wind, is_meeting
         )
-        total = self.kernels.temper.exp() * total + self.from_listener(places, self._centers_m)
-        return Told(self, places, total.double().numpy())
+        at_cells = torch.from_numpy(total.ravel()[self.raster.pixel_of])
+        at_cells = self.kernels.temper.exp() * at_cells + self.from_listener(places, self._centers_m)
+        return Told(self, places, at_cells.double().numpy())
 
     def log_p(self, places: Places, points_m: Floats, group: Ints) -> Tensor:
         """[M] log p(T | x) of positions [M, 2], up to a constant; `group` ascending, of those that lie together."""
@@ -205,7 +198,7 @@ class PlaceField:
     def rough(self, mention: Mention, cells: Ints) -> Rough:
         """How far some cells are from what a mention may mean."""
         weights, away = self._away(mention)
-        return _rough(weights, away.at(cells))
+        return _rough(weights, torch.from_numpy(away.metres(cells)))
 
     def _away(self, mention: Mention) -> tuple[tuple[float, ...], Away]:
         """The weights of tiers of what a mention may mean, and how far cells are from each."""
@@ -219,8 +212,11 @@ class PlaceField:
 
     def roughly(self, mention: Mention, rough: Rough) -> Tensor:
         """[n] the kernel at cells, without directions."""
-        weights = torch.tensor(rough.weights)[:, None]
-        return (weights * self._kernel(mention, rough.metres)).amax(dim=0)
+        return self._by_tier(mention, rough).amax(dim=0)
+
+    def _by_tier(self, mention: Mention, rough: Rough) -> Tensor:
+        """[T, n] the kernel of each tier."""
+        return torch.tensor(rough.weights)[:, None] * self._kernel(mention, rough.metres)
 
     def usual(self, mention: Mention, rough: Rough) -> Tensor:
         """The mean of the kernel over cells: what is near everywhere tells nothing."""
@@ -295,5 +291,5 @@ class PlaceField:
         return self.kernels.toward(self.kernels.listener, bearing - radians(places.listener_wind), metres).log()
 
 
-def _rough(weights: tuple[float, ...], metres: Floats) -> Rough:
-    return Rough(weights, torch.from_numpy(np.minimum(np.maximum(metres - ROUGH_M, 0.0), 1e6)).float())
+def _rough(weights: tuple[float, ...], metres: Tensor) -> Rough:
+    return Rough(weights, (metres - ROUGH_M).clamp(0.0, 1e6).float())

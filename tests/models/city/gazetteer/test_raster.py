@@ -23,13 +23,13 @@ def raster(town):
 
 def away(raster: Raster, objects: np.ndarray) -> np.ndarray:
     """[N] metres from all cells to the nearest of some objects."""
-    [found] = raster.away([objects]).at(np.arange(len(raster.block_of)))
+    [found] = raster.away([objects]).metres(np.arange(len(raster.pixel_of)))
     return np.asarray(found)
 
 
 def lines_away(raster: Raster, lines_m: np.ndarray) -> np.ndarray:
     """The same for lines."""
-    [found] = raster.away([], lines_m).at(np.arange(len(raster.block_of)))
+    [found] = raster.away([], lines_m).metres(np.arange(len(raster.pixel_of)))
     return np.asarray(found)
 
 
@@ -55,22 +55,39 @@ def test_metres_are_true_to_the_grid(town, raster, name, shape) -> None:
     assert (found[~near] > NEAR_M - 2 * GRID_M).all()
 
 
-def test_few_cells_are_looked_at_one_by_one_and_those_that_are_lie_near() -> None:
-    """In a town of many kilometres, where some of what is meant lies far apart."""
+@pytest.fixture(scope="module")
+def wide():
+    """A town of some kilometres, where some of what is meant lies far apart; and where that is."""
     rng = np.random.default_rng(1)
     centers = np.stack(np.meshgrid(np.arange(0, 4000, GRID_M), np.arange(0, 2000, GRID_M)), axis=-1).reshape(-1, 2)
     places = rng.uniform((0, 0), (4000, 2000), (6, 2))
     words, lines = [Words(("x",))] * 6, [point(*place) for place in places]
-    raster = Raster(build_gazetteer(words, lines, [False] * 6), centers, GRID_M)
-    one, other = np.array([0, 1, 2]), np.array([3, 4, 5])
-    found = raster.away([one, other])
-    assert len(found.rows) == len(np.unique(found.rows)) < 0.35 * len(centers)
-    for group, metres_m in zip((one, other), found.at(np.arange(len(centers))), strict=True):
+    return Raster(build_gazetteer(words, lines, [False] * 6), centers, GRID_M), centers, places
+
+
+GROUPS = np.array([0, 1, 2]), np.array([3, 4, 5])
+
+
+def test_near_cells_are_true_to_the_grid_and_far_ones_to_their_block(wide) -> None:
+    raster, centers, places = wide
+    for group, metres_m in zip(GROUPS, raster.away(GROUPS).metres(np.arange(len(centers))), strict=True):
         truth = np.linalg.norm(centers[:, None] - places[group], axis=2).min(axis=1)
         near = truth <= NEAR_M - GRID_M
-        assert np.isin(np.flatnonzero(near), found.rows).all()
         assert np.abs(metres_m - truth)[near].max() <= GRID_M
         assert np.abs(metres_m - truth).max() <= np.sqrt(2) * BLOCK * GRID_M
+
+
+def test_what_is_looked_up_is_what_each_cell_would_have(wide) -> None:
+    raster, centers, _ = wide
+    away, cells = raster.away(GROUPS), np.arange(len(centers))
+    far = np.float32([[600.0], [900.0]])
+    by_step, by_block = (np.exp(-steps / far) for steps in (raster.steps_m, raster.block_steps_m))
+    each = np.exp(-away.metres(cells) / far).max(axis=0)
+    total = np.full(raster.shape, 2.0, np.float32)
+    away.add(by_step, by_block, total)
+    np.testing.assert_array_equal(total.ravel()[raster.pixel_of], 2 + each)
+    mean, most = away.over_cells(by_step, by_block)
+    assert (mean, most) == (pytest.approx(each.mean(), rel=1e-6), each.max())
 
 
 def test_the_nearest_of_several_counts(town, raster) -> None:
