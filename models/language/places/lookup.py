@@ -1,6 +1,6 @@
 """A map's objects by what they are called: exactly, in part, misspelt, by kind."""
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Container, KeysView, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
 from math import log
@@ -106,7 +106,8 @@ class Lookup:
 
         None of either for a number past the end of the street.
         """
-        names = {" ".join(full_words(plain_words(name))) for s in streets for name in self.gazetteer.words[s].names}
+        of_streets = (name for s in streets for name in self.gazetteer.words[s].names)
+        names = dict.fromkeys(" ".join(full_words(plain_words(name))) for name in of_streets)
         known = {n: rows for name in names for n, rows in self._table.numbers.below(name + BETWEEN)}
         if not known:
             return np.zeros(0, np.int64), np.zeros((0, 4))
@@ -190,9 +191,10 @@ class Lookup:
         return Match(objects, weights, 1.0, False)
 
     @cached_property
-    def noun_words(self) -> frozenset[str]:
-        """Every word of every noun."""
-        return frozenset(word for noun in self._nouns for word in noun.split())
+    def noun_words(self) -> KeysView[str]:
+        """Every word of every noun, short ones first: a misspelt word may be like several, and means the first."""
+        words = {word for noun in self._nouns for word in noun.split()}
+        return dict.fromkeys(sorted(words, key=lambda word: (len(word), word))).keys()
 
     @cached_property
     def _single_streets(self) -> list[str]:

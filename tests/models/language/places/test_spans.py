@@ -87,6 +87,13 @@ def test_misspelt_nouns(lookup, wrong, right) -> None:
     assert like_noun(wrong, lookup) == right
 
 
+@pytest.mark.parametrize(("wrong", "right"), [("hotell", "hotel"), ("watter", "water")])
+def test_of_nouns_that_are_as_like_the_shortest_is_meant_in_every_process(lookup, wrong, right) -> None:
+    assert like_noun(wrong, lookup) == right
+    nouns = list(lookup.noun_words)  # not in the order of a set, which is another one in each process
+    assert nouns == sorted(nouns, key=lambda noun: (len(noun), noun))
+
+
 @pytest.mark.parametrize(
     ("text", "found"),
     [
