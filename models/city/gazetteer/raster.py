@@ -33,51 +33,18 @@ class Away:
     """How far the cells of a map are from T groups of objects.
 
     Attributes:
-        raster: of the map.
         squares: [T, columns, rows] of `squares_away`, of pixels.
         blocks: [T, ...] the same of blocks.
         is_near: of each block, whether pixels of it may be near.
     """
 
-    raster: "Raster"
     squares: Squares
     blocks: Squares
     is_near: Mask
 
-    def metres(self, cells: Ints) -> Floats:
-        """[T, n] metres from some cells to the nearest."""
-        raster = self.raster
-        column, row = np.divmod(raster.pixel_of[cells], raster.shape[1])
-        square, at = self.squares[:, column, row], (column // BLOCK, row // BLOCK)
-        block = self.blocks[:, *at]
-        known = np.where(self.is_near[at], raster.limits[block], raster.limits[0])
-        found: Floats = np.where(
-            square <= known, raster.steps_m[np.minimum(square, known)], raster.block_steps_m[block]
-        )
-        return found
-
-    def over_cells(self, by_step: Floats, by_block: Floats) -> tuple[float, float]:
-        """The mean over cells of what the best of the groups is, and the most, which are at least 0; as `add`."""
-        total, most = np.zeros(self.raster.shape[1]), np.zeros(self.raster.shape[1], np.float32)
-        _over_cells(*self._given(by_step, by_block), self.raster.cells_in, total, most)
-        return float(total.sum()) / len(self.raster.pixel_of), float(most.max())
-
-    def add(self, by_step: Floats, by_block: Floats, total: Floats) -> None:
-        """Add to every pixel what the best of the groups is there.
-
-        Args:
-            by_step: [T, S] float32 for each distance of `Raster.steps_m`.
-            by_block: [T, B] float32 for each distance of `Raster.block_steps_m`.
-            total: [columns, rows] float32.
-        """
-        _add(*self._given(by_step, by_block), total)
-
-    def _given(self, by_step: Floats, by_block: Floats) -> tuple[Squares, Squares, Mask, Squares, Floats, Floats]:
-        return self.squares, self.blocks, self.is_near, self.raster.limits, by_step, by_block
-
     @property
     def nbytes(self) -> int:
-        """What it takes, beside what all of a raster have."""
+        """What it takes."""
         return sum(array.nbytes for array in (self.squares, self.blocks, self.is_near))
 
 
@@ -93,26 +60,32 @@ class Raster:
         gazetteer: of the map.
         centers_m: [N, 2] of the cells.
         spacing_m: of their grid.
+
+    Attributes:
+        shape: columns and rows of pixels.
+        pixel_of: [N] int32 pixel of each cell, column * rows + row.
+        steps_m: [S] the distances between near pixels.
+        block_steps_m: [B] those between blocks, the last inf.
     """
 
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         west_south = centers_m.min(axis=0) - MARGIN_M
         size = np.ceil((centers_m.max(axis=0) + MARGIN_M - west_south) / spacing_m).astype(int) + 1
-        self.blocks = tuple((-(-size // BLOCK)).tolist())
-        self.shape = BLOCK * self.blocks[0], BLOCK * self.blocks[1]
+        self._blocks = tuple((-(-size // BLOCK)).tolist())
+        self.shape = BLOCK * self._blocks[0], BLOCK * self._blocks[1]
         self._grid = Grid(west_south[0], west_south[1], spacing_m, *self.shape)
         self.pixel_of = pixels_of(self._grid, centers_m).astype(np.int32)
         count = np.bincount(self.pixel_of, minlength=self.shape[0] * self.shape[1])
-        self.cells_in = count.astype(np.float32).reshape(self.shape)
+        self._cells_in = count.astype(np.float32).reshape(self.shape)
         near_m = NEAR_M + DIAGONAL * BLOCK * spacing_m
         self._reach = min(BLOCK + math.ceil(near_m / spacing_m), MOST_SQUARED)
-        self._block_reach = min(math.ceil(math.hypot(*self.blocks)), MOST_SQUARED)
+        self._block_reach = min(math.ceil(math.hypot(*self._blocks)), MOST_SQUARED)
         self.steps_m = _steps(self._reach) * np.float32(spacing_m)
         apart_m = np.append(_steps(self._block_reach), np.float32(np.inf)) * np.float32(BLOCK * spacing_m)
         self._is_near = apart_m <= near_m
         self.block_steps_m = np.maximum(apart_m, np.float32(NEAR_M))  # what is nearer, pixels tell of
         known = np.minimum(self.block_steps_m / spacing_m, self._reach)
-        self.limits = (known * known).astype(np.uint16)  # squares up to which pixels of a near block tell
+        self._limits = (known * known).astype(np.uint16)  # squares up to which pixels of a near block tell
         large, shapes = gazetteer.is_area & (gazetteer.reach_m > LARGE_M), (gazetteer.segments_m, gazetteer.starts)
         self._lines = draw_lines(self._grid, *shapes, np.arange(len(gazetteer)), SAMPLED_M)
         self._insides = draw_areas(self._grid, *shapes, np.flatnonzero(large), LATTICE_M)
@@ -128,6 +101,33 @@ class Raster:
             drawn.insert(0, draw_lines(self._grid, lines_m, *one, SAMPLED_M)[0])
         return self._away(drawn)
 
+    def metres(self, away: Away, cells: Ints) -> Floats:
+        """[T, n] metres from some cells to the nearest of each group."""
+        column, row = np.divmod(self.pixel_of[cells], self.shape[1])
+        square, at = away.squares[:, column, row], (column // BLOCK, row // BLOCK)
+        block = away.blocks[:, *at]
+        known = np.where(away.is_near[at], self._limits[block], self._limits[0])
+        found: Floats = np.where(square <= known, self.steps_m[np.minimum(square, known)], self.block_steps_m[block])
+        return found
+
+    def over_cells(self, away: Away, by_step: Floats, by_block: Floats) -> tuple[float, float]:
+        """The mean over cells of what the best of the groups is, and the most, which are at least 0; as `add`."""
+        total, most = np.zeros(self.shape[1]), np.zeros(self.shape[1], np.float32)
+        given = away.squares, away.blocks, away.is_near, self._limits, by_step, by_block
+        _over_cells(*given, self._cells_in, total, most)
+        return float(total.sum()) / len(self.pixel_of), float(most.max())
+
+    def add(self, total: Floats, away: Away, by_step: Floats, by_block: Floats) -> None:
+        """Add to every pixel what the best of the groups is there.
+
+        Args:
+            total: [columns, rows] float32.
+            away: of the groups.
+            by_step: [T, S] float32 for each distance of `steps_m`.
+            by_block: [T, B] float32 for each distance of `block_steps_m`.
+        """
+        _add(away.squares, away.blocks, away.is_near, self._limits, by_step, by_block, total)
+
     def _drawn(self, objects: Ints) -> Ints:
         """[n] pixels of some objects."""
         both = (self._lines, objects, objects + 1), (self._insides, self._area[objects], self._area[objects + 1])
@@ -137,14 +137,14 @@ class Raster:
         """The same of pixels."""
         squares = np.stack([squares_away(columns_away(one, self.shape, self._reach), self._reach) for one in groups])
         reach = self._block_reach
-        of_blocks = [squares_away(columns_away(self._block(one), self.blocks, reach), reach) for one in groups]
+        of_blocks = [squares_away(columns_away(self._block(one), self._blocks, reach), reach) for one in groups]
         blocks = np.minimum(np.stack(of_blocks), np.uint16(reach**2 + 1))
-        return Away(self, squares, blocks, self._is_near[blocks].any(axis=0))
+        return Away(squares, blocks, self._is_near[blocks].any(axis=0))
 
     def _block(self, pixels: Ints) -> Ints:
         """[n] block of each pixel."""
         column, row = np.divmod(pixels, self.shape[1])
-        block: Ints = column // BLOCK * self.blocks[1] + row // BLOCK
+        block: Ints = column // BLOCK * self._blocks[1] + row // BLOCK
         return block
 
 
@@ -158,7 +158,7 @@ def _over_cells(
     squares: Squares, blocks: Squares, is_near: Mask, limits: Squares, by_step: Floats, by_block: Floats,
     cells: Floats, total: Floats, most: Floats,
 ) -> None:  # fmt: skip
-    """Add up rows [rows] over columns, and raise the most of each; see `Away.over_cells`."""
+    """Add up rows [rows] over columns, and raise the most of each; see `Raster.over_cells`."""
     line, limit, beyond = _lines(squares)
     for x in range(squares.shape[1]):
         if x % BLOCK == 0:
@@ -173,7 +173,7 @@ def _over_cells(
 def _add(
     squares: Squares, blocks: Squares, is_near: Mask, limits: Squares, by_step: Floats, by_block: Floats, total: Floats
 ) -> None:
-    """See `Away.add`."""
+    """See `Raster.add`."""
     line, limit, beyond = _lines(squares)
     for x in range(len(total)):
         if x % BLOCK == 0:

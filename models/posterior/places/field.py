@@ -111,13 +111,13 @@ class PlaceField:
             weights, away = self._away(mention)
             both = (torch.from_numpy(steps_m) for steps_m in (self.raster.steps_m, self.raster.block_steps_m))
             fits = [self._by_tier(mention, _rough(weights, steps_m.expand(len(weights), -1))) for steps_m in both]
-            mean, most = away.over_cells(fits[0].numpy(), fits[1].numpy())
+            mean, most = self.raster.over_cells(away, fits[0].numpy(), fits[1].numpy())
             if most < FAINT:
                 continue  # none of it is near the map
             kept.append(mention)
             common.append(torch.tensor(mean).clamp(min=LEAST))
             worth = [self.worth(mention, each, common[-1]).numpy() for each in fits]
-            away.add(worth[0], worth[1], total)
+            self.raster.add(total, away, worth[0], worth[1])
         places = Places(
             tuple(kept), torch.stack(common) if common else torch.zeros(0), listener_m, listener_wind, is_meeting
         )
@@ -198,7 +198,7 @@ class PlaceField:
     def rough(self, mention: Mention, cells: Ints) -> Rough:
         """How far some cells are from what a mention may mean."""
         weights, away = self._away(mention)
-        return _rough(weights, torch.from_numpy(away.metres(cells)))
+        return _rough(weights, torch.from_numpy(self.raster.metres(away, cells)))
 
     def _away(self, mention: Mention) -> tuple[tuple[float, ...], Away]:
         """The weights of tiers of what a mention may mean, and how far cells are from each."""

@@ -23,13 +23,13 @@ def raster(town):
 
 def away(raster: Raster, objects: np.ndarray) -> np.ndarray:
     """[N] metres from all cells to the nearest of some objects."""
-    [found] = raster.away([objects]).metres(np.arange(len(raster.pixel_of)))
+    [found] = raster.metres(raster.away([objects]), np.arange(len(raster.pixel_of)))
     return np.asarray(found)
 
 
 def lines_away(raster: Raster, lines_m: np.ndarray) -> np.ndarray:
     """The same for lines."""
-    [found] = raster.away([], lines_m).metres(np.arange(len(raster.pixel_of)))
+    [found] = raster.metres(raster.away([], lines_m), np.arange(len(raster.pixel_of)))
     return np.asarray(found)
 
 
@@ -70,7 +70,7 @@ GROUPS = np.array([0, 1, 2]), np.array([3, 4, 5])
 
 def test_near_cells_are_true_to_the_grid_and_far_ones_to_their_block(wide) -> None:
     raster, centers, places = wide
-    for group, metres_m in zip(GROUPS, raster.away(GROUPS).metres(np.arange(len(centers))), strict=True):
+    for group, metres_m in zip(GROUPS, raster.metres(raster.away(GROUPS), np.arange(len(centers))), strict=True):
         truth = np.linalg.norm(centers[:, None] - places[group], axis=2).min(axis=1)
         near = truth <= NEAR_M - GRID_M
         assert np.abs(metres_m - truth)[near].max() <= GRID_M
@@ -82,11 +82,11 @@ def test_what_is_looked_up_is_what_each_cell_would_have(wide) -> None:
     away, cells = raster.away(GROUPS), np.arange(len(centers))
     far = np.float32([[600.0], [900.0]])
     by_step, by_block = (np.exp(-steps / far) for steps in (raster.steps_m, raster.block_steps_m))
-    each = np.exp(-away.metres(cells) / far).max(axis=0)
+    each = np.exp(-raster.metres(away, cells) / far).max(axis=0)
     total = np.full(raster.shape, 2.0, np.float32)
-    away.add(by_step, by_block, total)
+    raster.add(total, away, by_step, by_block)
     np.testing.assert_array_equal(total.ravel()[raster.pixel_of], 2 + each)
-    mean, most = away.over_cells(by_step, by_block)
+    mean, most = raster.over_cells(away, by_step, by_block)
     assert (mean, most) == (pytest.approx(each.mean(), rel=1e-6), each.max())
 
 
