@@ -13,6 +13,7 @@ from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats
 from models.city.points import Ints
 from models.errors import IndexBroken
+from models.retrieval.instance_encoder import DIGEST
 from models.retrieval.level_table import STARTS_FILE
 
 FILE: Final = "encoded.npy"
@@ -23,7 +24,7 @@ class Earlier:
     """Vectors, by what they were made of.
 
     Attributes:
-        digests: [N] of `CellFeatures.digests`, ascending.
+        digests: [N] of `CellFeatures.digests`, as numbers, ascending.
         rows: [N] row of each in the store.
         store: of all cells.
     """
@@ -51,15 +52,23 @@ class Earlier:
         lacks = lacks if FILE in manifest.files else "it does not say what they were made of"
         if lacks is not None:
             raise IndexBroken(f"{directory} has no vectors that can be kept: {lacks}; give --map in place of --update")
-        digests = np.load(directory / FILE, allow_pickle=False)
+        digests = _numbers(np.load(directory / FILE, allow_pickle=False))
         rows = np.argsort(digests, kind="stable")
         return cls(digests[rows], rows, FaissStore.load(directory / VECTORS_FILE))
 
     def known(self, digests: Ints) -> Ints:
         """[C] the row of each that the version has; -1 of the others."""
-        place = np.minimum(np.searchsorted(self.digests, digests), len(self.digests) - 1)
-        return np.where(self.digests[place] == digests, self.rows[place], -1)
+        wanted = _numbers(digests)
+        place = np.minimum(np.searchsorted(self.digests, wanted), len(self.digests) - 1)
+        return np.where(self.digests[place] == wanted, self.rows[place], -1)
 
     def vectors(self, rows: Ints) -> Floats:
         """[C, D] of some rows."""
         return self.store.vectors(rows)
+
+
+def _numbers(digests: Ints) -> Ints:
+    """[N] of bytes [N, DIGEST]."""
+    whole = np.zeros((len(digests), 8), np.uint8)
+    whole[:, :DIGEST] = digests
+    return whole.view(np.uint64).ravel()

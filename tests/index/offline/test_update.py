@@ -80,11 +80,11 @@ def test_vectors_of_8_bits_are_rounded_once_more_at_most(
     before, digests = vectors_of(out), np.load(open_version(out)[0] / FILE)
     IndexJob(newer_file, out, weights_dir, update=True).build()
     after, now = vectors_of(out), np.load(open_version(out)[0] / FILE)
-    row = {digest: n for n, digest in enumerate(digests.tolist())}
-    kept = [n for n, digest in enumerate(now.tolist()) if digest in row]
+    row = {bytes(digest): n for n, digest in enumerate(digests)}
+    kept = [n for n, digest in enumerate(now) if bytes(digest) in row]
     assert 0 < len(kept) < len(now)
     step = np.ptp(after, axis=0).max() / 255
-    of_kept = before[[row[digest] for digest in now[kept].tolist()]]
+    of_kept = before[[row[bytes(digest)] for digest in now[kept]]]
     np.testing.assert_allclose(after[kept], of_kept, atol=step / 2 + 1e-6)
     IndexJob(newer_file, tmp_path / "anew", weights_dir).build()
     np.testing.assert_allclose(after, vectors_of(tmp_path / "anew"), atol=1.5 * step)
