@@ -19,7 +19,7 @@ from pydantic import (
 
 from models.city.kitti360pose.files import list_scenes, select_scenes
 from models.city.store.layout import MANIFEST as STORE_MANIFEST
-from models.errors import IndexBroken, IndexMismatch
+from models.errors import DataError, IndexBroken, IndexMismatch
 from models.files import FileRecord, sha256
 
 MANIFEST: Final = "manifest.json"
@@ -105,6 +105,8 @@ def fingerprint(data: Path, split: str | None = None, region: str | None = None)
     Raises:
         DataError: there is nothing to read.
     """
+    if not data.exists():
+        raise DataError(f"{data}: no such file or directory; give the path of a map")
     if data.is_file():
         files = [data]
     elif (data / STORE_MANIFEST).is_file():

@@ -10,7 +10,7 @@ from index.manifest import write_manifest
 from index.offline.build import IndexJob
 from index.offline.earlier import FILE
 from index.stores.faiss_store import FaissStore
-from models.errors import IndexBroken, IndexMismatch
+from models.errors import DataError, IndexBroken, IndexMismatch
 from models.retrieval import level_table
 from tests.told import told
 
@@ -126,3 +126,8 @@ def test_an_index_of_which_nothing_can_be_kept_is_refused(
         IndexJob(osm_file, out, weights_dir, update=True).build()
     with pytest.raises(IndexBroken, match="no index in"):
         IndexJob(osm_file, out / "elsewhere", weights_dir, update=True).build()
+
+
+def test_a_map_that_is_not_there_is_said(out, weights_dir) -> None:
+    with pytest.raises(DataError, match=r"away.osm.pbf: no such file or directory; give the path of a map"):
+        IndexJob(out / "away.osm.pbf", out, weights_dir, update=True).build()
