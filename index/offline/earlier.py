@@ -13,10 +13,11 @@ from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats
 from models.city.points import Ints
 from models.errors import IndexBroken
-from models.retrieval.instance_encoder import DIGEST
 from models.retrieval.level_table import STARTS_FILE
 
 FILE: Final = "encoded.npy"
+BYTES: Final = 5  # of a digest that are kept: a cell that changed is taken for one of a million once in a million times
+SHORT: Final = np.uint64((1 << 8 * BYTES) - 1)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,8 +25,8 @@ class Earlier:
     """Vectors, by what they were made of.
 
     Attributes:
-        digests: [N] of `CellFeatures.digests`, as numbers, ascending.
-        rows: [N] row of each in the store.
+        digests: [K] uint64 what `save_digests` kept, ascending.
+        rows: [K] row of each in the store.
         store: of all cells.
     """
 
@@ -52,13 +53,19 @@ class Earlier:
         lacks = lacks if FILE in manifest.files else "it does not say what they were made of"
         if lacks is not None:
             raise IndexBroken(f"{directory} has no vectors that can be kept: {lacks}; give --map in place of --update")
-        digests = _numbers(np.load(directory / FILE, allow_pickle=False))
+        short = np.load(directory / FILE, allow_pickle=False)
+        whole = np.zeros((len(short), 8), np.uint8)
+        whole[:, :BYTES] = short
+        digests = whole.view(np.uint64).ravel()
         rows = np.argsort(digests, kind="stable")
+        rows = rows[digests[rows] > 0]
         return cls(digests[rows], rows, FaissStore.load(directory / VECTORS_FILE))
 
     def known(self, digests: Ints) -> Ints:
-        """[C] the row of each that the version has; -1 of the others."""
-        wanted = _numbers(digests)
+        """[C] the row of each of `CellFeatures.digests` that the version has; -1 of the others."""
+        if not len(self.rows):
+            return np.full(len(digests), -1)
+        wanted = digests & SHORT
         place = np.minimum(np.searchsorted(self.digests, wanted), len(self.digests) - 1)
         return np.where(self.digests[place] == wanted, self.rows[place], -1)
 
@@ -67,8 +74,10 @@ class Earlier:
         return self.store.vectors(rows)
 
 
-def _numbers(digests: Ints) -> Ints:
-    """[N] of bytes [N, DIGEST]."""
-    whole = np.zeros((len(digests), 8), np.uint8)
-    whole[:, :DIGEST] = digests
-    return whole.view(np.uint64).ravel()
+def save_digests(directory: Path, digests: Ints) -> None:
+    """Keep some bytes of `CellFeatures.digests` [N]; of cells whose bytes are the same though they differ, zeros."""
+    short = digests & SHORT
+    order = np.lexsort((digests, short))
+    alike = (np.diff(short[order]) == 0) & (np.diff(digests[order]) != 0)
+    kept = np.where(np.isin(short, short[order[1:][alike]]), np.uint64(0), short)
+    np.save(directory / FILE, np.ascontiguousarray(kept.view(np.uint8).reshape(-1, 8)[:, :BYTES]))

@@ -28,7 +28,7 @@ from models.posterior.surroundings.scan_surroundings import FILE as SURROUNDINGS
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 from models.posterior.surroundings.surroundings import Surroundings
 from models.processes import give_back, map_forked
-from models.retrieval.instance_encoder import DIGEST, CellFeatures
+from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
@@ -44,7 +44,7 @@ class Part:
 
     Attributes:
         vectors: [C, D] float32, the global level.
-        digests: [C, ...] of what they were made of, `CellFeatures.digests`.
+        digests: [C] of what they were made of, `CellFeatures.digests`.
         levels: the others, if there are any.
         rows: of `statement_rows`.
         scanned: what lies around them, of a scan; None of a map of pieces, which finds that when it is asked for.
@@ -155,7 +155,7 @@ def _encoded(
     The vectors lie in a file without a name.
     """
     width, levels, labels = retriever.config.width, list[LevelTable](), np.array(data.gallery.labels)
-    digests: list[Ints] = [np.empty((0, DIGEST), np.uint8)]
+    digests: list[Ints] = [np.empty(0, np.uint64)]
     report("encode cells", 0, len(rows))
     spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
     with writing(room):

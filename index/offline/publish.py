@@ -13,8 +13,7 @@ from index.artifact import set_alias
 from index.asking.questions import landmarks_of
 from index.hint_features import save_hint_features, template_hints
 from index.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
-from index.offline.earlier import FILE as ENCODED_FILE
-from index.offline.earlier import Earlier
+from index.offline.earlier import Earlier, save_digests
 from index.offline.part import Part, writing
 from index.posterior.meaning import Meanings, meanings_of
 from index.stores.faiss_store import FaissStore
@@ -122,7 +121,7 @@ class Publisher:
 
     def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData, surroundings: Surroundings) -> None:
         """Write what the parts are joined to, but for the vectors, and what is said of them."""
-        np.save(directory / ENCODED_FILE, np.concatenate([part.digests for part in parts]))
+        save_digests(directory, np.concatenate([part.digests for part in parts]))
         levels = LevelTable.joined([part.levels for part in parts])
         if not levels.is_empty:
             levels.save(directory)

@@ -44,14 +44,17 @@ class FaissStore:
             vectors: float32.
             positions_m: see the class.
             bits: of each number, 32, 16 or 8; None by how many vectors there are.
-            like: a store that some of them are from; if all lie where its steps of 8 bits do, these stay as they are.
+            like: a store that some of them are from: if it has 8 bits, so has this, in the same steps, and what is from
+                there stays as it is; but for numbers of which some lie beyond the steps, which become longer.
         """
-        dim, bits = vectors.shape[1], bits or (8 if len(vectors) > EXACT else 32)
+        steps = None if like is None else like._steps_for(vectors)
+        dim, bits = vectors.shape[1], bits or (8 if len(vectors) > EXACT or steps is not None else 32)
         index: Any = faiss.IndexFlatIP(dim)
         if bits in QUANTIZED:
             index = faiss.IndexScalarQuantizer(dim, QUANTIZED[bits], faiss.METRIC_INNER_PRODUCT)
-            if bits == 8 and like is not None and like._rounds(vectors):
-                index.sq.trained, index.is_trained = like._index.sq.trained, True
+            if bits == 8 and steps is not None:
+                faiss.copy_array_to_vector(steps, index.sq.trained)
+                index.is_trained = True
             else:
                 index.train(np.ascontiguousarray(vectors))
         index.add(np.ascontiguousarray(vectors))
@@ -90,14 +93,18 @@ class FaissStore:
         ]
         return best_first(np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found]), k)
 
-    def _rounds(self, vectors: Floats) -> bool:
-        """Whether this rounds to 8 bits, and no number of these vectors lies beyond its steps."""
+    def _steps_for(self, vectors: Floats) -> Floats | None:
+        """[2 D] where the 8 bits of each number begin and how far they reach, for these too; None without 8 bits."""
         if getattr(self._index, "sq", None) is None or self._index.sq.qtype != QUANTIZED[8]:
-            return False
+            return None
         least, span = faiss.vector_to_array(self._index.sq.trained).reshape(2, -1)
-        half = span / 255 * 0.51  # a step: what was rounded to the last one lies so far beyond it
+        half = span / 255 * np.float32(0.51)  # a step: what was rounded to the last one lies so far beyond it
         low, high = vectors.min(axis=0, initial=np.inf), vectors.max(axis=0, initial=-np.inf)
-        return bool((low >= least - half).all() and (high <= least + span + half).all())
+        begin = np.where(low < least - half, low, least)
+        end = np.where(high > least + span + half, high, least + span)
+        is_same = (begin == least) & (end == least + span)
+        steps: Floats = np.concatenate([begin, np.where(is_same, span, end - begin)]).astype(np.float32)
+        return steps
 
     def _inside(self, within: Box) -> Rows:
         """The rows of the cells in a box."""

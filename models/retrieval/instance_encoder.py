@@ -35,7 +35,6 @@ PAPERS: tuple[Input, ...] = ("points", "colour", "position", "count")
 _log = logging.getLogger(__name__)
 _FORMAT = 2  # of what is kept of points; counted up when samples or what is made of them change
 KEYED_BY = 8  # cells whose points name what is kept
-DIGEST = 5  # bytes: of 10,000 cells that changed one is taken for another of a million once in a hundred times
 SEEN_AT_ONCE = 512  # instances whose points are looked at together, about
 
 
@@ -168,13 +167,13 @@ class CellFeatures:
         return CellFeatures(starts, self.geometry[rows], self.label[rows], self.labels, None, self.shape[rows])
 
     def digests(self) -> Ints:
-        """[N, DIGEST] uint8, the first bytes of a sum of all that an encoder is told of each cell, labels by name."""
+        """[N] uint64, the first bytes of a sum of all that an encoder is told of each cell, labels by name."""
         named = b"".join(hashlib.sha256(label.encode()).digest()[:8] for label in self.labels)
         label = np.frombuffer(named, np.uint64)[self.label]
         columns = self.geometry, label[:, None], self.shape
         rows = np.concatenate([np.ascontiguousarray(column).view(np.uint8) for column in columns], axis=1)
-        sums = (hashlib.sha256(rows[a:b].data).digest()[:DIGEST] for a, b in pairwise(self.starts.tolist()))
-        return np.frombuffer(b"".join(sums), np.uint8).reshape(-1, DIGEST)
+        sums = (hashlib.sha256(rows[a:b].data).digest()[:8] for a, b in pairwise(self.starts.tolist()))
+        return np.frombuffer(b"".join(sums), np.uint64)
 
     def batch(self, cells: npt.NDArray[Any]) -> "CellBatch":
         """Some cells, padded to the largest of them."""

@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 from cachetools import LRUCache, cachedmethod
+from scipy.ndimage import distance_transform_edt
 
 from models.city.gazetteer.drawing import Grid, Mask, draw_areas, draw_lines, pixels_of
 from models.city.gazetteer.gazetteer import Gazetteer
@@ -24,6 +25,7 @@ LARGE_M = 20.0  # areas that reach farther have samples inside
 LATTICE_M = 9.0  # between these
 BLOCK: Final = 4  # cells to each side
 NEAR_M: Final = 200.0  # as far as cells are looked at one by one
+MOST_FARTHER: Final = 30_000  # blocks beyond MOST_SQUARED
 DIAGONAL: Final = 1.5  # of a block, rounded up
 KEPT_BYTES = 16 * 2**20  # of distances that were asked for lately
 
@@ -77,13 +79,16 @@ class Raster:
         self.pixel_of = pixels_of(self._grid, centers_m).astype(np.int32)
         count = np.bincount(self.pixel_of, minlength=self.shape[0] * self.shape[1])
         self._cells_in = count.astype(np.float32).reshape(self.shape)
-        near_m = NEAR_M + DIAGONAL * BLOCK * spacing_m
-        self._reach = min(BLOCK + math.ceil(near_m / spacing_m), MOST_SQUARED)
-        self._block_reach = min(math.ceil(math.hypot(*self._blocks)), MOST_SQUARED)
+        self._reach = min(BLOCK + math.ceil(NEAR_M / spacing_m + DIAGONAL * BLOCK), MOST_SQUARED)
+        across = math.ceil(math.hypot(*self._blocks))
+        self._block_reach = min(across, MOST_SQUARED)
+        self._farther = min(across - self._block_reach, MOST_FARTHER)
         self.steps_m = _steps(self._reach) * np.float32(spacing_m)
-        apart_m = np.append(_steps(self._block_reach), np.float32(np.inf)) * np.float32(BLOCK * spacing_m)
-        self._is_near = apart_m <= near_m
-        self.block_steps_m = np.maximum(apart_m, np.float32(NEAR_M))  # what is nearer, pixels tell of
+        farther = np.arange(self._farther, dtype=np.float32) + np.float32(self._block_reach + 0.5)
+        apart = np.concatenate([_steps(self._block_reach), farther, np.array([np.inf], np.float32)])
+        apart_m, near_m = apart * np.float32(BLOCK * spacing_m), min(NEAR_M, self._reach * spacing_m)
+        self._is_near = apart_m <= near_m + DIAGONAL * BLOCK * spacing_m
+        self.block_steps_m = np.maximum(apart_m, np.float32(near_m))  # what is nearer, pixels tell of
         known = np.minimum(self.block_steps_m / spacing_m, self._reach)
         self._limits = (known * known).astype(np.uint16)  # squares up to which pixels of a near block tell
         large, shapes = gazetteer.is_area & (gazetteer.reach_m > LARGE_M), (gazetteer.segments_m, gazetteer.starts)
@@ -136,10 +141,22 @@ class Raster:
     def _away(self, groups: Sequence[Ints]) -> Away:
         """The same of pixels."""
         squares = np.stack([squares_away(columns_away(one, self.shape, self._reach), self._reach) for one in groups])
-        reach = self._block_reach
-        of_blocks = [squares_away(columns_away(self._block(one), self._blocks, reach), reach) for one in groups]
-        blocks = np.minimum(np.stack(of_blocks), np.uint16(reach**2 + 1))
-        return Away(squares, blocks, self._is_near[blocks].any(axis=0))
+        blocks = np.stack([self._blocks_away(self._block(one)) for one in groups])
+        is_near: Mask = np.logical_or.reduce(self._is_near[blocks], axis=0)
+        return Away(squares, blocks, is_near)
+
+    def _blocks_away(self, drawn: Ints) -> Squares:
+        """[blocks] the row of `block_steps_m` of each block, from some blocks."""
+        reach, nowhere = self._block_reach, self._block_reach**2 + 1 + self._farther
+        squares = squares_away(columns_away(drawn, self._blocks, reach), reach)
+        is_far = squares > reach**2
+        if len(drawn) and is_far.any():
+            empty = np.ones(self._blocks, np.bool_)
+            empty.ravel()[drawn] = False
+            farther = distance_transform_edt(empty)[is_far].astype(np.int64) - reach
+            squares[is_far] = np.minimum(reach**2 + 1 + farther, nowhere)
+        found: Squares = np.minimum(squares, np.uint16(nowhere))
+        return found
 
     def _block(self, pixels: Ints) -> Ints:
         """[n] block of each pixel."""

@@ -8,9 +8,10 @@ import pytest
 from index.artifact import open_version
 from index.manifest import write_manifest
 from index.offline.build import IndexJob
-from index.offline.earlier import FILE
+from index.offline.earlier import BYTES, FILE, Earlier, save_digests
 from index.stores.faiss_store import FaissStore
 from models.errors import DataError, IndexBroken, IndexMismatch
+from models.files import file_records
 from models.retrieval import level_table
 from tests.told import told
 
@@ -131,3 +132,19 @@ def test_an_index_of_which_nothing_can_be_kept_is_refused(
 def test_a_map_that_is_not_there_is_said(out, weights_dir) -> None:
     with pytest.raises(DataError, match=r"away.osm.pbf: no such file or directory; give the path of a map"):
         IndexJob(out / "away.osm.pbf", out, weights_dir, update=True).build()
+
+
+def test_cells_whose_digests_are_cut_to_the_same_bytes_are_encoded_anew(out, weights_dir, model) -> None:
+    directory, manifest = open_version(out)
+    digests = np.arange(1, manifest.cells + 1, dtype=np.uint64) << np.uint64(8)
+    digests[1] = digests[0]  # cells that are the same
+    digests[3] = digests[2] + np.uint64(1 << 8 * BYTES)  # and that are not
+    save_digests(directory, digests)
+    (out / "aliases.json").write_text(f'{{"default": "{directory.name}"}}')
+    write_manifest(
+        directory, manifest.model_copy(update={"files": manifest.files | {FILE: file_records(directory)[FILE]}})
+    )
+    known = Earlier.open(out, model.fingerprint).known(digests)
+    assert known[:5].tolist() == [0, 0, -1, -1, 4]
+    assert known[4:].tolist() == list(range(4, manifest.cells))
+    assert not (Earlier.open(out, model.fingerprint).known(digests + np.uint64(1)) >= 0).any()

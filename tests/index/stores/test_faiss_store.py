@@ -56,5 +56,11 @@ def test_8_bits_are_those_of_another_store_while_its_steps_reach(vectors) -> Non
     beyond = np.concatenate([rounded, 2 * rounded[:1]])
     wider = FaissStore.of(beyond, bits=8, like=first)
     np.testing.assert_allclose(wider.vectors(np.arange(len(beyond))), beyond, atol=np.ptp(beyond, axis=0).max() / 255)
+    for _ in range(20):  # each a little beyond the last, in one number
+        wider = FaissStore.of(beyond, like=wider)
+        beyond = np.concatenate([wider.vectors(np.arange(len(rounded))), [1.01 * wider.vectors(np.arange(1))[0]]])
+    step = np.ptp(beyond, axis=0) / 255
+    assert (np.abs(beyond[: len(rounded)] - rounded) <= 2.5 * step).all()
+    assert np.abs(np.mean((beyond[: len(rounded)] - rounded) / step)) < 0.1, "no drift to one side"
     assert FaissStore.of(rounded, bits=32, like=first).vectors(np.array([0])).tolist() == rounded[:1].tolist()
     assert len(FaissStore.of(rounded, bits=8, like=FaissStore.of(vectors))) == len(rounded)

@@ -77,6 +77,16 @@ def test_near_cells_are_true_to_the_grid_and_far_ones_to_their_block(wide) -> No
         assert np.abs(metres_m - truth).max() <= np.sqrt(2) * BLOCK * GRID_M
 
 
+@pytest.mark.parametrize(("spacing_m", "cells"), [(10.0, (1, 2000)), (1.0, (600, 3)), (50.0, (5, 300))])
+def test_far_cells_are_as_far_as_they_are_on_a_map_of_any_width(spacing_m, cells) -> None:
+    centers = np.stack(np.meshgrid(*(np.arange(count) * spacing_m for count in cells)), axis=-1).reshape(-1, 2)
+    town = build_gazetteer([Words(("x",))] * 2, [point(0, 0), point(9e7, 0)], [False] * 2)
+    raster = Raster(town, centers, spacing_m)
+    [found, nowhere] = raster.metres(raster.away([np.array([0]), np.array([1])]), np.arange(len(centers)))
+    assert np.abs(found - np.linalg.norm(centers, axis=1)).max() <= np.sqrt(2) * BLOCK * spacing_m
+    assert np.isinf(nowhere).all()
+
+
 def test_what_is_looked_up_is_what_each_cell_would_have(wide) -> None:
     raster, centers, _ = wide
     away, cells = raster.away(GROUPS), np.arange(len(centers))
