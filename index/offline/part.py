@@ -156,6 +156,7 @@ def _encoded(
     """
     width, levels, labels = retriever.config.width, list[LevelTable](), np.array(data.gallery.labels)
     digests: list[Ints] = [np.empty(0, np.uint64)]
+    kept = 0
     report("encode cells", 0, len(rows))
     spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
     with writing(room):
@@ -164,7 +165,9 @@ def _encoded(
         for span, features in zip(spans, CellFeatures.in_turn(data.cells, labels, spans), strict=True):
             seen = retriever.seen(features)
             digests.append(seen.digests())
-            vectors, table = _vectors_of(retriever, seen, digests[-1], earlier)
+            known = np.full(len(seen), -1) if earlier is None else earlier.known(digests[-1])
+            vectors, table = _vectors_of(retriever, seen, known, earlier)
+            kept += np.count_nonzero(known >= 0)
             with writing(room):
                 file.write(vectors.data)
                 file.flush()  # or each process that is forked next has it to write too
@@ -173,19 +176,17 @@ def _encoded(
         none = np.empty((0, width), np.float32)
         whole = np.memmap(file, np.float32, "r", shape=(len(rows), width)) if spans else none
     table = LevelTable.joined(levels) if levels else NO_LEVELS
-    told = np.concatenate(digests)
     if earlier is not None:
-        report(f"{np.count_nonzero(earlier.known(told) >= 0)} cells kept", 1, 1)
-    return whole, told, NO_LEVELS if table.is_empty else table
+        report(f"{kept} cells kept", 1, 1)
+    return whole, np.concatenate(digests), NO_LEVELS if table.is_empty else table
 
 
 def _vectors_of(
-    retriever: Retriever, cells: CellFeatures, digests: Ints, earlier: Earlier | None
+    retriever: Retriever, cells: CellFeatures, known: Ints, earlier: Earlier | None
 ) -> tuple[Floats, LevelTable]:
-    """Vectors [C, D] of some cells, which an earlier version may have, and the other levels."""
+    """Vectors [C, D] of some cells, some known [C] to an earlier version, and the other levels."""
     if earlier is None:
         return encode_gallery(retriever, cells, map_forked)
-    known = earlier.known(digests)
     kept, new = np.flatnonzero(known >= 0), np.flatnonzero(known < 0)
     vectors = np.empty((len(cells), retriever.config.width), np.float32)
     vectors[kept], vectors[new] = (
