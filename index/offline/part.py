@@ -167,7 +167,7 @@ def _encoded(
             digests.append(seen.digests())
             known = np.full(len(seen), -1) if earlier is None else earlier.known(digests[-1])
             vectors, table = _vectors_of(retriever, seen, known, earlier)
-            kept += np.count_nonzero(known >= 0)
+            kept += int((known >= 0).sum())
             with writing(room):
                 file.write(vectors.data)
                 file.flush()  # or each process that is forked next has it to write too
