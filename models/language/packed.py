@@ -1,23 +1,40 @@
-"""Attention layers that learn nothing more: their weights lie as oneDNN takes them, so that no text turns them over."""
+"""Attention layers that learn nothing more, in 8 bits: a quarter of the memory, and of the arithmetic some third.
+
+Each output of a linear layer has a scale for its weights, and each row that comes in has one of its own (the
+vector-wise quantization of LLM.int8(): Dettmers et al., NeurIPS 2022): what stands beside a text changes nothing.
+"""
 
 from collections.abc import Iterable, Mapping
 from typing import Any, Final
 
+import numpy as np
+import numpy.typing as npt
 import torch
 from torch import Tensor, nn
 
+from models.compiled import compiled
 from models.language.bert import Layer
 
 LEAST_ROWS: Final = 8  # that oneDNN is given; their number is a multiple of it
 USUAL_ROWS: Final = 64  # tokens of a text, for which weights are laid out
-HAS_ONEDNN: Final = torch.backends.mkldnn.is_available()
 HEADS: Final = ("query", "key", "value")
+MOST: Final = 127  # of 8 bits with a sign
+Floats32 = npt.NDArray[np.float32]
+
+
+def _adds_8_bits() -> bool:
+    """Whether the processor adds up products of 8 bits in 32: earlier ones cut them off at 16."""
+    able = torch.cpu.get_capabilities()
+    return torch.backends.mkldnn.is_available() and bool(able.get("avx512_vnni") or able.get("avx_vnni"))
+
+
+ADDS_8_BITS: Final = _adds_8_bits()
 
 
 def may_pack(layers: Iterable[nn.Module], values: Tensor) -> bool:
     """Whether layers can be packed to take values of this kind: on a CPU, where nothing is learnt."""
     is_plain = not torch.is_grad_enabled() and values.device.type == "cpu" and values.dtype == torch.float32
-    return HAS_ONEDNN and is_plain and all(isinstance(layer, Layer) for layer in layers)
+    return is_plain and all(isinstance(layer, Layer) for layer in layers)
 
 
 def rows_given(rows: int) -> int:
@@ -26,12 +43,47 @@ def rows_given(rows: int) -> int:
     return -(-rows // step) * step
 
 
-class PackedLayer:
-    """A `bert.Layer` but for the last bits, the three heads' weights in one matrix. What changes later is not seen.
+class PackedLinear:
+    """A linear layer with weights and rows in 8 bits; the same on any processor, but for the last bits.
 
-    Torch's own asks MKL, which on the processors of other makers than its own is half as fast, or has oneDNN turn the
-    weights over for each text, which takes as long as the arithmetic. oneDNN keeps machine code for every number of
-    rows that it has met, about a megabyte: so it meets few, with more rows below that nobody reads.
+    Args:
+        weight: [to, from].
+        bias: [to].
+        adds_8_bits: as the processor does; else whole numbers are multiplied as floats.
+    """
+
+    def __init__(self, weight: Tensor, bias: Tensor, adds_8_bits: bool = ADDS_8_BITS) -> None:
+        small, scale = to_8_bits(weight.detach().contiguous())
+        self._scale, self._bias = scale, bias.detach().numpy()
+        self._weight = small.T
+        self._adds_8_bits = adds_8_bits
+        if not adds_8_bits:
+            self._weight = small.float()
+            if torch.backends.mkldnn.is_available():  # twice as fast as MKL on processors of other makers than its own
+                self._weight = torch.ops.mkldnn._reorder_linear_weight(self._weight, USUAL_ROWS)
+
+    def __call__(self, x: Tensor) -> Tensor:
+        """[R, to] of rows [R, from]."""
+        small, scale = to_8_bits(x)
+        made = np.empty((len(x), len(self._bias)), np.float32)
+        _put_together(self._products(small).numpy(), scale, self._scale, self._bias, made)
+        return torch.from_numpy(made)
+
+    def _products(self, rows: Tensor) -> Tensor:
+        """[R, to] whole numbers."""
+        if self._adds_8_bits:
+            return torch._int_mm(rows, self._weight)
+        if self._weight.is_mkldnn:
+            made: Tensor = torch.ops.mkldnn._linear_pointwise(rows.float(), self._weight, None, "none", [], "")
+            return made
+        return nn.functional.linear(rows.float(), self._weight)
+
+
+class PackedLayer:
+    """A `bert.Layer` in 8 bits, the three heads' weights in one matrix. What changes later is not seen.
+
+    oneDNN keeps machine code for every number of rows that it has met, about a megabyte: so it meets few, with more
+    rows below that nobody reads.
 
     Args:
         layer: any.
@@ -42,9 +94,10 @@ class PackedLayer:
         own = {name: weight.detach() for name, weight in (weights or dict(layer.named_parameters())).items()}
         self._heads, self._eps = layer.heads, layer.output["LayerNorm"].eps
         heads = [f"attention.self.{name}" for name in HEADS]
-        self._told = _pack(*(torch.cat([own[f"{name}.{part}"] for name in heads]) for part in ("weight", "bias")))
+        weight, bias = (torch.cat([own[f"{name}.{part}"] for name in heads]) for part in ("weight", "bias"))
+        self._told = PackedLinear(weight, bias)
         self._mixed, self._wide, self._narrow = (
-            _pack(own[f"{name}.weight"], own[f"{name}.bias"])
+            PackedLinear(own[f"{name}.weight"], own[f"{name}.bias"])
             for name in ("attention.output.dense", "intermediate.dense", "output.dense")
         )
         self._norms = [
@@ -54,13 +107,13 @@ class PackedLayer:
     def __call__(self, x: Tensor, size: torch.Size, shut: Tensor | None) -> Tensor:
         """[R, W] of rows [R, W], the first of which are those of tokens [S, T, W]; shut as `shut_of`."""
         texts, tokens, width = size
-        heads = _linear(x, self._told)[: texts * tokens].view(texts, tokens, 3, self._heads, -1).permute(2, 0, 3, 1, 4)
+        heads = self._told(x)[: texts * tokens].view(texts, tokens, 3, self._heads, -1).permute(2, 0, 3, 1, 4)
         told = nn.functional.scaled_dot_product_attention(heads[0], heads[1], heads[2], shut)
         rows = told.transpose(1, 2).reshape(texts * tokens, width)
         rows = nn.functional.pad(rows, (0, 0, 0, len(x) - len(rows)))
-        x = nn.functional.layer_norm(_linear(rows, self._mixed) + x, (width,), *self._norms[0], self._eps)
-        wide = torch.ops.mkldnn._linear_pointwise(x, *self._wide, "gelu", [], "none")
-        return nn.functional.layer_norm(_linear(wide, self._narrow) + x, (width,), *self._norms[1], self._eps)
+        x = nn.functional.layer_norm(self._mixed(rows) + x, (width,), *self._norms[0], self._eps)
+        wide = nn.functional.gelu(self._wide(x))
+        return nn.functional.layer_norm(self._narrow(wide) + x, (width,), *self._norms[1], self._eps)
 
 
 def run_packed(layers: Iterable[PackedLayer], hidden: Tensor, mask: Tensor) -> Tensor:
@@ -82,10 +135,32 @@ def shut_of(mask: Tensor, hidden: Tensor) -> Tensor | None:
     return shut[:, None, None]
 
 
-def _pack(weight: Tensor, bias: Tensor) -> tuple[Tensor, Tensor]:
-    return torch.ops.mkldnn._reorder_linear_weight(weight.contiguous(), USUAL_ROWS), bias
+def to_8_bits(x: Tensor) -> tuple[Tensor, Floats32]:
+    """Rows [R, K] as whole numbers of at most MOST, int8, and the scale [R] that each is in."""
+    small, scale = np.empty(x.shape, np.int8), np.empty(len(x), np.float32)
+    _to_8_bits(x.numpy(), small, scale)
+    return torch.from_numpy(small), scale
 
 
-def _linear(x: Tensor, weights: tuple[Tensor, Tensor]) -> Tensor:
-    made: Tensor = torch.ops.mkldnn._linear_pointwise(x, *weights, "none", [], "")
-    return made
+@compiled
+def _to_8_bits(x: Floats32, small: npt.NDArray[np.int8], scale: Floats32) -> None:
+    bits, most = x.view(np.int32), scale.view(np.int32)  # without its sign a float is in the order of its bits
+    for r in range(len(x)):
+        top = np.int32(0)
+        for k in range(x.shape[1]):
+            here = bits[r, k] & np.int32(0x7FFFFFFF)
+            top = here if here > top else top
+        most[r] = top
+    for r in range(len(x)):
+        scale[r] = scale[r] / np.float32(MOST) if scale[r] > 0 else np.float32(1)
+        parts = np.float32(1) / scale[r]
+        for k in range(x.shape[1]):
+            small[r, k] = np.int8(np.rint(x[r, k] * parts))
+
+
+@compiled
+def _put_together(products: Any, rows: Floats32, columns: Floats32, bias: Floats32, made: Floats32) -> None:
+    """Fill in products [R, N] in the scales of their rows [R] and columns [N], plus bias [N]."""
+    for r in range(len(made)):
+        for n in range(made.shape[1]):
+            made[r, n] = np.float32(products[r, n]) * (rows[r] * columns[n]) + bias[n]

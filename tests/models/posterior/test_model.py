@@ -31,7 +31,7 @@ def test_the_shipped_names_are_the_lexicons() -> None:
     phrases, _ = matcher.lexicon.names_in(MAP)
     some = range(0, len(phrases), 40)
     fresh = model.reader.text_encoder.embed([phrases[n].lower().replace("-", " ") for n in some])
-    assert torch.allclose(bound.names[list(some)], fresh, atol=2e-4), "but for half precision"
+    assert ((bound.names[list(some)] * fresh).sum(dim=1) > 0.98).all(), "but for half precision, and layers in 8 bits"
 
 
 def test_a_changed_lexicon_changes_the_fingerprint_and_is_embedded_anew(tmp_path, other_lexicon, caplog) -> None:
