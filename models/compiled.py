@@ -12,9 +12,9 @@ HALVES: Final = np.arange(1 << 16, dtype=np.uint16).view(np.float16).astype(np.f
 def compiled(function: Any) -> Any:
     """A function as machine code, kept for the next process where it may be written; x / 0 is as NumPy has it."""
     try:
-        return numba.njit(cache=True, error_model="numpy")(function)
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
     except RuntimeError:  # a read-only installation, and no home
-        return numba.njit(error_model="numpy")(function)
+        return numba.njit(error_model="numpy", nogil=True)(function)
 
 
 @compiled

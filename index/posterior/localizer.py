@@ -249,8 +249,9 @@ class PosteriorLocalizer:
         sentences = self.binding.sentences(hints, reading)
         if not sentences:
             return lambda: np.empty(0, np.int64)
-        found = beside.submit(self.ranker.search, [self.ranker.retriever.encode_description(sentences)], CANDIDATES)
-        return lambda: found.result()[1][0]
+        encode, search = self.ranker.retriever.encode_description, self.ranker.search
+        found = beside.submit(lambda: search([encode(sentences)], CANDIDATES)[1][0])
+        return found.result
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
         """Descriptions in the retriever's words, as far as they were read: template sentences of the map's classes."""

@@ -41,29 +41,28 @@ class NodeLikelihood:
         habit = likelihood.habit.log_softmax(0).double().numpy()
         by_way = likelihood.log_pi().exp().numpy()
         self._weights = sector, by_way, ranks, likelihood.among.double().numpy(), numbers, habit
-        self._least = FAINT / (1.0 + float(likelihood.relation_slip.exp()))  # what fits less does so in no direction
-        self._lately: tuple[Reading, Floats] | None = None
-        self._place = np.full(len(label), -1, np.int32)  # of things among those of a text; -1 between texts
+        self._slip, self._measured = (float(x.exp()) for x in (likelihood.relation_slip, likelihood.measured))
+        self._least = FAINT / (1.0 + self._slip)  # what fits less does so in no direction
+        # Of things among those of a text, -1 between texts; one for each thread that asks.
+        self._place = [np.full(len(label), -1, np.int32)]
 
     @torch.inference_mode()
     def log_p(self, reading: Reading, around: Around, nodes: int) -> Floats:
         """[M] log p(T | x) of so many nodes."""
-        parts, part = _distinct(around.part, self._place)
+        place = self._place.pop() if self._place else np.full(len(self._label), -1, np.int32)
+        parts, part = _distinct(around.part, place)
+        self._place.append(place)
         chosen, model = torch.from_numpy(parts), self._model
         label = self._label.index_select(0, chosen)
         fits = model.parts(reading, label, self._words(chosen)).numpy()
         said = torch.stack([reading.absent, model.chance(reading, self._usual)]).double().numpy()
+        said_m = reading.distance_m.double().numpy()
+        told = np.column_stack([reading.relation.double().numpy(), said_m, self._measured * said_m + 1.0])
         log_p: Floats = _log_p(
-            nodes, around.node, part, around.way, around.whole, label.numpy(), fits, self._places(reading), self._least,
-            said, *self._weights,
+            nodes, around.node, part, around.way, around.whole, label.numpy(), fits, self._ways.numpy(), told,
+            self._slip, self._least, said, *self._weights,
         )  # fmt: skip
         return log_p
-
-    def _places(self, reading: Reading) -> Floats:
-        """[65536, H] p(direction) p(distance) of every way; what was made last is kept, a text is asked of twice."""
-        if self._lately is None or self._lately[0] is not reading:
-            self._lately = reading, self._model.places(reading, self._ways).numpy()
-        return self._lately[1]
 
 
 @compiled
@@ -83,8 +82,8 @@ def _distinct(part: Ints, place: Ints) -> tuple[Ints, Ints]:
 @compiled
 def _log_p(
     nodes: int, node: Ints, part: Ints, way: Ints, whole: npt.NDArray[np.bool_], label: Ints, fits: Floats,
-    places: Floats, least: float, said: Floats, sector_of: Ints, by_way: Floats, ranks: Floats, among: Floats,
-    numbers: Floats, habit: Floats,
+    ways: Floats, told: Floats, slip: float, least: float, said: Floats, sector_of: Ints, by_way: Floats, ranks: Floats,
+    among: Floats, numbers: Floats, habit: Floats,
 ) -> Floats:  # fmt: skip
     """[M] log p(T | x).
 
@@ -96,7 +95,9 @@ def _log_p(
         whole: [R] likewise.
         label: [P] of each part.
         fits: [P, H] p(class) p(colour).
-        places: [65536, H] p(direction) p(distance) of each way.
+        ways: [65536, 11] p(relation) of each way; last, its metres.
+        told: [H, 12] p(relation) of each hint, the metres that it says, NaN for none, and their spread.
+        slip: chance of a wrong direction.
         least: what fits a hint less than this is left to chance in any direction.
         said: [2, H] chance that the text says there is none of it, and of what nothing explains.
         sector_of: [65536] of each way.
@@ -120,7 +121,7 @@ def _log_p(
             here[r], sector[r] = label[part[end]], sector_of[number[r]]
             for h in range(hints):
                 if fits[part[end], h] > least:
-                    chance = fits[part[end], h] * places[number[r], h]
+                    chance = fits[part[end], h] * _place(ways[number[r]], told[h], slip)
                     if chance > FAINT:
                         row[pairs], hint[pairs], fit[pairs] = r, h, chance
                         pairs += 1
@@ -132,6 +133,19 @@ def _log_p(
             log_p[node[begin]] = _of_node(row[:pairs], hint, fit, share, said, numbers, habit, sums, load)
         begin = end
     return log_p
+
+
+@compiled
+def _place(way: Floats, told: Floats, slip: float) -> float:
+    """p(direction) p(distance) of a way [11] for a hint [12], as `Likelihood.places`."""
+    place, relations = slip, len(way) - 1
+    for n in range(relations):
+        place += way[n] * told[n]
+    said_m, spread = told[relations], told[relations + 1]
+    if not np.isnan(said_m):
+        off = (way[relations] - said_m) / spread
+        place *= np.exp(-0.5 * off * off)
+    return place
 
 
 @compiled

@@ -106,71 +106,68 @@ def _ways_to_groups(
     crown_m: Floats, segment_starts: Ints, segments: Steps,
 ) -> tuple[Floats, Floats, Floats]:  # fmt: skip
     """[G, P] squared distance and way of points from the closest point of groups of pieces; squares -1 beyond reach."""
-    shape, count = (len(starts) - 1, len(points_m)), len(points_m)
-    best, best_x, best_y = np.full(shape, -1.0), np.empty(shape), np.empty(shape)
+    shape, count, beyond = (len(starts) - 1, len(points_m)), len(points_m), reach_m * reach_m
+    best, best_x, best_y = np.full(shape, beyond), np.empty(shape), np.empty(shape)
     x, y, inside = np.empty(count), np.empty(count), np.empty(count)
-    square, nearest = np.empty(count), np.empty(count)
     box_m = np.array([points_m[:, 0].min(), points_m[:, 1].min(), points_m[:, 0].max(), points_m[:, 1].max()])
     for g in range(len(best)):
+        best_x[g] = np.inf
         for k in order[starts[g] : starts[g + 1]]:
-            if _square_apart(bounds_m[k], box_m[0], box_m[1], box_m[2], box_m[3]) > reach_m * reach_m:
+            if _square_apart(bounds_m[k], box_m) > beyond:
                 continue
             ends = segments[segment_starts[k] : segment_starts[k + 1]]
             for p in range(count):
                 x[p], y[p] = points_m[p, 0] - tile[k, 0] * TILE_M, points_m[p, 1] - tile[k, 1] * TILE_M
-            _nearest_segments(x, y, ends, square, nearest)
-            inside[:] = 0.0
+            if crown_m[k] > 0.0:
+                _to_crown(x, y, ends, crown_m[k], best[g], best_x[g], best_y[g])
+            else:
+                _to_segments(x, y, ends, best[g], best_x[g], best_y[g])
             if form[k] == AREA:
                 _insides(x, y, ends, inside)
-            for p in range(count):
-                most = reach_m * reach_m if best[g, p] < 0.0 else best[g, p]
-                if crown_m[k] == 0.0 and square[p] > most and inside[p] == 0.0:
-                    continue
-                if _square_apart(bounds_m[k], points_m[p, 0], points_m[p, 1], points_m[p, 0], points_m[p, 1]) > most:
-                    continue
-                this, way_x, way_y = 0.0, 0.0, 0.0
-                if inside[p] == 0.0:
-                    this, way_x, way_y = _way_to_segment(x[p], y[p], ends[int(nearest[p])], crown_m[k])
-                if this <= most:
-                    best[g, p], best_x[g, p], best_y[g, p] = this, way_x, way_y
+                for p in range(count):
+                    if inside[p] == 1.0:
+                        best[g, p], best_x[g, p], best_y[g, p] = 0.0, 0.0, 0.0
+        for p in range(count):
+            best[g, p] = -1.0 if best_x[g, p] == np.inf else best[g, p]
     return best, best_x, best_y
 
 
 @compiled
-def _square_apart(bounds_m: Floats, west: float, south: float, east: float, north: float) -> float:
+def _square_apart(bounds_m: Floats, other_m: Floats) -> float:
     """The square of how far two boxes are apart."""
-    away_x = max(bounds_m[0] - east, 0.0, west - bounds_m[2])
-    away_y = max(bounds_m[1] - north, 0.0, south - bounds_m[3])
+    away_x = max(bounds_m[0] - other_m[2], 0.0, other_m[0] - bounds_m[2])
+    away_y = max(bounds_m[1] - other_m[3], 0.0, other_m[1] - bounds_m[3])
     square: float = away_x * away_x + away_y * away_y
     return square
 
 
 @compiled
-def _nearest_segments(x: Floats, y: Floats, segments: Steps, square: Floats, nearest: Floats) -> None:
-    """Fill in the squared distance of points, seen from the middle of a tile, from the nearest of some segments.
+def _to_segments(x: Floats, y: Floats, segments: Steps, best: Floats, best_x: Floats, best_y: Floats) -> None:
+    """Improve the squared distance and the way of points, seen from the middle of a tile, to the nearest segment.
 
     Segment by segment, without a branch in the loop over points: so the processor takes several of them at once.
     """
-    square[:], nearest[:] = np.inf, 0.0
     for s in range(len(segments)):
         x1, y1 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M
         along_x, along_y = segments[s, 2] * STEP_M - x1, segments[s, 3] * STEP_M - y1
         length = along_x * along_x + along_y * along_y
-        length, number = (length if length > 0.0 else 1.0), float(s)
+        length = length if length > 0.0 else 1.0
         for p in range(len(x)):
             from_x, from_y = x[p] - x1, y[p] - y1
             share = (from_x * along_x + from_y * along_y) / length
             share = 0.0 if share < 0.0 else share
             share = 1.0 if share > 1.0 else share
             way_x, way_y = from_x - share * along_x, from_y - share * along_y
-            this, so_far = way_x * way_x + way_y * way_y, square[p]
-            square[p] = this if this < so_far else so_far
-            nearest[p] = number if this < so_far else nearest[p]
+            this, so_far = way_x * way_x + way_y * way_y, best[p]
+            best[p] = this if this <= so_far else so_far
+            best_x[p] = way_x if this <= so_far else best_x[p]
+            best_y[p] = way_y if this <= so_far else best_y[p]
 
 
 @compiled
 def _insides(x: Floats, y: Floats, segments: Steps, inside: Floats) -> None:
-    """Turn 0 into 1 and 1 into 0 for points that see an odd number of segments in the east."""
+    """1 for points that see an odd number of segments in the east, else 0."""
+    inside[:] = 0.0
     for s in range(len(segments)):
         x1, y1, y2 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M, segments[s, 3] * STEP_M
         along_x, along_y = segments[s, 2] * STEP_M - x1, y2 - y1
@@ -180,15 +177,16 @@ def _insides(x: Floats, y: Floats, segments: Steps, inside: Floats) -> None:
 
 
 @compiled
-def _way_to_segment(x: float, y: float, segment: Steps, crown_m: float) -> tuple[float, float, float]:
-    """Squared distance and way of a point, seen from the middle of a tile, from a segment [4] or the crown round it."""
-    x1, y1 = segment[0] * STEP_M, segment[1] * STEP_M
-    along_x, along_y, from_x, from_y = segment[2] * STEP_M - x1, segment[3] * STEP_M - y1, x - x1, y - y1
-    length = along_x * along_x + along_y * along_y
-    share = min(1.0, max(0.0, (from_x * along_x + from_y * along_y) / length)) if length > 0.0 else 0.0
-    way_x, way_y = from_x - share * along_x, from_y - share * along_y
-    square = way_x * way_x + way_y * way_y
-    if square > 16.0 * crown_m * crown_m > 0.0:  # as `crown_reach_m`
-        nearer = 1.0 - crown_m / np.sqrt(square + 9.0 * crown_m * crown_m)
-        return square * nearer * nearer, way_x * nearer, way_y * nearer
-    return square, way_x, way_y
+def _to_crown(
+    x: Floats, y: Floats, segments: Steps, crown_m: float, best: Floats, best_x: Floats, best_y: Floats
+) -> None:
+    """As `_to_segments`, to the crown round a tree's trunk, which reaches nearer, as `crown_reach_m`."""
+    trunk, trunk_x, trunk_y = np.full(len(x), np.inf), np.empty(len(x)), np.empty(len(x))
+    _to_segments(x, y, segments, trunk, trunk_x, trunk_y)
+    for p in range(len(x)):
+        nearer = 1.0
+        if trunk[p] > 16.0 * crown_m * crown_m:
+            nearer -= crown_m / np.sqrt(trunk[p] + 9.0 * crown_m * crown_m)
+        this = trunk[p] * nearer * nearer
+        if this <= best[p]:
+            best[p], best_x[p], best_y[p] = this, trunk_x[p] * nearer, trunk_y[p] * nearer

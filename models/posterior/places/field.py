@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log, pi, radians
+from threading import Lock
 from typing import Final
 
 import numpy as np
@@ -82,6 +83,7 @@ class PlaceField:
         self.kernels, self.gazetteer, self._centers_m = kernels, gazetteer, centers_m
         self._of_ways = WayKernels(kernels)
         self._lately: LRUCache[Mention, tuple[Floats, Ints, npt.NDArray[np.bool_]]] = LRUCache(KEPT)
+        self._lock = Lock()  # two threads ask for ways
         self.raster = Raster(gazetteer, centers_m, spacing_m)
         self._walkways: Walkways | None = None
         if WALKED in gazetteer.by_kind:
@@ -176,7 +178,7 @@ class PlaceField:
         """As `ways`, of positions that are grouped already."""
         return ways_to(around, *self._outline(mention), self._reach_m(mention))
 
-    @cachedmethod(lambda field: field._lately)
+    @cachedmethod(lambda field: field._lately, lock=lambda field: field._lock)
     def _outline(self, mention: Mention) -> tuple[Floats, Ints, npt.NDArray[np.bool_]]:
         """Segments, starts and `is_area` of what a mention may mean; a text asks for them again and again."""
         segments, starts, is_area = cut(self.gazetteer, mention.objects)
