@@ -8,11 +8,12 @@ import numpy.typing as npt
 import torch
 from torch import Tensor
 
+from models.city.colours import Palette
 from models.city.points import Ints
 from models.city.types import Floats
 from models.compiled import compiled
 from models.posterior.likelihood import FAINT, HABITS, SPOKEN, Likelihood, Reading
-from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, count_ranks
+from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, colour_words, count_ranks
 from models.posterior.surroundings.around import Around
 
 TINY: Final = 1e-200  # a product of chances goes into the sum of their logarithms before it is smaller
@@ -25,14 +26,19 @@ class NodeLikelihood:
     Args:
         likelihood: fitted.
         label: [P] label of each of a map's things.
-        words: says the chance of each colour word [n, W] of some things [n].
+        rgb: [P, 3] colour of each, 0..1, NaN where unknown.
+        palette: the map's colour words.
         usual: as `usual_statements`.
     """
 
     @torch.inference_mode()
-    def __init__(self, likelihood: Likelihood, label: Tensor, words: Callable[[Tensor], Tensor], usual: Tensor) -> None:
-        self._model, self._label, self._words, self._usual = likelihood, label, words, usual
-        self._ways, sector = likelihood.ways(), SECTOR_OF_WAY.numpy().astype(np.int8)
+    def __init__(self, likelihood: Likelihood, label: Tensor, rgb: Tensor, palette: Palette, usual: Tensor) -> None:
+        self._model, self._usual = likelihood, usual
+        names, centers = colour_words(palette), np.array(palette.centers, np.float64) / 255
+        column = np.array([names.index(word) for word in palette.words])
+        chances = likelihood.colour_spread, likelihood.colour_slip, likelihood.unknown_colour
+        self._things = label.numpy(), rgb.numpy(), centers, column, np.array([float(x.exp()) for x in chances])
+        self._ways, sector = likelihood.ways().numpy(), SECTOR_OF_WAY.numpy().astype(np.int8)
         ranks = np.ones((len(RANKS), max(RANKS), HABITS))
         for n, weights in enumerate(likelihood.ranks):
             ranks[n, : len(weights)] = weights.exp().numpy()
@@ -47,22 +53,55 @@ class NodeLikelihood:
         self._place = [np.full(len(label), -1, np.int32)]
 
     @torch.inference_mode()
-    def log_p(self, reading: Reading, around: Around, nodes: int) -> Floats:
-        """[M] log p(T | x) of so many nodes."""
-        place = self._place.pop() if self._place else np.full(len(self._label), -1, np.int32)
-        parts, part = _distinct(around.part, place)
-        self._place.append(place)
-        chosen, model = torch.from_numpy(parts), self._model
-        label = self._label.index_select(0, chosen)
-        fits = model.parts(reading, label, self._words(chosen)).numpy()
-        said = torch.stack([reading.absent, model.chance(reading, self._usual)]).double().numpy()
+    def of(self, reading: Reading) -> Callable[[Around, int], Floats]:
+        """What gives [M] log p(T | x) of what is around so many nodes; two threads may ask at once."""
+        said = torch.stack([reading.absent, self._model.chance(reading, self._usual)]).double().numpy()
         said_m = reading.distance_m.double().numpy()
         told = np.column_stack([reading.relation.double().numpy(), said_m, self._measured * said_m + 1.0])
-        log_p: Floats = _log_p(
-            nodes, around.node, part, around.way, around.whole, label.numpy(), fits, self._ways.numpy(), told,
-            self._slip, self._least, said, *self._weights,
-        )  # fmt: skip
+        read = reading.label.double().numpy(), reading.colour.double().numpy()
+
+        def log_p(around: Around, nodes: int) -> Floats:
+            place = self._place.pop() if self._place else np.full(len(self._things[0]), -1, np.int32)
+            parts, part = _distinct(around.part, place)
+            self._place.append(place)
+            label, fits = _fits(parts, *self._things, *read)
+            found: Floats = _log_p(
+                nodes, around.node, part, around.way, around.whole, label, fits, self._ways, told, self._slip,
+                self._least, said, *self._weights,
+            )  # fmt: skip
+            return found
+
         return log_p
+
+
+@compiled
+def _fits(
+    parts: Ints, label_of: Ints, rgb_of: Floats, centers: Floats, column: Ints, chances: Floats, label_read: Floats,
+    colour_read: Floats,
+) -> tuple[Ints, Floats]:  # fmt: skip
+    """Labels [P] and p(class) p(colour) [P, H] of some things, as `Likelihood.parts` and `Likelihood.words`."""
+    words, (spread, slip, unknown) = colour_read.shape[1] - 1, chances
+    label, fits = np.empty(len(parts), np.int64), np.empty((len(parts), len(label_read)))
+    square, chance = np.empty(len(centers)), np.empty(words)
+    for n in range(len(parts)):
+        label[n] = label_of[parts[n]]
+        rgb = rgb_of[parts[n]]
+        chance[:] = slip
+        for c in range(len(centers)):
+            square[c] = (rgb[0] - centers[c, 0]) ** 2 + (rgb[1] - centers[c, 1]) ** 2 + (rgb[2] - centers[c, 2]) ** 2
+        if np.isnan(square[0]):
+            chance[:] = unknown
+        else:
+            square[:] = np.exp((square.min() - square) / (2 * spread * spread))
+            total = square.sum()
+            for c in range(len(centers)):
+                chance[column[c]] += square[c] / total
+        for h in range(len(label_read)):
+            colour = colour_read[h, words]
+            for w in range(words):
+                colour += chance[w] * colour_read[h, w]
+            fits[n, h] = label_read[h, label[n]] * colour
+    return label, fits
 
 
 @compiled

@@ -25,7 +25,7 @@ from models.posterior.statements import Statements
 from models.posterior.surroundings.nodes import is_coarse
 from models.posterior.surroundings.surroundings import Surroundings
 
-SHARED: Final = 512  # nodes, of which two threads have half each, as machine code lets them
+SHARED: Final = 512  # nodes from which on two threads look at them, as machine code lets them
 CANDIDATES = 100  # cells whose nodes are looked at
 LogPrior = Callable[[Floats], Floats]
 
@@ -93,7 +93,7 @@ class HintPosterior:
         self._palette = palette
         self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
         self._ways, self._log_pi = likelihood.ways(), likelihood.log_pi()
-        self._nodes = NodeLikelihood(likelihood, self._label, self._words, self.usual)
+        self._nodes = NodeLikelihood(likelihood, self._label, self._rgb, palette, self.usual)
         self.statements = statements or Statements.of(
             likelihood, surroundings, self._label, self._rgb, likelihood.words(self._rgb, palette)
         )
@@ -137,13 +137,14 @@ class HintPosterior:
         if coarse is not None:
             kept = is_coarse(positions_m) == coarse
             nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
+        of_reading = None if reading is None else self._nodes.of(reading)
 
-        def of(some: slice) -> Floats:
+        def of(some: Ints) -> Floats:
             n = nodes[some]
-            log_p = np.zeros(len(n)) if reading is None else self._nodes.log_p(reading, s.around(n), len(n))
+            log_p = np.zeros(len(n)) if of_reading is None else of_reading(s.around(n), len(n))
             return log_p if told is None else log_p + told.at(positions_m[some], cell[some])
 
-        log_p = _in_halves(of, cell)
+        log_p = _shared_out(of, cell)
         if answered is not None:
             log_p = log_p + answered.at(nodes)
         if log_prior is not None:
@@ -176,12 +177,14 @@ class HintPosterior:
         ]
 
 
-def _in_halves(log_p: Callable[[slice], Floats], cell: Ints) -> Floats:
-    """[M] of nodes in order of cell [M]; where there are many, of half of the cells by another thread."""
-    half = int(np.searchsorted(cell, cell[len(cell) // 2])) if len(cell) > SHARED else 0
-    if not half:
-        return log_p(slice(None))
+def _shared_out(log_p: Callable[[Ints], Floats], cell: Ints) -> Floats:
+    """[M] of nodes in order of cell [M]; where there are many, of every second cell by another thread."""
+    if len(cell) <= SHARED:
+        return log_p(np.arange(len(cell)))
+    found, odd = np.empty(len(cell)), cell % 2 == 1
+    mine, its = np.flatnonzero(~odd), np.flatnonzero(odd)
     with ThreadPoolExecutor(1) as beside:
-        first = beside.submit(log_p, slice(half))
-        second = log_p(slice(half, None))
-        return np.concatenate([first.result(), second])
+        later = beside.submit(log_p, its)
+        found[mine] = log_p(mine)
+        found[its] = later.result()
+    return found

@@ -44,14 +44,15 @@ def reading(rng, hints, absent, metres) -> Reading:
 def test_it_is_what_torch_makes_of_it(model, hints, absent, metres) -> None:
     rng = np.random.default_rng(hints)
     label, rgb = torch.from_numpy(rng.integers(0, LABELS, THINGS)), torch.from_numpy(rng.random((THINGS, 3))).float()
+    rgb[::5] = math.nan
     label[:LABELS] = torch.arange(LABELS)
     usual = usual_statements(label, rgb, torch.ones(THINGS), KITTI360_PALETTE)
     with torch.no_grad():
-        compiled = NodeLikelihood(model, label, model.words(rgb, KITTI360_PALETTE).__getitem__, usual)
+        compiled = NodeLikelihood(model, label, rgb, KITTI360_PALETTE, usual)
         for _ in range(3):
             around, said = surroundings(rng), reading(rng, hints, absent, metres)
             expected = model(said, NodeBatch.of(around, NODES, label, rgb), KITTI360_PALETTE, usual)
-            assert np.allclose(compiled.log_p(said, around, NODES), expected.numpy(), rtol=1e-4, atol=1e-4)
+            assert np.allclose(compiled.of(said)(around, NODES), expected.numpy(), rtol=1e-4, atol=1e-4)
 
 
 def test_a_long_text_does_not_vanish(model) -> None:
@@ -59,7 +60,7 @@ def test_a_long_text_does_not_vanish(model) -> None:
     rng, label, rgb = np.random.default_rng(0), torch.arange(THINGS) % LABELS, torch.rand(THINGS, 3)
     usual = usual_statements(label, rgb, torch.ones(THINGS), KITTI360_PALETTE)
     with torch.no_grad():
-        compiled = NodeLikelihood(model, label, model.words(rgb, KITTI360_PALETTE).__getitem__, usual)
+        compiled = NodeLikelihood(model, label, rgb, KITTI360_PALETTE, usual)
         around, said = surroundings(rng), reading(rng, 200, 0.0, math.nan)
         expected = model(said, NodeBatch.of(around, NODES, label, rgb), KITTI360_PALETTE, usual)
-        assert np.allclose(compiled.log_p(said, around, NODES), expected.numpy(), rtol=1e-4)
+        assert np.allclose(compiled.of(said)(around, NODES), expected.numpy(), rtol=1e-4)
