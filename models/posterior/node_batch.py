@@ -15,6 +15,7 @@ from models.posterior.surroundings.around import STEP_M, Around
 
 RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
 MOST: Final = tuple(size - 1 for size in RANKS)
+SECTORS: Final = 5
 OFFSET: Final = 128  # ways are int8; a pair of them numbers a row of the tables
 
 
@@ -77,29 +78,33 @@ def ranks_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
 @compiled
 def _count(node: Ints, label: Ints, sector: Ints, ranks: Ints) -> None:
     """Fill `ranks` for rows that are in order of node."""
-    begin, rows = 0, len(node)
+    begin, rows, counts = 0, len(node), no_counts(label)
     while begin < rows:
         end = begin + 1
         while end < rows and node[end] == node[begin]:
             end += 1
-        count_ranks(label[begin:end], sector[begin:end], ranks[begin:end])
+        count_ranks(begin, end, label, sector, counts, ranks)
         begin = end
 
 
 @compiled
-def count_ranks(label: Ints, sector: Ints, ranks: Ints) -> None:
-    """Fill `ranks` [R, 5], see `ranks_of`, for rows of one node: there are few, so that any two are compared."""
-    for i in range(len(label)):
-        alike, beside = 0, 0
-        for j in range(i):
-            if label[j] == label[i]:
-                alike += 1
-                ranks[j, 3] += 1
-            if sector[j] == sector[i]:
-                beside += 1
-                ranks[j, 4] += 1
-        ranks[i, 0], ranks[i, 1], ranks[i, 2] = min(i, MOST[0]), min(alike, MOST[1]), min(beside, MOST[2])
-        ranks[i, 3], ranks[i, 4] = alike + 1, beside + 1
+def no_counts(label: Ints) -> Ints:
+    """A zero for each label [R], then for each sector."""
+    return np.zeros((label.max() + 1 if len(label) else 0) + SECTORS, np.int64)
+
+
+@compiled
+def count_ranks(begin: int, end: int, label: Ints, sector: Ints, counts: Ints, ranks: Ints) -> None:
+    """Fill `ranks` [R, 5], see `ranks_of`, of one node's rows; `counts` are as `no_counts`, before and after."""
+    first = len(counts) - SECTORS
+    for r in range(begin, end):
+        alike, beside = counts[label[r]], counts[first + sector[r]]
+        ranks[r, 0], ranks[r, 1], ranks[r, 2] = min(r - begin, MOST[0]), min(alike, MOST[1]), min(beside, MOST[2])
+        counts[label[r]], counts[first + sector[r]] = alike + 1, beside + 1
+    for r in range(begin, end):
+        ranks[r, 3], ranks[r, 4] = counts[label[r]], counts[first + sector[r]]
+    for r in range(begin, end):
+        counts[label[r]], counts[first + sector[r]] = 0, 0
 
 
 def _sectors_of_ways() -> Tensor:

@@ -13,11 +13,14 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.compiled import compiled
 from models.posterior.likelihood import FAINT, HABITS, SPOKEN, Likelihood, Reading
-from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, colour_words, count_ranks
+from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, colour_words, count_ranks, no_counts
 from models.posterior.surroundings.around import Around
 
 TINY: Final = 1e-200  # a product of chances goes into the sum of their logarithms before it is smaller
 LEAST_MASS: Final = 1e-3
+_EAST_WEST: Final = np.array([0, 7, 6, 5, 4, 3, 2, 1, 8, 9, 10, 11])  # of RELATIONS and two more, which side is which
+_NORTH_SOUTH: Final = np.array([4, 3, 2, 1, 0, 7, 6, 5, 8, 9, 10, 11])
+MIRRORED: Final = np.arange(12), _NORTH_SOUTH, _EAST_WEST, _EAST_WEST[_NORTH_SOUTH]
 
 
 class NodeLikelihood:
@@ -38,14 +41,16 @@ class NodeLikelihood:
         column = np.array([names.index(word) for word in palette.words])
         chances = likelihood.colour_spread, likelihood.colour_slip, likelihood.unknown_colour
         self._things = label.numpy(), rgb.numpy(), centers, column, np.array([float(x.exp()) for x in chances])
-        self._ways, sector = likelihood.ways().numpy(), SECTOR_OF_WAY.numpy().astype(np.int8)
+        self._ways, by_way = (
+            _quarter(table.numpy()) for table in (likelihood.ways(), likelihood.log_pi().exp().double())
+        )
+        sector = SECTOR_OF_WAY.numpy().astype(np.int8)
         ranks = np.ones((len(RANKS), max(RANKS), HABITS))
         for n, weights in enumerate(likelihood.ranks):
             ranks[n, : len(weights)] = weights.exp().numpy()
         told = likelihood.partly.exp(), likelihood.crowding, likelihood.twice.exp(), likelihood.temper.exp()
         numbers = np.array([float(number) for number in told])
         habit = likelihood.habit.log_softmax(0).double().numpy()
-        by_way = likelihood.log_pi().exp().numpy()
         self._weights = sector, by_way, ranks, likelihood.among.double().numpy(), numbers, habit
         self._slip, self._measured = (float(x.exp()) for x in (likelihood.relation_slip, likelihood.measured))
         self._least = FAINT / (1.0 + self._slip)  # what fits less does so in no direction
@@ -58,6 +63,7 @@ class NodeLikelihood:
         said = torch.stack([reading.absent, self._model.chance(reading, self._usual)]).double().numpy()
         said_m = reading.distance_m.double().numpy()
         told = np.column_stack([reading.relation.double().numpy(), said_m, self._measured * said_m + 1.0])
+        told = np.stack([told[:, order] for order in MIRRORED])
         read = reading.label.double().numpy(), reading.colour.double().numpy()
 
         def log_p(around: Around, nodes: int) -> Floats:
@@ -72,6 +78,12 @@ class NodeLikelihood:
             return found
 
         return log_p
+
+
+def _quarter(table: Floats) -> Floats:
+    """[16384, K] of a table [65536, K] of all ways those to the north-east: the others' are alike, but mirrored."""
+    square = table.reshape(2 * OFFSET, 2 * OFFSET, -1)[OFFSET:, OFFSET:]
+    return np.ascontiguousarray(square).reshape(OFFSET * OFFSET, -1)
 
 
 @compiled
@@ -134,13 +146,14 @@ def _log_p(
         whole: [R] likewise.
         label: [P] of each part.
         fits: [P, H] p(class) p(colour).
-        ways: [65536, 11] p(relation) of each way; last, its metres.
-        told: [H, 12] p(relation) of each hint, the metres that it says, NaN for none, and their spread.
+        ways: [16384, 11] p(relation) of each way to the north-east; last, its metres.
+        told: [4, H, 12] p(relation) of each hint, the metres that it says, NaN for none, and their spread; as it is,
+            and as it is of ways to the south-east, the north-west and the south-west if these are mirrored.
         slip: chance of a wrong direction.
         least: what fits a hint less than this is left to chance in any direction.
         said: [2, H] chance that the text says there is none of it, and of what nothing explains.
         sector_of: [65536] of each way.
-        by_way: [65536, 3] pi of each way by habit.
+        by_way: [16384, 3] pi of each way to the north-east by habit.
         ranks: [3, most, 3] by which a habit heeds those that come behind so many.
         among: [2, 3] powers of how many there are.
         numbers: factor of what is not whole, powers of crowding, of what is meant twice, and of the whole.
@@ -151,38 +164,40 @@ def _log_p(
     here, sector, rank = np.empty(most, np.int64), np.empty(most, np.int64), np.empty((most, 5), np.int64)
     row, hint, fit = np.empty(most * hints, np.int64), np.empty(most * hints, np.int64), np.empty(most * hints)
     sums, load = np.empty((3, hints)), np.empty(most)
-    log_p = np.full(nodes, _of_node(row[:0], hint, fit, share, said, numbers, habit, sums, load))
+    counts = no_counts(label)
+    log_p = np.full(nodes, _of_node(0, row, hint, fit, share, said, numbers, habit, sums, load))
     while begin < len(node):
         end, pairs = begin, 0
         while end < len(node) and node[end] == node[begin]:
             r = end - begin
-            number[r] = (np.int64(way[end, 0]) + OFFSET) * 256 + np.int64(way[end, 1]) + OFFSET
-            here[r], sector[r] = label[part[end]], sector_of[number[r]]
+            x, y = np.int64(way[end, 0]), np.int64(way[end, 1])
+            number[r], side = abs(x) * OFFSET + abs(y), 2 * (x < 0) + (y < 0)
+            here[r], sector[r] = label[part[end]], sector_of[(x + OFFSET) * 256 + y + OFFSET]
             for h in range(hints):
                 if fits[part[end], h] > least:
-                    chance = fits[part[end], h] * _place(ways[number[r]], told[h], slip)
+                    chance = fits[part[end], h] * _place(ways, number[r], told, side, h, slip)
                     if chance > FAINT:
                         row[pairs], hint[pairs], fit[pairs] = r, h, chance
                         pairs += 1
             end += 1
         if pairs:
             rows = end - begin
-            count_ranks(here[:rows], sector[:rows], rank)
-            _shares(number[:rows], whole[begin:end], rank, by_way, ranks, powers, numbers, share)
-            log_p[node[begin]] = _of_node(row[:pairs], hint, fit, share, said, numbers, habit, sums, load)
+            count_ranks(0, rows, here, sector, counts, rank)
+            _shares(begin, rows, number, whole, rank, by_way, ranks, powers, numbers, share)
+            log_p[node[begin]] = _of_node(pairs, row, hint, fit, share, said, numbers, habit, sums, load)
         begin = end
     return log_p
 
 
 @compiled
-def _place(way: Floats, told: Floats, slip: float) -> float:
-    """p(direction) p(distance) of a way [11] for a hint [12], as `Likelihood.places`."""
-    place, relations = slip, len(way) - 1
+def _place(ways: Floats, way: int, told: Floats, side: int, hint: int, slip: float) -> float:
+    """p(direction) p(distance) of a way for a hint, as `Likelihood.places`."""
+    place, relations = slip, ways.shape[1] - 1
     for n in range(relations):
-        place += way[n] * told[n]
-    said_m, spread = told[relations], told[relations + 1]
+        place += ways[way, n] * told[side, hint, n]
+    said_m, spread = told[side, hint, relations], told[side, hint, relations + 1]
     if not np.isnan(said_m):
-        off = (way[relations] - said_m) / spread
+        off = (ways[way, relations] - said_m) / spread
         place *= np.exp(-0.5 * off * off)
     return place
 
@@ -210,20 +225,20 @@ def _powers(among: Floats, most: int) -> Floats:
 
 @compiled
 def _shares(
-    number: Ints, whole: npt.NDArray[np.bool_], rank: Ints, by_way: Floats, ranks: Floats, powers: Floats,
-    numbers: Floats, share: Floats,
+    begin: int, rows: int, number: Ints, whole: npt.NDArray[np.bool_], rank: Ints, by_way: Floats, ranks: Floats,
+    powers: Floats, numbers: Floats, share: Floats,
 ) -> None:  # fmt: skip
-    """Fill in pi [R, 3] of what is around one node, shared among it."""
+    """Fill in pi [rows, 3] of what is around one node, shared among it; `whole` of all, of it from `begin` on."""
     mass = (LEAST_MASS, LEAST_MASS, LEAST_MASS)
-    for r in range(len(number)):
-        part = 1.0 if whole[r] else numbers[0]
+    for r in range(rows):
+        part = 1.0 if whole[begin + r] else numbers[0]
         for h in range(HABITS):
             nearer = ranks[0, rank[r, 0], h] * ranks[1, rank[r, 1], h] * ranks[2, rank[r, 2], h]
             many = powers[0, rank[r, 3], h] * powers[1, rank[r, 4], h]
             share[r, h] = by_way[number[r], h] * part * nearer * many
         mass = (mass[0] + share[r, 0], mass[1] + share[r, 1], mass[2] + share[r, 2])
     first, second, third = mass[0] ** -numbers[1], mass[1] ** -numbers[1], mass[2] ** -numbers[1]
-    for r in range(len(number)):
+    for r in range(rows):
         share[r, 0] *= first
         share[r, 1] *= second
         share[r, 2] *= third
@@ -231,26 +246,28 @@ def _shares(
 
 @compiled
 def _of_node(
-    row: Ints, hint: Ints, fit: Floats, share: Floats, said: Floats, numbers: Floats, habit: Floats, sums: Floats,
-    load: Floats,
+    pairs: int, row: Ints, hint: Ints, fit: Floats, share: Floats, said: Floats, numbers: Floats, habit: Floats,
+    sums: Floats, load: Floats,
 ) -> float:  # fmt: skip
-    """Log p(T | x) of pairs [K] of what is around a node and what a hint may mean; `sums` and `load` are room."""
-    highest, mass, first, total, per = -np.inf, 0.0, sums[0], sums[1], sums[2]
+    """Log p(T | x) of pairs of what is around a node and what a hint may mean; `sums` [3, H] and `load` are room."""
+    highest, mass, hints = -np.inf, 0.0, said.shape[1]
     for k in range(HABITS):
-        first[:], total[:] = 0.0, 0.0
-        for n in range(len(row)):
-            first[hint[n]] += fit[n] * share[row[n], k]
+        for h in range(hints):
+            sums[0, h], sums[1, h] = 0.0, 0.0
+        for n in range(pairs):
+            sums[0, hint[n]] += fit[n] * share[row[n], k]
             load[row[n]] = 0.0
-        per[:] = 1.0 / (first + said[1])
-        for n in range(len(row)):
-            load[row[n]] += fit[n] * share[row[n], k] * per[hint[n]]
+        for h in range(hints):
+            sums[2, h] = 1.0 / (sums[0, h] + said[1, h])
+        for n in range(pairs):
+            load[row[n]] += fit[n] * share[row[n], k] * sums[2, hint[n]]
         last, single = -1, 1.0
-        for n in range(len(row)):
+        for n in range(pairs):
             if row[n] != last:
                 last = row[n]
                 single = share[last, k] * (load[last] ** -numbers[2] if load[last] > 1.0 else 1.0)
-            total[hint[n]] += fit[n] * single
-        mixed = habit[k] + _of_hints(first, total, said)
+            sums[1, hint[n]] += fit[n] * single
+        mixed = habit[k] + _of_hints(sums, said)
         if mixed > highest:
             mass, highest = mass * np.exp(highest - mixed) + 1.0, mixed
         else:
@@ -260,15 +277,15 @@ def _of_node(
 
 
 @compiled
-def _of_hints(first: Floats, total: Floats, said: Floats) -> float:
-    """Sum of the hints' logarithms, of what explains each [H], in all and with what is meant twice counted less."""
+def _of_hints(sums: Floats, said: Floats) -> float:
+    """Sum of the hints' logarithms; sums [2 or more, H] of what explains each, then with what is meant twice less."""
     product, found, is_absent = 1.0, 0.0, False
-    for h in range(len(total)):
+    for h in range(said.shape[1]):
         is_absent |= said[0, h] > SPOKEN
-    for h in range(len(total)):
-        chance = total[h] + said[1, h]
+    for h in range(said.shape[1]):
+        chance = sums[1, h] + said[1, h]
         if is_absent:  # the less there is of it, the likelier
-            none = max(np.exp(-3 * first[h] / max(said[1, h], 1e-2)), 1e-2)
+            none = max(np.exp(-3 * sums[0, h] / max(said[1, h], 1e-2)), 1e-2)
             found += np.log(chance) * (1 - said[0, h]) + np.log(none) * said[0, h]
         else:
             product *= chance
