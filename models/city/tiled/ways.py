@@ -19,6 +19,7 @@ THING: Final = FORMS.index("thing")
 CROWN_M: Final = 3.0  # a crown may reach nearer than the tile that its trunk is in
 LEAST: Final = 0.6  # what hangs together counts by itself if it has at least this share of what a part has
 SLACK_M: Final = 1e-3  # by which a piece that fills its tile may stand over
+MOST_GROUPS: Final = 1 << 32
 USUAL: Final = 16  # things around a position, to begin with
 
 
@@ -66,7 +67,7 @@ def _all_ways(
 ) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:  # fmt: skip
     room = USUAL * len(points_m) + 1024
     point, found, way = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2), np.int8)
-    squares, count = np.empty(room, np.int64), 0
+    count = 0
     for n in range(len(point_starts) - 1):
         mine = points_m[point_starts[n] : point_starts[n + 1]]
         if len(mine) == 0:
@@ -78,26 +79,35 @@ def _all_ways(
         square, way_x, way_y = _ways_to_groups(
             mine, order, starts, reach_m, tile, form, bounds_m, crown_m, segment_starts, segments
         )
+        line = np.empty(len(starts), np.int64)
         for m in range(len(mine)):
             if count + len(starts) > room:
                 room *= 2
                 point, found, way = longer(point), longer(found), longer(way)
-                squares = longer(squares)
-            begin = count
-            for g in range(len(starts) - 1):
-                if square[g, m] < 0.0:
-                    continue
-                x, y = np.rint(way_x[g, m] / step_m), np.rint(way_y[g, m] / step_m)
-                key, at = np.int64(x * x + y * y), count
-                while at > begin and squares[at - 1] > key:
-                    squares[at], found[at] = squares[at - 1], found[at - 1]
-                    way[at, 0], way[at, 1] = way[at - 1, 0], way[at - 1, 1]
-                    at -= 1
-                squares[at], found[at] = key, instance[order[starts[g]]]
-                way[at, 0], way[at, 1] = np.int8(x), np.int8(y)
-                point[count] = point_starts[n] + m
+            for at in range(_put_in_line(m, step_m, square, way_x, way_y, line)):
+                g = line[at] % MOST_GROUPS
+                point[count], found[count] = point_starts[n] + m, instance[order[starts[g]]]
+                way[count, 0] = np.int8(np.rint(way_x[g, m] / step_m))
+                way[count, 1] = np.int8(np.rint(way_y[g, m] / step_m))
                 count += 1
     return point[:count].copy(), found[:count].copy(), way[:count].copy()
+
+
+@compiled
+def _put_in_line(m: int, step_m: float, square: Floats, way_x: Floats, way_y: Floats, line: Ints) -> int:
+    """Fill in the groups that a point has a way to, the nearest first: squared steps times MOST_GROUPS, plus number."""
+    count = 0
+    for g in range(len(square)):
+        if square[g, m] < 0.0:
+            continue
+        x, y = np.rint(way_x[g, m] / step_m), np.rint(way_y[g, m] / step_m)
+        key, at = np.int64(x * x + y * y) * MOST_GROUPS + g, count
+        while at > 0 and line[at - 1] > key:
+            line[at] = line[at - 1]
+            at -= 1
+        line[at] = key
+        count += 1
+    return count
 
 
 @compiled
@@ -111,19 +121,21 @@ def _ways_to_groups(
     x, y, inside = np.empty(count), np.empty(count), np.empty(count)
     box_m = np.array([points_m[:, 0].min(), points_m[:, 1].min(), points_m[:, 0].max(), points_m[:, 1].max()])
     for g in range(len(best)):
-        best_x[g] = np.inf
-        for k in order[starts[g] : starts[g + 1]]:
-            if _square_apart(bounds_m[k], box_m) > beyond:
+        for p in range(count):
+            best_x[g, p] = np.inf
+        for n in range(starts[g], starts[g + 1]):
+            k = order[n]
+            if _square_apart(bounds_m, k, box_m) > beyond:
                 continue
-            ends = segments[segment_starts[k] : segment_starts[k + 1]]
+            first, last = segment_starts[k], segment_starts[k + 1]
             for p in range(count):
                 x[p], y[p] = points_m[p, 0] - tile[k, 0] * TILE_M, points_m[p, 1] - tile[k, 1] * TILE_M
             if crown_m[k] > 0.0:
-                _to_crown(x, y, ends, crown_m[k], best[g], best_x[g], best_y[g])
+                _to_crown(x, y, segments, first, last, crown_m[k], g, best, best_x, best_y)
             else:
-                _to_segments(x, y, ends, best[g], best_x[g], best_y[g])
+                _to_segments(x, y, segments, first, last, g, best, best_x, best_y)
             if form[k] == AREA:
-                _insides(x, y, ends, inside)
+                _insides(x, y, segments, first, last, inside)
                 for p in range(count):
                     if inside[p] == 1.0:
                         best[g, p], best_x[g, p], best_y[g, p] = 0.0, 0.0, 0.0
@@ -133,21 +145,24 @@ def _ways_to_groups(
 
 
 @compiled
-def _square_apart(bounds_m: Floats, other_m: Floats) -> float:
-    """The square of how far two boxes are apart."""
-    away_x = max(bounds_m[0] - other_m[2], 0.0, other_m[0] - bounds_m[2])
-    away_y = max(bounds_m[1] - other_m[3], 0.0, other_m[1] - bounds_m[3])
+def _square_apart(bounds_m: Floats, k: int, other_m: Floats) -> float:
+    """The square of how far the box of a piece and another are apart."""
+    away_x = max(bounds_m[k, 0] - other_m[2], 0.0, other_m[0] - bounds_m[k, 2])
+    away_y = max(bounds_m[k, 1] - other_m[3], 0.0, other_m[1] - bounds_m[k, 3])
     square: float = away_x * away_x + away_y * away_y
     return square
 
 
 @compiled
-def _to_segments(x: Floats, y: Floats, segments: Steps, best: Floats, best_x: Floats, best_y: Floats) -> None:
+def _to_segments(
+    x: Floats, y: Floats, segments: Steps, first: int, last: int, g: int, best: Floats, best_x: Floats, best_y: Floats
+) -> None:
     """Improve the squared distance and the way of points, seen from the middle of a tile, to the nearest segment.
 
-    Segment by segment, without a branch in the loop over points: so the processor takes several of them at once.
+    Segment by segment, without a branch in the loop over points: so the processor takes several of them at once. The
+    best [G, P] are of a group; slices of arrays would cost as much as the arithmetic.
     """
-    for s in range(len(segments)):
+    for s in range(first, last):
         x1, y1 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M
         along_x, along_y = segments[s, 2] * STEP_M - x1, segments[s, 3] * STEP_M - y1
         length = along_x * along_x + along_y * along_y
@@ -158,17 +173,18 @@ def _to_segments(x: Floats, y: Floats, segments: Steps, best: Floats, best_x: Fl
             share = 0.0 if share < 0.0 else share
             share = 1.0 if share > 1.0 else share
             way_x, way_y = from_x - share * along_x, from_y - share * along_y
-            this, so_far = way_x * way_x + way_y * way_y, best[p]
-            best[p] = this if this <= so_far else so_far
-            best_x[p] = way_x if this <= so_far else best_x[p]
-            best_y[p] = way_y if this <= so_far else best_y[p]
+            this, so_far = way_x * way_x + way_y * way_y, best[g, p]
+            best[g, p] = this if this <= so_far else so_far
+            best_x[g, p] = way_x if this <= so_far else best_x[g, p]
+            best_y[g, p] = way_y if this <= so_far else best_y[g, p]
 
 
 @compiled
-def _insides(x: Floats, y: Floats, segments: Steps, inside: Floats) -> None:
+def _insides(x: Floats, y: Floats, segments: Steps, first: int, last: int, inside: Floats) -> None:
     """1 for points that see an odd number of segments in the east, else 0."""
-    inside[:] = 0.0
-    for s in range(len(segments)):
+    for p in range(len(x)):
+        inside[p] = 0.0
+    for s in range(first, last):
         x1, y1, y2 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M, segments[s, 3] * STEP_M
         along_x, along_y = segments[s, 2] * STEP_M - x1, y2 - y1
         for p in range(len(x)):
@@ -178,15 +194,16 @@ def _insides(x: Floats, y: Floats, segments: Steps, inside: Floats) -> None:
 
 @compiled
 def _to_crown(
-    x: Floats, y: Floats, segments: Steps, crown_m: float, best: Floats, best_x: Floats, best_y: Floats
-) -> None:
+    x: Floats, y: Floats, segments: Steps, first: int, last: int, crown_m: float, g: int, best: Floats, best_x: Floats,
+    best_y: Floats,
+) -> None:  # fmt: skip
     """As `_to_segments`, to the crown round a tree's trunk, which reaches nearer, as `crown_reach_m`."""
-    trunk, trunk_x, trunk_y = np.full(len(x), np.inf), np.empty(len(x)), np.empty(len(x))
-    _to_segments(x, y, segments, trunk, trunk_x, trunk_y)
+    trunk, trunk_x, trunk_y = np.full((1, len(x)), np.inf), np.empty((1, len(x))), np.empty((1, len(x)))
+    _to_segments(x, y, segments, first, last, 0, trunk, trunk_x, trunk_y)
     for p in range(len(x)):
         nearer = 1.0
-        if trunk[p] > 16.0 * crown_m * crown_m:
-            nearer -= crown_m / np.sqrt(trunk[p] + 9.0 * crown_m * crown_m)
-        this = trunk[p] * nearer * nearer
-        if this <= best[p]:
-            best[p], best_x[p], best_y[p] = this, trunk_x[p] * nearer, trunk_y[p] * nearer
+        if trunk[0, p] > 16.0 * crown_m * crown_m:
+            nearer -= crown_m / np.sqrt(trunk[0, p] + 9.0 * crown_m * crown_m)
+        this = trunk[0, p] * nearer * nearer
+        if this <= best[g, p]:
+            best[g, p], best_x[g, p], best_y[g, p] = this, trunk_x[0, p] * nearer, trunk_y[0, p] * nearer
