@@ -6,6 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 import torch
+from cachetools import LRUCache, cachedmethod
 
 from index.answers import Evidence, Heading
 from index.finding import pair
@@ -27,6 +28,7 @@ from models.posterior.places.explained import Explained
 from models.posterior.places.field import PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
+KEPT_TEXTS: Final = 500  # that were read lately: who answers a question sends the text again
 TRUSTED: Final = 0.5  # of a hint's class, from which on it is no place but what is near
 HEADING_NODES: Final = 128  # that the heading is told from: the likeliest
 SPREAD: Final = 60.0  # degrees; a heading that is less sure is none
@@ -67,6 +69,7 @@ class PlaceReader:
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
         self._cues, self._meanings = cues, meanings
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
+        self._kept: LRUCache[tuple[str, str, tuple[tuple[int, int], ...]], list[Mention]] = LRUCache(KEPT_TEXTS)
 
     def read(
         self, description: str, language: str, nouns: Sequence[tuple[int, int]] = (), *, to_listener: bool
@@ -80,11 +83,16 @@ class PlaceReader:
             to_listener: whether it is said to somebody whose place is known; else the text tells whether it is of a
                 place to meet at.
         """
-        like = None if self._meanings is None else self._meanings.like
-        mentions = find_mentions(description, self._lookup, self._cues, language, nouns, like)
+        mentions = self._mentions(description, language, tuple(nouns))
         if language == ENGLISH and (to_listener or is_meeting(description)):
             mentions = with_goal(mentions)
         return [kept for mention in mentions if (kept := without(mention, self.without)) is not None]
+
+    @cachedmethod(lambda reader: reader._kept)
+    def _mentions(self, description: str, language: str, nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
+        """As `find_mentions`; of the latest texts it is remembered."""
+        like = None if self._meanings is None else self._meanings.like
+        return find_mentions(description, self._lookup, self._cues, language, nouns, like)
 
     def told(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> Told | None:
         """What mentions tell of positions; None if they tell nothing."""

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Final, get_args
 
 import torch
-from cachetools import LRUCache, cachedmethod
 from torch import Tensor, nn
 from torch.func import functional_call
 
@@ -26,7 +25,6 @@ WIND_FROM, MEANT_FROM = 0.15, 0.3  # probabilities
 UNKNOWN_FROM: Final = 0.06  # of being meant, of names that the map has not: few of the labelled texts have such
 LEAST: Final = 0.06  # probability of an angle that is thought of
 LONGEST: Final = 600  # characters that are read at once
-KEPT_TEXTS: Final = 2000  # that were read lately: who answers a question sends the text again
 _SENTENCE_END = re.compile(r"[.!?\n]\s")
 Place = tuple[int, int, Form]
 
@@ -78,7 +76,6 @@ class CueReader(nn.Module):
             nn.Linear(WIDTH, len(ANGLES) + len(RELATIONS) + len(FLAGS)),
         )  # fmt: skip
         self._packed: list[PackedLayer] | None = None  # with what is added merged
-        self._kept: LRUCache[tuple[str, tuple[Place, ...]], list[ReadCue]] = LRUCache(KEPT_TEXTS)
 
     def forward(self, tokens: TokenFeatures, spans: Sequence[Sequence[tuple[int, int, int]]]) -> tuple[Tensor, ...]:
         """Logits of the mentions of all texts: angle [S, 11], relation [S, R], flags [S, 2].
@@ -96,10 +93,9 @@ class CueReader(nn.Module):
         found = self.head(self.dropout(torch.stack(pooled) if pooled else x.new_zeros(0, 2 * x.shape[2])))
         return torch.split(found, [len(ANGLES), len(RELATIONS), len(FLAGS)], dim=1)
 
-    @cachedmethod(lambda reader: reader._kept, lambda _, text, places: (text, tuple(places)))
     @torch.no_grad()
     def read(self, text: str, places: Sequence[Place]) -> list[ReadCue]:
-        """What a text says of its mentions; the latest texts are remembered.
+        """What a text says of its mentions.
 
         Args:
             text: any.
@@ -132,9 +128,8 @@ class CueReader(nn.Module):
         return self._base[0].read(texts, self._frozen_layers)
 
     def train(self, mode: bool = True) -> "CueReader":
-        """As torch does; what was merged of the weights, and read with them, is forgotten."""
+        """As torch does; what was merged of the weights is forgotten."""
         self._packed = None
-        self._kept.clear()
         return super().train(mode)
 
     def _matrices(self) -> list[tuple[int, Tensor]]:

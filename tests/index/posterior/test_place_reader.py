@@ -57,6 +57,19 @@ def test_a_heading_is_told_by_left_and_ahead(localizer) -> None:
     assert min(heading.mean_deg, 360 - heading.mean_deg) < 40, "the next street lies to the north"
 
 
+def test_a_text_that_comes_again_is_not_read_again(localizer, monkeypatch) -> None:
+    text = "I'm on East Street 2 where North Path 1 begins, and it rains"
+    first = answer(localizer, text)
+    monkeypatch.setattr("index.posterior.place_reader.find_mentions", None)
+    again = answer(localizer, text)
+    assert first.estimate is not None
+    assert again.estimate is not None
+    assert again.estimate.position == first.estimate.position
+    assert again.evidence == first.evidence
+    with pytest.raises(TypeError):
+        answer(localizer, f"{text} no more")
+
+
 def test_a_contradiction_is_told_of(localizer) -> None:
     found = answer(localizer, "I'm on the north side of East Street 2 and on the south side of East Street 2.")
     assert found.estimate is not None

@@ -55,22 +55,12 @@ def test_nothing_to_read(cues) -> None:
     assert cues.read("", []) == []
 
 
-def test_a_text_that_comes_again_is_not_read_again(cues, monkeypatch) -> None:
-    text, places = "the bank is behind me, the cafe on my right", [(4, 8, "thing"), (27, 31, "thing")]
-    before = cues.read(text, places)
-    monkeypatch.setattr(cues, "encode", None)
-    assert cues.read(text, places) == before
-    with pytest.raises(TypeError):
-        cues.read(text, places[:1])
-
-
 def test_merged_weights_are_forgotten_in_training(cues) -> None:
     text, places = "the bank is on my left", [(4, 8, "thing")]
     before = cues.read(text, places)
     try:
         cues.train()
         assert cues._packed is None
-        assert not cues._kept
     finally:
         cues.eval()
     assert cues.read(text, places) == before
