@@ -159,6 +159,7 @@ class Localizer:
             self.localize([Query("I am north of a building."), Query(f"I am on {street}, near a pharmacy.")])
         finally:
             self.ranker.store = store
+        load_text_encoder().settle()
 
     def of(self, refine: Refine) -> CellLocalizer:
         """What answers queries of one kind."""

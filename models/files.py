@@ -3,6 +3,7 @@
 import fcntl
 import hashlib
 import json
+import mmap
 import os
 import secrets
 import shutil
@@ -198,6 +199,14 @@ def mapped(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]:
         first, last = (begin + offset for offset in array["data_offsets"])
         arrays[name] = content[first:last].view(_dtype(array["dtype"])).reshape(array["shape"])
     return arrays, facts
+
+
+def let_go(array: npt.NDArray[Any]) -> None:
+    """Have the system forget the pages of the file that an array of `mapped` lies in, until they are looked at."""
+    base: Any = array
+    while not isinstance(base, mmap.mmap):
+        base = base.base
+    base.madvise(mmap.MADV_DONTNEED)
 
 
 def _dtype(name: str) -> np.dtype[Any]:

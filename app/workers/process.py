@@ -20,7 +20,7 @@ from app.faults import where
 from app.startup import no_collection
 from app.workers.order import FORK, WorkerFault
 from models.errors import HereaboutsError
-from models.processes import give_back
+from models.processes import give_back, share_one_heap
 
 if TYPE_CHECKING:
     from index.localizer import Localizer
@@ -39,6 +39,7 @@ def main(control: Connection, ahead: Sequence[str] = ()) -> None:
     """
     for number in SIGNALS:
         signal.signal(number, signal.SIG_IGN)
+    share_one_heap()
     try:
         with no_collection():
             for name in ahead:

@@ -8,9 +8,12 @@ import json
 from pathlib import Path
 from typing import Any, Self
 
+import numpy.typing as npt
+import torch
 from pydantic import BaseModel
-from safetensors import safe_open
 from torch import Tensor, nn
+
+from models.files import let_go, mapped
 
 
 class BertConfig(BaseModel):
@@ -33,6 +36,7 @@ class Bert(nn.Module):
     def __init__(self, config: BertConfig) -> None:
         super().__init__()
         self.config = config
+        self._mapped: npt.NDArray[Any] | None = None
         self.embeddings = _Embeddings(config)
         self.encoder = nn.ModuleDict({"layer": nn.ModuleList(Layer(config) for _ in range(config.num_hidden_layers))})
 
@@ -44,12 +48,17 @@ class Bert(nn.Module):
             OSError, ValueError: they are missing, or of another kind of model.
         """
         model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
-        with safe_open(directory / "model.safetensors", framework="pt") as file:
-            wanted = model.state_dict()
-            if missing := set(wanted) - set(file.keys()):
-                raise ValueError(f"{directory / 'model.safetensors'} has no {min(missing)}")
-            model.load_state_dict({name: file.get_tensor(name) for name in wanted}, assign=True)
+        weights, wanted = mapped(directory / "model.safetensors")[0], model.state_dict()
+        if missing := set(wanted) - set(weights):
+            raise ValueError(f"{directory / 'model.safetensors'} has no {min(missing)}")
+        model.load_state_dict({name: torch.from_numpy(weights[name]) for name in wanted}, assign=True)
+        model._mapped = next(iter(weights.values()))
         return model
+
+    def let_go(self) -> None:
+        """Have the system forget the weights that it has read from the file, until they are looked at."""
+        if self._mapped is not None:
+            let_go(self._mapped)
 
 
 class _Embeddings(nn.Module):

@@ -4,6 +4,7 @@ Each output of a linear layer has a scale for its weights, and each row that com
 vector-wise quantization of LLM.int8(): Dettmers et al., NeurIPS 2022): what stands beside a text changes nothing.
 """
 
+import copy
 from collections.abc import Iterable, Mapping
 from typing import Any, Final
 
@@ -54,7 +55,7 @@ class PackedLinear:
 
     def __init__(self, weight: Tensor, bias: Tensor, adds_8_bits: bool = ADDS_8_BITS) -> None:
         small, scale = to_8_bits(weight.detach().contiguous())
-        self._scale, self._bias = scale, bias.detach().numpy()
+        self._scale, self._bias = scale, bias.detach().clone().numpy()
         self._weight = small.T
         self._adds_8_bits = adds_8_bits
         if not adds_8_bits:
@@ -79,6 +80,25 @@ class PackedLinear:
         return nn.functional.linear(rows.float(), self._weight)
 
 
+class PackedEmbeddings:
+    """What `bert.Bert.embeddings` makes of tokens, with words in 8 bits: what is left of them when it is let go of.
+
+    Args:
+        embeddings: of a Bert.
+    """
+
+    def __init__(self, embeddings: Any) -> None:
+        self._words, self._scale = to_8_bits(embeddings.word_embeddings.weight.detach())
+        self._places = embeddings.position_embeddings.weight + embeddings.token_type_embeddings.weight[0]
+        self._norm = copy.deepcopy(embeddings.LayerNorm)
+
+    def __call__(self, ids: Tensor) -> Tensor:
+        """[S, T, W] of tokens [S, T]."""
+        words = self._words[ids].float() * torch.from_numpy(self._scale)[ids][..., None]
+        embedded: Tensor = self._norm(words + self._places[: ids.shape[1]])
+        return embedded
+
+
 class PackedLayer:
     """A `bert.Layer` in 8 bits, the three heads' weights in one matrix. What changes later is not seen.
 
@@ -101,7 +121,8 @@ class PackedLayer:
             for name in ("attention.output.dense", "intermediate.dense", "output.dense")
         )
         self._norms = [
-            (own[f"{name}.LayerNorm.weight"], own[f"{name}.LayerNorm.bias"]) for name in ("attention.output", "output")
+            (own[f"{name}.LayerNorm.weight"].clone(), own[f"{name}.LayerNorm.bias"].clone())
+            for name in ("attention.output", "output")
         ]
 
     def __call__(self, x: Tensor, size: torch.Size, shut: Tensor | None) -> Tensor:

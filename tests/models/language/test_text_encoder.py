@@ -1,5 +1,7 @@
+import re
 import sys
 import types
+from pathlib import Path
 
 import pytest
 import torch
@@ -11,6 +13,7 @@ from models.language import text_encoder as module
 from models.language.packed import (
     ADDS_8_BITS,
     LEAST_ROWS,
+    PackedEmbeddings,
     PackedLayer,
     PackedLinear,
     may_pack,
@@ -66,6 +69,32 @@ def test_packed_layers_are_the_same_layers(text_encoder, lengths) -> None:
         expected = run_layers(layers, hidden, mask)
         found = run_packed([PackedLayer(layer) for layer in layers], hidden, mask)
     assert alike(found[mask], expected[mask]) > 0.995
+
+
+def test_embeddings_in_8_bits(text_encoder) -> None:
+    ids = torch.randint(1000, 20_000, (3, 9))
+    with torch.no_grad():
+        expected = text_encoder.model.embeddings(ids)
+        found = PackedEmbeddings(text_encoder.model.embeddings)(ids)
+    assert alike(found.flatten(0, 1), expected.flatten(0, 1)) > 0.999
+    assert not found.equal(expected)
+
+
+def test_weights_that_the_system_forgot_come_again(text_encoder) -> None:
+    before = [p.clone() for p in text_encoder.parameters()]
+    words = text_encoder(SENTENCES).values
+    resident = resident_mib()
+    text_encoder.settle()
+    assert resident_mib() < resident - 30, "MiniLM takes 87"
+    text_encoder(SENTENCES)
+    assert resident_mib() < resident - 30, "no text needs them"
+    assert all(p.equal(q) for p, q in zip(text_encoder.parameters(), before, strict=True))
+    assert text_encoder(SENTENCES).values.equal(words)
+
+
+def resident_mib() -> float:
+    [kib] = re.findall(r"VmRSS:\s+(\d+) kB", Path("/proc/self/status").read_text())
+    return int(kib) / 1024
 
 
 def test_layers_with_weights_of_others(text_encoder) -> None:
