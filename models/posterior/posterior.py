@@ -1,7 +1,6 @@
 """Where a description was said: candidates, a distribution over their nodes, and what explains each hint."""
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Final
 
@@ -24,8 +23,9 @@ from models.posterior.sights import Sights
 from models.posterior.statements import Statements
 from models.posterior.surroundings.nodes import is_coarse
 from models.posterior.surroundings.surroundings import Surroundings
+from models.posterior.threads import both
 
-SHARED: Final = 512  # nodes from which on two threads look at them, as machine code lets them
+SHARED: Final = 512  # nodes from which on two threads look at them
 CANDIDATES = 100  # cells whose nodes are looked at
 LogPrior = Callable[[Floats], Floats]
 
@@ -182,9 +182,6 @@ def _shared_out(log_p: Callable[[Ints], Floats], cell: Ints) -> Floats:
     if len(cell) <= SHARED:
         return log_p(np.arange(len(cell)))
     found, odd = np.empty(len(cell)), cell % 2 == 1
-    mine, its = np.flatnonzero(~odd), np.flatnonzero(odd)
-    with ThreadPoolExecutor(1) as beside:
-        later = beside.submit(log_p, its)
-        found[mine] = log_p(mine)
-        found[its] = later.result()
+    some, others = np.flatnonzero(~odd), np.flatnonzero(odd)
+    found[some], found[others] = both(lambda: log_p(some), lambda: log_p(others))
     return found

@@ -23,12 +23,14 @@ from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.posterior.surroundings.around import STEP_M
 from models.posterior.surroundings.surroundings import Surroundings
+from models.posterior.threads import both
 from models.processes import map_forked
 
 FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"
 FLOOR: Final = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
 FAINT: Final = 1e-4  # what no hint says
+SHARED: Final = 50_000  # cells from which on two threads look at them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,7 +140,7 @@ class Statements:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
     def scores(self, reading: Reading) -> Floats:
-        """[N] about log p(T | cell)."""
+        """[N] about log p(T | cell); of many cells, of half of the hints by another thread."""
         words = self.words
         known = (reading.label.amax(dim=0) > FAINT).index_select(0, self.label).nonzero().flatten()
         place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
@@ -149,12 +151,20 @@ class Statements:
         weight = weight * colour.index_select(1, self.word.index_select(0, known))
         weight = weight * place.index_select(1, self.sector.index_select(0, known))
         told = (weight.amax(dim=0) > FAINT).nonzero().flatten()  # few
-        columns = known.index_select(0, told).numpy()
-        held = np.full((len(place), self.cells), FLOOR, np.float32)
-        shares = self.share.view(np.uint16), HALVES
-        _add(self.starts, self.cell, *shares, columns, weight.index_select(1, told).numpy(), held)
-        scores: Floats = (1 - reading.absent.numpy()) @ np.log(held, out=held)
-        return scores
+        columns, weights = known.index_select(0, told).numpy(), weight.index_select(1, told).numpy()
+        told_of = 1 - reading.absent.numpy()
+
+        def of(hints: slice) -> Floats:
+            held = np.full((len(told_of[hints]), self.cells), FLOOR, np.float32)
+            _add(self.starts, self.cell, self.share.view(np.uint16), HALVES, columns, weights[hints], held)
+            scores: Floats = told_of[hints] @ np.log(held, out=held)
+            return scores
+
+        half = len(told_of) // 2
+        if self.cells < SHARED or not half:
+            return of(slice(None))
+        first, second = both(lambda: of(slice(half)), lambda: of(slice(half, None)))
+        return first + second
 
 
 @compiled

@@ -62,6 +62,16 @@ def test_the_field_is_the_likelihood_of_its_nodes(town):
         assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
 
 
+def test_two_threads_find_what_one_finds(town, monkeypatch):
+    cells, reading = np.arange(0, len(town.place.cells), 2), town.readings[2]
+    found = {}
+    for shared in (1, 10**9):
+        monkeypatch.setattr("models.posterior.posterior.SHARED", shared)
+        found[shared] = town.posterior.field(reading, cells).log_p
+    assert len(np.unique(found[1])) > 100
+    assert (found[1] == found[10**9]).all()
+
+
 def test_the_mass_of_a_likely_cell_is_that_of_all_its_nodes(town):
     for reading in town.readings[:5]:
         found = locate(town.posterior, reading)
