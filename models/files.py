@@ -202,11 +202,15 @@ def mapped(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]:
 
 
 def let_go(array: npt.NDArray[Any]) -> None:
-    """Have the system forget the pages of the file that an array of `mapped` lies in, until they are looked at."""
+    """Have the system forget the pages of the file that an array of `mapped` lies in, until they are looked at.
+
+    What was written into any array of that file is lost; of a copy there is nothing to forget.
+    """
     base: Any = array
-    while not isinstance(base, mmap.mmap):
+    while base is not None and not isinstance(base, mmap.mmap):
         base = base.base
-    base.madvise(mmap.MADV_DONTNEED)
+    if base is not None:
+        base.madvise(mmap.MADV_DONTNEED)
 
 
 def _dtype(name: str) -> np.dtype[Any]:

@@ -28,7 +28,7 @@ from models.posterior.places.explained import Explained
 from models.posterior.places.field import PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
-KEPT_TEXTS: Final = 500  # that were read lately: who answers a question sends the text again
+KEPT_BYTES: Final = 2**24  # of what was read of texts lately: who answers a question sends the text again
 TRUSTED: Final = 0.5  # of a hint's class, from which on it is no place but what is near
 HEADING_NODES: Final = 128  # that the heading is told from: the likeliest
 SPREAD: Final = 60.0  # degrees; a heading that is less sure is none
@@ -69,7 +69,9 @@ class PlaceReader:
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
         self._cues, self._meanings = cues, meanings
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
-        self._kept: LRUCache[tuple[str, str, tuple[tuple[int, int], ...]], list[Mention]] = LRUCache(KEPT_TEXTS)
+        self._kept: LRUCache[tuple[str, str, tuple[tuple[int, int], ...]], list[Mention]] = LRUCache(
+            KEPT_BYTES, _bytes_of
+        )
 
     def read(
         self, description: str, language: str, nouns: Sequence[tuple[int, int]] = (), *, to_listener: bool
@@ -219,6 +221,11 @@ def near_hints(
         elif (not over and _tells(hint, trust[n])) or (hint.absent >= TRUSTED and not over):
             kept.append(n)
     return kept, places
+
+
+def _bytes_of(mentions: Sequence[Mention]) -> int:
+    """About what they take in memory."""
+    return 2000 + sum(1000 + m.objects.nbytes + m.weights.nbytes + m.lines_m.nbytes for m in mentions)
 
 
 def _may_be_near(mention: Mention) -> bool:

@@ -42,7 +42,7 @@ class Bert(nn.Module):
 
     @classmethod
     def load(cls, directory: Path) -> Self:
-        """Map config.json and model.safetensors into memory: rows of words that nobody says are never read.
+        """Read config.json and map model.safetensors into memory, see `let_go`.
 
         Raises:
             OSError, ValueError: they are missing, or of another kind of model.

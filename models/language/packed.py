@@ -24,9 +24,12 @@ Floats32 = npt.NDArray[np.float32]
 
 
 def _adds_8_bits() -> bool:
-    """Whether the processor adds up products of 8 bits in 32: earlier ones cut them off at 16."""
-    able = torch.cpu.get_capabilities()
-    return torch.backends.mkldnn.is_available() and bool(able.get("avx512_vnni") or able.get("avx_vnni"))
+    """Whether products of 8 bits are added up in 32, and fast: earlier processors cut them off at 16."""
+    able: Mapping[str, Any] = getattr(torch.cpu, "get_capabilities", dict)()
+    if not torch.backends.mkldnn.is_available() or not (able.get("avx512_vnni") or able.get("avx_vnni")):
+        return False
+    rows, weight = (torch.full((count, 1536), MOST, dtype=torch.int8) for count in (USUAL_ROWS, 384))
+    return bool((torch._int_mm(rows, weight.T) == 1536 * MOST**2).all())  # oneDNN may have been told to do without
 
 
 ADDS_8_BITS: Final = _adds_8_bits()
@@ -173,7 +176,7 @@ def _to_8_bits(x: Floats32, small: npt.NDArray[np.int8], scale: Floats32) -> Non
             top = here if here > top else top
         most[r] = top
     for r in range(len(x)):
-        scale[r] = scale[r] / np.float32(MOST) if scale[r] > 0 else np.float32(1)
+        scale[r] = np.float32(1) if scale[r] == 0 else scale[r] / np.float32(MOST)
         parts = np.float32(1) / scale[r]
         for k in range(x.shape[1]):
             small[r, k] = np.int8(np.rint(x[r, k] * parts))

@@ -115,8 +115,15 @@ class TextEncoder(nn.Module):
             return run_layers(layers, embeddings(input_ids=ids), mask)  # type: ignore[operator]
         if self._embeddings is None:
             self._embeddings = PackedEmbeddings(embeddings)
-        self._packed += [PackedLayer(layer) for layer in layers[len(self._packed) :]]
-        return run_packed(self._packed[:depth], self._embeddings(ids), mask)
+        if len(self._packed) < depth:
+            self._packed = [PackedLayer(layer) for layer in layers]
+        tokens = mask.sum(dim=1)
+        hidden = torch.zeros(*ids.shape, self.width)
+        for count in tokens.unique().tolist():  # without padding, which would change the last bits, and 8 bits by more
+            rows = (tokens == count).nonzero().flatten()
+            some = self._embeddings(ids[rows, :count])
+            hidden[rows, :count] = run_packed(self._packed[:depth], some, mask[rows, :count])
+        return hidden
 
     def settle(self) -> None:
         """Pack all that is not packed yet, and have the system forget what it was made of until that is asked for."""

@@ -170,7 +170,7 @@ def _log_p(
         end, pairs = begin, 0
         while end < len(node) and node[end] == node[begin]:
             r = end - begin
-            x, y = np.int64(way[end, 0]), np.int64(way[end, 1])
+            x, y = max(int(way[end, 0]), 1 - OFFSET), max(int(way[end, 1]), 1 - OFFSET)
             number[r], side = abs(x) * OFFSET + abs(y), 2 * (x < 0) + (y < 0)
             here[r], sector[r] = label[part[end]], sector_of[(x + OFFSET) * 256 + y + OFFSET]
             for h in range(hints):

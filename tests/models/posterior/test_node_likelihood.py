@@ -27,7 +27,7 @@ def model():
 def surroundings(rng, most=12) -> Around:
     """What lies around some nodes; around the third there is nothing."""
     node = np.repeat(np.arange(NODES), [0 if n == 2 else int(rng.integers(1, most)) for n in range(NODES)])
-    way = rng.integers(-90, 90, (len(node), 2)).astype(np.int8)
+    way = rng.integers(-127, 128, (len(node), 2)).astype(np.int8)
     return Around(node, rng.integers(0, THINGS, len(node)), way, rng.random(len(node)) < 0.8)
 
 
