@@ -23,7 +23,7 @@ from models.posterior.sights import Sights
 from models.posterior.statements import Statements
 from models.posterior.surroundings.nodes import is_coarse
 from models.posterior.surroundings.surroundings import Surroundings
-from models.posterior.threads import both
+from models.posterior.threads import THREADS, shared_out
 
 SHARED: Final = 512  # nodes from which on two threads look at them
 CANDIDATES = 100  # cells whose nodes are looked at
@@ -144,7 +144,7 @@ class HintPosterior:
             log_p = np.zeros(len(n)) if of_reading is None else of_reading(s.around(n), len(n))
             return log_p if told is None else log_p + told.at(positions_m[some], cell[some])
 
-        log_p = _shared_out(of, cell)
+        log_p = _of_all(of, cell)
         if answered is not None:
             log_p = log_p + answered.at(nodes)
         if log_prior is not None:
@@ -177,11 +177,10 @@ class HintPosterior:
         ]
 
 
-def _shared_out(log_p: Callable[[Ints], Floats], cell: Ints) -> Floats:
+def _of_all(log_p: Callable[[Ints], Floats], cell: Ints) -> Floats:
     """[M] of nodes in order of cell [M]; where there are many, of every second cell by another thread."""
-    if len(cell) <= SHARED:
-        return log_p(np.arange(len(cell)))
-    found, odd = np.empty(len(cell)), cell % 2 == 1
-    some, others = np.flatnonzero(~odd), np.flatnonzero(odd)
-    found[some], found[others] = both(lambda: log_p(some), lambda: log_p(others))
+    found, is_much = np.empty(len(cell)), len(cell) > SHARED
+    some = [np.flatnonzero(cell % THREADS == n) for n in range(THREADS)] if is_much else [np.arange(len(cell))]
+    for nodes, of_nodes in zip(some, shared_out(log_p, some, is_much), strict=True):
+        found[nodes] = of_nodes
     return found

@@ -23,7 +23,7 @@ from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.posterior.surroundings.around import STEP_M
 from models.posterior.surroundings.surroundings import Surroundings
-from models.posterior.threads import both
+from models.posterior.threads import shared_out
 from models.processes import map_forked
 
 FILE: Final = "statements.safetensors"
@@ -140,7 +140,7 @@ class Statements:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
     def scores(self, reading: Reading) -> Floats:
-        """[N] about log p(T | cell); of many cells, of half of the hints by another thread."""
+        """[N] about log p(T | cell); of many cells, hint by hint in two threads."""
         words = self.words
         known = (reading.label.amax(dim=0) > FAINT).index_select(0, self.label).nonzero().flatten()
         place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
@@ -154,17 +154,16 @@ class Statements:
         columns, weights = known.index_select(0, told).numpy(), weight.index_select(1, told).numpy()
         told_of = 1 - reading.absent.numpy()
 
-        def of(hints: slice) -> Floats:
-            held = np.full((len(told_of[hints]), self.cells), FLOOR, np.float32)
-            _add(self.starts, self.cell, self.share.view(np.uint16), HALVES, columns, weights[hints], held)
-            scores: Floats = told_of[hints] @ np.log(held, out=held)
-            return scores
+        def of(hint: int) -> Floats:
+            held = np.full((1, self.cells), FLOOR, np.float32)
+            _add(self.starts, self.cell, self.share.view(np.uint16), HALVES, columns, weights[hint : hint + 1], held)
+            of_hint: Floats = np.log(held[0], out=held[0]) * told_of[hint]
+            return of_hint
 
-        half = len(told_of) // 2
-        if self.cells < SHARED or not half:
-            return of(slice(None))
-        first, second = both(lambda: of(slice(half)), lambda: of(slice(half, None)))
-        return first + second
+        total = np.zeros(self.cells, np.float32)
+        for scores in shared_out(of, range(len(told_of)), self.cells >= SHARED):
+            total += scores
+        return total
 
 
 @compiled
