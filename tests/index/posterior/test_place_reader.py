@@ -70,6 +70,17 @@ def test_a_text_that_comes_again_is_not_read_again(localizer, monkeypatch) -> No
         answer(localizer, f"{text} no more")
 
 
+def test_what_is_remembered_is_bounded_by_its_size(localizer) -> None:
+    kept = localizer.posterior.places._kept
+    kept.clear()
+    answer(localizer, "a bench by some trees, a building across the street, at a crossing")
+    [mentions] = kept.values()
+    arrays = sum(mention.objects.nbytes + mention.weights.nbytes for mention in mentions)
+    assert arrays > 0
+    assert arrays < kept.currsize < arrays + 20_000
+    assert kept.maxsize < 2**25
+
+
 def test_a_contradiction_is_told_of(localizer) -> None:
     found = answer(localizer, "I'm on the north side of East Street 2 and on the south side of East Street 2.")
     assert found.estimate is not None
