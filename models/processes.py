@@ -19,6 +19,7 @@ Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 FEW = 4  # tasks that are done at once in this process
+_ARENA_MAX: Final = -8  # M_ARENA_MAX of malloc.h
 ARRAY: Final = 2**20  # bytes; what is smaller travels in the pickle
 
 _work: Callable[[Any], Any] | None = None  # what forked workers inherit, set before they start
@@ -134,9 +135,6 @@ def _result_of(result: Connection) -> Any:
     raise value
 
 
-_ARENA_MAX: Final = -8  # M_ARENA_MAX of malloc.h
-
-
 def give_back() -> None:
     """Give memory that is free back to the system.
 
@@ -150,7 +148,7 @@ def give_back() -> None:
 def share_one_heap() -> None:
     """Have all threads of this process take memory from one heap.
 
-    glibc gives each its own, and what one has let go of is of no use to another: 25 MB of a worker of the service.
+    glibc gives each its own, and what one has let go of is of no use to another.
     """
     set_option = getattr(ctypes.CDLL(None), "mallopt", None)
     if set_option is not None:  # glibc has it

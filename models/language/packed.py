@@ -1,4 +1,4 @@
-"""Attention layers that learn nothing more, in 8 bits: a quarter of the memory, and of the arithmetic some third.
+"""Attention layers that learn nothing more, in 8 bits: a quarter of the memory, and less arithmetic.
 
 Each output of a linear layer has a scale for its weights, and each row that comes in has one of its own (the
 vector-wise quantization of LLM.int8(): Dettmers et al., NeurIPS 2022): what stands beside a text changes nothing.
