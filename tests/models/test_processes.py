@@ -1,3 +1,4 @@
+import ctypes
 import os
 import signal
 import subprocess
@@ -85,3 +86,34 @@ def test_no_process_outlives_the_one_that_was_killed() -> None:
         assert int(process.stdout.readline()) != process.pid
         process.kill()
         process.communicate(timeout=30)  # ends when nobody has the pipe any more
+
+
+HEAPS = """
+import ctypes, sys, threading
+from models.processes import share_one_heap
+if sys.argv[1] == "one":
+    share_one_heap()
+libc, sizes = ctypes.CDLL(None), []
+libc.fopen.restype, libc.malloc.restype = ctypes.c_void_p, ctypes.c_void_p
+meet = threading.Barrier(4)
+def take():
+    meet.wait()
+    libc.malloc(1000)
+    meet.wait()
+threads = [threading.Thread(target=take) for _ in range(4)]
+[thread.start() for thread in threads]
+[thread.join() for thread in threads]
+file = ctypes.c_void_p(libc.fopen(sys.argv[2].encode(), b"w"))
+libc.malloc_info(0, file)
+libc.fclose(file)
+"""
+
+
+@pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "malloc_info"), reason="only glibc has several heaps")
+def test_threads_share_one_heap(tmp_path) -> None:
+    heaps = {}
+    for how in ("one", "several"):
+        subprocess.run([sys.executable, "-c", HEAPS, how, str(tmp_path / how)], check=True, timeout=60)
+        heaps[how] = (tmp_path / how).read_text().count("<heap nr=")
+    assert heaps["one"] == 1
+    assert heaps["several"] > 1
