@@ -4,7 +4,6 @@ import itertools
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -129,8 +128,7 @@ def open_index(index_dir: Path) -> "Localizer":
 
 def _candidates(posterior: Any, hints: Any, reading: Any) -> Any:
     """Rows of the vector index, while nothing else is done."""
-    with ThreadPoolExecutor(1) as beside:
-        return posterior.search(hints, reading, beside)()
+    return posterior.search(hints, reading)()
 
 
 def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
@@ -43,6 +42,7 @@ from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 from models.posterior.surroundings.surroundings import Surroundings
+from models.posterior.threads import beside
 
 PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
 REPLY_CANDIDATES = 1024  # where replies are all that is known: they may name a street of some kilometres
@@ -220,17 +220,16 @@ class PosteriorLocalizer:
         answered: Answered | None,
     ) -> Located | None:
         count = REPLY_CANDIDATES if reading is None else CANDIDATES
-        with ThreadPoolExecutor(1) as beside:
-            located = locate(
-                self.nodes,
-                reading,
-                None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
-                self._inside(query),
-                PLACE_CANDIDATES if told is not None else count,
-                also=None if reading is None else self.search(hints, reading, beside),
-                told=told,
-                answered=answered,
-            )
+        located = locate(
+            self.nodes,
+            reading,
+            None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
+            self._inside(query),
+            PLACE_CANDIDATES if told is not None else count,
+            also=None if reading is None else self.search(hints, reading),
+            told=told,
+            answered=answered,
+        )
         return located and self._honest(located, query, told)
 
     def _inside(self, query: Query) -> Inside | None:
@@ -244,14 +243,13 @@ class PosteriorLocalizer:
         is_told_to = query.prior is not None or is_meeting(query.description)
         return replace(located, radius_scale=config.meeting_scale if is_told_to else config.place_scale)
 
-    def search(self, hints: Sequence[ParsedHint], reading: Reading, beside: ThreadPoolExecutor) -> Callable[[], Ints]:
+    def search(self, hints: Sequence[ParsedHint], reading: Reading) -> Callable[[], Ints]:
         """Ask the vector index for cells, in the retriever's words, beside other work; what waits for them [A]."""
         sentences = self.binding.sentences(hints, reading)
         if not sentences:
             return lambda: np.empty(0, np.int64)
         encode, search = self.ranker.retriever.encode_description, self.ranker.search
-        found = beside.submit(lambda: search([encode(sentences)], CANDIDATES)[1][0])
-        return found.result
+        return beside(lambda: search([encode(sentences)], CANDIDATES)[1][0])
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
         """Descriptions in the retriever's words, as far as they were read: template sentences of the map's classes."""

@@ -1,7 +1,9 @@
-"""Two threads for one text: machine code and NumPy let go of the interpreter while they work."""
+"""A second thread for one text: machine code and NumPy let go of the interpreter while they work."""
 
-from collections.abc import Callable, Iterable, Iterator
+import os
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from typing import Final, TypeVar
 
 THREADS: Final = 2
@@ -9,10 +11,35 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 
-def shared_out(function: Callable[[T], R], tasks: Iterable[T], is_much: bool) -> Iterator[R]:
-    """What a function makes of each task, in order; if it is much, by threads that take one after another."""
+@cache
+def _second() -> ThreadPoolExecutor:
+    """The second thread of this process: to start one for every text takes longer than some of what it does."""
+    return ThreadPoolExecutor(1, "beside")
+
+
+os.register_at_fork(after_in_child=_second.cache_clear)  # a forked process has none
+
+
+def beside(work: Callable[[], R]) -> Callable[[], R]:
+    """Do something on the second thread, when it is free; what is given waits for it."""
+    return _second().submit(work).result
+
+
+def shared_out(function: Callable[[T], R], tasks: Iterable[T], is_much: bool) -> list[R]:
+    """What a function makes of each task, in order; if it is much, the second thread takes tasks as well, when free."""
     if not is_much:
-        yield from map(function, tasks)
-        return
-    with ThreadPoolExecutor(THREADS) as threads:
-        yield from threads.map(function, tasks)
+        return [function(task) for task in tasks]
+    numbered = enumerate(list(tasks))
+    found: dict[int, R] = {}
+
+    def work() -> None:
+        for number, task in numbered:  # whoever is next takes the next
+            found[number] = function(task)
+
+    helped = _second().submit(work)
+    try:
+        work()
+    finally:
+        if not helped.cancel():
+            helped.result()
+    return [found[number] for number in range(len(found))]
