@@ -101,6 +101,8 @@ class PlaceReader:
         heeded = listener_m is not None and "listener" not in self.without
         wind = listener_wind(description) if heeded else None
         meets = listener_m is not None or is_meeting(description)
+        if not mentions and wind is None:
+            return None  # without looking at every cell
         told = self.field.told(mentions, listener_m, wind, is_meeting=meets)
         return told if told.places.mentions or wind is not None else None
 

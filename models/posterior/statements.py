@@ -30,7 +30,8 @@ FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"
 FLOOR: Final = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
 FAINT: Final = 1e-4  # what no hint says
-SHARED: Final = 50_000  # cells from which on two threads look at them
+AT_ONCE: Final = 65_536  # cells: what is told of them stays near the processor
+PART: Final = 2 * AT_ONCE  # cells that one of two threads takes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,7 +141,7 @@ class Statements:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
     def scores(self, reading: Reading) -> Floats:
-        """[N] about log p(T | cell); of many cells, hint by hint in two threads."""
+        """[N] about log p(T | cell), of some cells after others; of many, in two threads."""
         words = self.words
         known = (reading.label.amax(dim=0) > FAINT).index_select(0, self.label).nonzero().flatten()
         place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
@@ -153,16 +154,18 @@ class Statements:
         told = (weight.amax(dim=0) > FAINT).nonzero().flatten()  # few
         columns, weights = known.index_select(0, told).numpy(), weight.index_select(1, told).numpy()
         told_of = 1 - reading.absent.numpy()
+        total = np.empty(self.cells, np.float32)
 
-        def of(hint: int) -> Floats:
-            held = np.full((1, self.cells), FLOOR, np.float32)
-            _add(self.starts, self.cell, self.share.view(np.uint16), HALVES, columns, weights[hint : hint + 1], held)
-            of_hint: Floats = np.log(held[0], out=held[0]) * told_of[hint]
-            return of_hint
+        def of(first: int) -> None:
+            last = min(first + PART, self.cells)
+            at, ends = self.starts[columns], self.starts[columns + 1]
+            at = np.array([_up_to(first, self.cell, *column) for column in zip(at, ends, strict=True)])
+            for start in range(first, last, AT_ONCE):
+                held = np.full((len(weights), min(AT_ONCE, last - start)), FLOOR, np.float32)
+                _add(at, ends, self.cell, self.share.view(np.uint16), HALVES, weights, start, held)
+                _sum(np.log(held, out=held), told_of, total[start : start + held.shape[1]])
 
-        total = np.zeros(self.cells, np.float32)
-        for scores in shared_out(of, range(len(told_of)), self.cells >= SHARED):
-            total += scores
+        shared_out(of, range(0, self.cells, PART), self.cells > PART)
         return total
 
 
@@ -186,16 +189,49 @@ def _spread(first: int, starts: Ints, statement: Ints, holds: Ints, place: Ints,
 
 
 @compiled
-def _add(starts: Ints, cell: Ints, share: Ints, halves: Floats, columns: Ints, weight: Floats, held: Floats) -> None:
-    """Add some columns [F] of what holds in cells, times the weights [H, F] that are not faint, to [H, N].
+def _add(
+    at: Ints, ends: Ints, cell: Ints, share: Ints, halves: Floats, weight: Floats, start: int, held: Floats
+) -> None:
+    """Add what some columns [F] hold in the cells from one on, times weights [H, F] that are not faint, to [H, N].
 
-    `share` is bits, `halves` what each of them means.
+    `share` is bits, `halves` what each of them means; `at`, where the columns go on, moves to what comes after.
     """
-    for hint in range(len(held)):
-        for n in range(len(columns)):
-            if weight[hint, n] > FAINT:
-                for k in range(starts[columns[n]], starts[columns[n] + 1]):
-                    held[hint, cell[k]] += halves[share[k]] * weight[hint, n]
+    hints, cells = held.shape
+    for n in range(len(at)):
+        begin, end = at[n], _up_to(start + cells, cell, at[n], ends[n])
+        for hint in range(hints):
+            told = weight[hint, n]
+            if told > FAINT:
+                for k in range(np.uint64(begin), np.uint64(end)):  # unsigned: none is counted from the end
+                    held[hint, np.uint32(cell[k] - start)] += halves[share[k]] * told
+        at[n] = end
+
+
+@compiled
+def _up_to(first: int, cell: Ints, low: int, high: int) -> int:
+    """Which of the entries low..high is the first that is of one cell or of a later one; it is not far from low."""
+    step = 1
+    while low + step < high and cell[low + step] < first:
+        low, step = low + step, 2 * step
+    high = min(low + step, high)
+    while low < high:
+        middle = (low + high) // 2
+        if cell[middle] < first:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@compiled
+def _sum(of_hints: Floats, told_of: Floats, total: Floats) -> None:
+    """[N] the sum of [H, N], times weights [H]."""
+    for n in range(len(total)):
+        total[n] = 0.0
+    for hint in range(len(of_hints)):
+        told = told_of[hint]
+        for n in range(len(total)):
+            total[n] += of_hints[hint, n] * told
 
 
 def statement_rows(

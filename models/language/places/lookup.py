@@ -24,7 +24,7 @@ LIKE: Final = 84.0  # of 100, rapidfuzz.fuzz.ratio, from which on a misspelt nam
 SHORTEST_MISSPELT: Final = 5
 LEAST_SHARE: Final = 0.35  # of a name's weight that a part of it must bear
 PART: Final = 0.5  # weight of a part of a name beside whole ones
-KEPT: Final = 4096  # phrases whose kinds are remembered
+KEPT: Final = 4096  # phrases whose kinds, and whose streets, are remembered
 _NONE: Final = np.zeros(0, np.int64)
 EMPTY: Final = ARTICLES | english().list("empty")
 
@@ -67,6 +67,7 @@ class Lookup:
         self._table = NameTable.of(gazetteer, vocabulary, is_common) if table is None else table
         self._nouns = self._plain_nouns(ENGLISH)
         self._kinds = lru_cache(maxsize=KEPT)(self._kinds_of)
+        self._streets = lru_cache(maxsize=KEPT)(self._streets_of)
 
     def worth(self, word: str) -> float:
         """How much a word of a name tells: the rarer, the more."""
@@ -77,9 +78,12 @@ class Lookup:
 
     def street(self, words: Sequence[str]) -> Match | None:
         """Streets of a name in any of its forms."""
+        return self._streets(tuple(words))
+
+    def _streets_of(self, words: tuple[str, ...]) -> Match | None:
         rows = self._table.streets.find(" ".join(words))
         if not len(rows):
-            rows = self._table.streets.find(" ".join(full_words(tuple(words))))
+            rows = self._table.streets.find(" ".join(full_words(words)))
         if not len(rows):
             return None
         weights = self._table.weight[rows]
