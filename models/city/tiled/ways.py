@@ -21,6 +21,12 @@ LEAST: Final = 0.6  # what hangs together counts by itself if it has at least th
 SLACK_M: Final = 1e-3  # by which a piece that fills its tile may stand over
 MOST_GROUPS: Final = 1 << 32
 USUAL: Final = 16  # things around a position, to begin with
+# Near a position millimetres are as good in single precision, of which a processor takes twice as many at once.
+SINGLE: Final = np.float32
+STEP: Final = SINGLE(STEP_M)
+NONE: Final = SINGLE(0.0)
+ONE: Final = SINGLE(1.0)
+BEYOND: Final = SINGLE(np.inf)
 
 
 def ways_around(
@@ -117,12 +123,12 @@ def _ways_to_groups(
 ) -> tuple[Floats, Floats, Floats]:  # fmt: skip
     """[G, P] squared distance and way of points from the closest point of groups of pieces; squares -1 beyond reach."""
     shape, count, beyond = (len(starts) - 1, len(points_m)), len(points_m), reach_m * reach_m
-    best, best_x, best_y = np.full(shape, beyond), np.empty(shape), np.empty(shape)
-    x, y, inside = np.empty(count), np.empty(count), np.empty(count)
+    best, best_x, best_y = np.empty(shape, SINGLE), np.empty(shape, SINGLE), np.empty(shape, SINGLE)
+    x, y, inside = np.empty(count, SINGLE), np.empty(count, SINGLE), np.empty(count, SINGLE)
     box_m = np.array([points_m[:, 0].min(), points_m[:, 1].min(), points_m[:, 0].max(), points_m[:, 1].max()])
     for g in range(len(best)):
         for p in range(count):
-            best_x[g, p] = np.inf
+            best[g, p], best_x[g, p] = beyond, np.inf
         for n in range(starts[g], starts[g + 1]):
             k = order[n]
             if _square_apart(bounds_m, k, box_m) > beyond:
@@ -163,15 +169,15 @@ def _to_segments(
     best [G, P] are of a group; slices of arrays would cost as much as the arithmetic.
     """
     for s in range(first, last):
-        x1, y1 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M
-        along_x, along_y = segments[s, 2] * STEP_M - x1, segments[s, 3] * STEP_M - y1
+        x1, y1, x2, y2 = segments[s, 0] * STEP, segments[s, 1] * STEP, segments[s, 2] * STEP, segments[s, 3] * STEP
+        along_x, along_y = x2 - x1, y2 - y1
         length = along_x * along_x + along_y * along_y
-        length = length if length > 0.0 else 1.0
+        a_share = ONE / length if length > NONE else NONE
         for p in range(len(x)):
             from_x, from_y = x[p] - x1, y[p] - y1
-            share = (from_x * along_x + from_y * along_y) / length
-            share = 0.0 if share < 0.0 else share
-            share = 1.0 if share > 1.0 else share
+            share = (from_x * along_x + from_y * along_y) * a_share
+            share = NONE if share < NONE else share
+            share = ONE if share > ONE else share
             way_x, way_y = from_x - share * along_x, from_y - share * along_y
             this, so_far = way_x * way_x + way_y * way_y, best[g, p]
             best[g, p] = this if this <= so_far else so_far
@@ -183,13 +189,13 @@ def _to_segments(
 def _insides(x: Floats, y: Floats, segments: Steps, first: int, last: int, inside: Floats) -> None:
     """1 for points that see an odd number of segments in the east, else 0."""
     for p in range(len(x)):
-        inside[p] = 0.0
+        inside[p] = NONE
     for s in range(first, last):
-        x1, y1, y2 = segments[s, 0] * STEP_M, segments[s, 1] * STEP_M, segments[s, 3] * STEP_M
-        along_x, along_y = segments[s, 2] * STEP_M - x1, y2 - y1
+        x1, y1, x2, y2 = segments[s, 0] * STEP, segments[s, 1] * STEP, segments[s, 2] * STEP, segments[s, 3] * STEP
+        slope = (x2 - x1) / (y2 - y1)
         for p in range(len(x)):
-            sees = ((y1 > y[p]) != (y2 > y[p])) & (x[p] - x1 < (y[p] - y1) * along_x / along_y)
-            inside[p] = 1.0 - inside[p] if sees else inside[p]
+            sees = ((y1 > y[p]) != (y2 > y[p])) & (x[p] - x1 < (y[p] - y1) * slope)
+            inside[p] = ONE - inside[p] if sees else inside[p]
 
 
 @compiled
@@ -198,7 +204,8 @@ def _to_crown(
     best_y: Floats,
 ) -> None:  # fmt: skip
     """As `_to_segments`, to the crown round a tree's trunk, which reaches nearer, as `crown_reach_m`."""
-    trunk, trunk_x, trunk_y = np.full((1, len(x)), np.inf), np.empty((1, len(x))), np.empty((1, len(x)))
+    shape = (1, len(x))
+    trunk, trunk_x, trunk_y = np.full(shape, BEYOND), np.empty(shape, SINGLE), np.empty(shape, SINGLE)
     _to_segments(x, y, segments, first, last, 0, trunk, trunk_x, trunk_y)
     for p in range(len(x)):
         nearer = 1.0
