@@ -3,12 +3,11 @@
 from collections.abc import Callable
 
 import numpy as np
-import torch
-from torch import Tensor
 
 from models.city.cells import CellTable
 from models.city.points import Ints, ranges
 from models.city.types import Floats
+from models.compiled import compiled
 from models.localization.located import Located
 from models.posterior.inside import Inside
 from models.posterior.likelihood import Reading
@@ -180,29 +179,47 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     best = best[np.diff(field.cell[best], prepend=-1) > 0]  # one a cell
     heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
     centers = np.union1d(heavy, best)
-    with torch.inference_mode():
-        square = _squares(nodes_m[centers])
-        share = torch.from_numpy(weight[centers] / max(weight[centers].max(), 1e-300)).float().clamp(min=1e-30)
-        near_mass = (_bump(square / reach_m**2) @ share).numpy()
+    near_m, share = nodes_m[centers], np.maximum(weight[centers] / max(weight[centers].max(), 1e-300), 1e-30)
+    near_mass = _mass_near(near_m, share, reach_m)
     owner = field.cell[centers]
     chosen = np.zeros(len(field.cells), np.int64)
     ascending = np.lexsort((near_mass, owner))
     chosen[owner[ascending]] = ascending  # the last of a cell, that with most mass, stays
     apart = np.abs(nodes_m[centers] - cells.center_m[field.cells[order[0]], :2]).max(axis=1)
     chosen[order[0]] = np.where(apart <= cells.size_m / 2, near_mass, -1.0).argmax()
-    close = (_bump(square[chosen[order]] / MEAN_M**2) * share).double().numpy()
-    mean: Floats = close @ nodes_m[centers] / close.sum(axis=1, keepdims=True)
-    return mean
+    found: Floats = _mean_near(near_m, share, chosen[order], MEAN_M)
+    return found
 
 
-def _squares(points_m: Floats) -> Tensor:
-    """[A, A] float32 squared distances of points in the plane, right for near ones however wide the map is."""
-    points = torch.from_numpy(points_m - points_m.mean(axis=0)).float()
-    # By matrix multiplication they would be metres off where scenes lie kilometres apart.
-    east, north = (points[:, None, axis] - points[None, :, axis] for axis in (0, 1))
-    return east.square_().addcmul_(north, north)
+@compiled
+def _mass_near(points_m: Floats, mass: Floats, reach_m: float) -> Floats:
+    """[A] mass within reach of each of some points [A, 2], softly."""
+    found = mass.copy()
+    for a in range(len(mass)):
+        for b in range(a):
+            falls = _falls(points_m, a, b, reach_m)
+            found[a] += falls * mass[b]
+            found[b] += falls * mass[a]
+    return found
 
 
-def _bump(square: Tensor) -> Tensor:
-    """About 1 up to a distance of 1 and 0 beyond, of squared distances; never so small that arithmetic is slow."""
-    return (square * square).mul_(square).clamp_(max=80.0).neg_().exp_().mul_(square < 4.0)
+@compiled
+def _mean_near(points_m: Floats, mass: Floats, chosen: Ints, reach_m: float) -> Floats:
+    """[K, 2] mean of the mass within reach of some chosen ones of points [A, 2]."""
+    found = np.zeros((len(chosen), 2))
+    for k in range(len(chosen)):
+        total, east, north = 0.0, 0.0, 0.0
+        for b in range(len(mass)):
+            here = mass[b] * _falls(points_m, chosen[k], b, reach_m)
+            total, east, north = total + here, east + here * points_m[b, 0], north + here * points_m[b, 1]
+        found[k, 0], found[k, 1] = east / total, north / total
+    return found
+
+
+@compiled
+def _falls(points_m: Floats, a: int, b: int, reach_m: float) -> float:
+    """About 1 up to a distance of two points and 0 beyond."""
+    x, y = (points_m[a, 0] - points_m[b, 0]) / reach_m, (points_m[a, 1] - points_m[b, 1]) / reach_m
+    square = x * x + y * y
+    falls: float = np.exp(-square * square * square) if square < 4.0 else 0.0
+    return falls
