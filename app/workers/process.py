@@ -20,7 +20,7 @@ from app.faults import where
 from app.startup import no_collection
 from app.workers.order import FORK, WorkerFault
 from models.errors import HereaboutsError
-from models.processes import give_back, share_one_heap
+from models.processes import forget_code, give_back, share_one_heap
 
 if TYPE_CHECKING:
     from index.localizer import Localizer
@@ -53,6 +53,7 @@ def main(control: Connection, ahead: Sequence[str] = ()) -> None:
         control.send(_as_sent(error))
         return
     give_back()  # what opening needed for a moment, or every worker would have it too
+    forget_code()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the dead are buried at once
     control.send((localizer.facts, localizer.frame))
     while True:

@@ -117,3 +117,27 @@ def test_threads_share_one_heap(tmp_path) -> None:
         heaps[how] = (tmp_path / how).read_text().count("<heap nr=")
     assert heaps["one"] == 1
     assert heaps["several"] > 1
+
+
+CODE = """
+import re
+import torch
+from models.processes import forget_code
+
+def mapped_kib():
+    regions = re.split(r"^(?=[0-9a-f]+-[0-9a-f]+ )", open("/proc/self/smaps").read(), flags=re.M)
+    code = [region for region in regions if re.match(r"\\S+ r-xp .*libtorch_cpu", region)]
+    return sum(int(re.search(r"^Rss: +(\\d+)", region, re.M)[1]) for region in code)
+
+before = mapped_kib()
+forget_code()
+print(before, mapped_kib(), int((torch.ones(9) * 2).sum()))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux says what is mapped")
+def test_code_that_was_run_is_forgotten_and_runs_again() -> None:
+    said = subprocess.run([sys.executable, "-c", CODE], check=True, timeout=120, capture_output=True, text=True).stdout
+    before, after, total = map(int, said.split())
+    assert total == 18
+    assert after < before / 2
