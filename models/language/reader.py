@@ -148,13 +148,14 @@ def _spans(tags: Tensor, characters: Tensor, mask: Tensor, text: str) -> list[tu
     """(first token, end, tag) of what is named; a word is taken whole, though the tokenizer may have split it."""
     spans: list[list[int]] = []
     real = (mask & (characters[:, 1] > characters[:, 0])).tolist()
+    starts, ends = characters.T.tolist()
     for t, tag in enumerate(tags.tolist()):
         if not real[t]:
             continue
-        same_word = t > 0 and real[t - 1] and int(characters[t, 0]) == int(characters[t - 1, 1])
+        same_word = t > 0 and real[t - 1] and starts[t] == ends[t - 1]
         inside = bool(spans) and spans[-1][1] == t
-        goes_on = tag == 1 or (inside and tag > 1 and text[: int(characters[t, 0])].endswith((" of ", " for ")))
-        if inside and (goes_on or (same_word and text[int(characters[t, 0])].isalnum())):
+        goes_on = tag == 1 or (inside and tag > 1 and text[: starts[t]].endswith((" of ", " for ")))
+        if inside and (goes_on or (same_word and text[starts[t]].isalnum())):
             spans[-1][1] = t + 1
         elif tag > 1:
             spans.append([t, t + 1, tag])

@@ -22,6 +22,8 @@ BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked 
 MEAN_M = 3.0  # and are then the mean of the mass this near
 HEAVY = 256  # nodes that the mass within reach is added up from: the likeliest
 NOTHING = 40.0  # this far behind (nats) not even a million cells have any mass
+TIMES = 2  # as coarse is the grid that cells are looked at on first
+FAR = 20.0  # this far behind by the inverted list (nats) on one twice as coarse, unless places are named
 _SHARE = 16  # of the scores one is looked at first
 _TAIL = 30  # candidates at the end, from which the mass of the cells behind them is guessed
 
@@ -66,7 +68,8 @@ def locate(
     possible[more] = False
     chosen = np.concatenate([listed, more])
     others = np.where(possible, scores, -np.inf)  # what is not looked at
-    field = _field(posterior, reading, chosen, log_prior, inside, told, answered)
+    far = scores[chosen] < scores[listed[0]] - FAR if told is None else np.zeros(len(chosen), np.bool_)
+    field = _field(posterior, reading, chosen, np.where(far, 2 * TIMES, TIMES), log_prior, inside, told, answered)
     mass = _mass(field)
     rest = -np.inf
     if (highest := others.max()) > -np.inf:
@@ -109,21 +112,23 @@ def _field(
     posterior: HintPosterior,
     reading: Reading | None,
     chosen: Ints,
+    times: Ints,
     log_prior: LogPrior | None,
     inside: Inside | None,
     told: Told | None,
     answered: Answered | None,
 ) -> Field:
-    """The posterior over the nodes of some cells; of those that are far behind on a coarser grid, that will do.
+    """The posterior over the nodes of some cells [K]; of those that are far behind on a coarser grid, that will do.
 
-    Where some are likelier beforehand and no place is named, all are looked at.
+    The grid is so many times [K] as coarse. All nodes are looked at where some are likelier beforehand and no place is
+    named.
     """
     if log_prior is not None and told is None:
         return posterior.field(reading, chosen, log_prior, inside, told, answered)
-    rough = posterior.field(reading, chosen, log_prior, inside, told, answered, coarse=True)
+    rough = posterior.field(reading, chosen, log_prior, inside, told, answered, times)
     mass = _mass(rough)
     near = np.flatnonzero((mass > mass.max() - BEHIND) | (mass == -np.inf))
-    fine = posterior.field(reading, chosen[near], log_prior, inside, told, answered, coarse=False)
+    fine = posterior.field(reading, chosen[near], log_prior, inside, told, answered, times[near], between=True)
     stands_for = _counts(posterior, chosen, inside) / np.maximum(1, np.bincount(rough.cell, minlength=len(chosen)))
     stands_for[near] = 1.0
     cell = np.concatenate([near[fine.cell], rough.cell])

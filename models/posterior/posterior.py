@@ -114,7 +114,8 @@ class HintPosterior:
         inside: Inside | None = None,
         told: Told | None = None,
         answered: Answered | None = None,
-        coarse: bool | None = None,
+        times: Ints | None = None,
+        between: bool = False,
     ) -> Field:
         """The posterior over the nodes of some cells.
 
@@ -125,7 +126,8 @@ class HintPosterior:
             inside: where alone it can be; None for everywhere.
             told: the places that were named, if any.
             answered: what answers to questions tell, if any.
-            coarse: True for the nodes of a grid twice as coarse alone, False for those between; None for all.
+            times: [K] of which cell those nodes alone that a grid so many times as coarse has; None for all.
+            between: the others instead.
         """
         s = self.surroundings
         begin, end = s.cell_starts[cells], s.cell_starts[cells + 1]
@@ -134,8 +136,8 @@ class HintPosterior:
         if inside is not None:
             kept = inside.holds(positions_m)
             nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
-        if coarse is not None:
-            kept = is_coarse(positions_m) == coarse
+        if times is not None:
+            kept = is_coarse(positions_m, times[cell]) != between
             nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
         of_reading = None if reading is None else self._nodes.of(reading)
 

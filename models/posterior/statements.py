@@ -143,23 +143,19 @@ class Statements:
     def scores(self, reading: Reading) -> Floats:
         """[N] about log p(T | cell), of some cells after others; of many, in two threads."""
         words = self.words
-        known = (reading.label.amax(dim=0) > FAINT).index_select(0, self.label).nonzero().flatten()
         place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
         colour = torch.cat(
             [reading.colour[:, :words] + reading.colour[:, words:], torch.ones(len(place), 1) * 0.3], dim=1
         )
-        weight = reading.label.index_select(1, self.label.index_select(0, known))  # [H, F]
-        weight = weight * colour.index_select(1, self.word.index_select(0, known))
-        weight = weight * place.index_select(1, self.sector.index_select(0, known))
-        told = (weight.amax(dim=0) > FAINT).nonzero().flatten()  # few
-        columns, weights = known.index_select(0, told).numpy(), weight.index_select(1, told).numpy()
+        said = (of.numpy() for of in (reading.label, colour, place, self.label, self.word, self.sector))
+        columns, weights = _told(*said)
         told_of = 1 - reading.absent.numpy()
         total = np.empty(self.cells, np.float32)
 
         def of(first: int) -> None:
             last = min(first + PART, self.cells)
             at, ends = self.starts[columns], self.starts[columns + 1]
-            at = np.array([_up_to(first, self.cell, *column) for column in zip(at, ends, strict=True)])
+            _skip(first, self.cell, at, ends)
             for start in range(first, last, AT_ONCE):
                 held = np.full((len(weights), min(AT_ONCE, last - start)), FLOOR, np.float32)
                 _add(at, ends, self.cell, self.share.view(np.uint16), HALVES, weights, start, held)
@@ -167,6 +163,24 @@ class Statements:
 
         shared_out(of, range(0, self.cells, PART), self.cells > PART)
         return total
+
+
+@compiled
+def _told(
+    label: Floats, colour: Floats, place: Floats, label_of: Ints, word_of: Ints, sector_of: Ints
+) -> tuple[Ints, Floats]:
+    """(columns [F], weights [H, F]) of the statements that a hint tells of: few."""
+    columns, weights, count = np.empty(len(label_of), np.int64), np.empty((len(label), len(label_of)), np.float32), 0
+    for n in range(len(label_of)):
+        most = np.float32(0.0)
+        for hint in range(len(label)):
+            told = label[hint, label_of[n]] * colour[hint, word_of[n]] * place[hint, sector_of[n]]
+            weights[hint, count] = told
+            most = max(most, told)
+        if most > FAINT:
+            columns[count] = n
+            count += 1
+    return columns[:count].copy(), weights[:, :count].copy()
 
 
 @compiled
@@ -205,6 +219,13 @@ def _add(
                 for k in range(np.uint64(begin), np.uint64(end)):  # unsigned: none is counted from the end
                     held[hint, np.uint32(cell[k] - start)] += halves[share[k]] * told
         at[n] = end
+
+
+@compiled
+def _skip(first: int, cell: Ints, at: Ints, ends: Ints) -> None:
+    """Move on where columns [F] begin to what is not before a cell."""
+    for n in range(len(at)):
+        at[n] = _up_to(first, cell, at[n], ends[n])
 
 
 @compiled

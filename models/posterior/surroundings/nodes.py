@@ -93,10 +93,10 @@ def nearest_nodes(
 
 
 @compiled
-def is_coarse(positions_m: Floats) -> npt.NDArray[np.bool_]:
-    """[M] which nodes [M, 2] are of the grid that is twice as coarse."""
+def is_coarse(positions_m: Floats, times: Ints) -> npt.NDArray[np.bool_]:
+    """[M] which nodes [M, 2] are of the grid that is so many times [M] as coarse."""
     coarse = np.empty(len(positions_m), np.bool_)
     for n in range(len(positions_m)):
         x, y = np.rint(positions_m[n, 0] / SPACING_M), np.rint(positions_m[n, 1] / SPACING_M)
-        coarse[n] = x % 2 == 0 and y % 2 == 0
+        coarse[n] = x % times[n] == 0 and y % times[n] == 0
     return coarse

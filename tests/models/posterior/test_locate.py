@@ -10,17 +10,20 @@ from models.posterior.posterior import Field
 from models.posterior.questions import Answered
 
 NOTHING: Any = None
+SOMETHING: Any = object()
 
 
 def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coarse: list[int] | None = None) -> Any:
     """A posterior that is given: [M] log p at nodes [M, 2], of which cell n owns starts[n] to starts[n + 1]."""
     owner = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    asked: list[dict[int, int]] = []  # as how coarse a grid has nodes of which cell
     is_coarse = np.isin(np.arange(len(log_p)), np.arange(len(log_p)) if coarse is None else coarse)
 
-    def field(_reading, cells, log_prior=None, inside=None, told=None, answered=None, coarse=None):
+    def field(_reading, cells, log_prior=None, inside=None, told=None, answered=None, times=None, between=False):
         assert told is None
-        if coarse is not None:
-            inside = is_coarse == coarse
+        if times is not None:
+            asked.append(dict(zip(cells.tolist(), times.tolist(), strict=True)))
+            inside = is_coarse != between
         nodes = np.concatenate([np.flatnonzero((owner == c) & (inside is None or inside)) for c in cells])
         prior = 0.0 if log_prior is None else log_prior(nodes_m[nodes])
         prior = prior if answered is None else prior + answered.at(nodes)
@@ -30,7 +33,7 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
 
     center = [nodes_m[owner == c].mean(axis=0) if (owner == c).any() else (0, 0) for c in range(len(starts) - 1)]
     return SimpleNamespace(
-        likelihood=SimpleNamespace(temper=torch.zeros(())), field=field,
+        likelihood=SimpleNamespace(temper=torch.zeros(())), field=field, asked=asked,
         cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0), extent_m=1e4,
         surroundings=SimpleNamespace(cell_starts=np.array(starts), positions_m=lambda nodes: nodes_m[nodes]),
         # As they stand, so that cells are looked at in this order.
@@ -67,6 +70,18 @@ def test_a_cell_without_a_coarse_node_is_looked_at_closely() -> None:
     assert found is not None
     assert dict(zip(found.rows.tolist(), found.score.tolist(), strict=True)) == pytest.approx(
         {0: np.log(2), 1: np.log(2), 2: 0.0}
+    )
+
+
+def test_a_cell_that_seemed_far_behind_and_is_not_is_looked_at_closely() -> None:
+    nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
+    posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -30.0]), [0, 2, 4, 5], coarse=[0, 2, 4])
+    posterior.cell_scores = lambda _reading: np.array([0.0, -30.0, -5.0])
+    found = locate(posterior, SOMETHING)
+    assert posterior.asked == [{0: 2, 2: 2, 1: 4}, {0: 2, 1: 4}]
+    assert found is not None
+    assert dict(zip(found.rows.tolist(), found.score.tolist(), strict=True)) == pytest.approx(
+        {0: np.log(2), 1: np.log(2), 2: -30.0}
     )
 
 
