@@ -20,6 +20,13 @@ def _second() -> ThreadPoolExecutor:
 os.register_at_fork(after_in_child=_second.cache_clear)  # a forked process has none
 
 
+def end_second_thread() -> None:
+    """End it until there is work for it: who forks next should have one thread."""
+    if _second.cache_info().currsize:
+        _second().shutdown()
+        _second.cache_clear()
+
+
 def beside(work: Callable[[], R]) -> Callable[[], R]:
     """Do something on the second thread, when it is free; what is given waits for it."""
     return _second().submit(work).result

@@ -3,7 +3,7 @@ import threading
 
 import pytest
 
-from models.posterior.threads import beside, shared_out
+from models.posterior.threads import beside, end_second_thread, shared_out
 
 
 def test_two_tasks_run_at_the_same_time() -> None:
@@ -36,6 +36,14 @@ def test_what_fails_beside_is_raised_to_who_waits_for_it() -> None:
     waits = beside(lambda: {"a": 1}["lost"])
     with pytest.raises(KeyError, match="lost"):
         waits()
+
+
+def test_the_second_thread_ends_and_comes_again() -> None:
+    ended = beside(threading.current_thread)()
+    end_second_thread()
+    end_second_thread()
+    assert not ended.is_alive()
+    assert beside(threading.current_thread)() is not ended
 
 
 def test_a_forked_process_has_a_second_thread_of_its_own() -> None:
