@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field
-from threading import Condition, Thread
+from threading import Condition, Lock, Thread
 from typing import Final, NoReturn
 
 import structlog
@@ -65,8 +65,9 @@ class InferenceQueue:
     """Answers queries on as many threads as there are workers, one after another as they come.
 
     A thread opens the localizers, then each of them has a thread that takes what has waited longest. Several at once
-    would be no faster a query on a CPU, and all of them would wait for the last. A query whose client left or whose
-    deadline has passed is not computed; one that would wait too long is refused at once.
+    would be no faster a query on a CPU, and all of them would wait for the last. Of those that are idle the one that
+    answered last is asked: what it read and remembers is at hand. A query whose client left or whose deadline has
+    passed is not computed; one that would wait too long is refused at once.
 
     Args:
         open_localizers: run once; each of what it gives answers on a thread of its own.
@@ -83,7 +84,8 @@ class InferenceQueue:
         self._open_localizers = open_localizers
         self._max_queue = max_queue
         self._max_wait_s = max_wait_s
-        self._changed = Condition()
+        self._lock = Lock()
+        self._idle: list[Condition] = []  # of threads that wait for a job; the last has worked last
         self._jobs: deque[_Job] = deque()
         self._computing = 0
         self._query_s = FIRST_S  # that a worker takes for a query, a moving average
@@ -135,7 +137,7 @@ class InferenceQueue:
     @property
     def is_idle(self) -> bool:
         """Whether nothing waits and nothing is computed."""
-        with self._changed:
+        with self._lock:
             return not self._jobs and not self._computing
 
     def check_accepting(self) -> None:
@@ -165,7 +167,7 @@ class InferenceQueue:
         Args:
             reason: what is wrong and what to do, for clients.
         """
-        with self._changed:
+        with self._lock:
             self._failure = Code.LOAD_FAILED, reason
             waiting = [self._jobs.popleft() for _ in range(len(self._jobs))]
         for job in waiting:
@@ -175,9 +177,10 @@ class InferenceQueue:
     async def close(self) -> None:
         """Drain, wait for the waiting queries, end the threads."""
         self.drain()
-        with self._changed:
+        with self._lock:
             self._is_closed = True
-            self._changed.notify_all()
+            while self._idle:
+                self._wake()
         for thread in self._threads:  # the first adds the others before it ends
             await asyncio.to_thread(thread.join)
 
@@ -192,12 +195,12 @@ class InferenceQueue:
             Problem: queue full, not accepting, or no answer before the deadline.
         """
         job = _Job(query, deadline_s)
-        with self._changed:
+        with self._lock:
             self.check_accepting()
             full = self._full(deadline_s - time.monotonic())
             if full is None:
                 self._jobs.append(job)
-                self._changed.notify()
+                self._wake()
         if full is not None:
             await refuse(full)
         try:
@@ -210,7 +213,7 @@ class InferenceQueue:
 
     def full(self) -> Problem | None:
         """Why a query would be refused as too many wait, however long it may take; None if that is not why."""
-        with self._changed:
+        with self._lock:
             return self._full(math.inf) if self._localizers and not self._is_draining else None
 
     def _full(self, seconds: float) -> Problem | None:
@@ -221,7 +224,7 @@ class InferenceQueue:
         return Problem(Code.QUEUE_FULL, retry_after_s=max(1, math.ceil(wait_s)))
 
     def _forget(self, job: _Job) -> None:
-        with self._changed:
+        with self._lock:
             if job in self._jobs:
                 self._jobs.remove(job)
 
@@ -262,18 +265,25 @@ class InferenceQueue:
         while job := self._take():
             if job.begins():
                 self._compute(localizer, job)
-            with self._changed:
+            with self._lock:
                 self._computing -= 1
         localizer.close()
 
     def _take(self) -> _Job | None:
         """What has waited longest; waits for it; None when closed and nothing is left."""
-        with self._changed:
-            self._changed.wait_for(lambda: self._jobs or self._is_closed)
+        with self._lock:
+            while not self._jobs and not self._is_closed:
+                idle = Condition(self._lock)
+                self._idle.append(idle)
+                idle.wait()
             if not self._jobs:
                 return None
             self._computing += 1
             return self._jobs.popleft()
+
+    def _wake(self) -> None:
+        if self._idle:
+            self._idle.pop().notify()
 
     def _compute(self, localizer: LocalizerLike, job: _Job) -> None:
         started_s = time.monotonic()
@@ -286,5 +296,5 @@ class InferenceQueue:
             job.result.set_result(Served(answer, (started_s - job.submitted_s) * 1000))
 
     def _learn(self, query_s: float) -> None:
-        with self._changed:
+        with self._lock:
             self._query_s += LEARNING * (min(query_s, SLOWER * self._query_s) - self._query_s)

@@ -279,3 +279,20 @@ def test_a_busy_worker_keeps_nothing_from_an_idle_one(fake):
     assert [name for batch in fakes[0].batches[1:] for name in names(batch)] == [*"abcdef"]
     assert len(fakes[1].batches) == 1
     assert all(one.is_closed for one in fakes)
+
+
+def test_of_idle_workers_the_one_that_answered_last_is_asked(fake):
+    workers = [fake, type(fake)(), type(fake)()]
+
+    async def run():
+        queue = InferenceQueue(lambda: workers, 100)
+        queue.start()
+        await queue.opened()
+        for n in range(9):
+            while len(queue._idle) < len(workers):
+                await asyncio.sleep(0.001)
+            await queue.submit(ask(str(n)), soon())
+        await queue.close()
+
+    asyncio.run(run())
+    assert sorted(len(worker.batches) for worker in workers) == [0, 0, 9]
