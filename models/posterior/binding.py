@@ -9,9 +9,10 @@ from torch import Tensor
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
 from models.city.templates import render_hint
 from models.city.types import DIRECTIONS, Hint
-from models.language.labels import BoundLabels, LabelMatcher
+from models.language.labels import MOST_KEPT, BoundLabels, LabelMatcher
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
+from models.language.recent_features import RecentFeatures
 from models.posterior.likelihood import Reading
 from models.posterior.node_batch import colour_words
 
@@ -33,15 +34,21 @@ class Binding:
         with torch.no_grad():
             self._bound: BoundLabels = matcher.bind(self.labels)
         self._colours, self._words = colour_table(palette), colour_words(palette)
+        self._label = RecentFeatures(self._labels_of, MOST_KEPT)
+
+    def _labels_of(self, nouns: Sequence[str]) -> Tensor:
+        """[S, L] probability of each label; noun by noun, so that what stands beside one changes nothing."""
+        rows = [self.matcher(noun[None], self._bound) for noun in self.matcher.embed(nouns)]
+        return torch.cat(rows).exp()[:, :-1]
 
     @torch.no_grad()
     def reading(self, noticed: Sequence[ParsedHint]) -> Reading:
         """Hints as distributions over what the map has."""
-        nouns = self.matcher.embed([thing.noun for thing in noticed])
+        label = self._label(thing.noun for thing in noticed)
         said = [float("nan") if thing.distance_m is None else thing.distance_m for thing in noticed]
         return Reading(
             relation=torch.stack([thing.relation for thing in noticed]),
-            label=self.matcher(nouns, self._bound).exp()[:, :-1],
+            label=torch.stack([label[thing.noun] for thing in noticed]),
             colour=torch.stack([thing.colour for thing in noticed]) @ self._colours,
             distance_m=torch.tensor(said),
             absent=torch.tensor([thing.absent for thing in noticed]),

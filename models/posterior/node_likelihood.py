@@ -1,6 +1,7 @@
 """`Likelihood` at the nodes of a map, compiled: node by node, without arrays of all that is around them."""
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -56,15 +57,20 @@ class NodeLikelihood:
         self._least = FAINT / (1.0 + self._slip)  # what fits less does so in no direction
         # Of things among those of a text, -1 between texts; one for each thread that asks.
         self._place = [np.full(len(label), -1, np.int32)]
+        self._said = lru_cache(maxsize=1)(self._said_by)
 
     @torch.inference_mode()
-    def of(self, reading: Reading) -> Callable[[Around, int], Floats]:
-        """What gives [M] log p(T | x) of what is around so many nodes; two threads may ask at once."""
+    def _said_by(self, reading: Reading) -> tuple[Floats, Floats, tuple[Floats, Floats]]:
+        """(said, told) as `_log_p` takes them, and labels [H, L] and colours [H, W + 1]."""
         said = torch.stack([reading.absent, self._model.chance(reading, self._usual)]).double().numpy()
         said_m = reading.distance_m.double().numpy()
         told = np.column_stack([reading.relation.double().numpy(), said_m, self._measured * said_m + 1.0])
         told = np.stack([told[:, order] for order in MIRRORED])
-        read = reading.label.double().numpy(), reading.colour.double().numpy()
+        return said, told, (reading.label.double().numpy(), reading.colour.double().numpy())
+
+    def of(self, reading: Reading) -> Callable[[Around, int], Floats]:
+        """What gives [M] log p(T | x) of what is around so many nodes; two threads may ask at once."""
+        said, told, read = self._said(reading)
 
         def log_p(around: Around, nodes: int) -> Floats:
             place = self._place.pop() if self._place else np.full(len(self._things[0]), -1, np.int32)
@@ -78,6 +84,15 @@ class NodeLikelihood:
             return found
 
         return log_p
+
+    def explain(self, reading: Reading, around: Around) -> tuple[Ints, Floats]:
+        """[H] the row of what is around one node that explains each hint best, and the chance that something does."""
+        said, told, read = self._said(reading)
+        label, fits = _fits(around.part, *self._things, *read)
+        found: tuple[Ints, Floats] = _explained(
+            around.way, around.whole, label, fits, self._ways, told, self._slip, said, read[0], *self._weights[:-1]
+        )
+        return found
 
 
 def _quarter(table: Floats) -> Floats:
@@ -187,6 +202,32 @@ def _log_p(
             log_p[node[begin]] = _of_node(pairs, row, hint, fit, share, said, numbers, habit, sums, load)
         begin = end
     return log_p
+
+
+@compiled
+def _explained(
+    way: Ints, whole: npt.NDArray[np.bool_], label: Ints, fits: Floats, ways: Floats, told: Floats, slip: float,
+    said: Floats, label_read: Floats, sector_of: Ints, by_way: Floats, ranks: Floats, among: Floats, numbers: Floats,
+) -> tuple[Ints, Floats]:  # fmt: skip
+    """See `NodeLikelihood.explain`; what fits only because a label may be wrong does not explain."""
+    (rows, hints), best = fits.shape, np.zeros(fits.shape[1], np.int64)
+    most, total, chance = np.zeros(hints), np.zeros(hints), np.empty(hints)
+    number, side, sector = np.empty(rows, np.int64), np.empty(rows, np.int64), np.empty(rows, np.int64)
+    for r in range(rows):
+        x, y = max(int(way[r, 0]), 1 - OFFSET), max(int(way[r, 1]), 1 - OFFSET)
+        number[r], side[r] = abs(x) * OFFSET + abs(y), 2 * (x < 0) + (y < 0)
+        sector[r] = sector_of[(x + OFFSET) * 256 + y + OFFSET]
+    rank, share = np.empty((rows, 5), np.int64), np.empty((rows, 3))
+    count_ranks(0, rows, label, sector, no_counts(label), rank)
+    _shares(0, rows, number, whole, rank, by_way, ranks, _powers(among, rows), numbers, share)
+    for h in range(hints):
+        for r in range(rows):
+            term = fits[r, h] * _place(ways, number[r], told, side[r], h, slip) * share[r].mean()
+            total[h] += term
+            if term > most[h]:
+                best[h], most[h] = r, term
+        chance[h] = total[h] / (total[h] + said[1, h]) * min(1.0, 2 * label_read[h, label[best[h]]])
+    return best, chance
 
 
 @compiled

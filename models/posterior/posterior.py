@@ -15,7 +15,7 @@ from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.posterior.inside import Inside
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.node_batch import NodeBatch, usual_statements
+from models.posterior.node_batch import usual_statements
 from models.posterior.node_likelihood import NodeLikelihood
 from models.posterior.places.field import Told
 from models.posterior.questions import Answered
@@ -92,7 +92,6 @@ class HintPosterior:
         self._rgb = torch.from_numpy(surroundings.things.rgb.astype(np.float32))
         self._palette = palette
         self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
-        self._ways, self._log_pi = likelihood.ways(), likelihood.log_pi()
         self._nodes = NodeLikelihood(likelihood, self._label, self._rgb, palette, self.usual)
         self.statements = statements or Statements.of(
             likelihood, surroundings, self._label, self._rgb, likelihood.words(self._rgb, palette)
@@ -158,24 +157,16 @@ class HintPosterior:
         """[n, W] chance of each colour word of some things [n]: a table of all would be the largest of a city."""
         return self.likelihood.words(self._rgb.index_select(0, things), self._palette)
 
-    @torch.inference_mode()
     def explain(self, reading: Reading, node: int) -> list[Explained]:
         """For each hint what explains it best at a node."""
         around = self.surroundings.around(np.array([node]))
         if not len(around.part):
             return [NOT_EXPLAINED] * len(reading.label)
-        model, batch = self.likelihood, NodeBatch.of(around, 1, self._label, self._rgb)
-        fits = model.parts(reading, batch.label, self._words(batch.parts))
-        share = model.share_of(batch, self._log_pi).mean(dim=1, keepdim=True)
-        terms = fits[batch.part] * model.places(reading, self._ways[batch.way]) * share
-        eps = model.chance(reading, self.usual)
-        best, total = terms.argmax(dim=0), terms.sum(dim=0)
-        # What fits only because a label may be wrong does not explain.
-        label = reading.label[torch.arange(len(best)), batch.label[batch.part[best]]]
-        explained = (total / (total + eps) * (2 * label).clamp(max=1.0)).tolist()
+        best, chance = self._nodes.explain(reading, around)
         way_m = around.way_m
         return [
-            Explained(p, int(around.part[row]), way_m[row]) for row, p in zip(best.tolist(), explained, strict=True)
+            Explained(p, int(around.part[row]), way_m[row])
+            for row, p in zip(best.tolist(), chance.tolist(), strict=True)
         ]
 
 
