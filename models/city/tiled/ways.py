@@ -26,6 +26,7 @@ SINGLE: Final = np.float32
 STEP: Final = SINGLE(STEP_M)
 NONE: Final = SINGLE(0.0)
 ONE: Final = SINGLE(1.0)
+LANES: Final = 8  # points that a processor takes at once
 BEYOND: Final = SINGLE(np.inf)
 
 
@@ -121,8 +122,13 @@ def _ways_to_groups(
     points_m: Floats, order: Ints, starts: Ints, reach_m: float, tile: Ints, form: Ints, bounds_m: Floats,
     crown_m: Floats, segment_starts: Ints, segments: Steps,
 ) -> tuple[Floats, Floats, Floats]:  # fmt: skip
-    """[G, P] squared distance and way of points from the closest point of groups of pieces; squares -1 beyond reach."""
-    shape, count, beyond = (len(starts) - 1, len(points_m)), len(points_m), reach_m * reach_m
+    """[G, P] squared distance and way of points from the closest point of groups of pieces; squares -1 beyond reach.
+
+    P is a multiple of LANES; what is beyond the points is of the first one.
+    """
+    points, beyond = len(points_m), reach_m * reach_m
+    count = -(-points // LANES) * LANES
+    shape = len(starts) - 1, count
     best, best_x, best_y = np.empty(shape, SINGLE), np.empty(shape, SINGLE), np.empty(shape, SINGLE)
     x, y, inside = np.empty(count, SINGLE), np.empty(count, SINGLE), np.empty(count, SINGLE)
     box_m = np.array([points_m[:, 0].min(), points_m[:, 1].min(), points_m[:, 0].max(), points_m[:, 1].max()])
@@ -135,7 +141,8 @@ def _ways_to_groups(
                 continue
             first, last = segment_starts[k], segment_starts[k + 1]
             for p in range(count):
-                x[p], y[p] = points_m[p, 0] - tile[k, 0] * TILE_M, points_m[p, 1] - tile[k, 1] * TILE_M
+                m = p if p < points else 0
+                x[p], y[p] = points_m[m, 0] - tile[k, 0] * TILE_M, points_m[m, 1] - tile[k, 1] * TILE_M
             if crown_m[k] > 0.0:
                 _to_crown(x, y, segments, first, last, crown_m[k], g, best, best_x, best_y)
             else:

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Final, Literal
 
 import numpy as np
@@ -29,6 +30,8 @@ STOP, PASSED = _W.list("stop"), _W.list("passed")
 _ABBREVIATED, _ONE = _W.list("abbreviated"), _W.list("one")
 _SEEN_TOO, _OVER = _W.list("seen_too"), _W.list("over")
 _APPOSED = re.compile(r"\s*,\s*(?:the|a|an|that|our)\s+(?:\w+\s+)?|\s*,?\s+called\s+")
+_SENTENCE_END = re.compile(r"[.!?]\s*$")
+_PAUSE = re.compile(r"[.;!?\n,:()]")
 _NAMED_SO = re.compile(r"\s*,\s*|\s+|\s*,?\s+called\s+")
 
 
@@ -50,12 +53,14 @@ def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list
     words = [_at_start(word, said[n - 1] if n else None, text, lookup) for n, word in enumerate(said)]
     cased = any(word.is_capital for word in words[1:])
     mended = {word.plain: like_noun(word.plain, lookup) for word in words if lookup.is_strange(word.plain)}
+    plain = tuple(word.plain for word in words)
+    ends = [_ends(word, text[word.end : after.start]) for word, after in pairwise(words)] + [True]
     found: list[Span] = []
     for first in range(len(words)):
         for last in range(first, min(first + MOST_WORDS, len(words))):
-            if last > first and _ends(words[last - 1], text[words[last - 1].end : words[last].start]):
+            found += _spans_at(words, first, last, plain[first : last + 1], mended, lookup, language, cased=cased)
+            if ends[last]:
                 break
-            found += _spans_at(words, first, last, mended, lookup, language, cased=cased)
     chosen = _with_unknown(_chosen(found, words), words, text, lookup)
     return words, [with_objects(span, lookup) for span in _joined(chosen, words, text)]
 
@@ -70,7 +75,7 @@ def like_noun(word: str, lookup: Lookup) -> str:
 
 def _starts(word: Word, before: Word | None, text: str) -> bool:
     """Whether a word begins a sentence, where a capital letter tells nothing."""
-    return before is None or re.search(r"[.!?]\s*$", text[before.end : word.start]) is not None
+    return before is None or _SENTENCE_END.search(text[before.end : word.start]) is not None
 
 
 def _at_start(word: Word, before: Word | None, text: str, lookup: Lookup) -> Word:
@@ -81,25 +86,24 @@ def _at_start(word: Word, before: Word | None, text: str, lookup: Lookup) -> Wor
 
 def _ends(word: Word, after: str) -> bool:
     """Whether a name ends behind a word: at punctuation, but for the dot of "St." and "Dr."."""
-    return re.search(r"[.;!?\n,:()]", after.replace(".", "", 1) if word.plain in _ABBREVIATED else after) is not None
+    return _PAUSE.search(after.replace(".", "", 1) if word.plain in _ABBREVIATED else after) is not None
 
 
 def _spans_at(
     words: Sequence[Word],
     first: int,
     last: int,
+    plain: tuple[str, ...],
     mended: Mapping[str, str],
     lookup: Lookup,
     language: str,
     *,
     cased: bool,
 ) -> list[Span]:
-    """What words first..last may name."""
-    some = words[first : last + 1]
-    plain = tuple(word.plain for word in some)
+    """What words first..last may name, in plain words."""
     streets = _streets_at(words, first, last, plain, lookup)
-    if some[-1].owner and not streets and not lookup.is_name(plain):
-        plain = (*plain[:-1], some[-1].owner)
+    if words[last].owner and not streets and not lookup.is_name(plain):
+        plain = (*plain[:-1], words[last].owner)
         streets = _streets_at(words, first, last, plain, lookup)
     found = list(streets)
     if (plain[0] in EMPTY or plain[-1] in EMPTY) and not lookup.is_name(plain):
@@ -109,7 +113,7 @@ def _spans_at(
     if kinds:
         found.append(Span(first, last, "thing", None, (NOUN if len(plain) == 1 else NOUNS) + NOUN * len(plain), kinds))
     is_street = any(span.match is not None and span.match.is_exact for span in streets)
-    named = None if is_street else _named(some, plain, lookup, cased=cased, is_kind=bool(kinds))
+    named = None if is_street else _named(words[first : last + 1], plain, lookup, cased=cased, is_kind=bool(kinds))
     if named:
         found.append(Span(first, last, "thing", *named, kinds))
     return found
