@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field
+from heapq import heappop, heappush
 from threading import Condition, Lock, Thread
 from typing import Final, NoReturn
 
@@ -65,9 +66,9 @@ class InferenceQueue:
     """Answers queries on as many threads as there are workers, one after another as they come.
 
     A thread opens the localizers, then each of them has a thread that takes what has waited longest. Several at once
-    would be no faster a query on a CPU, and all of them would wait for the last. Of those that are idle the one that
-    answered last is asked: what it read and remembers is at hand. A query whose client left or whose deadline has
-    passed is not computed; one that would wait too long is refused at once.
+    would be no faster a query on a CPU, and all of them would wait for the last. Of those that are idle the first is
+    asked, whose memory is at hand and which remembers most texts. A query whose client left or whose deadline is past
+    is not computed; one that would wait too long is refused at once.
 
     Args:
         open_localizers: run once; each of what it gives answers on a thread of its own.
@@ -85,7 +86,7 @@ class InferenceQueue:
         self._max_queue = max_queue
         self._max_wait_s = max_wait_s
         self._lock = Lock()
-        self._idle: list[Condition] = []  # of threads that wait for a job; the last has worked last
+        self._idle: list[tuple[int, Condition]] = []  # heap, by number of the localizer, of threads that wait for a job
         self._jobs: deque[_Job] = deque()
         self._computing = 0
         self._query_s = FIRST_S  # that a worker takes for a query, a moving average
@@ -232,13 +233,14 @@ class InferenceQueue:
         localizers = self._try_to_open()
         self._localizers = localizers
         self._threads += [
-            Thread(target=self._run, args=(localizer,), name="inference", daemon=True) for localizer in localizers[1:]
+            Thread(target=self._run, args=(n, localizer), name="inference", daemon=True)
+            for n, localizer in enumerate(localizers[1:], 1)
         ]
         for thread in self._threads[1:]:
             thread.start()
         self._opened.set_result(None)
         if localizers:
-            self._run(localizers[0])
+            self._run(0, localizers[0])
 
     def _try_to_open(self) -> Sequence[LocalizerLike]:
         """The localizers; none if they cannot be opened."""
@@ -261,20 +263,20 @@ class InferenceQueue:
         log.info("ready", index_version=facts.version, cells=facts.num_cells, workers=len(localizers))
         return localizers
 
-    def _run(self, localizer: LocalizerLike) -> None:
-        while job := self._take():
+    def _run(self, number: int, localizer: LocalizerLike) -> None:
+        while job := self._take(number):
             if job.begins():
                 self._compute(localizer, job)
             with self._lock:
                 self._computing -= 1
         localizer.close()
 
-    def _take(self) -> _Job | None:
+    def _take(self, number: int) -> _Job | None:
         """What has waited longest; waits for it; None when closed and nothing is left."""
         with self._lock:
             while not self._jobs and not self._is_closed:
                 idle = Condition(self._lock)
-                self._idle.append(idle)
+                heappush(self._idle, (number, idle))
                 idle.wait()
             if not self._jobs:
                 return None
@@ -283,7 +285,7 @@ class InferenceQueue:
 
     def _wake(self) -> None:
         if self._idle:
-            self._idle.pop().notify()
+            heappop(self._idle)[1].notify()
 
     def _compute(self, localizer: LocalizerLike, job: _Job) -> None:
         started_s = time.monotonic()

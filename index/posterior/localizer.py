@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -43,7 +44,9 @@ from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 from models.posterior.surroundings.surroundings import Surroundings
 from models.posterior.threads import beside
+from models.retrieval.levels import Levels
 
+KEPT_VECTORS = 256  # of descriptions, the latest
 PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
 REPLY_CANDIDATES = 1024  # where replies are all that is known: they may name a street of some kilometres
 EXPLAINED = 0.5  # a hint counts as explained from this probability on
@@ -105,6 +108,7 @@ class PosteriorLocalizer:
             self.places = PlaceReader(model.places, model.cues, *of_map)
         self.questions = Questions(self.nodes.sights, list(self.labels), palette, gazetteer, gallery.cells, landmarks)
         self.texts = Texts(model.reader)
+        self._encoded = lru_cache(maxsize=KEPT_VECTORS)(self._encode)
 
     @classmethod
     def of_map(
@@ -248,8 +252,10 @@ class PosteriorLocalizer:
         sentences = self.binding.sentences(hints, reading)
         if not sentences:
             return lambda: np.empty(0, np.int64)
-        encode, search = self.ranker.retriever.encode_description, self.ranker.search
-        return beside(lambda: search([encode(sentences)], CANDIDATES)[1][0])
+        return beside(lambda: self.ranker.search([self._encoded(sentences)], CANDIDATES)[1][0])
+
+    def _encode(self, sentences: tuple[str, ...]) -> Levels:
+        return self.ranker.retriever.encode_description(sentences)
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
         """Descriptions in the retriever's words, as far as they were read: template sentences of the map's classes."""

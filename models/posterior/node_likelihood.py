@@ -13,12 +13,11 @@ from models.city.colours import Palette
 from models.city.points import Ints
 from models.city.types import Floats
 from models.compiled import compiled
-from models.posterior.likelihood import FAINT, HABITS, SPOKEN, Likelihood, Reading
+from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
 from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, colour_words, count_ranks, no_counts
+from models.posterior.node_sums import log_p_of, longest, place_of, powers_of, share_out
 from models.posterior.surroundings.around import Around
 
-TINY: Final = 1e-200  # a product of chances goes into the sum of their logarithms before it is smaller
-LEAST_MASS: Final = 1e-3
 _EAST_WEST: Final = np.array([0, 7, 6, 5, 4, 3, 2, 1, 8, 9, 10, 11])  # of RELATIONS and two more, which side is which
 _NORTH_SOUTH: Final = np.array([4, 3, 2, 1, 0, 7, 6, 5, 8, 9, 10, 11])
 MIRRORED: Final = np.arange(12), _NORTH_SOUTH, _EAST_WEST, _EAST_WEST[_NORTH_SOUTH]
@@ -174,13 +173,15 @@ def _log_p(
         numbers: factor of what is not whole, powers of crowding, of what is meant twice, and of the whole.
         habit: [3] log weights.
     """
-    most, begin, hints = _longest(node), 0, fits.shape[1]
-    powers, share, number = _powers(among, most), np.empty((most, 3)), np.empty(most, np.int64)
+    most, begin, hints = longest(node), 0, fits.shape[1]
+    powers, share, number = powers_of(among, most), np.empty((most, 3)), np.empty(most, np.int64)
     here, sector, rank = np.empty(most, np.int64), np.empty(most, np.int64), np.empty((most, 5), np.int64)
-    row, hint, fit = np.empty(most * hints, np.int64), np.empty(most * hints, np.int64), np.empty(most * hints)
-    sums, load = np.empty((3, hints)), np.empty(most)
+    room = most * hints + 1
+    row, hint, fit = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)
+    sums, load = np.empty((3, hints, HABITS)), np.empty((most, HABITS))
+    may, many = _may_mean(fits, least)
     counts = no_counts(label)
-    log_p = np.full(nodes, _of_node(0, row, hint, fit, share, said, numbers, habit, sums, load))
+    log_p = np.full(nodes, log_p_of(0, row, hint, fit, share, said, numbers, habit, sums, load))
     while begin < len(node):
         end, pairs = begin, 0
         while end < len(node) and node[end] == node[begin]:
@@ -188,20 +189,31 @@ def _log_p(
             x, y = max(int(way[end, 0]), 1 - OFFSET), max(int(way[end, 1]), 1 - OFFSET)
             number[r], side = abs(x) * OFFSET + abs(y), 2 * (x < 0) + (y < 0)
             here[r], sector[r] = label[part[end]], sector_of[(x + OFFSET) * 256 + y + OFFSET]
-            for h in range(hints):
-                if fits[part[end], h] > least:
-                    chance = fits[part[end], h] * _place(ways, number[r], told, side, h, slip)
-                    if chance > FAINT:
-                        row[pairs], hint[pairs], fit[pairs] = r, h, chance
-                        pairs += 1
+            for m in range(many[part[end]]):
+                h = may[part[end], m]
+                chance = fits[part[end], h] * place_of(ways, number[r], told, side, h, slip)
+                row[pairs], hint[pairs], fit[pairs] = r, h, chance
+                pairs += chance > FAINT  # no branch, which a processor would guess wrong half of the time
             end += 1
         if pairs:
             rows = end - begin
             count_ranks(0, rows, here, sector, counts, rank)
-            _shares(begin, rows, number, whole, rank, by_way, ranks, powers, numbers, share)
-            log_p[node[begin]] = _of_node(pairs, row, hint, fit, share, said, numbers, habit, sums, load)
+            share_out(begin, rows, number, whole, rank, by_way, ranks, powers, numbers, share)
+            log_p[node[begin]] = log_p_of(pairs, row, hint, fit, share, said, numbers, habit, sums, load)
         begin = end
     return log_p
+
+
+@compiled
+def _may_mean(fits: Floats, least: float) -> tuple[Ints, Ints]:
+    """[P, H] the hints that each part may be meant by, first of all, and [P] how many they are."""
+    may, many = np.zeros(fits.shape, np.int64), np.zeros(len(fits), np.int64)
+    for p in range(len(fits)):
+        for h in range(fits.shape[1]):
+            if fits[p, h] > least:
+                may[p, many[p]] = h
+                many[p] += 1
+    return may, many
 
 
 @compiled
@@ -219,118 +231,12 @@ def _explained(
         sector[r] = sector_of[(x + OFFSET) * 256 + y + OFFSET]
     rank, share = np.empty((rows, 5), np.int64), np.empty((rows, 3))
     count_ranks(0, rows, label, sector, no_counts(label), rank)
-    _shares(0, rows, number, whole, rank, by_way, ranks, _powers(among, rows), numbers, share)
+    share_out(0, rows, number, whole, rank, by_way, ranks, powers_of(among, rows), numbers, share)
     for h in range(hints):
         for r in range(rows):
-            term = fits[r, h] * _place(ways, number[r], told, side[r], h, slip) * share[r].mean()
+            term = fits[r, h] * place_of(ways, number[r], told, side[r], h, slip) * share[r].mean()
             total[h] += term
             if term > most[h]:
                 best[h], most[h] = r, term
         chance[h] = total[h] / (total[h] + said[1, h]) * min(1.0, 2 * label_read[h, label[best[h]]])
     return best, chance
-
-
-@compiled
-def _place(ways: Floats, way: int, told: Floats, side: int, hint: int, slip: float) -> float:
-    """p(direction) p(distance) of a way for a hint, as `Likelihood.places`."""
-    place, relations = slip, ways.shape[1] - 1
-    for n in range(relations):
-        place += ways[way, n] * told[side, hint, n]
-    said_m, spread = told[side, hint, relations], told[side, hint, relations + 1]
-    if not np.isnan(said_m):
-        off = (ways[way, relations] - said_m) / spread
-        place *= np.exp(-0.5 * off * off)
-    return place
-
-
-@compiled
-def _longest(node: Ints) -> int:
-    """How many rows the node with most of them has."""
-    most, begin = 0, 0
-    for r in range(1, len(node) + 1):
-        if r == len(node) or node[r] != node[begin]:
-            most, begin = max(most, r - begin), r
-    return most
-
-
-@compiled
-def _powers(among: Floats, most: int) -> Floats:
-    """[2, most + 1, 3] what a habit makes of so many that it tells one of."""
-    powers = np.ones((len(among), most + 1, HABITS))
-    for n in range(len(among)):
-        for many in range(2, most + 1):
-            for h in range(HABITS):
-                powers[n, many, h] = float(many) ** -among[n, h]
-    return powers
-
-
-@compiled
-def _shares(
-    begin: int, rows: int, number: Ints, whole: npt.NDArray[np.bool_], rank: Ints, by_way: Floats, ranks: Floats,
-    powers: Floats, numbers: Floats, share: Floats,
-) -> None:  # fmt: skip
-    """Fill in pi [rows, 3] of what is around one node, shared among it; `whole` of all, of it from `begin` on."""
-    mass = (LEAST_MASS, LEAST_MASS, LEAST_MASS)
-    for r in range(rows):
-        part = 1.0 if whole[begin + r] else numbers[0]
-        for h in range(HABITS):
-            nearer = ranks[0, rank[r, 0], h] * ranks[1, rank[r, 1], h] * ranks[2, rank[r, 2], h]
-            many = powers[0, rank[r, 3], h] * powers[1, rank[r, 4], h]
-            share[r, h] = by_way[number[r], h] * part * nearer * many
-        mass = (mass[0] + share[r, 0], mass[1] + share[r, 1], mass[2] + share[r, 2])
-    first, second, third = mass[0] ** -numbers[1], mass[1] ** -numbers[1], mass[2] ** -numbers[1]
-    for r in range(rows):
-        share[r, 0] *= first
-        share[r, 1] *= second
-        share[r, 2] *= third
-
-
-@compiled
-def _of_node(
-    pairs: int, row: Ints, hint: Ints, fit: Floats, share: Floats, said: Floats, numbers: Floats, habit: Floats,
-    sums: Floats, load: Floats,
-) -> float:  # fmt: skip
-    """Log p(T | x) of pairs of what is around a node and what a hint may mean; `sums` [3, H] and `load` are room."""
-    highest, mass, hints = -np.inf, 0.0, said.shape[1]
-    for k in range(HABITS):
-        for h in range(hints):
-            sums[0, h], sums[1, h] = 0.0, 0.0
-        for n in range(pairs):
-            sums[0, hint[n]] += fit[n] * share[row[n], k]
-            load[row[n]] = 0.0
-        for h in range(hints):
-            sums[2, h] = 1.0 / (sums[0, h] + said[1, h])
-        for n in range(pairs):
-            load[row[n]] += fit[n] * share[row[n], k] * sums[2, hint[n]]
-        last, single = -1, 1.0
-        for n in range(pairs):
-            if row[n] != last:
-                last = row[n]
-                single = share[last, k] * (load[last] ** -numbers[2] if load[last] > 1.0 else 1.0)
-            sums[1, hint[n]] += fit[n] * single
-        mixed = habit[k] + _of_hints(sums, said)
-        if mixed > highest:
-            mass, highest = mass * np.exp(highest - mixed) + 1.0, mixed
-        else:
-            mass += np.exp(mixed - highest)
-    log_p: float = numbers[3] * (highest + np.log(mass))
-    return log_p
-
-
-@compiled
-def _of_hints(sums: Floats, said: Floats) -> float:
-    """Sum of the hints' logarithms; sums [2 or more, H] of what explains each, then with what is meant twice less."""
-    product, found, is_absent = 1.0, 0.0, False
-    for h in range(said.shape[1]):
-        is_absent |= said[0, h] > SPOKEN
-    for h in range(said.shape[1]):
-        chance = sums[1, h] + said[1, h]
-        if is_absent:  # the less there is of it, the likelier
-            none = max(np.exp(-3 * sums[0, h] / max(said[1, h], 1e-2)), 1e-2)
-            found += np.log(chance) * (1 - said[0, h]) + np.log(none) * said[0, h]
-        else:
-            product *= chance
-        if product < TINY:
-            found, product = found + np.log(product), 1.0
-    log_p: float = found + np.log(product)
-    return log_p

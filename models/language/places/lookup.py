@@ -7,6 +7,7 @@ from math import log
 from typing import Final
 
 import numpy as np
+from cachetools import LRUCache, cachedmethod
 from rapidfuzz import fuzz, process
 
 from models.city.gazetteer.gazetteer import Gazetteer
@@ -25,6 +26,7 @@ SHORTEST_MISSPELT: Final = 5
 LEAST_SHARE: Final = 0.35  # of a name's weight that a part of it must bear
 PART: Final = 0.5  # weight of a part of a name beside whole ones
 KEPT: Final = 4096  # phrases whose kinds, and whose streets, are remembered
+KEPT_BYTES: Final = 2**22  # of the objects of kinds
 _NONE: Final = np.zeros(0, np.int64)
 EMPTY: Final = ARTICLES | english().list("empty")
 
@@ -68,6 +70,7 @@ class Lookup:
         self._nouns = self._plain_nouns(ENGLISH)
         self._kinds = lru_cache(maxsize=KEPT)(self._kinds_of)
         self._streets = lru_cache(maxsize=KEPT)(self._streets_of)
+        self._of_kinds: LRUCache[tuple[tuple[str, float], ...], Match | None] = LRUCache(KEPT_BYTES, _bytes_of)
 
     def worth(self, word: str) -> float:
         """How much a word of a name tells: the rarer, the more."""
@@ -186,12 +189,16 @@ class Lookup:
 
     def of_kinds(self, kinds: Mapping[str, float]) -> Match | None:
         """Objects of some kinds, each as surely as the surest of its kinds."""
-        some = [self.gazetteer.by_kind.get(kind, _NONE) for kind in kinds]
+        return self._objects_of(tuple(kinds.items()))
+
+    @cachedmethod(lambda lookup: lookup._of_kinds)
+    def _objects_of(self, kinds: tuple[tuple[str, float], ...]) -> Match | None:
+        some = [self.gazetteer.by_kind.get(kind, _NONE) for kind, _ in kinds]
         objects, row = np.unique(np.concatenate([_NONE, *some]), return_inverse=True)
         if not len(objects):
             return None
         weights = np.zeros(len(objects))
-        np.maximum.at(weights, row, np.repeat(list(kinds.values()), [len(rows) for rows in some]))
+        np.maximum.at(weights, row, np.repeat([weight for _, weight in kinds], [len(rows) for rows in some]))
         return Match(objects, weights, 1.0, False)
 
     @cached_property
@@ -245,3 +252,8 @@ def _match(found: Mapping[int, float], trust: float, *, is_exact: bool) -> Match
     if not found:
         return None
     return Match(np.array(list(found)), np.array(list(found.values())), trust, is_exact)
+
+
+def _bytes_of(match: Match | None) -> int:
+    """About what it takes in memory."""
+    return 500 + (0 if match is None else match.objects.nbytes + match.weights.nbytes)

@@ -81,7 +81,7 @@ def _starts(word: Word, before: Word | None, text: str) -> bool:
 def _at_start(word: Word, before: Word | None, text: str, lookup: Lookup) -> Word:
     if not (word.is_capital and _starts(word, before, text) and lookup.is_common(word.plain)):
         return word
-    return replace(word, is_capital=False, begins=True)
+    return Word(word.plain, word.start, word.end, is_capital=False, owner=word.owner, begins=True)
 
 
 def _ends(word: Word, after: str) -> bool:
