@@ -26,7 +26,7 @@ SHORTEST_MISSPELT: Final = 5
 LEAST_SHARE: Final = 0.35  # of a name's weight that a part of it must bear
 PART: Final = 0.5  # weight of a part of a name beside whole ones
 KEPT: Final = 4096  # phrases whose kinds, and whose streets, are remembered
-KEPT_BYTES: Final = 2**22  # of the objects of kinds
+KEPT_BYTES: Final = 2**24  # of the objects of kinds
 _NONE: Final = np.zeros(0, np.int64)
 EMPTY: Final = ARTICLES | english().list("empty")
 
