@@ -142,11 +142,14 @@ class Questions:
 
     def _places(self, located: Located) -> tuple[Ints, Floats]:
         """[C] the heaviest node of each cell that is listed, and their probabilities, made to add up to 1."""
-        cell = self._owner(located.points)
-        order = np.lexsort((-located.weight, cell))
-        first = order[np.diff(cell[order], prepend=-1) != 0]
-        mass = np.bincount(cell, located.weight)[cell[first]]
-        return located.points[first], mass / max(mass.sum(), 1e-300)
+        cell, weight = self._owner(located.points), located.weight
+        starts = np.flatnonzero(np.diff(cell, prepend=-1))  # those of a cell stand together
+        highest = np.repeat(np.maximum.reduceat(weight, starts), np.diff(np.append(starts, len(cell))))
+        best = np.flatnonzero(weight == highest)
+        best = best[np.diff(cell[best], prepend=-1) != 0]  # of equal ones the first
+        order = np.argsort(cell[starts])
+        mass = np.add.reduceat(weight, starts)[order]
+        return located.points[best[order]], mass / max(mass.sum(), 1e-300)
 
     def _gain_of_things(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> dict[Asked, float]:
         """Bits that each closed question is expected to take away."""

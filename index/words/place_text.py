@@ -7,7 +7,6 @@ import numpy.typing as npt
 
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
-from models.city.gazetteer.words import STREET
 from models.city.points import Ints
 from models.city.types import Floats
 from models.language.parsed_hint import WINDS
@@ -16,6 +15,7 @@ ON_STREET_M: Final = 30.0
 AT_CORNER_M: Final = 18.0
 NAMED_M: Final = 60.0
 LONGEST_BLOCK_M: Final = 400.0
+SLACK_M: Final = 0.1  # more than single precision is off by in a city
 
 
 def place_text(gazetteer: Gazetteer, position: Floats) -> str | None:
@@ -27,8 +27,7 @@ def place_text(gazetteer: Gazetteer, position: Floats) -> str | None:
 
 def nearest_street(gazetteer: Gazetteer, position: Floats) -> tuple[int, Floats] | None:
     """The street that a position [2] is on, and the way [2] to its line; None where there is none."""
-    streets = gazetteer.by_kind.get(STREET, np.zeros(0, np.int64))
-    streets = streets[_may_be_near(gazetteer.middles_m[streets].T, gazetteer.reach_m[streets], position, ON_STREET_M)]
+    streets = gazetteer.streets[_may_be_near(*gazetteer.where_streets, position, ON_STREET_M)]
     ways = ways_from(gazetteer, streets, position, ON_STREET_M)
     if not len(ways.item):
         return None
@@ -73,8 +72,8 @@ def _beside(gazetteer: Gazetteer, position: Floats) -> str | None:
 
 def _may_be_near(middles_m: Floats, reach_m: Floats, position: Floats, apart_m: float) -> npt.NDArray[np.bool_]:
     """[n] whether something of a reach [n] round a middle [2, n] may be so near to a position [2]."""
-    east, north = middles_m - position[:, None]
-    return np.asarray(east * east + north * north <= (reach_m + apart_m) ** 2)
+    east, north = middles_m - position[:, None].astype(np.float32)
+    return np.asarray(east * east + north * north <= (reach_m + np.float32(apart_m + SLACK_M)) ** 2)
 
 
 def wind_of(way_m: Floats) -> str:
