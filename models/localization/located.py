@@ -2,14 +2,17 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 
 from models.city.points import Ints
 from models.city.types import Floats
+from models.compiled import compiled
 
 SUBSQUARE_M, MOST_SUBSQUARES = 0.75, 5  # a point stands for a square; radii see it as up to 5 x 5 points this far apart
 
+FAINT: Final = 1e-9  # the points of less together have nothing
 TOLD = (0.5, 0.9)  # the shares that answers give radii of
 
 
@@ -62,14 +65,30 @@ class Located:
         """Distances from the first position, ascending, and the mass up to each."""
         side = min(MOST_SUBSQUARES, max(1, round(self.spacing_m / SUBSQUARE_M)))
         steps = ((np.arange(side) + 0.5) / side - 0.5) * self.spacing_m
-        counts = self.weight > 1e-9  # the rest together are nothing
-        east, north = (self.points_m[counts] - self.positions[0]).T[..., None] + steps  # [2, C, side]
-        square = (east[:, :, None] ** 2 + north[:, None, :] ** 2).ravel()
+        square, mass = _squares(self.points_m, self.weight, self.positions[0], steps)
         order = np.argsort(square)
-        return np.sqrt(square[order]), np.cumsum(np.repeat(self.weight[counts] / side**2, side**2)[order])
+        return np.sqrt(square[order]), np.cumsum(mass[order])
 
     def covariance_m2(self) -> Floats:
         """[2, 2] square metres, of the truth around the first position."""
         offset = self.points_m - self.positions[0]
         covariance: Floats = (offset * self.weight[:, None]).T @ offset
         return covariance + np.eye(2) * (self.spacing_m**2 + self.other * self.extent_m**2) / 12
+
+
+@compiled
+def _squares(points_m: Floats, weight: Floats, center_m: Floats, steps: Floats) -> tuple[Floats, Floats]:
+    """[C] squared distances from a centre of the small squares that points [M, 2] stand for, and the mass of each."""
+    count, side = 0, len(steps)
+    for m in range(len(weight)):
+        count += weight[m] > FAINT
+    square, mass, at = np.empty(count * side * side), np.empty(count * side * side), 0
+    for m in range(len(weight)):
+        if weight[m] > FAINT:
+            for i in range(side):
+                east = points_m[m, 0] - center_m[0] + steps[i]
+                for j in range(side):
+                    north = points_m[m, 1] - center_m[1] + steps[j]
+                    square[at], mass[at] = east * east + north * north, weight[m] / (side * side)
+                    at += 1
+    return square, mass
