@@ -21,7 +21,6 @@ PLACE_HIT_M = 10.0  # the same where places are named: what is far away leaves a
 BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
 MEAN_M = 3.0  # and are then the mean of the mass this near
 HEAVY = 256  # nodes that the mass within reach is added up from: the likeliest
-NOTHING = 40.0  # this far behind (nats) not even a million cells have any mass
 TIMES = 2  # as coarse is the grid that cells are looked at on first
 FAR = 20.0  # this far behind by the inverted list (nats) on one twice as coarse, unless places are named
 _SHARE = 16  # of the scores one is looked at first
@@ -58,24 +57,24 @@ def locate(
         scores = scores + told.cells
     if answered is not None:
         scores = scores + answered.cells
-    possible = scores > -np.inf
-    if not possible.any():
+    listed = _best(scores, min(candidates, len(scores)))
+    if not len(listed):
         return None
-    listed = _best(scores, min(candidates, int(possible.sum())))
-    possible[listed] = False
     further = also() if also is not None else listed[:0]
-    more = np.unique(further[possible[further]])
-    possible[more] = False
+    more = np.setdiff1d(further[scores[further] > -np.inf], listed)
     chosen = np.concatenate([listed, more])
-    others = np.where(possible, scores, -np.inf)  # what is not looked at
-    far = scores[chosen] < scores[listed[0]] - FAR if told is None else np.zeros(len(chosen), np.bool_)
+    score = scores[chosen]
+    others = scores
+    others[chosen] = -np.inf  # which leaves what is not looked at
+    far = score < score[0] - FAR if told is None else np.zeros(len(chosen), np.bool_)
     field = _field(posterior, reading, chosen, np.where(far, 2 * TIMES, TIMES), log_prior, inside, told, answered)
     mass = _mass(field)
     rest = -np.inf
     if (highest := others.max()) > -np.inf:
         tail = slice(max(0, len(listed) - _TAIL), len(listed))
-        gap = np.median(mass[tail] - scores[chosen][tail])
-        rest = float(gap + highest + np.log(np.exp(others[others > highest - NOTHING] - highest).sum()))
+        gap = np.median(mass[tail] - score[tail])
+        behind = np.subtract(others, highest, out=others)
+        rest = float(gap + highest + np.log(np.exp(behind, out=behind).sum()))
     total = np.logaddexp(np.logaddexp.reduce(mass), rest)
     order = np.lexsort((chosen, -mass))
     weight = np.exp(field.log_p - total)
@@ -95,7 +94,7 @@ def locate(
 
 
 def _best(scores: Floats, count: int) -> Ints:
-    """The rows of the highest scores, highest first, of equal ones the first."""
+    """The rows of the highest scores, at most so many, highest first, of equal ones the first; none that is -inf."""
     some = scores[::_SHARE]
     # So many of some scores are at least this high, and so many of all.
     floor = np.partition(some, -count)[-count] if len(some) > count else -np.inf
@@ -104,6 +103,7 @@ def _best(scores: Floats, count: int) -> Ints:
     least = np.partition(high, -count)[-count]
     above = np.flatnonzero(high > least)
     chosen = rows[np.concatenate([above, np.flatnonzero(high == least)[: count - len(above)]])]
+    chosen = chosen[scores[chosen] > -np.inf]
     found: Ints = chosen[np.lexsort((chosen, -scores[chosen]))]
     return found
 
@@ -165,11 +165,12 @@ def _cell_scores(
     """[N] about the log mass of each cell, up to one constant; -inf where no node is, or none that is inside."""
     scores: Floats = np.zeros(len(posterior.surroundings.cell_starts) - 1)
     if reading is not None:
-        scores = posterior.cell_scores(reading) * float(posterior.likelihood.temper.detach().exp())
+        scores = posterior.cell_scores(reading)
+        scores *= float(posterior.likelihood.temper.detach().exp())
     if log_prior is not None:
         scores = scores + log_prior(posterior.cells.center_m[:, :2])
-    starts = posterior.surroundings.cell_starts
-    return np.where(starts[1:] > starts[:-1] if inside is None else inside.cells, scores, -np.inf)
+    scores[posterior.without_nodes if inside is None else ~inside.cells] = -np.inf
+    return scores
 
 
 def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable, reach_m: float) -> Floats:

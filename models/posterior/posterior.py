@@ -97,6 +97,7 @@ class HintPosterior:
             likelihood, surroundings, self._label, self._rgb, likelihood.words(self._rgb, palette)
         )
         self.extent_m = cells.extent_m
+        self.without_nodes = np.flatnonzero(np.diff(surroundings.cell_starts) == 0)  # cells
         self.sights = Sights(surroundings, label, lambda things: self._words(torch.from_numpy(things)).numpy())
 
     @torch.inference_mode()

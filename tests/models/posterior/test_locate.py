@@ -38,6 +38,7 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
         surroundings=SimpleNamespace(cell_starts=np.array(starts), positions_m=lambda nodes: nodes_m[nodes]),
         # As they stand, so that cells are looked at in this order.
         cell_scores=lambda _reading: -np.arange(len(starts) - 1.0),
+        without_nodes=np.flatnonzero(np.diff(starts) == 0),
     )  # fmt: skip
 
 
