@@ -18,7 +18,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.asked import load_asked
-from models.localization.located import Located
+from models.localization.located import Located, heaviest
 from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors
@@ -143,13 +143,10 @@ class Questions:
     def _places(self, located: Located) -> tuple[Ints, Floats]:
         """[C] the heaviest node of each cell that is listed, and their probabilities, made to add up to 1."""
         cell, weight = self._owner(located.points), located.weight
-        starts = np.flatnonzero(np.diff(cell, prepend=-1))  # those of a cell stand together
-        highest = np.repeat(np.maximum.reduceat(weight, starts), np.diff(np.append(starts, len(cell))))
-        best = np.flatnonzero(weight == highest)
-        best = best[np.diff(cell[best], prepend=-1) != 0]  # of equal ones the first
-        order = np.argsort(cell[starts])
-        mass = np.add.reduceat(weight, starts)[order]
-        return located.points[best[order]], mass / max(mass.sum(), 1e-300)
+        best = heaviest(cell, weight)
+        mass = np.add.reduceat(weight, np.flatnonzero(np.diff(cell, prepend=-1)))
+        order = np.argsort(cell[best])
+        return located.points[best[order]], mass[order] / max(mass.sum(), 1e-300)
 
     def _gain_of_things(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> dict[Asked, float]:
         """Bits that each closed question is expected to take away."""

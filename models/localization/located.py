@@ -76,6 +76,15 @@ class Located:
         return covariance + np.eye(2) * (self.spacing_m**2 + self.other * self.extent_m**2) / 12
 
 
+def heaviest(cell: Ints, weight: Floats) -> Ints:
+    """[C] the row of the greatest weight [M] of each cell [M] whose rows stand together, of equal ones the first."""
+    starts = np.flatnonzero(np.diff(cell, prepend=-1))
+    highest = np.repeat(np.maximum.reduceat(weight, starts), np.diff(np.append(starts, len(weight))))
+    best = np.flatnonzero(weight == highest)
+    found: Ints = best[np.diff(cell[best], prepend=-1) != 0]
+    return found
+
+
 @compiled
 def _squares(points_m: Floats, weight: Floats, center_m: Floats, steps: Floats) -> tuple[Floats, Floats]:
     """[C] squared distances from a centre of the small squares that points [M, 2] stand for, and the mass of each."""

@@ -8,7 +8,7 @@ from models.city.cells import CellTable
 from models.city.points import Ints, ranges
 from models.city.types import Floats
 from models.compiled import compiled
-from models.localization.located import Located
+from models.localization.located import Located, heaviest
 from models.posterior.inside import Inside
 from models.posterior.likelihood import Reading
 from models.posterior.places.field import Told
@@ -179,10 +179,7 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     Of the first cell anywhere in its cube, which the cells beside it share; of the others in the part that each owns,
     so that they differ.
     """
-    first = np.flatnonzero(np.diff(field.cell, prepend=-1))
-    highest = np.repeat(np.maximum.reduceat(weight, first), np.diff(np.append(first, len(weight))))
-    best = np.flatnonzero(weight == highest)
-    best = best[np.diff(field.cell[best], prepend=-1) > 0]  # one a cell
+    best = heaviest(field.cell, weight)
     heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
     centers = np.union1d(heavy, best)
     near_m, share = nodes_m[centers], np.maximum(weight[centers] / max(weight[centers].max(), 1e-300), 1e-30)
