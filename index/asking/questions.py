@@ -145,8 +145,7 @@ class Questions:
         cell, weight = self._owner(located.points), located.weight
         best = heaviest(cell, weight)
         mass = np.add.reduceat(weight, np.flatnonzero(np.diff(cell, prepend=-1)))
-        order = np.argsort(cell[best])
-        return located.points[best[order]], mass[order] / max(mass.sum(), 1e-300)
+        return located.points[best], mass / max(mass.sum(), 1e-300)
 
     def _gain_of_things(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> dict[Asked, float]:
         """Bits that each closed question is expected to take away."""

@@ -1,5 +1,5 @@
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -198,6 +198,17 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
             meant = found.part >= 0 and town.place.surroundings.things.instance[found.part] == number[hint.instance_id]
             right += meant and found.probability > 0.5
     assert right / total > 0.7, "things alike stand side by side in this town"
+
+
+def test_what_fits_only_because_a_label_may_be_wrong_does_not_explain(town):
+    node = int(np.linalg.norm(all_nodes_m(town) - town.place.positions_m[0], axis=1).argmin())
+    doubted = replace(town.readings[0], label=0.05 * town.readings[0].label)
+    surely, hardly = (
+        np.array([found.probability for found in town.posterior.explain(reading, node)])
+        for reading in (town.readings[0], doubted)
+    )
+    assert surely.max() > 0.5
+    assert hardly.max() <= 2 * 0.05 + 1e-6
 
 
 @pytest.mark.slow
