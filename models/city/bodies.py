@@ -1,7 +1,7 @@
 """What stands in a map, however that is known: as the points of a scan, or as geometry."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
 
@@ -11,7 +11,7 @@ import shapely
 from models.city.cells import CellTable, Parts, cut_cubes, grid_centers, sample_cubes
 from models.city.gallery import Finder, Numbered
 from models.city.points import Ints, PointTable
-from models.city.tiled.cutting import cut_pieces, sample_pieces
+from models.city.tiled.cutting import cut_pieces, sample_pieces, scan_pieces
 from models.city.tiled.pieces import PieceTable
 from models.city.types import CityMap, CutRules, Floats
 from models.errors import MapError
@@ -100,6 +100,28 @@ class PieceBodies:
             return ends[1] - ends[0], int(self.pieces.instance[rows[row]])
 
         return find
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ScannedBodies:
+    """A map of lines and areas as a scan shows it: what is nearest is one of its points.
+
+    Attributes:
+        pieces: the map.
+    """
+
+    pieces: PieceBodies
+
+    def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
+        """See Bodies; `least` counts for nothing."""
+        del least
+        table, shapes, rules = self.pieces.pieces, self.pieces.shapes, self.pieces.rules
+        parts = self.pieces.cut(centers_m, progress)
+        return replace(parts, closest_m=scan_pieces(table, shapes, centers_m, rules))
+
+    def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
+        """See Bodies."""
+        return self.pieces.sample(centers_m, cubes)
 
 
 def bodies_of(city_map: CityMap) -> Bodies:

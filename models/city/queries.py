@@ -62,6 +62,18 @@ class Queries:
         sentences = [tuple(render_hint(hint) for hint in said) for said in hints]
         return cls(sentences, positions_m, truth, [cells.scenes[n] for n in truth], strategies, hints)
 
+    @classmethod
+    def joined(cls, parts: Sequence["Queries"]) -> "Queries":
+        """Those of one gallery, one after the other; what they say is known."""
+
+        def all_of(name: str) -> list[Any]:
+            return [one for part in parts for one in getattr(part, name)]
+
+        positions_m, truth = (
+            np.concatenate([getattr(part, name) for part in parts]) for name in ("positions_m", "truth")
+        )
+        return cls(all_of("sentences"), positions_m, truth, *map(all_of, ("scenes", "strategies", "hints")))
+
     def __len__(self) -> int:
         return len(self.truth)
 

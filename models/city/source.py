@@ -5,6 +5,7 @@ Indexing, training and measuring come through here, so that they see the same ce
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
+from copy import copy
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from models.city.bodies import Bodies, PieceBodies, PointBodies, bodies_of, cut_cells
+from models.city.bodies import Bodies, PieceBodies, PointBodies, ScannedBodies, bodies_of, cut_cells
 from models.city.cells import CellTable, Parts
 from models.city.colours import KITTI360_PALETTE
 from models.city.gallery import Clouds, Gallery, MapData
@@ -64,6 +65,10 @@ class Source(ABC):
         Raises:
             MapError, DataError: there is nothing to ask.
         """
+
+    def as_scan(self) -> "Source":
+        """The same, told of as a scan shows it; a map that is a scan is itself."""
+        return self
 
     @abstractmethod
     def statements(self, spacing_m: float, rng: np.random.Generator) -> Statements:
@@ -164,6 +169,14 @@ class MapSource(Source):
         scene, of_part = np.zeros(len(self._map.instances), dtype=np.int64), self.data.cells.parts.instance
         is_thing, least = ~points.is_stuff, rules.min_part_points
         return Clouds(points.xyz, points.starts, is_thing, scene, of_part, rules.thing_share, least)
+
+    def as_scan(self) -> "MapSource":
+        """See Source."""
+        if not isinstance(self._bodies, PieceBodies):
+            return self
+        scan = copy(self)
+        scan._bodies = ScannedBodies(self._bodies)
+        return scan
 
     def lighten(self) -> None:
         """Let go of what queries alone need; there are none after that."""

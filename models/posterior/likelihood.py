@@ -68,7 +68,8 @@ class Likelihood(nn.Module):
         super().__init__()
         self.background = nn.Parameter(torch.tensor(-5.5))  # log eps of anything
         self.common = nn.Parameter(torch.tensor(-3.0))  # log eps of what all of the map is like
-        self.border_m = nn.Parameter(torch.tensor(-0.7))  # log softness of the borders between winds
+        # Log softness of the borders between winds, from what is exact and from what is vague, see `Things`.
+        self.border_m = nn.Parameter(torch.tensor([-0.7, -0.7]))
         self.on_top_m = nn.Parameter(torch.tensor([0.46, -1.4]))  # log radius and softness of "on-top"
         # log pi by metres / 10, and by their square / 100
         self.distance = nn.Parameter(torch.full((2, HABITS), -0.33))
@@ -122,7 +123,7 @@ class Likelihood(nn.Module):
         return reading.label.T.contiguous().index_select(0, label) * colour
 
     def ways(self) -> Tensor:
-        """[65536, 11] p(relation) for every way from an instance, whatever was said; last, its metres."""
+        """[2 * 65536, 11] p(relation) for every way from what is exact, then from what is vague; last, its metres."""
         east, north = self._way
         radius = torch.hypot(east, north)
         on_top = torch.sigmoid((self.on_top_m[0].exp() - radius) / self.on_top_m[1].exp())
@@ -130,9 +131,12 @@ class Likelihood(nn.Module):
         # North, say, is where north exceeds east and west; northeast the same, half a quarter turn on.
         axes = torch.stack([north, (north + east) * half, east, (east - north) * half])
         axes = torch.cat([axes, -axes])
-        winds = torch.sigmoid((axes - axes.roll(2, 0).abs()) / self.border_m.exp()) * (1 - on_top)
         near = (on_top + torch.exp(-self.near.exp() * radius)) / 2  # who is beside a thing may be right at it
-        return torch.cat([winds, on_top[None], near[None], radius[None]]).T.contiguous()
+        tables = []
+        for soft_m in self.border_m.exp():
+            winds = torch.sigmoid((axes - axes.roll(2, 0).abs()) / soft_m) * (1 - on_top)
+            tables.append(torch.cat([winds, on_top[None], near[None], radius[None]]).T)
+        return torch.cat(tables).contiguous()
 
     def places(self, reading: Reading, ways: Tensor) -> Tensor:
         """[K, H] p(direction) p(distance) for K rows of the method `ways`."""
@@ -145,7 +149,7 @@ class Likelihood(nn.Module):
             place = torch.where(said.isnan(), place, place * fits)
         return place
 
-    def pairs(self, reading: Reading, parts: Tensor, part: Tensor, ways: Tensor, way: Tensor) -> Pairs:
+    def pairs(self, reading: Reading, parts: Tensor, part: Tensor, ways: Tensor, towards: Tensor) -> Pairs:
         """What each hint may mean, without what is too faint.
 
         Args:
@@ -153,10 +157,10 @@ class Likelihood(nn.Module):
             parts: [P, H] of the method `parts`.
             part: [R] row of `parts`.
             ways: of the method of this name.
-            way: [R] number of the way of each row.
+            towards: [R] row of `ways` of each.
         """
         known = (parts.detach().amax(dim=1) > FAINT).index_select(0, part).nonzero().flatten()
-        place = self.places(reading, ways.index_select(0, way.index_select(0, known)))
+        place = self.places(reading, ways.index_select(0, towards.index_select(0, known)))
         fits = (parts.index_select(0, part.index_select(0, known)) * place).flatten()
         kept = (fits.detach() > FAINT).nonzero().flatten()
         row = torch.div(kept, parts.shape[1], rounding_mode="floor")
@@ -200,7 +204,7 @@ class Likelihood(nn.Module):
         """[M] log p(T | x), up to a constant; `usual` as `usual_statements`."""
         fits = self.parts(reading, around.label, self.words(around.rgb, palette))
         share = self.share_of(around, self.log_pi())
-        pairs = self.pairs(reading, fits, around.part, self.ways(), around.way)
+        pairs = self.pairs(reading, fits, around.part, self.ways(), around.towards)
         eps = self.chance(reading, usual)
         return self.combine(reading, around.node, around.nodes, pairs, share.index_select(0, pairs.row), eps)
 

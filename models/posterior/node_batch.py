@@ -17,6 +17,7 @@ RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
 MOST: Final = tuple(size - 1 for size in RANKS)
 SECTORS: Final = 5
 OFFSET: Final = 128  # ways are int8; a pair of them numbers a row of the tables
+WAYS: Final = (2 * OFFSET) ** 2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,6 +33,7 @@ class NodeBatch:
         parts: [P] row of each part in the gallery.
         label: [P] label of each.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
+        is_vague: [P] see `Things`.
         nodes: M.
     """
 
@@ -43,17 +45,23 @@ class NodeBatch:
     parts: Tensor
     label: Tensor
     rgb: Tensor
+    is_vague: Tensor
     nodes: int
 
+    @property
+    def towards(self) -> Tensor:
+        """[R] row of `Likelihood.ways`."""
+        return self.way + WAYS * self.is_vague.index_select(0, self.part)
+
     @classmethod
-    def of(cls, around: Around, nodes: int, label: Tensor, rgb: Tensor) -> "NodeBatch":
-        """What is around so many nodes, of parts with labels [P of all] and colours [P of all, 3]."""
+    def of(cls, around: Around, nodes: int, label: Tensor, rgb: Tensor, is_vague: Tensor) -> "NodeBatch":
+        """What is around so many nodes, of parts with labels, colours and whether they are vague [P of all, ...]."""
         parts, part = np.unique(around.part, return_inverse=True)
         node, way = torch.from_numpy(around.node), way_number(torch.from_numpy(around.way))
         rank = ranks_of(node, way, label[torch.from_numpy(around.part)])
         chosen = torch.from_numpy(parts)
-        whole = torch.from_numpy(around.whole)
-        return cls(node, way, whole, rank, torch.from_numpy(part), chosen, label[chosen], rgb[chosen], nodes)
+        looks = chosen, label[chosen], rgb[chosen], is_vague[chosen]
+        return cls(node, way, torch.from_numpy(around.whole), rank, torch.from_numpy(part), *looks, nodes)
 
 
 def way_number(way: Tensor) -> Tensor:

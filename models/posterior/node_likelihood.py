@@ -14,7 +14,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.compiled import compiled
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
-from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, colour_words, count_ranks, no_counts
+from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, WAYS, colour_words, count_ranks, no_counts
 from models.posterior.node_sums import log_p_of, longest, place_of, powers_of, share_out
 from models.posterior.surroundings.around import Around
 
@@ -30,20 +30,35 @@ class NodeLikelihood:
         likelihood: fitted.
         label: [P] label of each of a map's things.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
+        is_vague: [P] see `Things`.
         palette: the map's colour words.
         usual: as `usual_statements`.
     """
 
     @torch.inference_mode()
-    def __init__(self, likelihood: Likelihood, label: Tensor, rgb: Tensor, palette: Palette, usual: Tensor) -> None:
+    def __init__(
+        self,
+        likelihood: Likelihood,
+        label: Tensor,
+        rgb: Tensor,
+        is_vague: npt.NDArray[np.bool_],
+        palette: Palette,
+        usual: Tensor,
+    ) -> None:
         self._model, self._usual = likelihood, usual
         names, centers = colour_words(palette), np.array(palette.centers, np.float64) / 255
         column = np.array([names.index(word) for word in palette.words])
         chances = likelihood.colour_spread, likelihood.colour_slip, likelihood.unknown_colour
-        self._things = label.numpy(), rgb.numpy(), centers, column, np.array([float(x.exp()) for x in chances])
-        self._ways, by_way = (
-            _quarter(table.numpy()) for table in (likelihood.ways(), likelihood.log_pi().exp().double())
+        self._things = (
+            label.numpy(),
+            rgb.numpy(),
+            is_vague,
+            centers,
+            column,
+            np.array([float(x.exp()) for x in chances]),
         )
+        self._ways = np.concatenate([_quarter(table.numpy()) for table in likelihood.ways().split(WAYS)])
+        by_way = _quarter(likelihood.log_pi().exp().double().numpy())
         sector = SECTOR_OF_WAY.numpy().astype(np.int8)
         ranks = np.ones((len(RANKS), max(RANKS), HABITS))
         for n, weights in enumerate(likelihood.ranks):
@@ -75,9 +90,9 @@ class NodeLikelihood:
             place = self._place.pop() if self._place else np.full(len(self._things[0]), -1, np.int32)
             parts, part = _distinct(around.part, place)
             self._place.append(place)
-            label, fits = _fits(parts, *self._things, *read)
+            label, table, fits = _fits(parts, *self._things, *read)
             found: Floats = _log_p(
-                nodes, around.node, part, around.way, around.whole, label, fits, self._ways, told, self._slip,
+                nodes, around.node, part, around.way, around.whole, label, table, fits, self._ways, told, self._slip,
                 self._least, said, *self._weights,
             )  # fmt: skip
             return found
@@ -87,10 +102,11 @@ class NodeLikelihood:
     def explain(self, reading: Reading, around: Around) -> tuple[Ints, Floats]:
         """[H] the row of what is around one node that explains each hint best, and the chance that something does."""
         said, told, read = self._said(reading)
-        label, fits = _fits(around.part, *self._things, *read)
+        label, table, fits = _fits(around.part, *self._things, *read)
         found: tuple[Ints, Floats] = _explained(
-            around.way, around.whole, label, fits, self._ways, told, self._slip, said, read[0], *self._weights[:-1]
-        )
+            around.way, around.whole, label, table, fits, self._ways, told, self._slip, said, read[0],
+            *self._weights[:-1],
+        )  # fmt: skip
         return found
 
 
@@ -102,15 +118,19 @@ def _quarter(table: Floats) -> Floats:
 
 @compiled
 def _fits(
-    parts: Ints, label_of: Ints, rgb_of: Floats, centers: Floats, column: Ints, chances: Floats, label_read: Floats,
-    colour_read: Floats,
-) -> tuple[Ints, Floats]:  # fmt: skip
-    """Labels [P] and p(class) p(colour) [P, H] of some things, as `Likelihood.parts` and `Likelihood.words`."""
+    parts: Ints, label_of: Ints, rgb_of: Floats, vague_of: npt.NDArray[np.bool_], centers: Floats, column: Ints,
+    chances: Floats, label_read: Floats, colour_read: Floats,
+) -> tuple[Ints, Ints, Floats]:  # fmt: skip
+    """Labels and where the ways from them begin [P], and p(class) p(colour) [P, H] of some things.
+
+    As `Likelihood.parts` and `Likelihood.words`.
+    """
     words, (spread, slip, unknown) = colour_read.shape[1] - 1, chances
-    label, fits = np.empty(len(parts), np.int64), np.empty((len(parts), len(label_read)))
+    label, table = np.empty(len(parts), np.int64), np.empty(len(parts), np.int64)
+    fits = np.empty((len(parts), len(label_read)))
     square, chance = np.empty(len(centers)), np.empty(words)
     for n in range(len(parts)):
-        label[n] = label_of[parts[n]]
+        label[n], table[n] = label_of[parts[n]], OFFSET * OFFSET * vague_of[parts[n]]
         rgb = rgb_of[parts[n]]
         chance[:] = slip
         for c in range(len(centers)):
@@ -127,7 +147,7 @@ def _fits(
             for w in range(words):
                 colour += chance[w] * colour_read[h, w]
             fits[n, h] = label_read[h, label[n]] * colour
-    return label, fits
+    return label, table, fits
 
 
 @compiled
@@ -146,7 +166,7 @@ def _distinct(part: Ints, place: Ints) -> tuple[Ints, Ints]:
 
 @compiled
 def _log_p(
-    nodes: int, node: Ints, part: Ints, way: Ints, whole: npt.NDArray[np.bool_], label: Ints, fits: Floats,
+    nodes: int, node: Ints, part: Ints, way: Ints, whole: npt.NDArray[np.bool_], label: Ints, table: Ints, fits: Floats,
     ways: Floats, told: Floats, slip: float, least: float, said: Floats, sector_of: Ints, by_way: Floats, ranks: Floats,
     among: Floats, numbers: Floats, habit: Floats,
 ) -> Floats:  # fmt: skip
@@ -159,8 +179,10 @@ def _log_p(
         way: [R, 2] see `Around`.
         whole: [R] likewise.
         label: [P] of each part.
+        table: [P] row of `ways` at which those from it begin.
         fits: [P, H] p(class) p(colour).
-        ways: [16384, 11] p(relation) of each way to the north-east; last, its metres.
+        ways: [2 * 16384, 11] p(relation) of each way to the north-east from what is exact, then from what is vague;
+            last, its metres.
         told: [4, H, 12] p(relation) of each hint, the metres that it says, NaN for none, and their spread; as it is,
             and as it is of ways to the south-east, the north-west and the south-west if these are mirrored.
         slip: chance of a wrong direction.
@@ -188,10 +210,11 @@ def _log_p(
             r = end - begin
             x, y = max(int(way[end, 0]), 1 - OFFSET), max(int(way[end, 1]), 1 - OFFSET)
             number[r], side = abs(x) * OFFSET + abs(y), 2 * (x < 0) + (y < 0)
+            seen = number[r] + table[part[end]]
             here[r], sector[r] = label[part[end]], sector_of[(x + OFFSET) * 256 + y + OFFSET]
             for m in range(many[part[end]]):
                 h = may[part[end], m]
-                chance = fits[part[end], h] * place_of(ways, number[r], told, side, h, slip)
+                chance = fits[part[end], h] * place_of(ways, seen, told, side, h, slip)
                 row[pairs], hint[pairs], fit[pairs] = r, h, chance
                 pairs += chance > FAINT  # no branch, which a processor would guess wrong half of the time
             end += 1
@@ -218,8 +241,9 @@ def _may_mean(fits: Floats, least: float) -> tuple[Ints, Ints]:
 
 @compiled
 def _explained(
-    way: Ints, whole: npt.NDArray[np.bool_], label: Ints, fits: Floats, ways: Floats, told: Floats, slip: float,
-    said: Floats, label_read: Floats, sector_of: Ints, by_way: Floats, ranks: Floats, among: Floats, numbers: Floats,
+    way: Ints, whole: npt.NDArray[np.bool_], label: Ints, table: Ints, fits: Floats, ways: Floats, told: Floats,
+    slip: float, said: Floats, label_read: Floats, sector_of: Ints, by_way: Floats, ranks: Floats, among: Floats,
+    numbers: Floats,
 ) -> tuple[Ints, Floats]:  # fmt: skip
     """See `NodeLikelihood.explain`; what fits only because a label may be wrong does not explain."""
     (rows, hints), best = fits.shape, np.zeros(fits.shape[1], np.int64)
@@ -234,7 +258,7 @@ def _explained(
     share_out(0, rows, number, whole, rank, by_way, ranks, powers_of(among, rows), numbers, share)
     for h in range(hints):
         for r in range(rows):
-            term = fits[r, h] * place_of(ways, number[r], told, side[r], h, slip) * share[r].mean()
+            term = fits[r, h] * place_of(ways, number[r] + table[r], told, side[r], h, slip) * share[r].mean()
             total[h] += term
             if term > most[h]:
                 best[h], most[h] = r, term

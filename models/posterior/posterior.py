@@ -92,7 +92,8 @@ class HintPosterior:
         self._rgb = torch.from_numpy(surroundings.things.rgb.astype(np.float32))
         self._palette = palette
         self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
-        self._nodes = NodeLikelihood(likelihood, self._label, self._rgb, palette, self.usual)
+        is_vague = surroundings.things.is_vague
+        self._nodes = NodeLikelihood(likelihood, self._label, self._rgb, is_vague, palette, self.usual)
         self.statements = statements or Statements.of(
             likelihood, surroundings, self._label, self._rgb, likelihood.words(self._rgb, palette)
         )

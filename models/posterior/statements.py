@@ -272,15 +272,14 @@ def statement_rows(
     unknown, count = rgb.isnan().any(dim=1), words.shape[1] + 1
     pair = (label * count + torch.where(unknown, count - 1, words.argmax(dim=1))).numpy()
     columns = (int(pair.max(initial=-1)) + 1) * SECTORS
-    starts = surroundings.cell_starts
+    starts, is_vague = surroundings.cell_starts, torch.from_numpy(surroundings.things.is_vague)
 
     def tabulated(first: int) -> tuple[Ints, Ints, npt.NDArray[np.float16]]:
         """(how many, statements, how much they hold) in the cells from one on."""
         last = min(first + BLOCK, len(starts) - 1)
         size = np.diff(starts[first : last + 1])
-        batch = NodeBatch.of(
-            around := surroundings.around(np.arange(starts[first], starts[last])), int(size.sum()), label, rgb
-        )
+        around = surroundings.around(np.arange(starts[first], starts[last]))
+        batch = NodeBatch.of(around, int(size.sum()), label, rgb, is_vague)
         with torch.inference_mode():
             share = likelihood.share_of(batch, likelihood.log_pi()).mean(dim=1)
         cell = np.repeat(np.arange(last - first), size)[around.node]

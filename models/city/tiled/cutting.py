@@ -1,6 +1,6 @@
 """Cutting cubes out of a map of pieces: `Parts` as of points (docs/formats.md, rules 4 and 5), by geometry alone."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import cast
@@ -227,7 +227,29 @@ def sample_pieces(
         rules: size of the cubes and how to clip.
     """
     grouped = _Grouped.of(table, Wholes.of(table), rules, centers_m.astype(np.float64))
-    found = []
+    return samples(
+        [
+            sample_points(xyz, np.broadcast_to(instance_rgb[instance], xyz.shape))
+            for _, instance, xyz in _points(table, shapes, grouped)
+        ]
+    )
+
+
+def scan_pieces(table: PieceTable, shapes: Sequence[str], centers_m: Floats, rules: CutRules) -> Floats:
+    """[R, 3] float32 point of each part that is nearest to the centre, of those that a scan has.
+
+    Arguments and order as `sample_pieces`. A scan's points lie apart: the nearest is off by up to some metres along an
+    edge that is far away, as is what a passer-by takes for it.
+    """
+    grouped = _Grouped.of(table, Wholes.of(table), rules, centers_m.astype(np.float64))
+    found = [np.zeros((0, 3))]
+    for cube, _, xyz in _points(table, shapes, grouped):
+        found.append(xyz[np.argmin(((xyz - centers_m[cube]) ** 2).sum(axis=1))][None])
+    return np.concatenate(found).astype(np.float32)
+
+
+def _points(table: PieceTable, shapes: Sequence[str], grouped: _Grouped) -> Iterator[tuple[int, int, Floats]]:
+    """Of each part of some cubes the cube, the instance and [P, 3] points on it, metres."""
     for rows in [r for r, kept in zip(np.split(grouped.order, grouped.starts[1:]), grouped.kept, strict=True) if kept]:
         piece = grouped.cubes.piece[rows]
         instance, solids = int(table.instance[piece[0]]), []
@@ -236,8 +258,7 @@ def sample_pieces(
             solids.append(Solid(instance, cast(Shape, shapes[instance]), geometry, base, top))
         xyz = np.concatenate([points_on(solid) for solid in solids])
         xyz = xyz if len(xyz) else np.array([[*shapely.get_coordinates(solids[0].geometry)[0], 0.0]])
-        found.append(sample_points(xyz, np.broadcast_to(instance_rgb[instance], xyz.shape)))
-    return samples(found)
+        yield int(grouped.cubes.cube[rows[0]]), instance, xyz
 
 
 def _closest(geometry: Geometries, centers: Floats, new: Ints) -> Floats:

@@ -49,6 +49,11 @@ class Things:
         shown = np.bincount(parts.instance, minlength=instances).astype(np.int32)
         return cls(np.arange(instances, dtype=np.int32), bodies.rgb, shown, high < FLAT_M)
 
+    @property
+    def is_vague(self) -> npt.NDArray[np.bool_]:
+        """[P] whether what of it is nearest is told of roughly: ground of a map; a scan is told of by its points."""
+        return self.is_flat & (not self.are_parts)
+
     def parts_in(self, cells: CellTable, rows: Ints) -> Ints:
         """[P] how many parts are of each thing in some of the cells."""
         if self.are_parts:

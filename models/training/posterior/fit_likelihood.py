@@ -95,7 +95,8 @@ def around_cells(place: Place, cells: Ints) -> tuple[Ints, NodeBatch]:
     s = place.surroundings
     nodes = ranges(s.cell_starts[cells], s.cell_starts[cells + 1])
     label, rgb = torch.from_numpy(place.label), torch.from_numpy(s.things.rgb.astype(np.float32))
-    return nodes, NodeBatch.of(s.around(nodes), len(nodes), label, rgb)
+    is_vague = torch.from_numpy(s.things.is_vague)
+    return nodes, NodeBatch.of(s.around(nodes), len(nodes), label, rgb, is_vague)
 
 
 def _tree(cells: CellTable) -> cKDTree:

@@ -9,7 +9,7 @@ import numpy as np
 import torch
 
 from models.checkpoint import CONFIG_FILE, round_weights
-from models.city.source import CHOSEN_BY, open_sources
+from models.city.source import open_sources
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
 from models.localization.located import TOLD
@@ -129,7 +129,7 @@ def fit_and_save(
     """
     trained.eval()
     rng = np.random.default_rng(config.seed)
-    places = [[Place.of(source, source.queries(CHOSEN_BY)) for source in open_sources(path, splits)] for path in data]
+    places = [[Place.of(source) for source in open_sources(path, splits)] for path in data]
     fitted = fit_places(trained, [of_fit for of_fit, _ in places], rng)
     measured = calibrate_places(trained, [place for both in places for place in both], rng)
     figures = reading_figures(trained.reader, validation) | measured

@@ -10,7 +10,7 @@ from models.city.cells import CellTable
 from models.city.colours import Palette
 from models.city.points import Ints
 from models.city.queries import Queries
-from models.city.source import Source
+from models.city.source import CHOSEN_BY, SPACING_M, Source
 from models.city.types import DIRECTIONS, Floats, Hint
 from models.language.grammar.files import Grammar
 from models.language.grammar.labelled_text import Fact
@@ -54,8 +54,10 @@ class Place:
     truth: Ints
 
     @classmethod
-    def of(cls, source: Source, queries: Queries) -> "Place":
-        """A source with what is asked of it."""
+    def of(cls, source: Source, spacing_m: float = SPACING_M) -> "Place":
+        """A source with what is said in it: by who knows the map, and by who looks at it as a scan shows it."""
+        scan, told = source.as_scan(), [source.queries(CHOSEN_BY, spacing_m)]
+        queries = Queries.joined(told if scan is source else [*told, scan.queries(CHOSEN_BY, spacing_m)])
         data, hints = source.data, queries.hints
         assert hints is not None
         surroundings = surroundings_of(source.bodies(), data.cells)

@@ -5,6 +5,7 @@ import pytest
 from safetensors.numpy import load
 
 from models.city.kitti360.job import prepare_data
+from models.city.queries import Queries
 from models.city.source import CHOSEN_BY, VOXEL_M, MapSource, open_source, open_sources
 from models.city.store.files import convert
 from models.errors import DataError, MapError
@@ -54,6 +55,24 @@ def test_queries_are_true_and_in_their_region(source, regions) -> None:
         assert ((queries.positions_m[:, 0] >= west) & (queries.positions_m[:, 0] < east)).all()
     chosen_by = source.queries(CHOSEN_BY).positions_m
     assert not np.array_equal(chosen_by[:9], whole.positions_m[:9]), "not what it is measured at"
+
+
+def test_as_a_scan_shows_it_a_map_is_told_of_with_other_winds(source, prepared) -> None:
+    known, seen = (each.queries(CHOSEN_BY) for each in (source, source.as_scan()))
+    alike = _nearest_told(known)
+    differ = [said != alike[xy] for xy, said in _nearest_told(seen).items() if xy in alike]
+    assert 0.02 < np.mean(differ) < 0.5
+    both = Queries.joined([known, seen])
+    assert len(both) == len(known) + len(seen)
+    assert both.take(np.array([len(known)])).hints == seen.take(np.array([0])).hints
+    data = open_source(prepared)
+    assert data.as_scan() is data, "it is one"
+
+
+def _nearest_told(queries):
+    """What is said of the nearest things, by where."""
+    told = zip(queries.positions_m.tolist(), queries.hints, queries.strategies, strict=True)
+    return {tuple(xy): {(h.label, h.direction) for h in said} for xy, said, how in told if how == "closest"}
 
 
 def test_a_data_set_and_its_store_are_one(prepared, tmp_path) -> None:

@@ -7,7 +7,7 @@ import torch
 from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.parsed_hint import RELATIONS
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
-from models.posterior.node_batch import NodeBatch, colour_words, ranks_of, usual_statements, way_number
+from models.posterior.node_batch import WAYS, NodeBatch, colour_words, ranks_of, usual_statements, way_number
 from models.posterior.surroundings.around import STEP_M
 
 WORDS = len(colour_words(KITTI360_PALETTE))
@@ -37,15 +37,15 @@ def around(rng, nodes=5, labels=4, parts=9):
     rgb[0] = math.nan
     whole = torch.from_numpy(rng.random(len(node)) < 0.8)
     rank = ranks_of(torch.from_numpy(node), way_number(way), label[part])
-    return NodeBatch(
-        torch.from_numpy(node), way_number(way), whole, rank, part, torch.arange(parts), label, rgb, nodes
-    ), way
+    looks = torch.arange(parts), label, rgb, torch.arange(parts) % 2 == 0
+    return NodeBatch(torch.from_numpy(node), way_number(way), whole, rank, part, *looks, nodes), way
 
 
-def place_of(model, relation, east, north):
+def place_of(model, relation, east, north, is_vague):
     radius = math.hypot(east, north)
     e = {name: float(p.exp()) for name, p in model.named_parameters() if p.ndim == 0}
     top, soft = (float(x) for x in model.on_top_m.exp())
+    border_m = float(model.border_m[int(is_vague)].exp())
     on_top = 1 / (1 + math.exp(-(top - radius) / soft))
     total = 0.0
     for n, name in enumerate(RELATIONS):
@@ -57,7 +57,7 @@ def place_of(model, relation, east, north):
             angle = math.radians(45 * n)
             along = east * math.sin(angle) + north * math.cos(angle)
             across = abs(east * math.cos(angle) - north * math.sin(angle))
-            fits = (1 - on_top) / (1 + math.exp(-(along - across) / e["border_m"]))
+            fits = (1 - on_top) / (1 + math.exp(-(along - across) / border_m))
         total += float(relation[n]) * fits
     return total
 
@@ -99,7 +99,8 @@ def naive(model, said, here, way, palette):
                 for h in range(len(said.label)):
                     label = float(said.label[h, here.label[part]])
                     colour = float(words[part] @ said.colour[h, :-1]) + float(said.colour[h, -1])
-                    place = place_of(model, said.relation[h], east, north) + math.exp(model.relation_slip)
+                    place = place_of(model, said.relation[h], east, north, here.is_vague[part])
+                    place += math.exp(model.relation_slip)
                     fits = label * colour * place
                     row.append((fits if fits > FAINT else 0.0) * weight / mass ** float(model.crowding))
                 terms.append(row)
@@ -199,13 +200,25 @@ def test_the_winds_share_the_compass(model):
     assert (four - 1).abs().max() < 0.3, "north, east, south, west and on-top are all there is"
 
 
+@torch.no_grad()
+def test_the_winds_from_what_is_vague_are_softer(model):
+    model.border_m.copy_(torch.tensor([-3.0, 0.0]))
+    north = torch.eye(len(RELATIONS))[:1]
+    said = Reading(north, torch.ones(1, 1), torch.ones(1, WORDS + 1), torch.tensor([math.nan]), torch.zeros(1))
+    just_east, slip = way_number(torch.tensor([[42, 40]], dtype=torch.int8)), float(model.relation_slip.exp())
+    exact, vague = (float(model.places(said, table)[just_east]) - slip for table in model.ways().split(WAYS))
+    assert exact < 0.05
+    assert 0.3 < vague < 0.5
+
+
 def test_what_is_absent_is_not_near(model):
     way = torch.tensor([[0, 40]], dtype=torch.int8)
     node = torch.zeros(1, dtype=torch.long)
     label = torch.zeros(1, dtype=torch.long)
     here = NodeBatch(
         node, way_number(way), torch.ones(1, dtype=torch.bool), ranks_of(node, way_number(way), label),
-        torch.zeros(1, dtype=torch.long), torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4), 2,
+        torch.zeros(1, dtype=torch.long), torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4),
+        torch.zeros(1, dtype=torch.bool), 2,
     )  # fmt: skip
     relation = torch.zeros(1, len(RELATIONS))
     relation[0, -1] = 1.0

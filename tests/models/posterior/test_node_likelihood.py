@@ -11,6 +11,7 @@ from models.posterior.node_likelihood import NodeLikelihood
 from models.posterior.surroundings.around import Around
 
 LABELS, THINGS, NODES = 4, 30, 40
+IS_VAGUE = np.arange(THINGS) % 3 == 0
 WORDS = len(colour_words(KITTI360_PALETTE))
 
 
@@ -31,6 +32,10 @@ def surroundings(rng, most=12) -> Around:
     return Around(node, rng.integers(0, THINGS, len(node)), way, rng.random(len(node)) < 0.8)
 
 
+def batch_of(around, label, rgb) -> NodeBatch:
+    return NodeBatch.of(around, NODES, label, rgb, torch.from_numpy(IS_VAGUE))
+
+
 def reading(rng, hints, absent, metres) -> Reading:
     relation, label, colour = (
         torch.from_numpy(rng.dirichlet(np.full(width, 0.2), hints)).float() for width in (10, LABELS + 1, WORDS + 1)
@@ -48,10 +53,10 @@ def test_it_is_what_torch_makes_of_it(model, hints, absent, metres) -> None:
     label[:LABELS] = torch.arange(LABELS)
     usual = usual_statements(label, rgb, torch.ones(THINGS), KITTI360_PALETTE)
     with torch.no_grad():
-        compiled = NodeLikelihood(model, label, rgb, KITTI360_PALETTE, usual)
+        compiled = NodeLikelihood(model, label, rgb, IS_VAGUE, KITTI360_PALETTE, usual)
         for _ in range(3):
             around, said = surroundings(rng), reading(rng, hints, absent, metres)
-            expected = model(said, NodeBatch.of(around, NODES, label, rgb), KITTI360_PALETTE, usual)
+            expected = model(said, batch_of(around, label, rgb), KITTI360_PALETTE, usual)
             assert np.allclose(compiled.of(said)(around, NODES), expected.numpy(), rtol=1e-4, atol=1e-4)
 
 
@@ -60,7 +65,7 @@ def test_a_long_text_does_not_vanish(model) -> None:
     rng, label, rgb = np.random.default_rng(0), torch.arange(THINGS) % LABELS, torch.rand(THINGS, 3)
     usual = usual_statements(label, rgb, torch.ones(THINGS), KITTI360_PALETTE)
     with torch.no_grad():
-        compiled = NodeLikelihood(model, label, rgb, KITTI360_PALETTE, usual)
+        compiled = NodeLikelihood(model, label, rgb, IS_VAGUE, KITTI360_PALETTE, usual)
         around, said = surroundings(rng), reading(rng, 200, 0.0, math.nan)
-        expected = model(said, NodeBatch.of(around, NODES, label, rgb), KITTI360_PALETTE, usual)
+        expected = model(said, batch_of(around, label, rgb), KITTI360_PALETTE, usual)
         assert np.allclose(compiled.of(said)(around, NODES), expected.numpy(), rtol=1e-4)

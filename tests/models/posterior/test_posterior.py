@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.source import CHOSEN_BY
 from models.language.parsed_hint import RELATIONS
 from models.posterior.inside import Inside
 from models.posterior.likelihood import Likelihood, Reading
@@ -40,7 +39,7 @@ def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> Reading:
 
 @pytest.fixture(scope="module")
 def town(source) -> Town:
-    place = Place.of(source, source.queries(CHOSEN_BY, 25.0))
+    place = Place.of(source, 25.0)
     words = colour_words(place.palette)
     readings = [exact(hints, place.labels, words) for hints in place.hints]
     return Town(place, place.posterior(Likelihood()), readings)

@@ -5,8 +5,8 @@ import pytest
 import shapely
 from scipy.cluster.hierarchy import DisjointSet
 
-from models.city.bodies import bodies_of
-from models.city.tiled.solids import crown_reach_m
+from models.city.bodies import ScannedBodies, bodies_of
+from models.city.tiled.solids import GROUND_SPACING_M, crown_reach_m
 from models.city.tiled.tiling import TOUCHING_M
 
 
@@ -105,6 +105,19 @@ def test_no_cube_and_empty_cubes_have_no_parts(bodies):
     far = bodies.cut(np.array([[1e5, 0.0, 0.0], [0.0, -1e5, 0.0]]))
     assert far.starts.tolist() == [0, 0, 0]
     assert far.low_m.shape == (0, 3)
+
+
+def test_what_is_nearest_in_a_scan_is_one_of_its_points(bodies, cells):
+    centers = cells.center_m[[3, 40, 7]]
+    known, seen = bodies.cut(centers), ScannedBodies(bodies).cut(centers)
+    assert (seen.instance == known.instance).all()
+    metres = [np.linalg.norm((parts.closest_m - centers[parts.cube])[:, :2], axis=1) for parts in (known, seen)]
+    flat = seen.low_m[:, 2] == seen.high_m[:, 2]
+    assert (metres[1] >= metres[0] - 1e-3)[flat].all()
+    assert (metres[1] <= metres[0] + 2 * GROUND_SPACING_M)[flat].all()
+    assert (seen.closest_m[flat] % GROUND_SPACING_M == 0).all()
+    away = np.linalg.norm((seen.closest_m - known.closest_m)[:, :2], axis=1)
+    assert away[flat].max() > GROUND_SPACING_M, "along an edge it is off by more"
 
 
 def test_points_are_sampled_of_each_part(bodies, cells):
