@@ -48,15 +48,9 @@ class NodeLikelihood:
         self._model, self._usual = likelihood, usual
         names, centers = colour_words(palette), np.array(palette.centers, np.float64) / 255
         column = np.array([names.index(word) for word in palette.words])
-        chances = likelihood.colour_spread, likelihood.colour_slip, likelihood.unknown_colour
-        self._things = (
-            label.numpy(),
-            rgb.numpy(),
-            is_vague,
-            centers,
-            column,
-            np.array([float(x.exp()) for x in chances]),
-        )
+        logs = likelihood.colour_spread, likelihood.colour_slip, likelihood.unknown_colour
+        chances = np.array([float(x.exp()) for x in logs])
+        self._things = label.numpy(), rgb.numpy(), is_vague, centers, column, chances
         self._ways = np.concatenate([_quarter(table.numpy()) for table in likelihood.ways().split(WAYS)])
         by_way = _quarter(likelihood.log_pi().exp().double().numpy())
         sector = SECTOR_OF_WAY.numpy().astype(np.int8)
