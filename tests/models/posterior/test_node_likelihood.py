@@ -69,3 +69,18 @@ def test_a_long_text_does_not_vanish(model) -> None:
         around, said = surroundings(rng), reading(rng, 200, 0.0, math.nan)
         expected = model(said, batch_of(around, label, rgb), KITTI360_PALETTE, usual)
         assert np.allclose(compiled.of(said)(around, NODES), expected.numpy(), rtol=1e-4)
+
+
+def test_what_explains_a_hint_is_seen_as_roughly_as_it_is_told_of(model) -> None:
+    """Of two things alike, one to the north and one nearly so, the vague one may be the northern too."""
+    label, rgb = torch.zeros(2, dtype=torch.long), torch.full((2, 3), 0.4)
+    usual = usual_statements(label, rgb, torch.ones(2), KITTI360_PALETTE)
+    way = np.array([[40, 39], [-40, 39]], dtype=np.int8)
+    around = Around(np.zeros(2, np.int64), np.arange(2), way, np.ones(2, np.bool_))
+    relation, colour = torch.eye(10)[:1], torch.eye(WORDS + 1)[-1:]
+    said = Reading(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.zeros(1))
+    with torch.no_grad():
+        model.border_m.copy_(torch.tensor([-3.0, 0.0]))
+        for vague in (0, 1):
+            compiled = NodeLikelihood(model, label, rgb, np.arange(2) == vague, KITTI360_PALETTE, usual)
+            assert compiled.explain(said, around)[0].tolist() == [vague]

@@ -33,6 +33,15 @@ def test_nodes_are_the_same_however_many_columns_are_looked_at(around, monkeypat
     assert np.array_equal(found.cell_starts, expected.cell_starts)
 
 
+def test_ground_of_a_map_is_vague_and_a_scan_is_told_of_by_its_points(source, around, scanned) -> None:
+    things = around[2].things
+    labels = np.array(source.data.gallery.labels)[things.instance]
+    assert things.is_vague[labels == "road"].all()
+    assert not things.is_vague[labels == "building"].any()
+    assert scanned[2].things.is_flat.any()
+    assert not scanned[2].things.is_vague.any()
+
+
 def nodes_of(s):
     """[M, 2] where all nodes are."""
     return s.positions_m(np.arange(s.cell_starts[-1]))
