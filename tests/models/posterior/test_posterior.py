@@ -45,6 +45,11 @@ def town(source) -> Town:
     return Town(place, place.posterior(Likelihood()), readings)
 
 
+def test_a_map_is_told_of_as_it_is_and_as_a_scan_shows_it(town, source) -> None:
+    told = [each.queries(CHOSEN_BY, 25.0) for each in (source, source.as_scan())]
+    assert town.place.hints == [hints for queries in told for hints in queries.hints]
+
+
 def all_nodes_m(town):
     """[M, 2] where the nodes are."""
     return town.place.surroundings.positions_m(np.arange(town.place.surroundings.cell_starts[-1]))
