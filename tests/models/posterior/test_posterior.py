@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import torch
 
+from models.city.source import CHOSEN_BY
 from models.language.parsed_hint import RELATIONS
 from models.posterior.inside import Inside
 from models.posterior.likelihood import Likelihood, Reading
