@@ -18,18 +18,20 @@ if TYPE_CHECKING:  # so that the command line starts without torch
     from index.stores.store import VectorStore
 
 NOT_INSTALLED = "not installed"
+ROUNDING = 1e-6
 
 
 def measure_searches(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, Any]:
-    """Median milliseconds of a search for the candidates of one description, among all cells, one thread.
+    """Median milliseconds of a search for the candidates of one description, one thread; how many it finds.
 
     Args:
         localizer: of an index whose vectors are a file.
         texts: descriptions, each the sentences of one.
 
     Returns:
-        "candidates" how many are searched for, "faiss_ms", and "milvus": its "kind" (milvus-lite, or the server that
-        HEREABOUTS_MILVUS_URI names), "write_seconds" and "ms"; or "not installed"; or why it does not answer.
+        "candidates" how many are searched for, "faiss_ms", "found" the share of the best that FAISS gives, and
+        "milvus": its "kind" (milvus-lite, or the server that HEREABOUTS_MILVUS_URI names), "write_seconds" and "ms"; or
+        "not installed"; or why it does not answer.
     """
     from models.posterior.posterior import CANDIDATES  # noqa: PLC0415 - heavy
 
@@ -37,6 +39,7 @@ def measure_searches(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -
     return {
         "candidates": CANDIDATES,
         "faiss_ms": _median_ms(localizer.ranker.store, vectors, CANDIDATES),
+        "found": _found(localizer.ranker.store, vectors, CANDIDATES),
         "milvus": _measure_milvus(localizer, vectors, CANDIDATES),
     }
 
@@ -48,6 +51,15 @@ def _median_ms(store: "VectorStore", vectors: Any, count: int) -> float:
         store.search(vector[None], count)
         seconds.append(time.perf_counter() - start)
     return round(1000 * float(np.median(seconds)), 2)
+
+
+def _found(store: "VectorStore", vectors: Any, count: int) -> float:
+    """Share of what is found that is as good as the best of all lists."""
+    from index.stores.faiss_store import FEW  # noqa: PLC0415 - heavy
+
+    worst = [store.search(vector[None], FEW + 1)[0][0, :count][-1] for vector in vectors]
+    scores = [store.search(vector[None], count)[0][0] for vector in vectors]
+    return round(float(np.mean([(s >= w - ROUNDING).mean() for s, w in zip(scores, worst, strict=True)])), 4)
 
 
 def _measure_milvus(localizer: "Localizer", vectors: Any, count: int) -> Any:

@@ -19,7 +19,8 @@ from models.posterior.surroundings.nodes import SPACING_M
 HIT_M = 6.5  # positions are chosen to have most of the mass this near, softly
 PLACE_HIT_M = 10.0  # the same where places are named: what is far away leaves a wider peak
 BEHIND = 9.0  # cells this far behind on the coarser grid (nats) are not looked at more closely
-MEAN_M = 3.0  # and are then the mean of the mass this near
+MEAN_M = 5.0  # and are then the mean of the mass this near
+SOFTENED = 0.86  # mass to this power: what a text gets slightly wrong moves a position less
 HEAVY = 256  # nodes that the mass within reach is added up from: the likeliest
 TIMES = 2  # as coarse is the grid that cells are looked at on first
 FAR = 20.0  # this far behind by the inverted list (nats) on one twice as coarse, unless places are named
@@ -183,6 +184,7 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     heavy = np.argpartition(-weight, min(HEAVY, len(weight)) - 1)[:HEAVY]
     centers = np.union1d(heavy, best)
     near_m, share = nodes_m[centers], np.maximum(weight[centers] / max(weight[centers].max(), 1e-300), 1e-30)
+    share **= SOFTENED
     near_mass = _mass_near(near_m, share, reach_m)
     owner = field.cell[centers]
     chosen = np.zeros(len(field.cells), np.int64)

@@ -139,6 +139,7 @@ def test_milvus_is_asked_the_same_and_leaves_nothing(localizer, monkeypatch) -> 
     assert found["milvus"]["kind"] == "milvus-lite"
     assert found["milvus"]["ms"] > 0
     assert found["faiss_ms"] > 0
+    assert found["found"] == 1.0
     assert "HEREABOUTS_MILVUS_URI" not in searches.os.environ
     monkeypatch.setenv("HEREABOUTS_MILVUS_URI", "http://127.0.0.1:9/none")
     assert "Milvus cannot" in searches.measure_searches(localizer, [("A tree is to my west.",)])["milvus"]

@@ -30,6 +30,52 @@ def test_many_vectors_take_a_quarter_and_find_nearly_the_same(vectors, tmp_path,
     assert small.search(vectors[:1], 5, Box(1, 1, 2, 2))[1].shape == (1, 0)
 
 
+@pytest.fixture
+def in_lists(monkeypatch):
+    """Stores of more than 2,000 vectors have 16 lists, of which 4 are searched."""
+    for name, value in {"EXACT": 100, "MANY": 2000, "LISTS": 16, "SEARCHED": 4, "FEW": 50}.items():
+        monkeypatch.setattr(f"index.stores.faiss_store.{name}", value)
+
+
+def test_very_many_vectors_are_found_in_lists_of_like_ones(vectors, tmp_path, in_lists) -> None:
+    alike = vectors[:100].repeat(30, axis=0) + 0.3 * vectors
+    alike /= np.linalg.norm(alike, axis=1, keepdims=True)
+    flat = FaissStore.of(alike[:2000], bits=8)
+    FaissStore.of(alike).save(tmp_path / "lists")
+    positions_m = np.stack([np.arange(3000), np.zeros(3000)], axis=1)
+    store, whole = FaissStore.load(tmp_path / "lists", positions_m), FaissStore.of(alike, like=flat)
+    assert (len(store), store.dim) == (3000, 64)
+    assert store.vectors(np.arange(3000)) == pytest.approx(alike, abs=0.01)
+    assert store.score(alike[5], np.array([5, 6])) == pytest.approx(alike[[5, 6]] @ alike[5], abs=0.02)
+    exact = -np.sort(-(store.vectors(np.arange(3000)) @ alike[:60].T).T, axis=1)
+    few, many = store.search(alike[:60], 20), store.search(alike[:60], 60)
+    assert np.mean(few[0] >= exact[:, 19:20] - 1e-5) > 0.95, "nearly the best"
+    assert many[0] == pytest.approx(exact[:, :60], abs=1e-5), "who wants many is given those of all lists"
+    box = store.search(alike[:60], 20, Box(100, -1, 399, 1))
+    inside = -np.sort(-(store.vectors(np.arange(100, 400)) @ alike[:60].T).T, axis=1)
+    assert box[0] == pytest.approx(inside[:, :20], abs=1e-5), "within a box all are looked at"
+    assert box[1].min() >= 100
+    assert box[1].max() < 400
+    rows = np.arange(2000)
+    assert np.abs(whole.vectors(rows) - flat.vectors(rows)).max() < 0.02, "of the other's steps"
+
+
+def test_lists_that_hold_too_few_are_not_all_that_is_looked_at(vectors, in_lists, monkeypatch) -> None:
+    monkeypatch.setattr("index.stores.faiss_store.SEARCHED", 1)
+    far = np.concatenate([vectors[:1].repeat(2990, axis=0), -vectors[:1].repeat(10, axis=0)])
+    scores, rows = FaissStore.of(far).search(-vectors[:1], 40)
+    assert (rows >= 0).all()
+    assert len(set(rows[0].tolist())) == 40
+    assert scores[0, 9] > 0.9 > scores[0, 10]
+
+
+def test_the_bits_of_a_vector_are_the_same_in_lists_and_without(vectors, in_lists, monkeypatch) -> None:
+    lists = FaissStore.of(vectors)
+    monkeypatch.setattr("index.stores.faiss_store.MANY", 3000)
+    rows = np.arange(3000)
+    np.testing.assert_array_equal(lists.vectors(rows), FaissStore.of(vectors).vectors(rows))
+
+
 def test_a_store_of_sixteen_bits_takes_half_and_scores_alike(vectors, tmp_path) -> None:
     exact = FaissStore.of(vectors)
     FaissStore.of(vectors, bits=16).save(tmp_path / "half")
