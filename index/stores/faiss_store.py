@@ -107,8 +107,8 @@ class FaissStore:
 
     def _params(self, chosen: npt.NDArray[np.bool_] | None, lists: int) -> Any:
         """FAISS's parameters of a search of some rows [N], None for all, in so many lists, if there are any."""
-        of_rows = {} if chosen is None else {"sel": faiss.IDSelectorBitmap(np.packbits(chosen, bitorder="little"))}
-        kinds: Any = faiss  # the keywords of these classes are added when it is imported
+        kinds: Any = faiss  # what these classes take is changed when it is imported
+        of_rows = {} if chosen is None else {"sel": kinds.IDSelectorBitmap(np.packbits(chosen, bitorder="little"))}
         if self._in_lists:
             return kinds.SearchParametersIVF(nprobe=lists, **of_rows)
         return kinds.SearchParameters(**of_rows) if of_rows else None
@@ -130,8 +130,7 @@ class FaissStore:
         """[N] which cells are in a box."""
         assert self._positions_m is not None, "a store without positions cannot look within"
         x, y = self._positions_m.T
-        inside: npt.NDArray[np.bool_] = (x >= within.west) & (x <= within.east)
-        return inside & (y >= within.south) & (y <= within.north)
+        return np.asarray((x >= within.west) & (x <= within.east) & (y >= within.south) & (y <= within.north))
 
     def score(self, query: Floats, rows: Rows) -> Floats:
         """See VectorStore."""
