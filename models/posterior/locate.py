@@ -58,7 +58,7 @@ def locate(
         scores = scores + told.cells
     if answered is not None:
         scores = scores + answered.cells
-    listed = _best(scores, min(candidates, len(scores)))
+    listed = best_rows(scores, min(candidates, len(scores)))
     if not len(listed):
         return None
     further = also() if also is not None else listed[:0]
@@ -94,17 +94,17 @@ def locate(
     )
 
 
-def _best(scores: Floats, count: int) -> Ints:
+def best_rows(scores: Floats, count: int) -> Ints:
     """The rows of the highest scores, at most so many, highest first, of equal ones the first; none that is -inf."""
     some = scores[::_SHARE]
+    some = some[some > -np.inf]  # many that are equal take partition a hundred times as long
     # So many of some scores are at least this high, and so many of all.
     floor = np.partition(some, -count)[-count] if len(some) > count else -np.inf
-    rows = np.flatnonzero(scores >= floor)
+    rows = np.flatnonzero((scores >= floor) & (scores > -np.inf))
     high = scores[rows]
-    least = np.partition(high, -count)[-count]
+    least = np.partition(high, -count)[-count] if len(high) > count else -np.inf
     above = np.flatnonzero(high > least)
     chosen = rows[np.concatenate([above, np.flatnonzero(high == least)[: count - len(above)]])]
-    chosen = chosen[scores[chosen] > -np.inf]
     found: Ints = chosen[np.lexsort((chosen, -scores[chosen]))]
     return found
 

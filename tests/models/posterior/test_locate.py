@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import torch
 
-from models.posterior.locate import locate
+from models.posterior.locate import best_rows, locate
 from models.posterior.posterior import Field
 from models.posterior.questions import Answered
 
@@ -97,3 +97,13 @@ def test_answers_bring_in_cells_that_were_not_listed() -> None:
     assert 3 not in before.rows
     assert after.rows[0] == 3
     assert after.weight[after.points == 3] > 0.9
+
+
+@pytest.mark.parametrize("possible", [0, 1, 40, 99, 100, 101, 900, 5000])
+@pytest.mark.parametrize("differ", [2, 10**6])
+def test_the_best_rows_are_those_of_a_sort_whatever_is_ruled_out(possible, differ) -> None:
+    rng = np.random.default_rng(possible)
+    scores = np.full(5000, -np.inf)
+    scores[rng.permutation(5000)[:possible]] = rng.integers(differ, size=possible)
+    expected = np.lexsort((np.arange(5000), -scores))[: min(100, possible)]
+    assert best_rows(scores, 100).tolist() == expected.tolist()
