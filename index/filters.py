@@ -1,5 +1,6 @@
 """What a query says of the place besides its description: where it must be, and where it is likely."""
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -13,10 +14,12 @@ from models.city.types import Floats
 from models.posterior.inside import Inside
 from models.posterior.surroundings.surroundings import Surroundings
 
-REACH_M: Final = BEST_CELL_REACH_M + 0.5  # of a cell's nodes from its centre, and by how much an edge may bend
+BEND_M: Final = 0.5  # by which an edge of a box in degrees may bend between points
+REACH_M: Final = BEST_CELL_REACH_M + BEND_M  # of a cell's nodes from its centre
 EDGE_POINTS: Final = 65  # of a box in degrees, between which its edges are straight
 MARGIN_DEG: Final = 1e-3
 Mask = npt.NDArray[np.bool_]
+Roughly = Callable[[Floats, float], tuple[Mask, Mask]]
 
 
 def inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
@@ -40,29 +43,40 @@ def where_inside(query: Query, surroundings: Surroundings, centers_m: Floats, fr
     """
     if query.within is None:
         return None
-    near, sure = (
-        _of_circle(query, centers_m, frame)
-        if isinstance(query.within, Circle)
-        else _of_box(query, query.within, centers_m, frame)
-    )
+    roughly = _of_circle(query, frame) if isinstance(query.within, Circle) else _of_box(query, centers_m, frame)
+
+    def holds(points_m: Floats) -> Mask:
+        near, sure = roughly(points_m, BEND_M)
+        unsure = np.flatnonzero(near & ~sure)
+        sure[unsure] = inside(query, points_m[unsure], frame)
+        return sure
+
+    near, sure = roughly(centers_m, REACH_M)
     starts = surroundings.cell_starts
     border = np.flatnonzero(near & ~sure)
     nodes = ranges(starts[border], starts[border + 1])
     cells = sure & (np.diff(starts) > 0)
-    nodes = nodes[inside(query, surroundings.positions_m(nodes), frame)]
-    cells[surroundings.owner(nodes)] = True
-    return Inside(cells, lambda points_m: inside(query, points_m, frame))
+    cells[surroundings.owner(nodes[holds(surroundings.positions_m(nodes))])] = True
+    return Inside(cells, holds)
 
 
-def _of_circle(query: Query, centers_m: Floats, frame: Frame) -> tuple[Mask, Mask]:
-    """[N] whether some nodes of a cell may be inside, and whether all are."""
-    assert isinstance(query.within, Circle)
-    away_m = np.hypot(*(centers_m - frame.position_m(query.within.center, query.crs)).T)
-    return away_m <= query.within.radius_m + REACH_M, away_m <= query.within.radius_m - REACH_M
+def _of_circle(query: Query, frame: Frame) -> Roughly:
+    """Which points [N, 2] may be less than some metres away from what is inside, and of which all so near is inside."""
+    circle = query.within
+    assert isinstance(circle, Circle)
+    center_m = frame.position_m(circle.center, query.crs)
+
+    def roughly(points_m: Floats, reach_m: float) -> tuple[Mask, Mask]:
+        away_m = np.hypot(*(points_m - center_m).T)
+        return away_m <= circle.radius_m + reach_m, away_m <= circle.radius_m - reach_m
+
+    return roughly
 
 
-def _of_box(query: Query, box: Box, centers_m: Floats, frame: Frame) -> tuple[Mask, Mask]:
-    """As `_of_circle`."""
+def _of_box(query: Query, centers_m: Floats, frame: Frame) -> Roughly:
+    """As `_of_circle`, of points of the map that has these centres [N, 2] of cells."""
+    box = query.within
+    assert isinstance(box, Box)
     outer = inner = np.array([[box.west, box.south], [box.east, box.north]])
     if query.crs == "wgs84":
         low = np.array([axis.min() for axis in centers_m.T]) - REACH_M
@@ -72,15 +86,19 @@ def _of_box(query: Query, box: Box, centers_m: Floats, frame: Frame) -> tuple[Ma
         west, south = max(box.west, lon.min() - MARGIN_DEG), max(box.south, lat.min() - MARGIN_DEG)
         east, north = min(box.east, lon.max() + MARGIN_DEG), min(box.north, lat.max() + MARGIN_DEG)
         if west > east or south > north:
-            nowhere = np.zeros(len(centers_m), np.bool_)
-            return nowhere, nowhere
+            return lambda points_m, _: (np.zeros(len(points_m), np.bool_), np.zeros(len(points_m), np.bool_))
         at = _edges(np.array([west, south]), np.array([east, north]))
         edges = frame.from_wgs84(at[..., 1], at[..., 0])  # [4, E, 2] of west, east, south and north
         outer = np.array([edges.reshape(-1, 2).min(axis=0), edges.reshape(-1, 2).max(axis=0)])
         inner = np.array([[edges[0, :, 0].max(), edges[2, :, 1].max()], [edges[1, :, 0].min(), edges[3, :, 1].min()]])
-    return _between(centers_m, outer[0] - REACH_M, outer[1] + REACH_M), _between(
-        centers_m, inner[0] + REACH_M, inner[1] - REACH_M
-    )
+
+    def roughly(points_m: Floats, reach_m: float) -> tuple[Mask, Mask]:
+        near, sure = _between(points_m, outer[0] - reach_m, outer[1] + reach_m), np.zeros(len(points_m), np.bool_)
+        some = np.flatnonzero(near)
+        sure[some] = _between(points_m[some], inner[0] + reach_m, inner[1] - reach_m)
+        return near, sure
+
+    return roughly
 
 
 def _between(points_m: Floats, low: Floats, high: Floats) -> Mask:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
+import numpy.typing as npt
 
 from models.city.cells import CellTable
 from models.city.points import Ints, ranges
@@ -166,12 +167,18 @@ def _cell_scores(
     """[N] about the log mass of each cell, up to one constant; -inf where no node is, or none that is inside."""
     scores: Floats = np.zeros(len(posterior.surroundings.cell_starts) - 1)
     if reading is not None:
-        scores = posterior.cell_scores(reading)
+        scores = posterior.cell_scores(reading, None if inside is None else _span(inside.cells))
         scores *= float(posterior.likelihood.temper.detach().exp())
     if log_prior is not None:
         scores = scores + log_prior(posterior.cells.center_m[:, :2])
     scores[posterior.without_nodes if inside is None else ~inside.cells] = -np.inf
     return scores
+
+
+def _span(cells: npt.NDArray[np.bool_]) -> range:
+    """From the first of some cells [N] to the last, which in a city are few of all where a small box has them."""
+    rows = np.flatnonzero(cells)
+    return range(int(rows[0]), int(rows[-1]) + 1) if len(rows) else range(0)
 
 
 def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells: CellTable, reach_m: float) -> Floats:

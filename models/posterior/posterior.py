@@ -102,9 +102,9 @@ class HintPosterior:
         self.sights = Sights(surroundings, label, lambda things: self._words(torch.from_numpy(things)).numpy())
 
     @torch.inference_mode()
-    def cell_scores(self, reading: Reading) -> Floats:
-        """[N] about log p(T | cell), of every cell of the gallery."""
-        return self.statements.scores(reading)
+    def cell_scores(self, reading: Reading, some: range | None = None) -> Floats:
+        """[N] about log p(T | cell), of every cell of the gallery, or of some as `Statements.scores`."""
+        return self.statements.scores(reading, some)
 
     @torch.inference_mode()
     def field(

@@ -140,9 +140,14 @@ class Statements:
         except (OSError, SafetensorError, KeyError, TypeError, ValueError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
-    def scores(self, reading: Reading) -> Floats:
-        """[N] about log p(T | cell), of some cells after others; of many, in two threads."""
-        words = self.words
+    def scores(self, reading: Reading, some: range | None = None) -> Floats:
+        """[N] about log p(T | cell); of many cells, in two threads.
+
+        Args:
+            reading: the text.
+            some: cells of which alone it is wanted, others have -inf; None for all.
+        """
+        words, some = self.words, range(self.cells) if some is None else some
         place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
         colour = torch.cat(
             [reading.colour[:, :words] + reading.colour[:, words:], torch.ones(len(place), 1) * 0.3], dim=1
@@ -151,9 +156,10 @@ class Statements:
         columns, weights = _told(*said)
         told_of = 1 - reading.absent.numpy()
         total = np.empty(self.cells, np.float32)
+        total[: some.start] = total[some.stop :] = -np.inf
 
         def of(first: int) -> None:
-            last = min(first + PART, self.cells)
+            last = min(first + PART, some.stop)
             at, ends = self.starts[columns], self.starts[columns + 1]
             _skip(first, self.cell, at, ends)
             for start in range(first, last, AT_ONCE):
@@ -161,7 +167,7 @@ class Statements:
                 _add(at, ends, self.cell, self.share.view(np.uint16), HALVES, weights, start, held)
                 _sum(np.log(held, out=held), told_of, total[start : start + held.shape[1]])
 
-        shared_out(of, range(0, self.cells, PART), self.cells > PART)
+        shared_out(of, range(some.start, some.stop, PART), len(some) > PART)
         return total
 
 

@@ -37,7 +37,7 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
         cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0), extent_m=1e4,
         surroundings=SimpleNamespace(cell_starts=np.array(starts), positions_m=lambda nodes: nodes_m[nodes]),
         # As they stand, so that cells are looked at in this order.
-        cell_scores=lambda _reading: -np.arange(len(starts) - 1.0),
+        cell_scores=lambda _reading, _some=None: -np.arange(len(starts) - 1.0),
         without_nodes=np.flatnonzero(np.diff(starts) == 0),
     )  # fmt: skip
 
@@ -77,7 +77,7 @@ def test_a_cell_without_a_coarse_node_is_looked_at_closely() -> None:
 def test_a_cell_that_seemed_far_behind_and_is_not_is_looked_at_closely() -> None:
     nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
     posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -30.0]), [0, 2, 4, 5], coarse=[0, 2, 4])
-    posterior.cell_scores = lambda _reading: np.array([0.0, -30.0, -5.0])
+    posterior.cell_scores = lambda _reading, _some: np.array([0.0, -30.0, -5.0])
     found = locate(posterior, SOMETHING)
     assert posterior.asked == [{0: 2, 2: 2, 1: 4}, {0: 2, 1: 4}]
     assert found is not None

@@ -56,7 +56,8 @@ def test_scores_are_those_of_a_naive_sum(statements, at_once, part, monkeypatch)
     rng, labels, words = np.random.default_rng(0), int(statements.label.max()) + 1, statements.words
     relation, label, colour = (torch.from_numpy(rng.dirichlet([0.3] * n, 3)).float() for n in (10, labels, words + 1))
     absent = torch.tensor([0.0, 0.2, 1.0])
-    found = statements.scores(Reading(relation, label, colour, torch.full((3,), torch.nan), absent))
+    reading = Reading(relation, label, colour, torch.full((3,), torch.nan), absent)
+    found = statements.scores(reading)
     of_sector = relation @ _SECTOR_OF_RELATION
     holds, naive = _holds(statements).toarray(), np.full((holds_rows := statements.cells, 3), FLOOR)
     for n, (of, word, sector) in enumerate(zip(statements.label, statements.word, statements.sector, strict=True)):
@@ -66,6 +67,10 @@ def test_scores_are_those_of_a_naive_sum(statements, at_once, part, monkeypatch)
     assert len(found) == holds_rows
     assert found == pytest.approx(truth, abs=0.2), "but for what is faint"
     assert np.abs(found - truth).mean() < 0.02 < truth.std()
+    for some in (range(3, 12), range(20, 21), range(5, statements.cells), range(0)):
+        alone = statements.scores(reading, some)
+        assert (alone[some.start : some.stop] == found[some.start : some.stop]).all()
+        assert np.isneginf(np.delete(alone, some)).all()
 
 
 def test_several_processes_make_what_one_makes(given, statements, monkeypatch) -> None:
