@@ -53,6 +53,7 @@ class Indexes:
         self._check_files = check_files
         self._served: dict[str, _Served] = {}
         self._retiring: set[asyncio.Task[None]] = set()
+        self._checks: set[asyncio.Task[None]] = set()  # of what is served, and of what was
         self._watching: asyncio.Task[None] | None = None
         self._switching, self._checking = asyncio.Lock(), asyncio.Lock()
         self._is_draining = False
@@ -64,7 +65,7 @@ class Indexes:
         named = await self._named()
         self._served = {alias: self._begin(alias, named.get(alias)) for alias in {DEFAULT, *named}}
         for alias, served in self._served.items():
-            served.checking = asyncio.create_task(self._check(alias, served))
+            self._begin_check(alias, served)
         self._watching = asyncio.create_task(self._watch())
 
     def queue(self, alias: str = DEFAULT) -> InferenceQueue:
@@ -146,10 +147,9 @@ class Indexes:
         if self._watching is not None:
             self._watching.cancel()
             await asyncio.gather(self._watching, return_exceptions=True)
-        tasks = [*self._retiring, *(served.checking for served in self._served.values() if served.checking)]
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
+        for task in [*self._retiring, *self._checks]:
+            _cancel(task)
+        await asyncio.gather(*self._retiring, *self._checks, return_exceptions=True)
         await asyncio.gather(*(served.queue.close() for served in self._served.values()))
 
     async def switch(self, alias: str, version: str, keep: Coroutine[None, None, None] | None = None) -> None:
@@ -191,7 +191,7 @@ class Indexes:
             await new.queue.close()
             raise
         old, self._served[alias] = self._served.get(alias), new
-        new.checking = asyncio.create_task(self._check(alias, new))
+        self._begin_check(alias, new)
         log.info("index switched", alias=alias, index_version=new.queue.localizer.facts.version)
         if old is not None:
             task = asyncio.create_task(self._retire(old))
@@ -210,12 +210,17 @@ class Indexes:
     async def _retire(self, served: _Served) -> None:
         """End a queue once no request uses it."""
         if served.checking is not None:
-            served.checking.cancel()
-            await asyncio.gather(served.checking, return_exceptions=True)
+            _cancel(served.checking)
+            await asyncio.wait([served.checking])  # not gather: if this is cancelled, so would that be once more
         while served.leases:
             served.unused.clear()
             await served.unused.wait()
         await served.queue.close()
+
+    def _begin_check(self, alias: str, served: _Served) -> None:
+        served.checking = task = asyncio.create_task(self._check(alias, served))
+        self._checks.add(task)
+        task.add_done_callback(self._checks.discard)
 
     async def _check(self, alias: str, served: _Served) -> None:
         """Read the files of a version once it is ready, one version at a time; what is broken answers no more."""
@@ -258,3 +263,9 @@ class Indexes:
                 except Problem as problem:
                     failed[alias] = version
                     log.error("index not switched", alias=alias, index_version=version, reason=problem.detail)
+
+
+def _cancel(task: asyncio.Task[None]) -> None:
+    """Cancel a task once: a second time would end it while it waits for the process that it has killed."""
+    if not task.cancelling():
+        task.cancel()

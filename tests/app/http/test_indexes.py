@@ -286,6 +286,28 @@ def test_a_check_ends_with_the_version_or_the_service_that_it_is_of():
     asyncio.run(run())
 
 
+def test_a_check_that_is_ended_can_wait_for_its_process_though_the_service_ends_meanwhile():
+    waiting, ended = [], []
+
+    async def check_files(version):
+        try:
+            waiting.append(version)
+            await asyncio.Event().wait()
+        finally:
+            await asyncio.sleep(0.05)  # until what it has killed is gone
+            ended.append(version)
+
+    async def run():
+        city = City(default="v1")
+        async with serving(city, check_files) as indexes:
+            await soon(lambda: waiting == ["v1"])
+            await indexes.switch("default", "v2")
+            await asyncio.sleep(0)  # the check of v1 has been cancelled
+        return list(ended)
+
+    assert "v1" in asyncio.run(run())
+
+
 def test_draining_refuses_on_every_index():
     async def run():
         async with serving(City(default="v1", berlin="b1")) as indexes:
