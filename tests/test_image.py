@@ -7,6 +7,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -149,6 +150,7 @@ class Confined:
         own = {"TMPDIR": str(scratch), "HOME": str(home), "HEREABOUTS_JOBS_DIR": str(scratch / "jobs")}
         variables = {name: value.replace("/tmp/", f"{scratch}/") for name, value in image.items() if name != "PATH"}
         self.environ = variables | own | {"PATH": os.environ["PATH"], "HEREABOUTS_WORKERS": "1"}
+        _copy_code(Path(variables["NUMBA_CACHE_DIR"]))
         self.cwd, self.said = home, scratch.with_name("said")
 
     def start(self, words: list[str], **variables: str) -> "subprocess.Popen[bytes]":
@@ -169,6 +171,18 @@ class Confined:
     def lines(self) -> list[dict[str, Any]]:
         """What a service has logged."""
         return [json.loads(line) for line in self.said.read_text().splitlines(keepends=True) if line.endswith("\n")]
+
+
+def _copy_code(cache: Path) -> None:
+    """Put what was compiled here already where the image's start puts what was compiled with it."""
+    for room in [*ROOT.glob("models/**/__pycache__"), *ROOT.glob("index/**/__pycache__")]:
+        for code in room.glob("*/*/*.nb[ci]"):
+            kept = cache / code.relative_to(room)
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            with suppress(FileNotFoundError):  # exchanged by another test at this moment
+                shutil.copy2(code, kept)
+    for path in [cache, *cache.rglob("*")] if cache.exists() else []:
+        os.chown(path, NOBODY, NOBODY)
 
 
 @pytest.fixture
