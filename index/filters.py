@@ -67,8 +67,12 @@ def _of_circle(query: Query, frame: Frame) -> Roughly:
     center_m = frame.position_m(circle.center, query.crs)
 
     def roughly(points_m: Floats, reach_m: float) -> tuple[Mask, Mask]:
-        away_m = np.hypot(*(points_m - center_m).T)
-        return away_m <= circle.radius_m + reach_m, away_m <= circle.radius_m - reach_m
+        most_m = circle.radius_m + reach_m
+        near, sure = _between(points_m, center_m - most_m, center_m + most_m), np.zeros(len(points_m), np.bool_)
+        some = np.flatnonzero(near)
+        away_m = np.hypot(*(points_m[some] - center_m).T)
+        near[some], sure[some] = away_m <= most_m, away_m <= circle.radius_m - reach_m
+        return near, sure
 
     return roughly
 
