@@ -106,7 +106,7 @@ def index(
 ) -> None:
     """Build an index of a map."""
     check_shares(shard, merge, engine, address, keep_current)
-    check_update(map_path, update, levels, bool(shard or merge or engine))
+    check_update(map_path, update, bool(shard or merge or engine))
     path = map_path or update
     assert path is not None
 

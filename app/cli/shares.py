@@ -40,7 +40,7 @@ def check_shares(
         raise typer.BadParameter("--address is of a Ray cluster: give --engine ray with it, or leave it out")
 
 
-def check_update(map_path: Path | None, update: Path | None, levels: bool, shared: bool) -> None:
+def check_update(map_path: Path | None, update: Path | None, shared: bool) -> None:
     """Refuse what does not go together; `shared`: the work is shared out.
 
     Raises:
@@ -48,9 +48,8 @@ def check_update(map_path: Path | None, update: Path | None, levels: bool, share
     """
     if (map_path is None) == (update is None):
         raise typer.BadParameter("give --map, or --update and a newer file of the map that is indexed, and not both")
-    if update is not None and (levels or shared):
-        other = "--levels" if levels else "--shard, --merge and --engine"
-        raise typer.BadParameter(f"--update keeps one vector a cell, in one go: give --map with {other}")
+    if update is not None and shared:
+        raise typer.BadParameter("--update works in one go: give --map with --shard, --merge and --engine")
 
 
 def share_out(

@@ -103,7 +103,8 @@ class IndexJob:
         ready = self._ready(report)
         if current := self._current(ready):
             return current
-        earlier = Earlier.open(self.out_dir, ready.retriever.fingerprint) if self.update else None
+        wanted = ready.retriever.fingerprint, self._encoder(ready).levels
+        earlier = Earlier.open(self.out_dir, *wanted) if self.update else None
         with (
             TemporaryDirectory() as named,
             self._map(report) as path,

@@ -1,5 +1,6 @@
 """The vectors of an earlier version, for cells that have not changed since: `hereabouts index --update`."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -13,7 +14,8 @@ from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats
 from models.city.points import Ints
 from models.errors import IndexBroken
-from models.retrieval.level_table import STARTS_FILE
+from models.retrieval.level_table import NO_LEVELS, STARTS_FILE, LevelTable
+from models.retrieval.levels import Level
 
 FILE: Final = "encoded.npy"
 BYTES: Final = 5  # of a digest that are kept: a cell that changed is taken for one of a million once in a million times
@@ -28,38 +30,49 @@ class Earlier:
         digests: [K] uint64 what `save_digests` kept, ascending.
         rows: [K] row of each in the store.
         store: of all cells.
+        levels: the retriever's others, of all cells; none if they are not wanted.
     """
 
     digests: Ints
     rows: Ints
     store: FaissStore
+    levels: LevelTable
 
     @classmethod
-    def open(cls, index_dir: Path, fingerprint: str) -> "Earlier":
+    def open(cls, index_dir: Path, fingerprint: str, levels: Sequence[Level]) -> "Earlier":
         """Those of the version that "default" names.
 
         Args:
             index_dir: which has it.
             fingerprint: of the retriever.
+            levels: that are wanted of it.
 
         Raises:
-            IndexBroken: there is none, it is not whole, or it has no vectors that could be kept.
+            IndexBroken: there is none, it is not whole, or it has no vectors, of these levels, that could be kept.
             IndexMismatch: another model made it.
         """
         directory, manifest = open_version(index_dir)
         check_model(manifest, fingerprint)
-        lacks = "its vectors are in Milvus" if manifest.store == "milvus" else None
-        lacks = "it has the retriever's other levels" if STARTS_FILE in manifest.files else lacks
-        lacks = lacks if FILE in manifest.files else "it does not say what they were made of"
+        is_rich, has_levels = tuple(levels) != ("global",), STARTS_FILE in manifest.files
+        if FILE not in manifest.files or manifest.store == "milvus":
+            why = "they are in Milvus" if FILE in manifest.files else "it does not say what they were made of"
+            lacks = f"{why}; give --map in place of --update"
+        elif is_rich and not has_levels:
+            lacks = "it was made without --levels; give --map in place of --update"
+        elif has_levels and not is_rich:
+            lacks = "it was made with --levels; give that too"
+        else:
+            lacks = None
         if lacks is not None:
-            raise IndexBroken(f"{directory} has no vectors that can be kept: {lacks}; give --map in place of --update")
+            raise IndexBroken(f"{directory} has no vectors that can be kept: {lacks}")
         short = np.load(directory / FILE, allow_pickle=False)
         whole = np.zeros((len(short), 8), np.uint8)
         whole[:, :BYTES] = short
         digests = whole.view(np.uint64).ravel()
         rows = np.argsort(digests, kind="stable")
         rows = rows[digests[rows] > 0]
-        return cls(digests[rows], rows, FaissStore.load(directory / VECTORS_FILE))
+        table = LevelTable.load(directory, levels) if is_rich else NO_LEVELS
+        return cls(digests[rows], rows, FaissStore.load(directory / VECTORS_FILE), table)
 
     def known(self, digests: Ints) -> Ints:
         """[C] the row of each of `CellFeatures.digests` that the version has; -1 of the others."""

@@ -78,7 +78,7 @@ class Part:
             rows: which they are.
             room: a directory on the disk where the vectors lie meanwhile.
             report: called as the work goes on.
-            earlier: has the vectors of some of these cells, perhaps, but no other levels.
+            earlier: has the vectors of some of these cells, perhaps.
         """
         if isinstance(source, MapSource):
             source.lighten()
@@ -189,8 +189,7 @@ def _vectors_of(
         return encode_gallery(retriever, cells, map_forked)
     kept, new = np.flatnonzero(known >= 0), np.flatnonzero(known < 0)
     vectors = np.empty((len(cells), retriever.config.width), np.float32)
-    vectors[kept], vectors[new] = (
-        earlier.vectors(known[kept]),
-        encode_gallery(retriever, cells.take(new), map_forked)[0],
-    )
-    return vectors, NO_LEVELS
+    vectors[kept] = earlier.vectors(known[kept])
+    vectors[new], table = encode_gallery(retriever, cells.take(new), map_forked)
+    both = LevelTable.joined([earlier.levels.take(known[kept]), table])
+    return vectors, both.take(np.argsort(np.concatenate([kept, new])))

@@ -92,7 +92,6 @@ def test_what_cannot_be_meant_is_a_usage_error(calls, arguments, said) -> None:
     ("arguments", "said"),
     [
         ((), "give --map, or --update"),
-        (("--update", "b.osm", "--levels"), "give --map with --levels"),
         (("--update", "b.osm", "--shard", "1/2"), "give --map with --shard, --merge and --engine"),
         (("--update", "b.osm", "--merge", "2"), "give --map with --shard"),
         (("--update", "b.osm", "--engine", "ray"), "give --map with --shard"),

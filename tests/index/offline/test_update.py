@@ -13,6 +13,7 @@ from index.stores.faiss_store import FaissStore
 from models.errors import DataError, IndexBroken, IndexMismatch
 from models.files import file_records
 from models.retrieval import level_table
+from models.retrieval.levels import LEVELS
 from tests.told import told
 
 HOUSE = '<tag k="building" v="yes"/>'
@@ -94,6 +95,26 @@ def test_vectors_of_8_bits_are_rounded_once_more_at_most(
     assert told(out) == held
 
 
+def test_all_levels_of_what_has_not_changed_are_kept(newer_file, osm_file, rich_dir, encoded, tmp_path) -> None:
+    rich, anew = tmp_path / "rich", tmp_path / "anew"
+    IndexJob(osm_file, rich, rich_dir).build()
+    with pytest.raises(IndexBroken, match="was made without --levels; give --map in place of --update"):
+        IndexJob(newer_file, rich, rich_dir, levels=True, update=True).build()
+    IndexJob(osm_file, rich, rich_dir, levels=True).build()
+    IndexJob(newer_file, anew, rich_dir, levels=True).build()
+    encoded.clear()
+    IndexJob(newer_file, rich, rich_dir, levels=True, update=True).build()
+    assert 0 < encoded[0] < open_version(rich)[1].cells / 4
+    made, expected = (level_table.LevelTable.load(open_version(root)[0], LEVELS) for root in (rich, anew))
+    assert (made.starts == expected.starts).all()
+    assert set(made.vectors) == set(LEVELS) - {"global"}
+    for level, vectors in made.vectors.items():
+        np.testing.assert_allclose(vectors, expected.vectors[level], atol=3e-4)
+        assert np.ptp(vectors, axis=0).max() > 0.01, "rows differ by more"
+    IndexJob(newer_file, rich, rich_dir, levels=True, update=True).build()
+    assert encoded[-1] == 0
+
+
 def without_digests(directory, manifest):
     (directory / FILE).unlink()
     return {"files": {name: record for name, record in manifest.files.items() if name != FILE}}
@@ -112,7 +133,7 @@ def of_another_model(_directory, _manifest):
     ("change", "error", "said"),
     [
         (without_digests, IndexBroken, "does not say what they were made of; give --map in place of --update"),
-        (with_levels, IndexBroken, "has the retriever's other levels; give --map"),
+        (with_levels, IndexBroken, "was made with --levels; give that too"),
         (of_another_model, IndexMismatch, "rebuild the index"),
     ],
 )
@@ -144,7 +165,7 @@ def test_cells_whose_digests_are_cut_to_the_same_bytes_are_encoded_anew(out, wei
     write_manifest(
         directory, manifest.model_copy(update={"files": manifest.files | {FILE: file_records(directory)[FILE]}})
     )
-    known = Earlier.open(out, model.fingerprint).known(digests)
+    known = Earlier.open(out, model.fingerprint, ["global"]).known(digests)
     assert known[:5].tolist() == [0, 0, -1, -1, 4]
     assert known[4:].tolist() == list(range(4, manifest.cells))
-    assert not (Earlier.open(out, model.fingerprint).known(digests + np.uint64(1)) >= 0).any()
+    assert not (Earlier.open(out, model.fingerprint, ["global"]).known(digests + np.uint64(1)) >= 0).any()
