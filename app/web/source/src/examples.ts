@@ -10,7 +10,7 @@ export async function examples(scenery: Scenery | undefined, amount: number): Pr
   const found: Described[] = [];
   for (let n = 0; n < TRIES * amount && found.length < amount; n++) {
     const position = somewhere(scenery);
-    if (!position) break;
+    if (!position) continue; // by bad luck: of a small map much is edge
     try {
       found.push(await describe(position));
     } catch (error) {
