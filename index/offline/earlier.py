@@ -54,15 +54,15 @@ class Earlier:
         directory, manifest = open_version(index_dir)
         check_model(manifest, fingerprint)
         is_rich, has_levels = tuple(levels) != ("global",), STARTS_FILE in manifest.files
-        if FILE not in manifest.files or manifest.store == "milvus":
-            why = "they are in Milvus" if FILE in manifest.files else "it does not say what they were made of"
-            lacks = f"{why}; give --map in place of --update"
+        lacks = None
+        if FILE not in manifest.files:
+            lacks = "it does not say what they were made of; give --map in place of --update"
+        elif manifest.store == "milvus":
+            lacks = "they are in Milvus; give --map in place of --update"
         elif is_rich and not has_levels:
             lacks = "it was made without --levels; give --map in place of --update"
         elif has_levels and not is_rich:
             lacks = "it was made with --levels; give that too"
-        else:
-            lacks = None
         if lacks is not None:
             raise IndexBroken(f"{directory} has no vectors that can be kept: {lacks}")
         short = np.load(directory / FILE, allow_pickle=False)

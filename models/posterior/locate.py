@@ -100,8 +100,8 @@ def best_rows(scores: Floats, count: int) -> Ints:
     some = scores[::_SHARE]
     some = some[some > -np.inf]  # many that are equal take partition a hundred times as long
     # So many of some scores are at least this high, and so many of all.
-    floor = np.partition(some, -count)[-count] if len(some) > count else -np.inf
-    rows = np.flatnonzero((scores >= floor) & (scores > -np.inf))
+    floor = np.partition(some, -count)[-count] if len(some) > count else np.finfo(scores.dtype).min
+    rows = np.flatnonzero(scores >= floor)
     high = scores[rows]
     least = np.partition(high, -count)[-count] if len(high) > count else -np.inf
     above = np.flatnonzero(high > least)

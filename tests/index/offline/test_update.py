@@ -125,6 +125,10 @@ def with_levels(directory, manifest):
     return {"files": manifest.files | {"levels.starts.npy": manifest.files[FILE]}}
 
 
+def in_milvus(_directory, _manifest):
+    return {"store": "milvus", "collection": "hereabouts"}
+
+
 def of_another_model(_directory, _manifest):
     return {"model_fingerprint": "0" * 64}
 
@@ -134,6 +138,7 @@ def of_another_model(_directory, _manifest):
     [
         (without_digests, IndexBroken, "does not say what they were made of; give --map in place of --update"),
         (with_levels, IndexBroken, "was made with --levels; give that too"),
+        (in_milvus, IndexBroken, "are in Milvus; give --map in place of --update"),
         (of_another_model, IndexMismatch, "rebuild the index"),
     ],
 )
