@@ -57,7 +57,7 @@ def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterato
     gc.freeze()  # or every worker that looks for garbage gets a copy of each page that holds an object
     try:
         context = multiprocessing.get_context("fork")
-        with ProcessPoolExecutor(mp_context=context, initializer=_watch_parent) as pool:
+        with ProcessPoolExecutor(mp_context=context, initializer=_begin) as pool:
             yield from pool.map(_call, tasks)
     finally:
         _work = None
@@ -94,7 +94,7 @@ def forked(work: Callable[[], Result], *, alone: bool = True) -> Iterator[Callab
 
 def _do(work: Callable[[], Any], result: Connection, alone: bool) -> None:
     """What the process of `forked` does."""
-    _watch_parent()
+    _begin()
     try:
         with one_process() if alone else nullcontext():
             done = True, work()
@@ -171,6 +171,16 @@ def forget_code() -> None:
         if rights == "r-xp" and name.startswith("/"):  # of files, and never written: nothing is lost
             start, end = (int(address, 16) for address in region.split("-"))
             madvise(ctypes.c_void_p(start), ctypes.c_size_t(end - start), mmap.MADV_DONTNEED)
+
+
+def _begin() -> None:
+    """What a forked process does first.
+
+    It uses one thread: the others of the parent's libraries are not in it, and it would wait for them for ever.
+    """
+    if "torch" in sys.modules:
+        sys.modules["torch"].set_num_threads(1)
+    _watch_parent()
 
 
 def _watch_parent() -> None:

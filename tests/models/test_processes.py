@@ -23,6 +23,21 @@ list(map_forked(work, range(100)))
 """
 
 
+THREADS = """
+import torch
+from models.processes import forked, map_forked
+
+def work(size):
+    return float((torch.ones(size, size) @ torch.ones(size, size)).exp().sigmoid().sum())
+
+one = work(512)
+assert torch.get_num_threads() == 2
+assert list(map_forked(work, [512] * 8)) == [one] * 8
+with forked(lambda: work(512)) as result:
+    assert result() == one
+"""
+
+
 def test_results_come_in_the_order_of_the_tasks() -> None:
     for count in (0, 3, 40):
         assert list(map_forked(lambda task: 2 * task, range(count))) == list(range(0, 2 * count, 2))
@@ -110,6 +125,11 @@ libc.fclose(file)
 
 
 @pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "malloc_info"), reason="only glibc has several heaps")
+def test_libraries_whose_threads_have_run_already_are_used_in_forked_processes_too() -> None:
+    environ = os.environ | {"OMP_NUM_THREADS": "2", "MKL_NUM_THREADS": "2"}
+    subprocess.run([sys.executable, "-c", THREADS], env=environ, timeout=60, check=True)
+
+
 def test_threads_share_one_heap(tmp_path) -> None:
     heaps = {}
     for how in ("one", "several"):
