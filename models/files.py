@@ -95,6 +95,18 @@ def new_directory(path: Path) -> Iterator[Path]:
         shutil.rmtree(beside, ignore_errors=True)
 
 
+@contextmanager
+def new_scratch(parent: Path) -> Iterator[Path]:
+    """A directory in another that is removed when the block ends, or later if its process was killed."""
+    remove_abandoned(parent)
+    held, directory = _begin_directory(parent)
+    try:
+        yield directory
+    finally:
+        os.close(held)
+        shutil.rmtree(directory, ignore_errors=True)
+
+
 def _begin_directory(parent: Path) -> tuple[int, Path]:
     """As `_begin_file`, for a directory; with the descriptor that holds it."""
     while True:

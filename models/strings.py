@@ -33,6 +33,12 @@ class Strings(Sequence[str]):
         sizes = np.fromiter((len(string.encode()) for string in strings), np.int64, len(strings))
         return cls(np.frombuffer("".join(strings).encode(), np.uint8), compact(np.cumsum(sizes)))
 
+    @classmethod
+    def joined(cls, some: Sequence["Strings"]) -> "Strings":
+        """Those of some, one after the other; at least one."""
+        sizes = np.concatenate([np.diff(strings._ends, prepend=0) for strings in some])
+        return cls(np.concatenate([strings._text for strings in some]), compact(np.cumsum(sizes, dtype=np.int64)))
+
     def __len__(self) -> int:
         return len(self._ends)
 
@@ -82,6 +88,14 @@ class Categorical(Sequence[Any]):
         kind = np.min_scalar_type(-len(categories) - 1)
         return cls(categories, np.fromiter(map(number.__getitem__, strings), kind, len(strings)))
 
+    @classmethod
+    def of_ascii(cls, strings: Column) -> "Categorical":
+        """That of an array of bytes [I], of which most are different."""
+        categories, codes = np.unique(strings, return_inverse=True)
+        text = np.frombuffer(b"".join(categories.tolist()), np.uint8)
+        ends = compact(np.cumsum(np.char.str_len(categories)))
+        return cls(Strings(text, ends), codes.astype(np.min_scalar_type(-len(categories) - 1)))
+
     def __len__(self) -> int:
         return len(self.codes)
 
@@ -103,7 +117,8 @@ class Categorical(Sequence[Any]):
 
     def columns(self, name: str) -> dict[str, Column]:
         """Arrays from which `of_columns` makes it."""
-        return {f"{name}.codes": self.codes} | Strings.of(self.categories).columns(name)
+        strings = self.categories if isinstance(self.categories, Strings) else Strings.of(self.categories)
+        return {f"{name}.codes": self.codes} | strings.columns(name)
 
     @classmethod
     def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Categorical":

@@ -11,6 +11,7 @@ import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,8 @@ from models.city.bodies import Bodies, bodies_of, cut_cells
 from models.city.cells import CellTable
 from models.city.gallery import MapData
 from models.city.kitti360.job import prepare_data
-from models.city.osm.map import load_osm, read_features
+from models.city.osm.map import features_of, frame_and_box, load_osm
+from models.city.osm.strips import Instances, Strips
 from models.city.points import PointTable
 from models.city.queries import Queries
 from models.city.source import MapSource
@@ -145,10 +147,15 @@ def city(osm_file: Path) -> CityMap:
 def scan(osm_file: Path, city: CityMap) -> CityMap:
     """The same town as points."""
     xyz: dict[str | None, list[Any]] = {}
-    features = read_features(osm_file)[0]
-    sources = {feature.group: feature.source_id for feature in reversed(features)}
-    for feature in features:
-        xyz.setdefault(sources[feature.group], []).append(points_on(feature.solid))
+    with TemporaryDirectory() as directory:
+        strips = Strips(Path(directory), features_of(osm_file, *frame_and_box(osm_file)))
+        found = Instances.of(strips)
+        placed = {each.number: each.feature for number in strips.numbers for each in strips.read(number)}
+    for number in np.argsort(found.place):
+        if found.of_feature[number] >= 0:
+            first = placed[found.first[found.of_feature[number]]]
+            solid = placed[number].solid(0, placed[number].base_m, placed[number].height_m)
+            xyz.setdefault(first.source_id, []).append(points_on(solid))
     instances = tuple(
         replace(one, points_m=np.concatenate(xyz[one.source_id]).astype(np.float32)) for one in city.instances
     )

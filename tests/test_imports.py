@@ -133,6 +133,7 @@ WITHOUT_TORCH = [
     ROOT / "models/city",
     ROOT / "models/compiled.py",
     ROOT / "models/processes.py",
+    ROOT / "models/spool.py",
     ROOT / "models/strings.py",
     ROOT / "models/training/metrics.py",
     ROOT / "app/http/schemas/requests.py",

@@ -1,11 +1,10 @@
 """The offline job: map -> cells -> vectors -> an index version on disk, in one process or in shards."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from index.artifact import check_store, open_version
@@ -27,6 +26,7 @@ from models.processes import forked
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever
+from models.spool import scratch, spooling_in
 
 
 def build_index(
@@ -106,17 +106,16 @@ class IndexJob:
         wanted = ready.retriever.fingerprint, self._encoder(ready).levels
         earlier = Earlier.open(self.out_dir, *wanted) if self.update else None
         with (
-            TemporaryDirectory() as named,
+            self._room(),
+            scratch() as named,
             self._map(report) as path,
-            forked(partial(save_names, path, Path(named))) as names,
+            forked(partial(save_names, path, named)) as names,
         ):
             source = open_source(path, self.split, report)
             surroundings = surroundings_of(source.bodies(), source.data.cells, report)
             rows = range(len(source.data.cells))
-            with writing(self.out_dir):
-                self.out_dir.mkdir(parents=True, exist_ok=True)
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source, surroundings, rows, self.out_dir, report, earlier)
+            part = Part.of(encoder, likelihood, source, surroundings, rows, report, earlier)
             return self._publisher(ready, earlier).publish(source, [part], surroundings, names, report)
 
     def make_part(self, shard: Shard, report: Progress = silent) -> Path:
@@ -131,16 +130,16 @@ class IndexJob:
             return parts.path(shard)
         with writing(self.out_dir):
             parts.claim()
-        with self._map(report) as path:
+        with self._room(), self._map(report) as path:
             source = open_source(path, self.split, report)
             count = len(source.data.cells)
             rows = shard.rows(count, BLOCK)
             surroundings = surroundings_of(source.bodies(), source.data.cells, report, rows)
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source, surroundings, rows, self.out_dir, report)
-        report("write part", 0, 0)
-        with writing(self.out_dir):
-            parts.write(shard, part, rows, count)
+            part = Part.of(encoder, likelihood, source, surroundings, rows, report)
+            report("write part", 0, 0)
+            with writing(self.out_dir):
+                parts.write(shard, part, rows, count)
         return parts.path(shard)
 
     def merge(self, count: int, report: Progress = silent) -> Path:
@@ -155,14 +154,14 @@ class IndexJob:
         if version is None:
             report("check parts", 0, 0)
             parts.check(count)
-            with TemporaryDirectory() as named, self._map(report) as path:
+            with self._room(), scratch() as named, self._map(report) as path:
                 source = open_source(path, self.split, report)
                 made = parts.read(count, self._encoder(ready).levels, source.data.cells)
                 scanned = [part.scanned for part in made if part.scanned is not None]
                 surroundings = (
                     ScanSurroundings.joined(scanned) if scanned else surroundings_of(source.bodies(), source.data.cells)
                 )
-                names = partial(save_names, path, Path(named))
+                names = partial(save_names, path, named)
                 version = self._publisher(ready).publish(source, made, surroundings, names, report)
         parts.remove()
         return version
@@ -194,6 +193,18 @@ class IndexJob:
     def _publisher(self, ready: _Ready, earlier: Earlier | None = None) -> Publisher:
         of_models = ready.retriever, ready.posterior.fingerprint
         return Publisher(self.out_dir, *of_models, ready.map_sha256, self.store, earlier)
+
+    @contextmanager
+    def _room(self) -> Iterator[None]:
+        """The index directory, where what is made meanwhile lies; if nothing comes of it, it is not there either."""
+        with writing(self.out_dir):
+            self.out_dir.mkdir(parents=True, exist_ok=True)
+        try:
+            with spooling_in(self.out_dir):
+                yield
+        finally:
+            with suppress(OSError):  # there is something in it
+                self.out_dir.rmdir()
 
     @contextmanager
     def _map(self, report: Progress) -> Iterator[Path]:

@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import Any, Final
 
 import numpy as np
@@ -32,6 +31,7 @@ from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
+from models.spool import spooled
 
 FILE: Final = "part.safetensors"
 COLUMNS: Final = ("vectors", "digests", "holds", "statement", "starts")
@@ -64,7 +64,6 @@ class Part:
         source: Source,
         surroundings: Surroundings,
         rows: range,
-        room: Path,
         report: Progress,
         earlier: Earlier | None = None,
     ) -> "Part":
@@ -76,14 +75,14 @@ class Part:
             source: the whole map.
             surroundings: of these cells.
             rows: which they are.
-            room: a directory on the disk where the vectors lie meanwhile.
             report: called as the work goes on.
             earlier: has the vectors of some of these cells, perhaps.
         """
         if isinstance(source, MapSource):
             source.lighten()
             give_back()
-        vectors, digests, levels = _encoded(retriever, source.data, rows, room, report, earlier)
+        surroundings.forget()
+        vectors, digests, levels = _encoded(retriever, source.data, rows, report, earlier)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceSurroundings):
             source.cut_anew(surroundings.cut)
             give_back()
@@ -148,37 +147,37 @@ def writing(out_dir: Path) -> Iterator[None]:
 
 
 def _encoded(
-    retriever: Retriever, data: MapData, rows: range, room: Path, report: Progress, earlier: Earlier | None
+    retriever: Retriever, data: MapData, rows: range, report: Progress, earlier: Earlier | None
 ) -> tuple[Floats, Ints, LevelTable]:
-    """Vectors [C, D], what they were made of, and the other levels of some cells, some at a time.
+    """Vectors [C, D], what they were made of, and the other levels of some cells, some at a time."""
+    labels, kept = np.array(data.gallery.labels), 0
+    levels = [level for level in retriever.levels if level != "global"]
+    names = ["vectors", *levels]
 
-    The vectors lie in a file without a name.
-    """
-    width, levels, labels = retriever.config.width, list[LevelTable](), np.array(data.gallery.labels)
-    digests: list[Ints] = [np.empty(0, np.uint64)]
-    kept = 0
-    report("encode cells", 0, len(rows))
-    spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
-    with writing(room):
-        file = TemporaryFile(dir=room)  # noqa: SIM115 - closed by the next block
-    with file:
+    def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
+        nonlocal kept
+        none = np.empty((0, retriever.config.width), np.float32)
+        yield {"vectors": none, "digests": np.empty(0, np.uint64), "sizes": np.empty(0, np.int64)} | dict.fromkeys(
+            levels, none
+        )
+        report("encode cells", 0, len(rows))
+        spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
         for span, features in zip(spans, CellFeatures.in_turn(data.cells, labels, spans), strict=True):
             seen = retriever.seen(features)
-            digests.append(seen.digests())
-            known = np.full(len(seen), -1) if earlier is None else earlier.known(digests[-1])
+            data.cells.parts.forget()
+            digests = seen.digests()
+            known = np.full(len(seen), -1) if earlier is None else earlier.known(digests)
             vectors, table = _vectors_of(retriever, seen, known, earlier)
             kept += int((known >= 0).sum())
-            with writing(room):
-                file.write(vectors.data)
-                file.flush()  # or each process that is forked next has it to write too
-            levels.append(table)
+            made = [vectors, *(table.vectors[level] for level in levels)]
+            yield {"digests": digests, "sizes": np.diff(table.starts)} | dict(zip(names, made, strict=True))
             report("encode cells", span.stop - rows.start, len(rows))
-        none = np.empty((0, width), np.float32)
-        whole = np.memmap(file, np.float32, "r", shape=(len(rows), width)) if spans else none
-    table = LevelTable.joined(levels) if levels else NO_LEVELS
+
+    found = spooled(columns())
     if earlier is not None:
         report(f"{kept} cells kept", 1, 1)
-    return whole, np.concatenate(digests), NO_LEVELS if table.is_empty else table
+    table = LevelTable(np.concatenate([[0], np.cumsum(found["sizes"])]), {level: found[level] for level in levels})
+    return found["vectors"], found["digests"], table if levels else NO_LEVELS
 
 
 def _vectors_of(

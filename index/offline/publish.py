@@ -4,7 +4,6 @@ import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass
-from mmap import MADV_DONTNEED, mmap
 from pathlib import Path
 
 import numpy as np
@@ -33,8 +32,10 @@ from models.language.text_encoder import load_text_encoder
 from models.posterior.node_batch import colour_words
 from models.posterior.statements import Statements
 from models.posterior.surroundings.surroundings import Surroundings
+from models.processes import give_back
 from models.retrieval.level_table import LevelTable
 from models.retrieval.retriever import Retriever
+from models.spool import forget, spooled
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,7 +87,9 @@ class Publisher:
         with writing(self.out_dir):
             named = names()
         report("write index", 0, 0)
-        vectors = parts[0].vectors if len(parts) == 1 else np.concatenate([part.vectors for part in parts])
+        give_back()
+        some = ({"vectors": part.vectors} for part in parts)
+        vectors = parts[0].vectors if len(parts) == 1 else spooled(some)["vectors"]
         with (
             writing(self.out_dir),
             _in_milvus(origin["version"], vectors, data) if self.store == "milvus" else nullcontext() as collection,
@@ -95,11 +98,11 @@ class Publisher:
             if collection is None:
                 like = None if self.earlier is None else self.earlier.store
                 FaissStore.of(vectors, like=like).save(directory / VECTORS_FILE)
-            if isinstance(vectors.base, mmap):
-                vectors.base.madvise(MADV_DONTNEED)  # its pages are in the file
+            forget([vectors])
             self._save_parts(directory, parts, data, surroundings)
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)
+            surroundings.forget()
             for file in named.iterdir():
                 shutil.move(file, directory)
             gazetteer = Gazetteer.load(directory)

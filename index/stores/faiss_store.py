@@ -144,7 +144,22 @@ class FaissStore:
 
     def save(self, path: Path) -> None:
         """Write the vectors to a file, which `load` reads."""
-        path.write_bytes(faiss.serialize_index(self._index).data)  # FAISS itself does not say if the end is not written
+        failed: OSError | None = None
+        kinds: Any = faiss  # some of which have no types
+
+        def write(some: bytes) -> int:
+            nonlocal failed
+            try:
+                return file.write(some)
+            except OSError as error:  # of which FAISS would not say what it was
+                failed = error
+                raise
+
+        with path.open("wb") as file:
+            try:
+                faiss.write_index(self._index, kinds.PyCallbackIOWriter(write))
+            except RuntimeError as error:
+                raise failed or error from error
 
 
 def _lists(vectors: Floats, flat: Any) -> Any:

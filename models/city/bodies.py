@@ -10,12 +10,14 @@ import shapely
 
 from models.city.cells import CellTable, Parts, cut_cubes, grid_centers, sample_cubes
 from models.city.gallery import Finder, Numbered
+from models.city.instances import InstanceTable
 from models.city.points import Ints, PointTable
 from models.city.tiled.cutting import cut_pieces, sample_pieces, scan_pieces
 from models.city.tiled.pieces import PieceTable
 from models.city.types import CityMap, CutRules, Floats
 from models.errors import MapError
 from models.processes import give_back
+from models.spool import forget
 
 Cut = Callable[[int, int], None]  # cubes cut, cubes to cut
 
@@ -67,7 +69,7 @@ class PieceBodies:
 
     pieces: PieceTable
     rgb: Floats
-    shapes: tuple[str, ...]
+    shapes: Sequence[str]
     rules: CutRules
 
     def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
@@ -128,10 +130,9 @@ def bodies_of(city_map: CityMap) -> Bodies:
     """What stands in a map."""
     if city_map.pieces is None:
         return PointBodies(PointTable.of(city_map, city_map.rules.eps_m), city_map.rules)
-    unknown = np.full(3, np.nan, dtype=np.float32)
-    rgb = np.stack([unknown if instance.rgb is None else instance.rgb for instance in city_map.instances])
-    shapes = tuple(instance.shape or "" for instance in city_map.instances)
-    return PieceBodies(city_map.pieces, rgb.astype(np.float32), shapes, city_map.rules)
+    instances = city_map.instances
+    assert isinstance(instances, InstanceTable), "as whoever reads geometry makes them"
+    return PieceBodies(city_map.pieces, instances.rgb, instances.shapes, city_map.rules)
 
 
 def cut_cells(city_map: CityMap, bodies: Bodies, progress: Cut | None = None) -> CellTable:
@@ -147,6 +148,7 @@ def cut_cells(city_map: CityMap, bodies: Bodies, progress: Cut | None = None) ->
     """
     rules = city_map.rules
     centers = grid_centers(city_map.locations_m, rules)
+    forget([city_map.locations_m])
     parts = bodies.cut(centers, progress, rules.min_instances)
     give_back()
     kept = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)

@@ -19,6 +19,7 @@ from models.city.point_sample import Sampler, sample_points, samples
 from models.city.points import Ints, PointTable, ranges
 from models.city.types import CutRules, Floats
 from models.processes import map_forked
+from models.spool import forget
 
 CHUNK = 128  # cubes a task
 AT_ONCE: Final = 100_000  # points of the grid, for which a tree is made of the locations around them
@@ -55,6 +56,10 @@ class Parts:
     def cube(self) -> Ints:
         """[R] the cube of each row."""
         return np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
+
+    def forget(self) -> None:
+        """Have what lies on disk take no memory until it is looked at."""
+        forget(getattr(self, f.name) for f in fields(self))
 
     def take(self, cubes: Ints) -> "Parts":
         """The rows of some cubes, in the given order."""

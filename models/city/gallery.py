@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 from models.city.cells import CellTable, Parts
 from models.city.colours import Palette
 from models.city.frame import Frame
+from models.city.instances import InstanceTable
 from models.city.points import Ints
 from models.city.types import CityMap, Floats
 from models.errors import IndexBroken
@@ -48,6 +49,8 @@ class Gallery:
     def of(cls, city_map: CityMap, cells: CellTable) -> "Gallery":
         """The gallery of cells cut from a map."""
         instances = city_map.instances
+        if isinstance(instances, InstanceTable):
+            return cls(cells, instances.labels, instances.names, instances.sources)
         return cls(
             cells,
             tuple(i.label for i in instances),

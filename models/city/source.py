@@ -7,7 +7,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -32,12 +31,10 @@ from models.city.store.files import load_data
 from models.city.store.pose_store import PoseStore
 from models.city.types import CityMap, CutRules, Floats, Progress
 from models.errors import DataError, MapError
-from models.processes import forked
 
 SPACING_M = 10.0  # of the positions that are asked about in a map
 # A map's positions are the same at every run; what a model is chosen by is not what it is measured at.
 CHOSEN_BY, MEASURED_AT = 0, 1
-GREAT = 8_000_000  # bytes of a file
 APART_M = 1e6  # between scenes, on an axis of their own
 VOXEL_M = 0.2
 STUFF = [rule.label for rule in CLASSES if rule.is_stuff]
@@ -308,18 +305,10 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
             raise MapError(f"'{split}' is no split of a map; {advice}")
     report = progress or (lambda stage, done, total: None)
     report("read map", 0, 0)
-    city_map = _read(path)
+    city_map = load_osm(path)
     bodies = bodies_of(city_map)
     cells = cut_cells(city_map, bodies, lambda done, total: report("cut cells", done, total))
     return [MapSource(path, city_map, bodies, cells, split) for split in splits]
-
-
-def _read(path: Path) -> CityMap:
-    """A map; of a great city in a process of its own, which takes with it the room that reading needs."""
-    if not path.is_file() or path.stat().st_size < GREAT:
-        return load_osm(path)
-    with forked(partial(load_osm, path), alone=False) as read:
-        return read()
 
 
 def gazetteer_of(path: Path) -> Gazetteer:

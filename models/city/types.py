@@ -4,7 +4,7 @@ Coordinates are metres in the map's frame (east, north, up) unless a name says `
 position inside a cell in 0..1.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -114,7 +114,7 @@ class CityMap:
     """
 
     name: str
-    instances: tuple[Instance, ...]
+    instances: Sequence[Instance]
     stuff: frozenset[str]
     locations_m: Floats
     frame: Frame = field(default_factory=Frame)

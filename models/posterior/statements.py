@@ -2,8 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +26,7 @@ from models.posterior.surroundings.around import STEP_M
 from models.posterior.surroundings.surroundings import Surroundings
 from models.posterior.threads import shared_out
 from models.processes import map_forked
+from models.spool import on_disk, spooled
 
 FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"
@@ -95,7 +97,7 @@ class Statements:
         count = np.sum([_counted(some.statement, some.possible) for some in rows], axis=0)
         number = np.flatnonzero(count)  # of what holds anywhere: some thousands
         starts = np.concatenate([[0], np.cumsum(count[number])])
-        cell, share = np.empty(starts[-1], np.int32), np.empty(starts[-1], np.float16)
+        cell, share = on_disk(int(starts[-1]), np.int32), on_disk(int(starts[-1]), np.float16)
         place = np.cumsum(count) - count  # of the next of each
         cells = 0
         for some in rows:
@@ -280,8 +282,8 @@ def statement_rows(
     columns = (int(pair.max(initial=-1)) + 1) * SECTORS
     starts, is_vague = surroundings.cell_starts, torch.from_numpy(surroundings.things.is_vague)
 
-    def tabulated(first: int) -> tuple[Ints, Ints, npt.NDArray[np.float16]]:
-        """(how many, statements, how much they hold) in the cells from one on."""
+    def tabulated(first: int) -> dict[str, npt.NDArray[Any]]:
+        """How many, statements, how much they hold in the cells from one on."""
         last = min(first + BLOCK, len(starts) - 1)
         size = np.diff(starts[first : last + 1])
         around = surroundings.around(np.arange(starts[first], starts[last]))
@@ -293,12 +295,14 @@ def statement_rows(
         value = share.numpy() / np.maximum(1, size)[cell]
         rows = coo_array((value, (cell, said)), (last - first, columns)).tocsr()
         holds = rows.data.astype(np.float32).astype(np.float16)
-        return np.diff(rows.indptr), rows.indices.astype(np.int32), holds
+        surroundings.forget()
+        return {"size": np.diff(rows.indptr), "statement": rows.indices.astype(np.int32), "holds": holds}
 
-    found = list(map_forked(tabulated, range(0, len(starts) - 1, BLOCK)))
-    none = np.zeros(0, np.int64), np.zeros(0, np.int32), np.zeros(0, np.float16)
-    size, statement, holds = (np.concatenate(some) for some in zip(none, *found, strict=True))
-    return StatementRows(np.concatenate([[0], np.cumsum(size)]), statement, holds, columns)
+    types: dict[str, npt.DTypeLike] = {"size": np.int32, "statement": np.int32, "holds": np.float16}
+    none = {name: np.zeros(0, dtype) for name, dtype in types.items()}
+    found = spooled(chain([none], map_forked(tabulated, range(0, len(starts) - 1, BLOCK))))
+    sizes = found.pop("size")
+    return StatementRows(np.concatenate([[0], np.cumsum(sizes)]), **found, possible=columns)
 
 
 def _sectors_of_ways() -> Ints:

@@ -126,15 +126,44 @@ class Gazetteer:
 _ARRAYS = tuple(f.name for f in fields(Gazetteer) if f.name != "words")
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Objects:
+    """Some objects of a gazetteer, in columns; see there.
+
+    Attributes:
+        words: O of them.
+        sizes: [O] how many segments each has.
+        segments_m: [G, 4] float32.
+        is_area: [O] bool.
+    """
+
+    words: WordTable
+    sizes: Ints
+    segments_m: Floats
+    is_area: npt.NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, words: Sequence[Words], segments_m: Sequence[Floats], is_area: Sequence[bool]) -> "Objects":
+        """Some objects with their segments, [n, 4] each."""
+        sizes = np.array([len(some) for some in segments_m], np.int64)
+        segments = np.concatenate([np.zeros((0, 4)), *segments_m]).astype(np.float32)
+        return cls(WordTable.of(words), sizes, segments, np.array(is_area, dtype=np.bool_))
+
+
 def build_gazetteer(
     words: Sequence[Words], segments_m: Sequence[Floats], is_area: Sequence[bool], corners: Any = None
 ) -> Gazetteer:
-    """A gazetteer of objects with their segments, [n, 4] each, and corners (streets [C, 2], places [C, 2]) if any."""
+    """A gazetteer of objects with their segments, [n, 4] each; corners as `join_gazetteer`."""
+    return join_gazetteer([Objects.of(words, segments_m, is_area)], corners)
+
+
+def join_gazetteer(some: Sequence[Objects], corners: Any = None) -> Gazetteer:
+    """A gazetteer of objects, at least of none, with corners (streets [C, 2], places [C, 2]) if any."""
     streets, places = corners if corners is not None else (np.zeros((0, 2), np.int64), np.zeros((0, 2), np.float32))
-    sizes = [len(some) for some in segments_m]
-    segments = np.concatenate([np.zeros((0, 4)), *segments_m]).astype(np.float32)
-    starts = compact(np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64))
-    return Gazetteer(WordTable.of(words), segments, starts, np.array(is_area, dtype=np.bool_), streets, places)
+    starts = compact(np.append(0, np.cumsum(np.concatenate([objects.sizes for objects in some]))))
+    segments, is_area = (np.concatenate([getattr(each, name) for each in some]) for name in ("segments_m", "is_area"))
+    words = WordTable.joined([objects.words for objects in some])
+    return Gazetteer(words, segments, starts, is_area, streets, places)
 
 
 NOTHING_NAMED = build_gazetteer((), (), ())

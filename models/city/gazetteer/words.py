@@ -70,6 +70,21 @@ class WordTable(Sequence[Words]):
         strings = Strings.of(one for some in words for one in (*some.names, *_address(some)) if one is not None)
         return cls(known, _ends(len(some.kinds) for some in words), kinds, starts, written, strings)
 
+    @classmethod
+    def joined(cls, tables: Sequence["WordTable"]) -> "WordTable":
+        """That of the objects of some tables, one after the other; at least one."""
+        known = sorted({kind for table in tables for kind in table._known})
+        number = {kind: n for n, kind in enumerate(known)}
+        numbers = [np.array([number[kind] for kind in table._known], np.int32) for table in tables]
+        return cls(
+            known,
+            _joined_ends([table._kind_starts for table in tables]),
+            np.concatenate([of[table._kinds] for of, table in zip(numbers, tables, strict=True)]),
+            _joined_ends([table._string_starts for table in tables]),
+            np.concatenate([table._written for table in tables]),
+            Strings.joined([table._strings for table in tables]),
+        )
+
     def __len__(self) -> int:
         return len(self._written)
 
@@ -139,3 +154,8 @@ def _address(words: Words) -> tuple[str | None, str | None, str | None]:
 def _ends(sizes: Iterable[int]) -> Ints:
     """[n + 1] where each of n runs begins, and the end."""
     return compact(np.append(0, np.cumsum(list(sizes), dtype=np.int64)))
+
+
+def _joined_ends(starts: Sequence[Ints]) -> Ints:
+    """[n + 1] as `_ends` of runs of which each [k + 1] has some."""
+    return compact(np.append(0, np.cumsum(np.concatenate([np.diff(some) for some in starts]), dtype=np.int64)))

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import osmium
 import shapely
@@ -13,6 +12,7 @@ from shapely.errors import ShapelyError
 
 from models.city.osm.map import SUFFIXES
 from models.errors import MapError
+from models.spool import scratch
 
 FORMS = "give west,south,east,north in degrees, or a GeoJSON file with a polygon"
 
@@ -70,8 +70,8 @@ def extracted(path: Path, region: Region | None) -> Iterator[Path]:
         return
     if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
         raise MapError(f"{path}: a region can be taken of an OpenStreetMap file alone; leave it out, or give one")
-    with TemporaryDirectory() as directory:
-        out = Path(directory) / f"{path.name.split('.')[0]}.osm.pbf"
+    with scratch() as directory:
+        out = directory / f"{path.name.split('.')[0]}.osm.pbf"
         extract(path, region, out)
         yield out
 

@@ -1,15 +1,14 @@
 """Features of an OpenStreetMap file: what an element becomes, and which of them are one instance."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from models.city.colours import material_colour, parse_colour
 from models.city.osm.classes import OsmClass
+from models.city.points import Ints
 from models.city.tiled.solids import Shape, Solid
 
 STOREY_M = 3.2
@@ -20,7 +19,7 @@ MATERIAL_KEYS = ("building:material", "material", "surface")
 
 @dataclass(frozen=True, slots=True)
 class Feature:
-    """A map element on its way to an instance; `geometry` is in metres, `group` numbers the instance.
+    """A map element on its way to an instance; `geometry` is in metres.
 
     Of a line that stands for a strip of ground `geometry` is the strip, `axis` the line, `width_m` how wide it is.
     """
@@ -35,16 +34,14 @@ class Feature:
     rgb: tuple[float, float, float] | None
     name: str | None
     source_id: str
-    group: int = -1
     axis: shapely.Geometry | None = None
     width_m: float = 0.0
 
-    @property
-    def solid(self) -> Solid:
-        """How it stands there."""
+    def solid(self, instance: int, base_m: float, height_m: float) -> Solid:
+        """How it stands there as part of an instance, of which all have the same heights."""
         is_area = shapely.get_dimensions(self.geometry) == 2
         outline = self.geometry if self.shape == "ground" or not is_area else shapely.boundary(self.geometry)
-        return Solid(self.group, self.shape, outline, self.base_m, self.height_m)
+        return Solid(instance, self.shape, outline, base_m, height_m)
 
 
 def as_feature(
@@ -89,34 +86,30 @@ def _metres(text: str) -> float | None:
     return value if 0 < value < 1000 else None
 
 
-def merge(features: Sequence[Feature]) -> list[Feature]:
-    """Join what OpenStreetMap splits: set `group`, one number an instance, in order of their first features.
+def joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
+    """What OpenStreetMap splits, of some features in order of their classes.
 
-    Lines and surfaces of one label, name and colour that touch are one (a road in five ways); upright
-    things within a metre are one, named by the first in the table (a lamp and its sign); a crossing
-    mapped as a node is left out where it is also mapped as a way.
+    Lines and surfaces of one label, name and colour that touch are one (a road in five ways); upright things within a
+    metre are one, named by the first in the table (a lamp and its sign); a crossing mapped as a node is left out where
+    it is also mapped as a way.
+
+    Returns:
+        Rows [D] of those that are left out, and [E, 2] pairs of the others that are one.
     """
-    crossings = [f.geometry for f in features if f.label == "crossing" and not f.source_id.startswith("node/")]
-    tree = shapely.STRtree(crossings)
-    features = [
-        f
-        for f in features
-        if not (f.label == "crossing" and f.source_id.startswith("node/") and tree.query(f.geometry, "intersects").size)
-    ]
-    features = sorted(features, key=lambda f: f.order)
+    is_crossing = np.array([f.label == "crossing" for f in features], np.bool_)
+    is_node = np.array([f.source_id.startswith("node/") for f in features], np.bool_)
     geometries = np.array([f.geometry for f in features], dtype=object)
-    is_upright = np.array([f.shape == "column" for f in features])
+    nodes = np.flatnonzero(is_crossing & is_node)
+    twice = shapely.STRtree(geometries[is_crossing & ~is_node]).query(geometries[nodes], "intersects")[0]
+    gone = nodes[np.unique(twice)]
+    rows = np.delete(np.arange(len(features)), gone)
+    features, geometries = [features[row] for row in rows.tolist()], geometries[rows]
+    is_upright = np.array([f.shape == "column" for f in features], np.bool_)
     known: dict[object, int] = {}
     keys = np.array([known.setdefault((f.label, f.name, f.rgb, f.shape), len(known)) for f in features])
-    is_joinable = np.array([f.shape in ("wall", "ground") for f in features])
+    is_joinable = np.array([f.shape in ("wall", "ground") for f in features], np.bool_)
     left, right = shapely.STRtree(geometries).query(geometries, "dwithin", distance=UPRIGHT_MERGE_M)
     touches = is_joinable[left] & (keys[left] == keys[right])
     touches[touches] = shapely.intersects(geometries[left[touches]], geometries[right[touches]])
     joined = touches | (is_upright[left] & is_upright[right])
-    graph = coo_array((np.ones(joined.sum()), (left[joined], right[joined])), shape=(len(features),) * 2)
-    groups = connected_components(graph, directed=False)[1]
-    first = np.unique(groups, return_index=True)[1]
-    kept = is_upright & (first[groups] != np.arange(len(features)))  # carried by another upright thing
-    left = [(f, int(g)) for f, g, drop in zip(features, groups, kept, strict=True) if not drop]
-    number = {group: n for n, group in enumerate(dict.fromkeys(group for _, group in left))}
-    return [replace(f, group=number[group]) for f, group in left]
+    return gone, np.stack([rows[left[joined]], rows[right[joined]]], axis=1)

@@ -11,7 +11,7 @@ import osmium
 import shapely
 
 from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer, build_gazetteer
+from models.city.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer, Objects, join_gazetteer
 from models.city.gazetteer.streets import Ways, join_streets
 from models.city.gazetteer.words import STREET, Words
 from models.city.kinds.vocabulary import Vocabulary, load_vocabulary
@@ -63,27 +63,30 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
     Raises:
         MapError: it cannot be read.
     """
-    words, shown, is_area = list[Words](), list[Floats](), list[bool]()
-    pieces, walked = list[Ways](), list[Floats]()
+    objects, pieces, walked = list[Objects](), list[Ways](), list[Floats]()
     for some in _read_some(path):
-        for one, segments in zip(some, _segments_of(some, frame), strict=True):
-            if one.nodes:
-                pieces.append(_piece(one, segments, frame))
-            elif one.words is _WALKED:
-                walked.append(segments)
-            else:
-                words.append(one.words)
-                shown.append(segments)
-                is_area.append(one.is_area)
-    joined = join_streets(pieces, len(words))
-    words += joined.words
-    shown += joined.segments_m
-    is_area += [False] * len(joined.words)
-    if walked and words:
-        words.append(_WALKED)
-        shown.append(np.concatenate(walked))
-        is_area.append(False)
-    return build_gazetteer(words, shown, is_area, (joined.corner_streets, joined.corners_m))
+        found = list(zip(some, _segments_of(some, frame), strict=True))
+        pieces += [_piece(one, segments, frame) for one, segments in found if one.nodes]
+        walked.append(_joined([segments for one, segments in found if one.words is _WALKED]))
+        others = [(one, segments) for one, segments in found if not one.nodes and one.words is not _WALKED]
+        objects.append(_objects([one for one, _ in others], [segments for _, segments in others]))
+    count = sum(len(each.words) for each in objects)
+    streets = join_streets(pieces, count)
+    objects.append(Objects.of(streets.words, streets.segments_m, [False] * len(streets.words)))
+    lines = _joined(walked)
+    if len(lines) and count + len(streets.words):
+        objects.append(Objects.of([_WALKED], [lines], [False]))
+    return join_gazetteer(objects, (streets.corner_streets, streets.corners_m))
+
+
+def _objects(found: Sequence[_Found], segments_m: Sequence[Floats]) -> Objects:
+    return Objects.of([one.words for one in found], segments_m, [one.is_area for one in found])
+
+
+def _joined(segments_m: Sequence[Floats]) -> Floats:
+    """[n, 4] float32, all of some."""
+    joined: Floats = np.concatenate([np.zeros((0, 4)), *segments_m]).astype(np.float32)
+    return joined
 
 
 def _read_some(path: Path) -> Iterator[list[_Found]]:

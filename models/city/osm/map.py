@@ -6,7 +6,7 @@ mapped and raised as `classes.toml` says. Colours come from colour, material and
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from typing import Any, TypeVar
@@ -18,18 +18,18 @@ import shapely
 from models.city.colours import BASIC_PALETTE
 from models.city.frame import Frame
 from models.city.osm.classes import OsmClass, class_of, load_classes
-from models.city.osm.features import Feature, as_feature, merge
-from models.city.scenery.shapes import Outlines
-from models.city.tiled.pieces import PieceTable
+from models.city.osm.features import Feature, as_feature
+from models.city.osm.strips import Strips
+from models.city.osm.taking import Taken
 from models.city.tiled.tiling import Geometries
-from models.city.types import CityMap, CutRules, Floats, Instance, MapShape
+from models.city.types import CityMap, CutRules, Floats
 from models.errors import MapError
+from models.spool import scratch
 
 STUFF_SHAPES = ("outline", "wall", "ground")
 SUFFIXES = (".osm.pbf", ".pbf", ".osm", ".osm.bz2", ".osm.gz")
 ATTRIBUTION = "© OpenStreetMap contributors, ODbL 1.0"
 MIN_PART_POINTS = 24  # 6 m2 of ground
-NO_POINTS = np.zeros((0, 3), np.float32)
 AT_ONCE = 20_000  # elements
 LOCATIONS_M = 2.0  # between places to stand, about
 Element = TypeVar("Element")
@@ -59,19 +59,22 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
     Raises:
         MapError: the file is missing, empty, cut short, no OpenStreetMap, or nothing in it is usable.
     """
-    features, frame = read_features(path)
-    return _city_map(name or path.name.split(".")[0], features, frame)
+    frame, box = frame_and_box(path)
+    with scratch() as directory:
+        strips = Strips(directory, features_of(path, frame, box))
+        return _city_map(name or path.name.split(".")[0], strips, frame)
 
 
-def read_features(path: Path) -> tuple[list[Feature], Frame]:
-    """What a file has, in metres, and the frame of these; arguments and errors as `load_osm`."""
+def frame_and_box(path: Path) -> tuple[Frame, Box | None]:
+    """The frame of a file's map, for which a file that says its box is not read, and that box."""
     box = _box(path)
-    batches: Iterable[Batch] = _read_elements(path)
-    if box is None:
-        batches = list(batches)
-    frame = _middle(box or _bounds(batches))
-    features = [feature for elements, lon_lat in batches for feature in _features_of(elements, lon_lat, frame, box)]
-    return merge(features), frame
+    return _middle(box or _bounds(_read_elements(path))), box
+
+
+def features_of(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Feature]]:
+    """What a file has in a box, if there is one, in metres, some at a time; errors as `load_osm`."""
+    for elements, lon_lat in _read_elements(path):
+        yield list(_features_of(elements, lon_lat, frame, box))
 
 
 def _features_of(elements: Sequence[_Element], lon_lat: Geometries, frame: Frame, box: Box | None) -> Iterator[Feature]:
@@ -88,7 +91,7 @@ def _features_of(elements: Sequence[_Element], lon_lat: Geometries, frame: Frame
 
 def frame_of(path: Path) -> Frame:
     """The frame of a file's map, for which a file that says its box is not read; arguments and errors as `load_osm`."""
-    return _middle(_box(path) or _bounds(_read_elements(path)))
+    return frame_and_box(path)[0]
 
 
 def _bounds(batches: Iterable[Batch]) -> Floats:
@@ -204,37 +207,21 @@ def _is_wanted(element: Any, kind: str, row: OsmClass, tags: dict[str, str]) -> 
     return not linear or (row.shape != "wall" and not element.from_way())
 
 
-def _city_map(name: str, features: list[Feature], frame: Frame) -> CityMap:
-    pieces = PieceTable.of([feature.solid for feature in features])
-    there = np.unique(pieces.instance)  # others are covered by what lies above them
-    pieces = replace(pieces, instance=np.searchsorted(there, pieces.instance).astype(np.int32))
-    first = {feature.group: feature for feature in reversed(features)}
-    instances = tuple(_instance(number, first[group]) for number, group in enumerate(there.tolist()))
-    walkable = np.array([first[group].walkable for group in there.tolist()])
-    locations = pieces.lattice(np.flatnonzero(walkable[pieces.instance]), LOCATIONS_M)
+def _city_map(name: str, strips: Strips, frame: Frame) -> CityMap:
+    taken = Taken.of(strips)
+    locations = taken.pieces.lattice(np.flatnonzero(taken.is_walkable[taken.pieces.instance]), LOCATIONS_M)
+    taken.pieces.forget()
     if not len(locations):
         raise MapError(f"{name}: no street, path or square in it, so there is no place to stand; take a larger extract")
     return CityMap(
         name=name,
-        instances=instances,
+        instances=taken.instances,
         stuff=frozenset(row.label for row in load_classes() if row.shape in STUFF_SHAPES),
-        locations_m=np.column_stack([locations, np.zeros(len(locations))]).astype(np.float32),
+        locations_m=locations,
         frame=frame,
         palette=BASIC_PALETTE,
         rules=CutRules(min_part_points=MIN_PART_POINTS),
         attribution=ATTRIBUTION,
-        outlines=Outlines.of([_shape(feature) for feature in features]),
-        pieces=pieces,
+        outlines=taken.outlines,
+        pieces=taken.pieces,
     )
-
-
-def _instance(number: int, feature: Feature) -> Instance:
-    rgb = None if feature.rgb is None else np.asarray(feature.rgb, dtype=np.float32)
-    return Instance(number, feature.label, NO_POINTS, rgb, feature.name, feature.source_id, feature.shape)
-
-
-def _shape(feature: Feature) -> MapShape:
-    top_m = feature.base_m + feature.height_m if feature.shape != "outline" else feature.height_m
-    drawn = feature.geometry if feature.axis is None else feature.axis
-    heights = feature.base_m, 0.0 if feature.shape == "ground" else max(top_m, feature.base_m)
-    return MapShape(feature.label, drawn, *heights, feature.width_m, feature.name, feature.source_id)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 import shapely
 from safetensors.numpy import save
 
+from models.city.points import ranges
 from models.city.types import Floats, MapShape
 from models.files import in_order
 
@@ -56,31 +57,33 @@ class Outlines:
     @classmethod
     def of(cls, shapes: Sequence[MapShape]) -> "Outlines":
         """Those of what there is, what lies on top of others first; labels keep this order."""
-        order = list(dict.fromkeys(shape.label for shape in shapes))
-        geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLER_M)
-        drawn = ~(shapely.is_missing(geometry) | shapely.is_empty(geometry))
-        number = {label: n for n, label in enumerate(order)}
-        label = np.array([number[shape.label] for shape in shapes], dtype=np.uint16)
-        sorted_by = np.lexsort((_morton(geometry), label))
-        chosen = sorted_by[drawn[sorted_by]]
-        shapes, geometry = [shapes[n] for n in chosen], geometry[chosen]
-        form = shapely.get_dimensions(geometry).astype(np.uint8) if shapes else np.zeros(0, np.uint8)
-        path, owner, hole = _paths(geometry, form)
-        xy, of_path = shapely.get_coordinates(path, return_index=True)
-        whole = np.rint(xy * UNITS_A_METRE).astype(np.int32)
-        tensors = {
-            "label": label[chosen],
-            "form": form,
-            "base": _heights([shape.base_m for shape in shapes]),
-            "top": _heights([shape.top_m for shape in shapes]),
-            "width": _heights([shape.width_m for shape in shapes]),
-            "paths": np.bincount(owner, minlength=len(shapes)).astype(np.uint32),
-            "source": np.array([_number_of(shape.source_id) for shape in shapes], dtype=np.float64),
-            "size": np.bincount(of_path, minlength=len(path)).astype(np.uint32),
-            "hole": hole.astype(np.uint8),
-            "steps": np.diff(whole, axis=0, prepend=np.zeros((1, 2), np.int32)).astype(np.int32),
+        labels = list(dict.fromkeys(shape.label for shape in shapes))
+        return cls.joined(labels, [Drawing.of(shapes, np.arange(len(shapes)))])
+
+    @classmethod
+    def joined(cls, labels: list[str], drawings: Sequence["Drawing"]) -> "Outlines":
+        """Those of some drawings, of which at least one is given.
+
+        Args:
+            labels: those that lie on top of others first.
+            drawings: what is drawn.
+        """
+        number = {label: n for n, label in enumerate(labels)}
+        names = [name for drawing in drawings for name in drawing.names]
+        columns = {
+            name: np.concatenate([drawing.tensors[name] for drawing in drawings]) for name in drawings[0].tensors
         }
-        return cls(order, {n: shape.name for n, shape in enumerate(shapes) if shape.name}, tensors)
+        label = np.array([number[label] for drawing in drawings for label in drawing.labels], np.uint16)
+        order = np.lexsort((columns.pop("place"), _morton(columns.pop("low")), label))
+        paths = _rows_of(columns["paths"], order)
+        xy = columns.pop("xy")[_rows_of(columns["size"], paths)]
+        of_path = {"size", "hole"}
+        tensors = {
+            "label": label[order],
+            **{name: column[paths if name in of_path else order] for name, column in columns.items()},
+            "steps": np.diff(xy, axis=0, prepend=np.zeros((1, 2), np.int32)).astype(np.int32),
+        }
+        return cls(labels, {n: name for n, row in enumerate(order.tolist()) if (name := names[row])}, tensors)
 
     def encode(self, places: Sequence[Place] = ()) -> bytes:
         """A safetensors file of it, with "labels", "names" and "places" [[x, y, name, kind]] as JSON in its metadata.
@@ -95,6 +98,51 @@ class Outlines:
         }
         words = {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in told.items()}
         return in_order(save(self.tensors, {"kind": "shapes", **words}))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawing:
+    """What is drawn of some objects, O of them.
+
+    Attributes:
+        labels, names: of each.
+        tensors: as of Outlines but for "label" and "steps"; "place" [O] of each among all, "low" [O, 2] the least
+            coordinates of each in metres, "xy" [V, 2].
+    """
+
+    labels: list[str]
+    names: list[str | None]
+    tensors: dict[str, npt.NDArray[Any]]
+
+    @classmethod
+    def of(cls, shapes: Sequence[MapShape], place: npt.NDArray[Any]) -> "Drawing":
+        """That of some shapes that are each at a place [S] among all."""
+        geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLER_M)
+        drawn = np.flatnonzero(~(shapely.is_missing(geometry) | shapely.is_empty(geometry)))
+        shapes, geometry = [shapes[n] for n in drawn.tolist()], geometry[drawn]
+        form = shapely.get_dimensions(geometry).astype(np.uint8) if shapes else np.zeros(0, np.uint8)
+        path, owner, hole = _paths(geometry, form)
+        xy, of_path = shapely.get_coordinates(path, return_index=True)
+        tensors = {
+            "form": form,
+            "base": _heights([shape.base_m for shape in shapes]),
+            "top": _heights([shape.top_m for shape in shapes]),
+            "width": _heights([shape.width_m for shape in shapes]),
+            "paths": np.bincount(owner, minlength=len(shapes)).astype(np.uint32),
+            "source": np.array([_number_of(shape.source_id) for shape in shapes], dtype=np.float64),
+            "size": np.bincount(of_path, minlength=len(path)).astype(np.uint32),
+            "hole": hole.astype(np.uint8),
+            "place": place[drawn],
+            "low": np.nan_to_num(shapely.bounds(geometry))[:, :2],
+            "xy": np.rint(xy * UNITS_A_METRE).astype(np.int32),
+        }
+        return cls([shape.label for shape in shapes], [shape.name for shape in shapes], tensors)
+
+
+def _rows_of(sizes: npt.NDArray[Any], order: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The rows of groups of some sizes, group after group in an order."""
+    ends = np.cumsum(sizes, dtype=np.int64)[order]
+    return ranges(ends - sizes[order], ends)
 
 
 def _paths(geometry: Any, form: npt.NDArray[np.uint8]) -> tuple[Any, npt.NDArray[np.intp], npt.NDArray[np.bool_]]:
@@ -123,10 +171,9 @@ def _number_of(source_id: str | None) -> float:
     return float(int(number) * 4 + KINDS.index(kind)) if kind in KINDS and number.isdigit() else -1.0
 
 
-def _morton(geometry: Any) -> npt.NDArray[np.int64]:
-    """[O] where objects are, so that what is near has near numbers."""
-    bounds: Floats = np.nan_to_num(shapely.bounds(geometry))
-    low = bounds[:, :2] - bounds[:, :2].min(axis=0, initial=0.0)
+def _morton(low_m: Floats) -> npt.NDArray[np.int64]:
+    """[O] where objects [O, 2] are, so that what is near has near numbers."""
+    low = low_m - low_m.min(axis=0, initial=0.0)
     cell = np.minimum(low / 4, 0xFFFFF).astype(np.int64)
     found = np.zeros(len(cell), dtype=np.int64)
     for bit in range(20):

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +19,7 @@ from models.city.tiled.solids import FORMS, Shape, Solid, crown_reach_m, points_
 from models.city.tiled.tiling import TILE_M, Geometries
 from models.city.types import CutRules, Floats
 from models.processes import map_forked
+from models.spool import spooled
 
 CHUNK = 1024  # cubes a task
 THING = FORMS.index("thing")
@@ -114,15 +115,24 @@ def cut_pieces(
         progress: called with (cubes cut, cubes to cut).
         least: cubes of fewer parts are left empty.
     """
-    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
-    whole = Wholes.of(table)
-    results, done = [], 0
-    for result in map_forked(partial(_cut_chunk, table, whole, rules, least), chunks):
-        results.append(result)
-        done += len(result.starts) - 1
-        if progress:
-            progress(done, len(centers_m))
-    return _joined(results, instance_rgb)
+    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)] or [centers_m]
+    work = partial(_cut_chunk if len(chunks) == 1 else _cut_one_of_many, table, Wholes.of(table), rules, least)
+    done = 0
+
+    def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
+        nonlocal done
+        for parts in map_forked(work, chunks):
+            yield {
+                "sizes": np.diff(parts.starts),
+                **{name: getattr(parts, name) for name in ("instance", "count", "low_m", "high_m", "closest_m")},
+                "rgb": instance_rgb[parts.instance].astype(np.float32),
+            }
+            done += len(parts.starts) - 1
+            if progress:
+                progress(done, len(centers_m))
+
+    found = spooled(columns())
+    return Parts(starts=np.concatenate([[0], np.cumsum(found.pop("sizes"))]), **found)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -214,6 +224,13 @@ def _cut_chunk(table: PieceTable, whole: Wholes, rules: CutRules, least: int, ce
     )
 
 
+def _cut_one_of_many(table: PieceTable, whole: Wholes, rules: CutRules, least: int, centers: Floats) -> Parts:
+    """As `_cut_chunk`, where the next ones need other pieces."""
+    parts = _cut_chunk(table, whole, rules, least, centers)
+    table.forget()
+    return parts
+
+
 def sample_pieces(
     table: PieceTable, instance_rgb: Floats, shapes: Sequence[str], centers_m: Floats, rules: CutRules
 ) -> Floats:
@@ -277,14 +294,3 @@ def _closest(geometry: Geometries, centers: Floats, new: Ints) -> Floats:
 def _empty(cubes: int) -> Parts:
     none = np.zeros((0, 3), np.float32)
     return Parts(np.zeros(cubes + 1, np.int64), np.zeros(0, np.int32), np.zeros(0, np.int32), none, none, none, none)
-
-
-def _joined(results: list[Parts], instance_rgb: Floats) -> Parts:
-    """All of some, which are let go as they are joined."""
-    results = results or [_empty(0)]
-    sizes = np.concatenate([np.diff(some.starts) for some in results])
-    columns = {n: [getattr(some, n) for some in results] for n in ("instance", "count", "low_m", "high_m", "closest_m")}
-    results.clear()
-    joined = {name: np.concatenate(columns.pop(name)) for name in list(columns)}
-    rgb = instance_rgb[joined["instance"]].astype(np.float32)
-    return Parts(starts=np.concatenate([[0], np.cumsum(sizes)]), rgb=rgb, **joined)

@@ -1,8 +1,8 @@
 """The table of pieces: what of each instance of a map lies in each tile, and which pieces hang together."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Final
 
 import numpy as np
@@ -10,17 +10,19 @@ import numpy.typing as npt
 import shapely
 
 from models.city.points import Ints, block_keys, ranges, thin
-from models.city.tiled.rows import Rows, stuff_rows, thing_rows
+from models.city.tiled.rows import BAND, Rows, rows_in
 from models.city.tiled.segments import STEP_M, Steps, geometry_of
 from models.city.tiled.solids import FORMS, Solid
-from models.city.tiled.tiling import FAR_M, TILE_M, TOUCHING_M, Geometries
+from models.city.tiled.tiling import FAR_M, TILE_M, TOUCHING_M, Geometries, band_of
 from models.city.types import Floats
 from models.compiled import compiled
+from models.processes import map_forked
+from models.spool import forget, spooled
 
 AT_ONCE: Final = 20_000  # pieces whose geometry is put together for a moment
 COLUMNS: Final = 64  # of tiles whose pieces are linked together
 BORDER: Final = round(TILE_M / 2 / STEP_M)  # of a tile, in steps from its middle
-Mask = npt.NDArray[np.bool_]
+THING: Final = FORMS.index("thing")
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,20 +60,33 @@ class PieceTable:
 
     @classmethod
     def of(cls, solids: Sequence[Solid]) -> "PieceTable":
-        """The pieces of a map's features."""
-        rows = Rows.joined([*stuff_rows(solids, "area"), *stuff_rows(solids, "line"), thing_rows(solids)])
-        low = np.array([rows.column.min(), rows.row.min()], dtype=np.int64)
-        shape = np.array([rows.column.max(), rows.row.max()], dtype=np.int64) - low + 1
-        rows = rows.take(np.lexsort((rows.instance, rows.row, rows.column)))
-        tile = (rows.column - low[0]) * shape[1] + rows.row - low[1]
-        starts = np.searchsorted(tile, np.arange(shape[0] * shape[1] + 1)).astype(np.int32)
-        segment_starts = np.concatenate([[0], np.cumsum(rows.sizes)]).astype(np.int32)
-        stuff = rows.form != FORMS.index("thing")
-        links = _links(tile, shape, rows.instance, segment_starts, rows.segments, rows.dimension, stuff)
-        return cls(
-            low, shape, starts, rows.instance, rows.form, rows.dimension, rows.bounds_m, rows.heights_m,
-            rows.crown_m, rows.worth, segment_starts, rows.segments, *links,
+        """The pieces of some solids."""
+        columns = np.stack(band_of(shapely.bounds([solid.geometry for solid in solids])[:, [0, 2]]), axis=1)
+        bands = [(low, low + BAND) for low in range(int(columns.min()), int(columns.max()) + 1, BAND)]
+        return cls.joined(map_forked(partial(rows_in, solids), bands))
+
+    @classmethod
+    def joined(cls, bands: Iterable[Rows]) -> "PieceTable":
+        """The pieces of all solids of a map, which are laid down on disk.
+
+        Args:
+            bands: of `rows_in`, from west to east; at least one has pieces.
+        """
+        columns = spooled({f.name: getattr(rows, f.name) for f in fields(Rows)} for rows in bands)
+        column, row, sizes = (columns.pop(name) for name in ("column", "row", "sizes"))
+        low = np.array([column.min(), row.min()], dtype=np.int64)
+        shape = np.array([column.max(), row.max()], dtype=np.int64) - low + 1
+        tiles = (_counts(column, row, low, shape), sizes)
+        starts = (np.concatenate([[0], np.cumsum(count)]).astype(np.int32) for count in tiles)
+        tile_starts, segment_starts = starts
+        links = spooled(_links(column, row, segment_starts, columns))
+        link_starts = np.concatenate([[0], np.cumsum(links["sizes"])]).astype(np.int32)
+        table = cls(
+            low, shape, tile_starts, segment_starts=segment_starts, link_starts=link_starts, links=links["links"],
+            **columns,
         )  # fmt: skip
+        table.forget()
+        return table
 
     @classmethod
     def of_columns(cls, columns: Mapping[str, npt.NDArray[Any]]) -> "PieceTable":
@@ -81,6 +96,10 @@ class PieceTable:
     def columns(self) -> dict[str, npt.NDArray[Any]]:
         """All of it, by name."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
+
+    def forget(self) -> None:
+        """Have what lies on disk take no memory until it is looked at."""
+        forget(self.columns().values())
 
     def geometry(self, pieces: Ints) -> Geometries:
         """[n] of some pieces, metres, map frame; put together once of each, however often it is asked for."""
@@ -113,23 +132,28 @@ class PieceTable:
         return tile
 
     def lattice(self, pieces: Ints, spacing_m: float) -> Floats:
-        """[n, 2] float32 places in some areas, one a square block of which a corner or a middle is inside.
+        """[n, 3] float32 places on the ground of areas, one a square block of which a corner or a middle is inside.
 
         Args:
             pieces: rows of the areas, ascending.
             spacing_m: edge of the blocks.
         """
-        kept, seen = [np.zeros((0, 2), np.float32)], np.zeros(0, np.int64)
+        places: Floats = spooled({"m": some} for some in self._places(pieces, spacing_m))["m"]
+        return places
+
+    def _places(self, pieces: Ints, spacing_m: float) -> Iterator[Floats]:
+        """See `lattice`."""
+        yield np.zeros((0, 3), np.float32)
+        seen = np.zeros(0, np.int64)
         for n in range(0, len(pieces), AT_ONCE):
             some = pieces[n : n + AT_ONCE]
             xy = thin(self._inside(some, spacing_m), spacing_m)
             block = block_keys(xy, spacing_m)
             new = ~np.isin(block, seen)
-            kept.append(xy[new].astype(np.float32))
+            yield np.column_stack([xy[new], np.zeros(new.sum())]).astype(np.float32)
             column_m = (self.tile[some[-1], 0] - 0.5) * TILE_M - spacing_m  # what is west of it does not come again
             seen = np.concatenate([seen, block[new]])
             seen = seen[seen >= block_keys(np.array([[column_m, -FAR_M]]), spacing_m)[0]]
-        return np.concatenate(kept)
 
     def _inside(self, pieces: Ints, spacing_m: float) -> Floats:
         """[n, 2] corners and middles of blocks that are inside some areas."""
@@ -156,27 +180,52 @@ def _tiles(tile_starts: Ints, low: Ints, shape: Ints) -> Ints:
     return tile
 
 
-def _links(
-    tile: Ints, shape: Ints, instance: Ints, starts: Ints, segments: Steps, dimension: Ints, stuff: Mask
-) -> tuple[Ints, Ints]:
-    """CSR of pairs of pieces of one instance that touch across the border of two tiles; `tile` ascending."""
-    at = np.stack([tile // shape[1], tile % shape[1]], axis=1)
-    keys: list[Ints] = [np.zeros(0, np.int64)]
-    for first in range(0, int(shape[0]) + 1, COLUMNS):
+@compiled
+def _counts(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
+    """[columns * rows] how many pieces each tile has."""
+    count = np.zeros(shape[0] * shape[1], np.int64)
+    for k in range(len(columns)):
+        count[(columns[k] - low[0]) * shape[1] + rows[k] - low[1]] += 1
+    return count
+
+
+def _links(column: Ints, row: Ints, starts: Ints, columns: Mapping[str, npt.NDArray[Any]]) -> Iterator[dict[str, Ints]]:
+    """CSR of pairs of pieces of one instance that touch across the border of two tiles, some columns at a time.
+
+    Args:
+        column: [K] of each piece's tile, ascending.
+        row: [K] likewise.
+        starts: [K + 1] of the pieces' segments.
+        columns: of the table.
+
+    Yields:
+        "sizes", how many links each of the next pieces has, and "links".
+    """
+    instance, dimension, form, segments = (columns[name] for name in ("instance", "dimension", "form", "segments"))
+    count, known, pending = len(column), 0, np.zeros(0, np.int64)
+    rows = range(int(row.min()), int(row.max()) + 2)
+    for first in range(int(column[0]), int(column[-1]) + 2, COLUMNS):
         # Their western neighbours too, for the border between; the one in their east comes with the next ones.
-        begin, own, end = np.searchsorted(at[:, 0], [first - 1, first, first + COLUMNS])
-        of = np.repeat(np.arange(begin, end), np.diff(starts[begin : end + 1]))
+        begin, own, end = np.searchsorted(column, [first - 1, first, first + COLUMNS])
+        at = np.stack([column[begin:end], row[begin:end]], axis=1).astype(np.int64)
+        of = np.repeat(np.arange(end - begin), np.diff(starts[begin : end + 1]))
         ends = segments[starts[begin] : starts[end]]
-        on_border = (np.abs(ends) == BORDER).any(axis=1) & stuff[of]
+        on_border = (np.abs(ends) == BORDER).any(axis=1) & (form[begin:end] != THING)[of]
         of, ends = of[on_border], ends[on_border]
-        pairs = _across(0, of, ends, at, instance, dimension, range(first, first + COLUMNS))
-        of, ends = of[of >= own], ends[of >= own]
-        pairs = np.concatenate([pairs, _across(1, of, ends, at, instance, dimension, range(int(shape[1]) + 1))])
-        keys.append(np.unique(np.concatenate([pairs, pairs[:, ::-1]]) @ [len(tile), 1]))
-    key = np.concatenate(keys)
-    key.sort()
-    starts = np.searchsorted(key, np.arange(len(tile) + 1) * len(tile))
-    return starts.astype(np.int32), (key % len(tile)).astype(np.int32)
+        here = at, instance[begin:end], dimension[begin:end]
+        pairs = _across(0, of, ends, *here, range(first, first + COLUMNS))
+        is_own = of >= own - begin
+        pairs = np.concatenate([pairs, _across(1, of[is_own], ends[is_own], *here, rows)]) + begin
+        keys = np.unique(np.concatenate([pending, np.concatenate([pairs, pairs[:, ::-1]]) @ [count, 1]]))
+        # The last column's pieces may have links to what comes next.
+        done = count if end == count else int(np.searchsorted(column, first + COLUMNS - 1))
+        pending = keys[keys >= done * count]
+        keys = keys[: len(keys) - len(pending)]
+        yield {
+            "sizes": np.bincount(keys // count - known, minlength=done - known).astype(np.int32),
+            "links": (keys % count).astype(np.int32),
+        }
+        known = done
 
 
 def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints, wanted: range) -> Ints:
@@ -186,7 +235,7 @@ def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dime
         axis: which.
         of: [S] the piece of each segment.
         segments: [S, 4] of those that may be on a border.
-        at: [K, 2] column and row of each piece's tile, from the first.
+        at: [K, 2] column and row of each piece's tile.
         instance: [K].
         dimension: [K].
         wanted: borders; one is west of the column or south of the row of its number.

@@ -1,8 +1,7 @@
-"""The pieces of a map's solids as they are cut: a band of tiles at a time, in several processes."""
+"""The pieces of a map's solids as they are cut, a band of tiles at a time."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from functools import partial
 from typing import Final
 
 import numpy as np
@@ -22,9 +21,8 @@ from models.city.tiled.tiling import (
     uncovered,
 )
 from models.city.types import Floats
-from models.processes import map_forked
 
-BAND: Final = 24  # columns of tiles that a task cuts
+BAND: Final = 24  # columns of tiles that are cut together
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,11 +62,10 @@ class Rows:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Chosen:
-    """N solids of one form, by column.
+    """N solids of one form.
 
     Attributes:
         first, last: [N] columns of tiles that each reaches over.
-        rank: [N] the first of the same instance: what comes first covers.
     """
 
     form: int
@@ -76,7 +73,6 @@ class _Chosen:
     first: Ints
     last: Ints
     instance: Ints
-    rank: Ints
     heights_m: Floats
     radius_m: Floats
     crown_m: Floats
@@ -87,14 +83,11 @@ class _Chosen:
         some = [solid for solid in solids if solid.form == form]
         geometry = np.empty(len(some), dtype=object)
         geometry[:] = [solid.geometry for solid in some]
-        instance = np.array([solid.instance for solid in some], dtype=np.int64)
-        known, first = np.unique(instance, return_index=True)
         return cls(
             FORMS.index(form),
             geometry,
             *band_of(shapely.bounds(geometry)[:, [0, 2]]),
-            instance,
-            first[np.searchsorted(known, instance)],
+            np.array([solid.instance for solid in some], dtype=np.int64),
             np.array([(solid.base_m, solid.top_m) for solid in some]).reshape(-1, 2),
             np.array([solid.radius_m for solid in some]),
             np.array([solid.crown_m for solid in some]),
@@ -120,16 +113,21 @@ class _Chosen:
         )
 
 
-def stuff_rows(solids: Sequence[Solid], form: Form) -> list[Rows]:
-    """Pieces of areas (of what nothing covers) or of lines, each with what hangs together in a tile."""
-    chosen = _Chosen.of(solids, form)
-    if not len(chosen.geometry):
-        return []
-    bands = [(low, low + BAND) for low in range(int(chosen.first.min()), int(chosen.last.max()) + 1, BAND)]
-    return list(map_forked(partial(_stuff_of, chosen), bands))
+def rows_in(solids: Sequence[Solid], band: Span) -> Rows:
+    """The pieces of solids in some columns of tiles, in order of tile, then instance.
+
+    Args:
+        solids: all that reach into these columns, and maybe others. Of areas, what has the least number covers others;
+            solids of one instance of areas or lines have the same heights.
+        band: the columns.
+    """
+    area, line, thing = (_Chosen.of(solids, form) for form in FORMS)
+    rows = Rows.joined([_stuff_of(area, band), _stuff_of(line, band), _things_of(thing, band)])
+    return rows.take(np.lexsort((rows.instance, rows.row, rows.column)))
 
 
 def _stuff_of(chosen: _Chosen, band: Span) -> Rows:
+    """Pieces of areas (of what nothing covers) or of lines, each with what hangs together in a tile."""
     column, row, of, geometry = _joined(chosen, band)
     is_area = FORMS[chosen.form] == "area"
     of_piece, pieces = take_apart(geometry, 2 if is_area else 1)
@@ -137,31 +135,32 @@ def _stuff_of(chosen: _Chosen, band: Span) -> Rows:
     return chosen.rows(column[of_piece], row[of_piece], of[of_piece], pieces, size)
 
 
-def thing_rows(solids: Sequence[Solid]) -> Rows:
+def _things_of(chosen: _Chosen, band: Span) -> Rows:
     """Pieces of things, which are whole: each tile's part is worth its share."""
-    chosen = _Chosen.of(solids, "thing")
     cut = clip_to_tiles(chosen.geometry, EVERYWHERE)
     geometry = snapped(cut.geometry)
     kept = ~shapely.is_empty(geometry)
     of, geometry = cut.feature[kept], geometry[kept]
     length = shapely.length(geometry)
     size = np.where(length > 0, length, 1.0)  # 1 of points
-    whole = np.bincount(of, size, len(chosen.geometry))
-    return chosen.rows(cut.column[kept], cut.row[kept], of, geometry, size / whole[of])
+    share = size / np.bincount(of, size, len(chosen.geometry))[of]
+    column, row = cut.column[kept], cut.row[kept]
+    here = (column >= band[0]) & (column < band[1])
+    return chosen.rows(column[here], row[here], of[here], geometry[here], share[here])
 
 
 def _joined(chosen: _Chosen, band: Span) -> tuple[Ints, Ints, Ints, Geometries]:
-    """(column, row, first feature, geometry) of each instance in each tile; of areas, what nothing covers."""
+    """(column, row, a solid, geometry) of each instance in each tile; of areas, what nothing covers."""
     # Of others no geometry is looked at: a process that does so has a copy of it.
     rows = np.flatnonzero((chosen.first < band[1]) & (chosen.last >= band[0]))
     cut = clip_to_tiles(chosen.geometry[rows], band)
-    rank = chosen.rank[rows[cut.feature]]
-    order = np.lexsort((rank, cut.row, cut.column))
-    column, row, rank, geometry = cut.column[order], cut.row[order], rank[order], cut.geometry[order]
+    of = rows[cut.feature]
+    order = np.lexsort((chosen.instance[of], cut.row, cut.column))
+    column, row, of, geometry = cut.column[order], cut.row[order], of[order], cut.geometry[order]
     new = (np.diff(column, prepend=column[:1] - 1) != 0) | (np.diff(row, prepend=0) != 0)
     tile = np.cumsum(new) - 1
-    group = np.cumsum(new | (np.diff(rank, prepend=-1) != 0)) - 1
+    group = np.cumsum(new | (np.diff(chosen.instance[of], prepend=-1) != 0)) - 1
     at, joined = join_pieces(group, geometry)
     if FORMS[chosen.form] == "area":
         joined = uncovered(tile[at], joined)
-    return column[at], row[at], rank[at], snapped(joined)
+    return column[at], row[at], of[at], snapped(joined)

@@ -74,6 +74,7 @@ class Chances:
         at = np.tile(self._gazetteer.corners_m.astype(np.float64), (2, 1))
         there = on_street.tocsc()
         order = np.argsort(on, kind="stable")
+        order = order[np.diff(there.indptr)[on[order]] > 0]  # of streets that any of the cells are on
         first = np.flatnonzero(np.diff(on[order], prepend=-1))
         found = [self._corners(there, int(on[corners[0]]), corners, at) for corners in np.split(order, first)[1:]]
         cell, corner, chance = (np.concatenate([some[n] for some in found]) if found else _EMPTY for n in range(3))

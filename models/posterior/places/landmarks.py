@@ -1,6 +1,6 @@
 """What people say when asked: their street, a place that they see, the nearest cross street or house number."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -25,6 +25,7 @@ from models.strings import Column, joined
 
 FILE: Final = "landmarks.safetensors"
 FAINT: Final = 0.01  # what is said more seldom is not kept
+AT_ONCE: Final = 65_536  # cells: what is known of them before that takes ten times the room
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,6 +53,14 @@ class Table:
         few = rows.shape[1] <= 1 << 16
         name = rows.indices[kept].astype(np.uint16 if few else np.int32)
         return cls(rows.shape[1], starts, name, rows.data[kept].astype(np.float16))
+
+    @classmethod
+    def joined(cls, tables: Sequence["Table"]) -> "Table":
+        """That of the cells of some tables of the same names, one after the other; at least one."""
+        sizes = np.concatenate([np.diff(table.starts) for table in tables])
+        starts = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
+        names, chances = ([getattr(table, kind) for table in tables] for kind in ("name", "chance"))
+        return cls(tables[0].names, starts, np.concatenate(names), np.concatenate(chances))
 
     def rows(self, cells: Ints) -> csr_array:
         """[C, K] of some cells."""
@@ -164,23 +173,22 @@ class Landmarks:
             centers_m: [N, 2] of the cells.
             kinds: beginnings of the kinds of places that people know by their names.
         """
-        words, chances = gazetteer.words, Chances(gazetteer, centers_m)
+        words = gazetteer.words
         roads = gazetteer.by_kind.get(STREET, np.zeros(0, np.int64))
         known = np.array([n for n in gazetteer.named.tolist() if words[n].kinds[0].startswith(kinds)], np.int64)
         streets = Spelt.of([words[n].names for n in roads.tolist()], are_streets=True)
         names = Spelt.of([words[n].names for n in known.tolist()], are_streets=False)
         addresses = Addresses.of(words)
-        on_street = chances.on_street(roads, streets)
-        pairs, on, other = chances.crossings(roads, streets, on_street)
-        return cls(
-            streets,
-            names,
-            addresses,
-            Table.of_rows(on_street),
-            Table.of_rows(chances.said(known, names)),
-            Table.of_rows(chances.numbered(addresses)),
-            Crossings(Table.of_rows(pairs), on, other, max(1, len(streets))),
-        )
+        tables = list[tuple[Table, ...]]()
+        for first in range(0, len(centers_m) or 1, AT_ONCE):
+            chances = Chances(gazetteer, centers_m[first : first + AT_ONCE])
+            on_street = chances.on_street(roads, streets)
+            pairs, on, other = chances.crossings(roads, streets, on_street)
+            found = on_street, chances.said(known, names), chances.numbered(addresses), pairs
+            tables.append(tuple(map(Table.of_rows, found)))
+        on_street_table, said, numbered, crossing = (Table.joined(some) for some in zip(*tables, strict=True))
+        crossings = Crossings(crossing, on, other, max(1, len(streets)))
+        return cls(streets, names, addresses, on_street_table, said, numbered, crossings)
 
     @property
     def has_corners(self) -> bool:

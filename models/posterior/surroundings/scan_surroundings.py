@@ -146,6 +146,9 @@ class ScanSurroundings:
             whole=self.whole[rows][kept],
         )
 
+    def forget(self) -> None:
+        """See Surroundings; a scan's are in memory."""
+
     def save(self, directory: Path) -> None:
         """Write one file; the things are in the gallery's."""
         save_file({name: np.ascontiguousarray(getattr(self, name)) for name in COLUMNS}, directory / FILE)

@@ -69,6 +69,10 @@ class Surroundings(Protocol):
         """
         ...
 
+    def forget(self) -> None:
+        """Have what lies on disk take no memory until it is looked at."""
+        ...
+
     def save(self, directory: Path) -> None:
         """Write one file."""
         ...

@@ -32,18 +32,6 @@ def test_a_map_is_cut_once_for_all_its_splits(osm_file, source, regions, monkeyp
         assert one.queries().sentences == other.queries().sentences
 
 
-def test_a_great_map_is_read_elsewhere_and_is_the_same(osm_file, source, monkeypatch, tmp_path) -> None:
-    monkeypatch.setattr("models.city.source.GREAT", 1)
-    [great] = open_sources(osm_file, [None])
-    assert great.data.gallery.labels == source.data.gallery.labels
-    assert np.array_equal(great.data.cells.center_m, source.data.cells.center_m)
-    assert np.array_equal(great.data.cells.parts.closest_m, source.data.cells.parts.closest_m)
-    broken = tmp_path / "broken.osm"
-    broken.write_bytes(osm_file.read_bytes()[:-300])
-    with pytest.raises(MapError, match="cannot be read as OpenStreetMap"):
-        open_sources(broken, [None])
-
-
 def test_queries_are_true_and_in_their_region(source, regions) -> None:
     whole = source.queries()
     for part in regions:

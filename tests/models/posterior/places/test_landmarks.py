@@ -98,6 +98,17 @@ def test_cells_do_not_depend_on_which_others_there_are(landmarks):
     assert crossings[0] == pytest.approx(crossings[1][[3, 1]])
 
 
+@pytest.mark.parametrize("at_once", [1, 4])
+def test_landmarks_are_the_same_of_however_many_cells_at_once(at_once, landmarks, monkeypatch):
+    monkeypatch.setattr("models.posterior.places.landmarks.AT_ONCE", at_once)
+    some = Landmarks.of(made_gazetteer(), CENTERS, ("shop", "amenity"))
+    for name in ("on_street", "said", "numbered"):
+        assert (dense(getattr(some, name)) == dense(getattr(landmarks, name))).all()
+    assert (dense(some.crossings.pairs) == dense(landmarks.crossings.pairs)).all()
+    assert some.crossings.on.tolist() == landmarks.crossings.on.tolist()
+    assert some.crossings.other.tolist() == landmarks.crossings.other.tolist()
+
+
 def test_what_is_saved_is_loaded(landmarks, tmp_path):
     landmarks.save(tmp_path)
     loaded = Landmarks.load(tmp_path)

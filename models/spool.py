@@ -1,0 +1,133 @@
+"""Columns that are made some rows at a time and lie on disk: of a city they are larger than all else of a job."""
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory, TemporaryFile, gettempdir
+from typing import IO, Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from models.errors import DataError
+from models.files import let_go, new_scratch
+
+Column = npt.NDArray[Any]
+HELD: Final = 2**23  # bytes of a column, up to which it stays in memory
+AT_ONCE: Final = 2**20  # rows
+_room: Path | None = None
+
+
+@contextmanager
+def spooling_in(directory: Path) -> Iterator[None]:
+    """Have what is spooled lie in a directory while the block runs: where temporary files lie may be in memory."""
+    global _room  # noqa: PLW0603  # deep below who knows of it
+    before, _room = _room, directory
+    try:
+        yield
+    finally:
+        _room = before
+
+
+@contextmanager
+def scratch() -> Iterator[Path]:
+    """An empty directory where what is spooled lies, which is removed when the block ends.
+
+    Raises:
+        DataError: there is no room.
+    """
+    with ExitStack() as made:
+        with spooling():
+            if _room is None:
+                directory = Path(made.enter_context(TemporaryDirectory()))
+            else:
+                directory = made.enter_context(new_scratch(_room))
+        yield directory
+
+
+def spooled(parts: Iterable[Mapping[str, Column]]) -> dict[str, Column]:
+    """The columns of some tables one after the other, large ones in files without names, which go with their readers.
+
+    These lie where `spooling_in` says, else where temporary files do (TMPDIR). Pages come when they are looked at;
+    `forget` has them go.
+
+    Args:
+        parts: at least one; of each column all have the same type, and rows of the same shape.
+
+    Raises:
+        DataError: there is no room.
+    """
+    columns = dict[str, _Spool]()
+    for part in parts:
+        for name, column in part.items():
+            columns.setdefault(name, _Spool()).append(column)
+    return {name: spool.array() for name, spool in columns.items()}
+
+
+def on_disk(rows: int, dtype: npt.DTypeLike) -> Column:
+    """Numbers to be written in any order, in a file without a name if they are many; at first zeros.
+
+    Raises:
+        DataError: there is no room.
+    """
+    size = rows * np.dtype(dtype).itemsize
+    if size <= HELD:
+        return np.zeros(rows, dtype)
+    with spooling(), TemporaryFile(dir=_room) as file:
+        os.posix_fallocate(
+            file.fileno(), 0, size
+        )  # or who writes into the array would be killed where there is no room
+        return np.memmap(file, dtype, "r+", shape=(rows,)).view(np.ndarray)
+
+
+def in_turn(columns: Mapping[str, Column]) -> Iterator[dict[str, Column]]:
+    """Columns of one length, some rows after the other; what was looked at takes no memory any more."""
+    for first in range(0, max(map(len, columns.values())), AT_ONCE):
+        yield {name: column[first : first + AT_ONCE] for name, column in columns.items()}
+        forget(columns.values())
+
+
+def forget(columns: Iterable[Column]) -> None:
+    """Have pages of columns on disk go, until they are looked at."""
+    for column in columns:
+        let_go(column)
+
+
+@contextmanager
+def spooling() -> Iterator[None]:
+    """Say so where a temporary file cannot be written."""
+    try:
+        yield
+    except OSError as error:
+        advice = "give another directory" if _room else "have TMPDIR name another directory"
+        raise DataError(f"{_room or gettempdir()} cannot be written: {error}; make room, or {advice}") from error
+
+
+class _Spool:
+    """A column that grows."""
+
+    def __init__(self) -> None:
+        self._held, self._bytes, self._rows = list[Column](), 0, 0
+        self._file: IO[bytes] | None = None
+
+    def append(self, rows: Column) -> None:
+        """Put some at the end."""
+        self._held.append(rows)
+        self._bytes += rows.nbytes
+        self._rows += len(rows)
+        if self._file is not None or self._bytes > HELD:
+            with spooling():
+                self._file = self._file or TemporaryFile(dir=_room)  # noqa: SIM115 - `array` closes it
+                for held in self._held:
+                    self._file.write(np.ascontiguousarray(held).data)
+            self._held = [rows[:0].copy()]  # it tells the type
+
+    def array(self) -> Column:
+        """All of them."""
+        if self._file is None:
+            return self._held[0] if len(self._held) == 1 else np.concatenate(self._held)
+        like = self._held[0]
+        with spooling(), self._file as file:
+            file.flush()
+            return np.memmap(file, like.dtype, "c", shape=(self._rows, *like.shape[1:])).view(np.ndarray)

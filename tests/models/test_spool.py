@@ -1,0 +1,83 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from models.errors import DataError
+from models.spool import forget, in_turn, on_disk, scratch, spooled, spooling_in
+
+
+def parts(sizes):
+    rng = np.random.default_rng(0)
+    return [
+        {"wide": rng.normal(size=(n, 3)).astype(np.float32), "number": rng.integers(0, 99, n, np.int16)} for n in sizes
+    ]
+
+
+@pytest.mark.parametrize("held", [0, 40, 2**30])
+@pytest.mark.parametrize("sizes", [[5], [0, 3, 0, 7], [0, 0]])
+def test_columns_are_those_of_the_parts_on_disk_or_not(held, sizes, monkeypatch) -> None:
+    monkeypatch.setattr("models.spool.HELD", held)
+    found = spooled(iter(parts(sizes)))
+    assert set(found) == {"wide", "number"}
+    for name, column in found.items():
+        expected = np.concatenate([part[name] for part in parts(sizes)])
+        assert column.dtype == expected.dtype
+        assert np.array_equal(column, expected)
+        column[:] = 0  # which may be written
+
+
+def test_what_lies_on_disk_takes_no_memory_but_while_it_is_looked_at(monkeypatch, tmp_path) -> None:
+    monkeypatch.setattr("models.spool.HELD", 10)
+    monkeypatch.setattr("models.spool.AT_ONCE", 3000)
+    with spooling_in(tmp_path):
+        columns = spooled(parts([100_000] * 3))
+    seen = [(resident(tmp_path), some["wide"].sum(), len(some["number"])) for some in in_turn(columns)]
+    assert sum(rows for _, _, rows in seen) == 300_000
+    assert max(kib for kib, _, _ in seen) < 500, "of 3.6 MB"
+    assert columns["wide"].sum() == pytest.approx(sum(total for _, total, _ in seen), abs=1)
+    assert resident(tmp_path) > 3000
+    forget(columns.values())
+    assert resident(tmp_path) == 0
+
+
+def resident(directory: Path) -> int:
+    """KiB of files of a directory that are in this process's memory."""
+    found, is_ours = 0, False
+    for line in Path("/proc/self/smaps").read_text().splitlines():
+        if not line.split(maxsplit=1)[0].endswith(":"):
+            is_ours = str(directory) in line
+        elif is_ours and line.startswith("Rss:"):
+            found += int(line.split()[1])
+    return found
+
+
+@pytest.mark.parametrize("held", [0, 2**30])
+def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
+    monkeypatch.setattr("models.spool.HELD", held)
+    found = on_disk(50_000, np.int32)
+    assert not found.any()
+    order = np.random.default_rng(0).permutation(50_000)
+    found[order] = np.arange(50_000)
+    forget([found] if held == 0 else [])
+    assert np.array_equal(found[order], np.arange(50_000)), "what was written stays when its pages go"
+
+
+def test_a_full_disk_is_said(monkeypatch, tmp_path) -> None:
+    monkeypatch.setattr("models.spool.HELD", 10)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "missing"))
+    with pytest.raises(DataError, match=r"missing cannot be written: .*TMPDIR"):
+        spooled(parts([1000]))
+
+
+def test_a_full_index_directory_is_said_and_scratch_is_removed(tmp_path) -> None:
+    with spooling_in(tmp_path), scratch() as directory:
+        assert directory.parent == tmp_path
+        (directory / "strip").write_text("some")
+    assert not list(tmp_path.iterdir())
+    with (
+        spooling_in(tmp_path / "missing"),
+        pytest.raises(DataError, match=r"missing cannot be written: .*another directory"),
+        scratch(),
+    ):
+        pass
