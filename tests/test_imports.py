@@ -101,6 +101,7 @@ ONLY = {
         "models.errors",
         "models.files",
         "models.processes",
+        "models.spool",
         "models.strings",
     },
     ("models.posterior", "models.localization"): {"models.localization.located"},
