@@ -157,9 +157,7 @@ def _encoded(
     def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
         nonlocal kept
         none = np.empty((0, retriever.config.width), np.float32)
-        yield {"vectors": none, "digests": np.empty(0, np.uint64), "sizes": np.empty(0, np.int64)} | dict.fromkeys(
-            levels, none
-        )
+        yield {"digests": np.empty(0, np.uint64), "sizes": np.empty(0, np.int64)} | dict.fromkeys(names, none)
         report("encode cells", 0, len(rows))
         spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
         for span, features in zip(spans, CellFeatures.in_turn(data.cells, labels, spans), strict=True):

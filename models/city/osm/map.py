@@ -62,6 +62,10 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
     frame, box = frame_and_box(path)
     with scratch() as directory:
         strips = Strips(directory, features_of(path, frame, box))
+        if not strips.numbers:
+            raise MapError(
+                f"{path}: nothing of it lies in the box that it names; download it again, or mend its bounds"
+            )
         return _city_map(name or path.name.split(".")[0], strips, frame)
 
 

@@ -7,10 +7,11 @@ import signal
 from dataclasses import replace
 
 import pytest
+from safetensors.numpy import load_file
 
 from index.artifact import open_version
 from index.offline.build import IndexJob
-from index.offline.part import Part
+from index.offline.part import FILE, Part
 from index.offline.parts import PARTS
 from index.offline.shard import Shard
 from models.city.cells import BLOCK
@@ -64,6 +65,15 @@ def test_shards_give_the_bytes_of_the_whole(deep_index, job) -> None:
     assert {"levels.instance.npy", "levels.relation.npy", "statements.safetensors"} <= whole["files"].keys()
     assert not (job.out_dir / PARTS).exists()
     assert replace(job, keep_current=True).merge(2) == version
+
+
+def test_a_shard_without_cells_is_a_part_too(job) -> None:
+    none = Shard(1, 3)  # of two blocks
+    path = job.make_part(none)
+    assert rows_of(job, none) == [0, 0]
+    columns = load_file(path / FILE)
+    assert len(columns["vectors"]) == len(columns["digests"]) == 0
+    assert not list(job.out_dir.glob(f"{BUILDING}*"))
 
 
 @pytest.mark.slow

@@ -8,7 +8,6 @@ import shapely
 from models.city.colours import parse_colour
 from models.city.osm.classes import OsmClass, class_of, load_classes
 from models.city.osm.map import frame_of, load_osm
-from models.city.tiled import rows
 from models.errors import MapError
 
 HEADER = "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>"
@@ -68,13 +67,11 @@ def test_the_frame_is_known_before_the_map_is_read(tmp_path, box) -> None:
     assert frame_of(path).origin_lon == pytest.approx(25.001 if box else 25.0005)
 
 
-def test_pieces_are_the_same_however_many_columns_are_cut_at_once(osm_file, city, monkeypatch) -> None:
-    monkeypatch.setattr(rows, "BAND", 3)
-    monkeypatch.setattr("models.city.tiled.pieces.AT_ONCE", 5)
-    again = load_osm(osm_file)
-    columns, expected = again.pieces.columns(), city.pieces.columns()
-    assert all(np.array_equal(columns[name], expected[name]) for name in expected)
-    assert np.array_equal(again.locations_m, city.locations_m)
+def test_a_map_beside_its_box_is_refused(tmp_path) -> None:
+    path = tmp_path / "map.osm"
+    path.write_text(HEADER + '<bounds minlat="50" minlon="24" maxlat="51" maxlon="25"/>' + STREET + "</osm>")
+    with pytest.raises(MapError, match="nothing of it lies in the box"):
+        load_osm(path)
 
 
 def geometry_of(city, instance):
