@@ -1,6 +1,5 @@
 """Columns that are made some rows at a time and lie on disk: of a city they are larger than all else of a job."""
 
-import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -75,9 +74,10 @@ def on_disk(rows: int, dtype: npt.DTypeLike) -> Column:
     if size <= HELD:
         return np.zeros(rows, dtype)
     with spooling(), TemporaryFile(dir=_room) as file:
-        os.posix_fallocate(
-            file.fileno(), 0, size
-        )  # or who writes into the array would be killed where there is no room
+        # Written, not left out: where there is no room, who writes into the array later would be killed.
+        for first in range(0, size, HELD):
+            file.write(bytes(min(HELD, size - first)))
+        file.flush()
         return np.memmap(file, dtype, "r+", shape=(rows,)).view(np.ndarray)
 
 

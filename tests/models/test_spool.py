@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from models.errors import DataError
+from models.files import BUILDING
 from models.spool import forget, in_turn, on_disk, scratch, spooled, spooling_in
 
 
@@ -52,14 +53,14 @@ def resident(directory: Path) -> int:
     return found
 
 
-@pytest.mark.parametrize("held", [0, 2**30])
+@pytest.mark.parametrize("held", [1000, 2**30])
 def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
     monkeypatch.setattr("models.spool.HELD", held)
     found = on_disk(50_000, np.int32)
     assert not found.any()
     order = np.random.default_rng(0).permutation(50_000)
     found[order] = np.arange(50_000)
-    forget([found] if held == 0 else [])
+    forget([found] if held == 1000 else [])
     assert np.array_equal(found[order], np.arange(50_000)), "what was written stays when its pages go"
 
 
@@ -75,6 +76,9 @@ def test_a_full_index_directory_is_said_and_scratch_is_removed(tmp_path) -> None
         assert directory.parent == tmp_path
         (directory / "strip").write_text("some")
     assert not list(tmp_path.iterdir())
+    (tmp_path / f"{BUILDING}0").mkdir()
+    with spooling_in(tmp_path), scratch() as directory:
+        assert list(tmp_path.iterdir()) == [directory], "what a killed process left is gone"
     with (
         spooling_in(tmp_path / "missing"),
         pytest.raises(DataError, match=r"missing cannot be written: .*another directory"),
