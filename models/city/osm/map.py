@@ -89,9 +89,8 @@ def _features_of(elements: Sequence[_Element], lon_lat: Geometries, frame: Frame
         corners = frame.from_wgs84(np.array([south, north]), np.array([west, east]))
         geometries = shapely.clip_by_rect(geometries, *corners[0], *corners[1])
     for e, g in zip(elements, geometries, strict=True):
-        feature = None if shapely.is_empty(g) else as_feature(e.osm_class, e.order, e.tags, e.source_id, g)
-        if feature is not None and not shapely.is_empty(feature.geometry):  # as the strip along a line without length
-            yield feature
+        if not shapely.is_empty(g):
+            yield as_feature(e.osm_class, e.order, e.tags, e.source_id, g)
 
 
 def frame_of(path: Path) -> Frame:

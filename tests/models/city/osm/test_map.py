@@ -67,14 +67,6 @@ def test_the_frame_is_known_before_the_map_is_read(tmp_path, box) -> None:
     assert frame_of(path).origin_lon == pytest.approx(25.001 if box else 25.0005)
 
 
-def test_a_street_that_only_touches_the_box_is_left_out(tmp_path) -> None:
-    nodes = '<node id="901" lat="59.999" lon="24.998"/><node id="902" lat="59.999" lon="24.999"/>'
-    way = '<way id="5"><nd ref="901"/><nd ref="902"/><tag k="highway" v="residential"/><tag k="name" v="Gone"/></way>'
-    path = tmp_path / "map.osm"
-    path.write_text(HEADER + BOX + STREET + nodes + way + "</osm>")
-    assert [i.name for i in load_osm(path).instances if i.label == "road"] == ["High Street"]
-
-
 def test_a_map_beside_its_box_is_refused(tmp_path) -> None:
     path = tmp_path / "map.osm"
     path.write_text(HEADER + '<bounds minlat="50" minlon="24" maxlat="51" maxlon="25"/>' + STREET + "</osm>")
