@@ -5,12 +5,11 @@ import gc
 import mmap
 import multiprocessing
 import os
-import pickle
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from functools import partial
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -23,7 +22,6 @@ Result = TypeVar("Result")
 
 FEW = 4  # tasks that are done at once in this process
 _ARENA_MAX: Final = -8  # M_ARENA_MAX of malloc.h
-ARRAY: Final = 2**20  # bytes; what is smaller travels in the pickle
 
 _work: Callable[[Any], Any] | None = None  # what forked workers inherit, set before they start
 _alone = False
@@ -67,12 +65,11 @@ def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterato
 
 
 @contextmanager
-def forked(work: Callable[[], Result], *, alone: bool = True) -> Iterator[Callable[[], Result]]:
+def forked(work: Callable[[], Result]) -> Iterator[Callable[[], Result]]:
     """Have work done in a process of its own while the block runs; what is given waits for its result.
 
     Args:
-        work: what to do.
-        alone: whether that process shares nothing out to others.
+        work: what to do; it shares nothing out to further processes.
 
     Raises:
         DataError: the process was killed.
@@ -81,7 +78,7 @@ def forked(work: Callable[[], Result], *, alone: bool = True) -> Iterator[Callab
         yield work
         return
     ours, its = multiprocessing.Pipe(duplex=False)
-    process = multiprocessing.get_context("fork").Process(target=_do, args=(work, its, alone))
+    process = multiprocessing.get_context("fork").Process(target=_do, args=(work, its))
     process.start()
     its.close()
     try:
@@ -92,43 +89,20 @@ def forked(work: Callable[[], Result], *, alone: bool = True) -> Iterator[Callab
         ours.close()
 
 
-def _do(work: Callable[[], Any], result: Connection, alone: bool) -> None:
+def _do(work: Callable[[], Any], result: Connection) -> None:
     """What the process of `forked` does."""
     _begin()
     try:
-        with one_process() if alone else nullcontext():
+        with one_process():
             done = True, work()
     except Exception as error:  # whoever waits for it raises it
         done = False, error
-    give_back()
-    _send(result, done)
-
-
-def _send(to: Connection, value: Any) -> None:
-    """Send a value whose arrays are not copied first, as they would be into one pickle."""
-    arrays = list[pickle.PickleBuffer]()
-
-    def is_small(array: pickle.PickleBuffer) -> bool:
-        small = array.raw().nbytes < ARRAY
-        if not small:
-            arrays.append(array)
-        return small
-
-    to.send_bytes(pickle.dumps(value, protocol=5, buffer_callback=is_small))
-    to.send(len(arrays))
-    for array in arrays:
-        to.send_bytes(array.raw())
-
-
-def _receive(sender: Connection) -> Any:
-    """What `_send` has sent."""
-    pickled = sender.recv_bytes()
-    return pickle.loads(pickled, buffers=[bytearray(sender.recv_bytes()) for _ in range(sender.recv())])
+    result.send(done)
 
 
 def _result_of(result: Connection) -> Any:
     try:
-        is_done, value = _receive(result)
+        is_done, value = result.recv()
     except EOFError as error:
         raise DataError(
             "a process of this job was killed; give it more memory, or take a part of the map (--within)"

@@ -5,7 +5,6 @@ import subprocess
 import sys
 import time
 
-import numpy as np
 import pytest
 
 from models.errors import DataError, MapError
@@ -61,22 +60,6 @@ def test_work_beside_is_done_in_a_process_of_its_own_and_waited_for() -> None:
     assert len({here, *map_forked(lambda _: os.getpid(), range(9))}) > 1
     with one_process(), forked(os.getpid) as result:
         assert result() == here
-
-
-def test_arrays_that_are_made_beside_come_whole_and_can_be_written() -> None:
-    def made():
-        return {
-            "large": np.arange(1_000_000.0).reshape(1000, 1000),
-            "turned": np.ones((900, 700)).T,
-            "small": np.ones(3),
-        }
-
-    with forked(made) as result:
-        found = result()
-    for name, array in made().items():
-        assert (found[name] == array).all()
-        assert found[name].shape == array.shape
-        found[name] += 1
 
 
 def test_what_goes_wrong_beside_is_raised_where_it_is_waited_for() -> None:
