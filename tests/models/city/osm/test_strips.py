@@ -10,18 +10,17 @@ from models.city.osm.classes import load_classes
 from models.city.osm.features import Feature
 from models.city.osm.map import load_osm
 from models.city.osm.strips import Instances, Strips
+from models.city.osm.taking import Taken
 
 
-def feature(label, geometry, source):
+def feature(label, geometry, source, height_m=0.0):
     [(order, row)] = [(n, row) for n, row in enumerate(load_classes()) if row.label == label][:1]
-    return Feature(label, row.shape, order, row.walkable, geometry, 0.0, 0.0, None, None, source)
+    return Feature(label, row.shape, order, row.walkable, geometry, height_m, 0.0, None, None, source)
 
 
-def taken(tmp_path, features, monkeypatch, band):
+def filed(tmp_path, features, monkeypatch, band):
     monkeypatch.setattr("models.city.osm.strips.BAND", band)
-    directory = tmp_path / f"{band}"
-    directory.mkdir()
-    return Instances.of(Strips(directory, [features[:2], [], features[2:]]))
+    return Strips(tmp_path, [features[:2], [], features[2:]])
 
 
 @pytest.mark.parametrize("band", [1, 2, 7])
@@ -49,15 +48,15 @@ def test_what_is_one_instance_is_so_across_strips(band, tmp_path, monkeypatch) -
         feature("road", shapely.box(0, 0, 95, 6), "way/1"),
         feature("road", shapely.box(90, 3, 300, 6), "way/2"),
         feature("road", shapely.box(0, 50, 300, 56), "way/3"),
-        feature("crossing", shapely.box(104.2, 0, 110, 9), "way/4"),
-        # in the strip to the west by less than a metre, where the way is not
-        feature("crossing", shapely.Point(105.3, 5).buffer(1), "node/5"),
-        feature("crossing", shapely.Point(103.6, 5).buffer(0.5), "node/6"),
+        feature("crossing", shapely.box(106.2, 0, 112, 9), "way/4"),
+        # touches the next one in a strip to the west, where the way is not
+        feature("crossing", shapely.Point(105.8, 5).buffer(1), "node/5"),
+        feature("crossing", shapely.Point(104.4, 5).buffer(0.5), "node/6"),
         feature("traffic sign", shapely.Point(205.2, 20), "node/7"),
         feature("street lamp", shapely.Point(204.8, 20), "node/8"),
         feature("street lamp", shapely.Point(209, 20), "node/9"),
     ]
-    found = taken(tmp_path, features, monkeypatch, band)
+    found = Instances.of(filed(tmp_path, features, monkeypatch, band))
     alike = {}
     for number, instance in enumerate(found.of_feature.tolist()):
         alike.setdefault(instance, []).append(number)
@@ -68,3 +67,27 @@ def test_what_is_one_instance_is_so_across_strips(band, tmp_path, monkeypatch) -
     order = [features[n].order for n in found.first]
     assert order == sorted(order)
     assert [features[n].order for n in np.argsort(found.place)] == sorted(each.order for each in features)
+
+
+@pytest.mark.parametrize("band", [1, 100])
+def test_an_instance_is_as_high_as_its_first_feature_in_every_strip(band, tmp_path, monkeypatch) -> None:
+    features = [
+        feature("wall", shapely.LineString([(200, 0), (300, 0)]), "way/1", 3.0),
+        feature("wall", shapely.LineString([(0, 0), (200, 0)]), "way/2", 1.5),
+    ]
+    found = Taken.of(filed(tmp_path, features, monkeypatch, band))
+    assert len(found.instances) == 1
+    assert len(found.pieces.heights_m) == 31
+    assert np.ptp(found.pieces.heights_m[:, 1]) == 0
+    assert found.pieces.heights_m[0, 1] > 2.5
+    tops = dict(zip(found.outlines.tensors["source"].tolist(), found.outlines.tensors["top"].tolist(), strict=True))
+    assert tops == {4 * 1 + 1: 30, 4 * 2 + 1: 15}, "each as it is drawn"
+
+
+@pytest.mark.parametrize("band", [1, 100])
+def test_what_is_drawn_side_by_side_is_in_order_across_strips(band, tmp_path, monkeypatch) -> None:
+    features = [
+        feature("tree", shapely.Point(x, 5), f"node/{n}", 8.0) for n, x in enumerate([106.3, 105.7, 106.1, 105.9], 1)
+    ]
+    found = Taken.of(filed(tmp_path, features, monkeypatch, band))
+    assert found.outlines.tensors["source"].tolist() == [4, 8, 12, 16]
