@@ -1,4 +1,4 @@
-"""Vectors in memory, from a file of the index: FAISS."""
+"""Vectors in a file of the index: FAISS."""
 
 from pathlib import Path
 from typing import Any, Final
@@ -71,13 +71,13 @@ class FaissStore:
 
     @classmethod
     def load(cls, path: Path, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> "FaissStore":
-        """Read a store.
+        """Open a store, whose vectors stay in the file until they are looked at.
 
         Raises:
             IndexBroken: the file is not an index of this kind.
         """
         try:
-            index = faiss.read_index(str(path))
+            index = faiss.read_index(str(path), faiss.IO_FLAG_MMAP_IFC)
         except RuntimeError as error:
             raise IndexBroken(f"{path} cannot be read; rebuild it with 'hereabouts index'") from error
         if not isinstance(index, faiss.IndexFlatIP | faiss.IndexScalarQuantizer | faiss.IndexIVFScalarQuantizer):

@@ -105,6 +105,11 @@ def ranges(begin: Ints, end: Ints) -> Ints:
     return found
 
 
+def corners(points_m: Floats) -> tuple[Floats, Floats]:
+    """The lowest and the highest coordinates of points [N, C], column by column, which NumPy is quicker with."""
+    return np.array([column.min() for column in points_m.T]), np.array([column.max() for column in points_m.T])
+
+
 def thin(points: Floats, spacing_m: float) -> Floats:
     """One point of every square block of the plane, so that they lie about `spacing_m` apart."""
     return points[np.sort(np.unique(block_keys(points, spacing_m), return_index=True)[1])]

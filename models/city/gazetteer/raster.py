@@ -15,7 +15,7 @@ from scipy.ndimage import distance_transform_edt
 from models.city.gazetteer.drawing import Grid, Mask, draw_areas, draw_lines, pixels_of
 from models.city.gazetteer.gazetteer import Gazetteer
 from models.city.gazetteer.nearest import MOST_SQUARED, Squares, columns_away, squares_away
-from models.city.points import Ints, ranges
+from models.city.points import Ints, corners, ranges
 from models.city.types import Floats
 from models.compiled import compiled
 
@@ -71,8 +71,9 @@ class Raster:
     """
 
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
-        west_south = centers_m.min(axis=0) - MARGIN_M
-        size = np.ceil((centers_m.max(axis=0) + MARGIN_M - west_south) / spacing_m).astype(int) + 1
+        low_m, high_m = corners(centers_m)
+        west_south = low_m - MARGIN_M
+        size = np.ceil((high_m + MARGIN_M - west_south) / spacing_m).astype(int) + 1
         self._blocks = tuple((-(-size // BLOCK)).tolist())
         self.shape = BLOCK * self._blocks[0], BLOCK * self._blocks[1]
         self._grid = Grid(west_south[0], west_south[1], spacing_m, *self.shape)

@@ -3,7 +3,7 @@
 import json
 import lzma
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -63,6 +63,19 @@ class Vocabulary:
             self._nouns[language] = self._read_nouns(language)
         return MappingProxyType(self._nouns[language])
 
+    def single_words(self, least: int) -> Iterator[tuple[str, tuple[tuple[str, float], ...]]]:
+        """As `nouns`, those of one word of all languages, at least so long; what is read for it is let go of."""
+        names = self._names()
+
+        def is_wanted(phrase: str) -> bool:
+            return len(phrase) >= least and " " not in phrase
+
+        for language in self.languages:
+            if language in names:
+                yield from self._read_foreign(names[language], is_wanted).items()
+            else:
+                yield from ((noun, kinds) for noun, kinds in self.nouns(language).items() if is_wanted(noun))
+
     def brand(self, name: str) -> tuple[str, ...]:
         """Ids of the kinds that a brand's places are, by any spelling of its name; none if it is unknown."""
         return tuple(dict.fromkeys(key for tags in self._brands.tags(name) for key in self.kinds_of(tags)))
@@ -74,8 +87,10 @@ class Vocabulary:
     def _read_nouns(self, language: str) -> Nouns:
         if language == "en":
             return self._read_english()
-        rows = self._names.get(language)
-        return foreign((row["id"] for row in self._presets), rows) if rows else {}
+        return self._read_foreign(self._names().get(language, ()))
+
+    def _read_foreign(self, rows: Sequence[str], is_wanted: Callable[[str], bool] = bool) -> Nouns:
+        return foreign((row["id"] for row in self._presets), rows, is_wanted) if rows else {}
 
     def _read_english(self) -> Nouns:
         """English nouns, with those written by hand; a folder of few kinds leaves out what is said of others."""
@@ -91,7 +106,6 @@ class Vocabulary:
             phrase: kept for phrase, rows in nouns.items() if (kept := tuple(row for row in rows if row[0] in known))
         }
 
-    @cached_property
     def _names(self) -> dict[str, list[str]]:
         found: dict[str, list[str]] = unpacked(self._folder / "names.json.xz")["names"]
         return found

@@ -1,6 +1,6 @@
 """The nouns by which people call kinds: of the packages and of the hand-written files."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from models.city.kinds.matching import Kind
@@ -133,14 +133,14 @@ def english(presets: Iterable[Mapping[str, Any]], ours: Mapping[str, Any], peopl
     return ordered(said)
 
 
-def foreign(ids: Iterable[str], names: Iterable[str]) -> Nouns:
-    """The nouns of a language: by kind its names, and after a tab its aliases, one a line."""
+def foreign(ids: Iterable[str], names: Iterable[str], is_wanted: Callable[[str], bool]) -> Nouns:
+    """The nouns of a language that are wanted: by kind its names, and after a tab its aliases, one a line."""
     said: Weights = {}
     for key, row in zip(ids, names, strict=True):
         first, _, more = row.partition("\t")
         for phrases, weight in ((first, NAME), (more, ALIAS)):
-            for phrase in filter(None, phrases.split("\n")):
-                put(said, phrase.casefold(), {key: weight})
+            for phrase in filter(is_wanted, phrases.casefold().split("\n")):
+                put(said, phrase, {key: weight})
     return ordered(said)
 
 

@@ -222,10 +222,8 @@ class Lookup:
     def _foreign(self) -> Nouns:
         """Nouns of one word, of every language that the vocabulary has, without accents."""
         found: dict[str, tuple[tuple[str, float], ...]] = {}
-        for language in self.vocabulary.languages:
-            for noun, kinds in self.vocabulary.nouns(language).items():
-                if len(noun) >= SHORTEST_MISSPELT and " " not in noun:
-                    found.setdefault(plain_word(noun), kinds)
+        for noun, kinds in self.vocabulary.single_words(SHORTEST_MISSPELT):
+            found.setdefault(plain_word(noun), kinds)
         return found
 
     def _kinds_of(self, words: tuple[str, ...], language: str) -> Mapping[str, float]:

@@ -16,13 +16,14 @@ from models.city.gazetteer.gazetteer import WALKED, Gazetteer
 from models.city.gazetteer.raster import Away, Raster
 from models.city.gazetteer.walkways import Walkways
 from models.city.gazetteer.ways import Around, Ways, cut, ways_to
-from models.city.points import Ints
+from models.city.points import Ints, corners
 from models.city.types import Floats
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.posterior.places.explained import NOT_EXPLAINED, Explained, Places
 from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of, with_angle
 from models.posterior.places.way_kernels import WayKernels
+from models.posterior.threads import beside
 
 FEW_REACH, MANY_REACH = 5.0, 2.5  # scales of a kernel, as far as which objects are looked at
 MANY: Final = 60  # objects
@@ -84,10 +85,9 @@ class PlaceField:
         self._of_ways = WayKernels(kernels)
         self._lately: LRUCache[Mention, tuple[Floats, Ints, npt.NDArray[np.bool_]]] = LRUCache(KEPT)
         self._lock = Lock()  # two threads ask for ways
+        walkways = beside(lambda: Walkways(gazetteer, *corners(centers_m)) if WALKED in gazetteer.by_kind else None)
         self.raster = Raster(gazetteer, centers_m, spacing_m)
-        self._walkways: Walkways | None = None
-        if WALKED in gazetteer.by_kind:
-            self._walkways = Walkways(gazetteer, centers_m.min(axis=0), centers_m.max(axis=0))
+        self._walkways = walkways()
 
     @torch.inference_mode()
     def told(

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import cdist
 
-from models.city.points import PointTable, first_in_voxel
+from models.city.points import PointTable, corners, first_in_voxel
 from models.city.types import CityMap, Instance
 
 
@@ -13,6 +13,13 @@ def test_the_first_point_of_a_voxel_stays(seed) -> None:
     voxel = np.floor((xyz.astype(float) - xyz.min(axis=0) + 0.3) / 0.6)
     first = {key: row for row, key in reversed(list(enumerate(map(tuple, voxel))))}
     assert first_in_voxel(xyz, 0.6).tolist() == sorted(first.values())
+
+
+def test_corners_are_the_lowest_and_the_highest_of_each_column() -> None:
+    points = np.random.default_rng(0).normal(size=(50, 3)).astype(np.float32)
+    low, high = corners(points)
+    assert np.array_equal(low, points.min(axis=0))
+    assert np.array_equal(high, points.max(axis=0))
 
 
 @pytest.mark.parametrize("block", [7, 400, 10**6])

@@ -138,6 +138,16 @@ def test_foreign_nouns(kinds):
         assert {kind for rows in nouns.values() for kind, _ in rows} <= ids
 
 
+def test_nouns_of_one_word_are_those_of_all_languages(kinds):
+    wanted = [
+        (noun, rows)
+        for language in kinds.languages
+        for noun, rows in kinds.nouns(language).items()
+        if len(noun) >= 5 and " " not in noun
+    ]
+    assert list(kinds.single_words(5)) == wanted
+
+
 def test_brands_by_any_spelling(kinds):
     assert kinds.brand("mcdonalds")[:2] == ("amenity/fast_food/burger", "amenity/fast_food")
     assert kinds.brand("McDonald\u2019s") == kinds.brand("mcdonalds")
