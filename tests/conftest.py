@@ -255,7 +255,8 @@ def milvus_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[MilvusSe
         pytest.skip(SKIPPED)
     server = MilvusServer(tmp_path_factory.mktemp("milvus"))
     try:
-        server.start()
+        with FileLock(_of_the_run(tmp_path_factory) / "milvus.lock"):  # or two would find the same ports free
+            server.start()
         yield server
     finally:
         server.kill()
