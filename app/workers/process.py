@@ -20,8 +20,8 @@ from app.faults import where
 from app.startup import no_collection
 from app.workers.order import FORK, WorkerFault
 from models.errors import HereaboutsError
-from models.posterior.threads import end_second_thread
 from models.processes import forget_code, give_back, share_one_heap
+from models.threads import end_second_thread
 
 if TYPE_CHECKING:
     from index.localizer import Localizer

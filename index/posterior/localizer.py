@@ -43,8 +43,8 @@ from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 from models.posterior.surroundings.surroundings import Surroundings
-from models.posterior.threads import beside
 from models.retrieval.levels import Levels
+from models.threads import beside
 
 KEPT_VECTORS = 256  # of descriptions, the latest
 PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places

@@ -23,7 +23,7 @@ from models.posterior.sights import Sights
 from models.posterior.statements import Statements
 from models.posterior.surroundings.nodes import is_coarse
 from models.posterior.surroundings.surroundings import Surroundings
-from models.posterior.threads import THREADS, shared_out
+from models.threads import THREADS, shared_out
 
 SHARED: Final = 512  # nodes from which on two threads look at them
 CANDIDATES = 100  # cells whose nodes are looked at

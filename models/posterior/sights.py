@@ -12,7 +12,7 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.posterior.surroundings.around import STEP_M, Around
 from models.posterior.surroundings.surroundings import Surroundings
-from models.posterior.threads import THREADS, shared_out
+from models.threads import THREADS, shared_out
 
 NEAR_M, NEAR_SOFT_M = 10.0, 2.0  # what counts as near, and how far people's ideas of that differ
 FAR_M, FAR_SOFT_M = 15.0, 2.0  # beyond, a thing is none that is asked for; surroundings know no farther either

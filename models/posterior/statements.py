@@ -24,9 +24,9 @@ from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.posterior.surroundings.around import STEP_M
 from models.posterior.surroundings.surroundings import Surroundings
-from models.posterior.threads import shared_out
 from models.processes import map_forked
 from models.spool import on_disk, spooled
+from models.threads import shared_out
 
 FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"

@@ -23,7 +23,7 @@ from models.language.places.mentions import Mention
 from models.posterior.places.explained import NOT_EXPLAINED, Explained, Places
 from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of, with_angle
 from models.posterior.places.way_kernels import WayKernels
-from models.posterior.threads import beside
+from models.threads import beside
 
 FEW_REACH, MANY_REACH = 5.0, 2.5  # scales of a kernel, as far as which objects are looked at
 MANY: Final = 60  # objects

@@ -3,7 +3,7 @@ import threading
 
 import pytest
 
-from models.posterior.threads import beside, end_second_thread, shared_out
+from models.threads import beside, end_second_thread, shared_out
 
 
 def test_two_tasks_run_at_the_same_time() -> None:
