@@ -23,7 +23,7 @@ QUANTIZED: Final = {8: faiss.ScalarQuantizer.QT_8bit, 16: faiss.ScalarQuantizer.
 
 
 class FaissStore:
-    """Search of vectors in memory: of all, or where there are many of those that are alike.
+    """Search of vectors: of all, or where there are many of those that are alike.
 
     IndexFlatIP; from `EXACT` on IndexScalarQuantizer, from `MANY` on IndexIVFScalarQuantizer with the same 8 bits.
 
