@@ -1,3 +1,5 @@
+from pathlib import Path
+
 import faiss
 import numpy as np
 import pytest
@@ -84,6 +86,17 @@ def test_a_store_of_sixteen_bits_takes_half_and_scores_alike(vectors, tmp_path) 
     half = FaissStore.load(tmp_path / "half")
     assert half.search(vectors[:50], 20)[0] == pytest.approx(exact.search(vectors[:50], 20)[0], abs=1e-3)
     assert len(FaissStore.of(vectors[:0], bits=16)) == 0
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="only Linux tells which files are mapped")
+@pytest.mark.parametrize("bits", [32, 16, 8])
+def test_a_file_is_mapped_not_read(vectors, tmp_path, bits) -> None:
+    path = tmp_path / "vectors.faiss"
+    FaissStore.of(vectors, bits=bits).save(path)
+    store = FaissStore.load(path)
+    assert str(path) in Path("/proc/self/maps").read_text()
+    path.unlink()  # as when a version is removed while it is served
+    assert store.search(vectors[:1], 1)[1].tolist() == [[0]]
 
 
 def test_another_kind_of_index_is_refused(vectors, tmp_path) -> None:

@@ -3,6 +3,7 @@
 import json
 import time
 import tomllib
+import tracemalloc
 from pathlib import Path
 
 import pytest
@@ -146,6 +147,18 @@ def test_nouns_of_one_word_are_those_of_all_languages(kinds):
         if len(noun) >= 5 and " " not in noun
     ]
     assert list(kinds.single_words(5)) == wanted
+
+
+def test_what_is_read_of_all_languages_is_let_go_of():
+    kinds = Vocabulary()
+    kinds.nouns()
+    tracemalloc.start()
+    try:
+        for _ in kinds.single_words(5):
+            pass
+        assert tracemalloc.get_traced_memory()[0] < 2**20
+    finally:
+        tracemalloc.stop()
 
 
 def test_brands_by_any_spelling(kinds):
