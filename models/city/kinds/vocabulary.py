@@ -65,7 +65,7 @@ class Vocabulary:
 
     def single_words(self, least: int) -> Iterator[tuple[str, tuple[tuple[str, float], ...]]]:
         """As `nouns`, those of one word of all languages, at least so long; what is read for it is let go of."""
-        names = self._names()
+        names = self._read_names()
 
         def is_wanted(phrase: str) -> bool:
             return len(phrase) >= least and " " not in phrase
@@ -87,7 +87,7 @@ class Vocabulary:
     def _read_nouns(self, language: str) -> Nouns:
         if language == "en":
             return self._read_english()
-        return self._read_foreign(self._names().get(language, ()))
+        return self._read_foreign(self._read_names().get(language, ()))
 
     def _read_foreign(self, rows: Sequence[str], is_wanted: Callable[[str], bool] = bool) -> Nouns:
         return foreign((row["id"] for row in self._presets), rows, is_wanted) if rows else {}
@@ -106,7 +106,8 @@ class Vocabulary:
             phrase: kept for phrase, rows in nouns.items() if (kept := tuple(row for row in rows if row[0] in known))
         }
 
-    def _names(self) -> dict[str, list[str]]:
+    def _read_names(self) -> dict[str, list[str]]:
+        """By language; not kept, as each language is read once at most."""
         found: dict[str, list[str]] = unpacked(self._folder / "names.json.xz")["names"]
         return found
 

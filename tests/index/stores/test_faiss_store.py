@@ -99,6 +99,17 @@ def test_a_file_is_mapped_not_read(vectors, tmp_path, bits) -> None:
     assert store.search(vectors[:1], 1)[1].tolist() == [[0]]
 
 
+@pytest.mark.parametrize("bits", [32, 8])
+def test_a_file_that_was_cut_short_is_refused(vectors, tmp_path, bits) -> None:
+    path = tmp_path / "vectors.faiss"
+    FaissStore.of(vectors, bits=bits).save(path)
+    content = path.read_bytes()
+    for size in (0, 3, 100, len(content) // 2, len(content) - 1):
+        path.write_bytes(content[:size])
+        with pytest.raises(IndexBroken, match="hereabouts index"):
+            FaissStore.load(path)
+
+
 def test_another_kind_of_index_is_refused(vectors, tmp_path) -> None:
     graph = faiss.IndexHNSWFlat(64, 8)
     graph.add(vectors[:50])
