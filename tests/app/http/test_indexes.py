@@ -4,7 +4,6 @@ import threading
 import time
 from contextlib import asynccontextmanager
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 from fake_localizer import FakeLocalizer
@@ -317,20 +316,6 @@ def test_draining_refuses_on_every_index():
             return indexes.is_idle
 
     assert asyncio.run(run())
-
-
-def test_a_request_names_its_index(api, fake, problem, text):
-    assert api.post("/localize", json={"description": text, "index": "default"}).status_code == 200
-    for path, body in (
-        ("/localize", {"description": text}),
-        ("/describe", {"position": [0.0, 0.0]}),
-        ("/evaluate", {"queries": [{"description": text, "position": [0.0, 0.0]}]}),
-    ):
-        problem(api.post(path, json=body | {"index": "paris"}), 404, "index_not_found")
-    problem(api.get("/cells/fakeville_00001?index=paris"), 404, "index_not_found")
-    problem(api.get("/cells/fakeville_00001?index=../x"), 422, "invalid_request", "index")
-    assert api.get("/cells/fakeville_00001?index=default").status_code == 200
-    assert SimpleNamespace(**api.get("/info").json()).indexes == ["default"]
 
 
 def test_there_is_room_while_one_index_has_some(monkeypatch):

@@ -154,3 +154,17 @@ def test_degrees_on_a_map_that_is_not_on_earth(settings, start, problem):
         answer = api.post("/localize", json={"description": "a tree"}).json()
     assert answer["estimate"]["wgs84"] is None
     assert answer["crs"]["origin"] is None
+
+
+def test_a_request_names_its_index(api, fake, problem, text):
+    assert api.post("/localize", json={"description": text, "index": "default"}).status_code == 200
+    for path, body in (
+        ("/localize", {"description": text}),
+        ("/describe", {"position": [0.0, 0.0]}),
+        ("/evaluate", {"queries": [{"description": text, "position": [0.0, 0.0]}]}),
+    ):
+        problem(api.post(path, json=body | {"index": "paris"}), 404, "index_not_found")
+    problem(api.get("/cells/fakeville_00001?index=paris"), 404, "index_not_found")
+    problem(api.get("/cells/fakeville_00001?index=../x"), 422, "invalid_request", "index")
+    assert api.get("/cells/fakeville_00001?index=default").status_code == 200
+    assert api.get("/info").json()["indexes"] == ["default"]
