@@ -1,5 +1,6 @@
 """Vectors in a file of the index: FAISS."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
 
@@ -10,6 +11,7 @@ import numpy.typing as npt
 from index.query import Box
 from index.stores.store import Floats, Rows, best_first
 from models.errors import IndexBroken
+from models.spool import forget
 
 # From 20 queries on, FAISS multiplies matrices, whose rounding depends on the batch; below, each query is
 # scanned alone, so that it finds the same bits whatever stands beside it.
@@ -19,6 +21,7 @@ MANY: Final = 200_000  # vectors; more of them are put into lists of like ones, 
 LISTS, SEARCHED = 1024, 32  # of which are found .99 of the best 100 that all lists have, in a fiftieth of the time
 FEW: Final = 1000  # who wants more vectors gets those of all lists
 SAMPLED: Final = 64  # vectors a list that lists are made by
+AT_ONCE: Final = 2**16  # vectors that are looked at together; FAISS, too, puts so many into lists at a time
 QUANTIZED: Final = {8: faiss.ScalarQuantizer.QT_8bit, 16: faiss.ScalarQuantizer.QT_fp16}
 
 
@@ -63,10 +66,11 @@ class FaissStore:
                 faiss.copy_array_to_vector(steps, index.sq.trained)
                 index.is_trained = True
             else:
-                index.train(np.ascontiguousarray(vectors))
+                index.train(np.stack(_reach(vectors)))  # which is all that the steps are made by
         if bits == 8 and len(vectors) > MANY:
             index = _lists(vectors, index)
-        index.add(np.ascontiguousarray(vectors))
+        for some in _in_turn(vectors):
+            index.add(np.ascontiguousarray(some))
         return cls(index, positions_m)
 
     @classmethod
@@ -119,7 +123,7 @@ class FaissStore:
             return None
         least, span = faiss.vector_to_array(self._index.sq.trained).reshape(2, -1)
         half = span / 255 * np.float32(0.51)  # a step: what was rounded to the last one lies so far beyond it
-        low, high = vectors.min(axis=0, initial=np.inf), vectors.max(axis=0, initial=-np.inf)
+        low, high = _reach(vectors)
         begin = np.where(low < least - half, low, least)
         end = np.where(high > least + span + half, high, least + span)
         is_same = (begin == least) & (end == least + span)
@@ -169,8 +173,27 @@ def _lists(vectors: Floats, flat: Any) -> Any:
     given = dim, LISTS, QUANTIZED[8], faiss.METRIC_INNER_PRODUCT, False
     index: Any = faiss.IndexIVFScalarQuantizer(faiss.IndexFlatIP(dim), *given)
     index.cp.max_points_per_centroid = SAMPLED
-    sample = np.sort(np.random.default_rng(0).choice(len(vectors), min(len(vectors), SAMPLED * LISTS), replace=False))
-    index.train(vectors[sample])
+    sample = np.random.default_rng(0).choice(len(vectors), min(len(vectors), SAMPLED * LISTS), replace=False)
+    is_sampled = np.zeros(len(vectors), np.bool_)
+    is_sampled[sample] = True
+    chosen = zip(_in_turn(vectors), np.split(is_sampled, range(AT_ONCE, len(vectors), AT_ONCE)), strict=True)
+    index.train(np.concatenate([some[kept] for some, kept in chosen]))
     index.make_direct_map()  # of each row, where its vector is
     faiss.copy_array_to_vector(faiss.vector_to_array(flat.sq.trained), index.sq.trained)
     return index
+
+
+def _in_turn(vectors: Floats) -> Iterator[Floats]:
+    """Vectors [N, D], some after the other; of a file, what was looked at takes no memory any more."""
+    for first in range(0, len(vectors), AT_ONCE):
+        yield vectors[first : first + AT_ONCE]
+        forget([vectors])
+
+
+def _reach(vectors: Floats) -> tuple[Floats, Floats]:
+    """The lowest and the highest of each number [D] of vectors [N, D]; infinite if there are none."""
+    dim = vectors.shape[1]
+    low, high = np.full(dim, np.inf, np.float32), np.full(dim, -np.inf, np.float32)
+    for some in _in_turn(vectors):
+        low, high = np.minimum(low, some.min(axis=0)), np.maximum(high, some.max(axis=0))
+    return low, high

@@ -7,6 +7,7 @@ import pytest
 from index.query import Box
 from index.stores.faiss_store import FaissStore
 from models.errors import IndexBroken
+from models.spool import spooled
 
 
 @pytest.fixture
@@ -76,6 +77,40 @@ def test_the_bits_of_a_vector_are_the_same_in_lists_and_without(vectors, in_list
     monkeypatch.setattr("index.stores.faiss_store.MANY", 3000)
     rows = np.arange(3000)
     np.testing.assert_array_equal(lists.vectors(rows), FaissStore.of(vectors).vectors(rows))
+
+
+@pytest.mark.parametrize("bits", [32, 16, 8])
+@pytest.mark.parametrize("many", [2000, 5000])
+def test_however_many_vectors_are_looked_at_together_the_file_is_the_same(
+    vectors, tmp_path, in_lists, monkeypatch, bits, many
+) -> None:
+    monkeypatch.setattr("index.stores.faiss_store.MANY", many)
+    like = FaissStore.of(0.5 * vectors[:300], bits=8)  # its steps have to become longer
+
+    def written() -> list[bytes]:
+        FaissStore.of(vectors, bits=bits).save(tmp_path / "one")
+        FaissStore.of(vectors, bits=bits, like=like).save(tmp_path / "other")
+        return [(tmp_path / name).read_bytes() for name in ("one", "other")]
+
+    at_once = written()
+    monkeypatch.setattr("index.stores.faiss_store.AT_ONCE", 700)
+    assert written() == at_once
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="only Linux tells what of a file is in memory")
+def test_of_vectors_in_a_file_none_stay_in_memory(vectors, in_lists, monkeypatch) -> None:
+    monkeypatch.setattr("models.spool.HELD", 1000)
+    kept = spooled([{"vectors": vectors}])["vectors"]
+    at = f"{kept.ctypes.data:x}-"
+
+    def in_memory_kb() -> int:
+        mapping = Path("/proc/self/smaps").read_text().partition(f"\n{at}")[2]
+        return int(mapping.partition("\nRss:")[2].split()[0])
+
+    assert kept.sum() == pytest.approx(vectors.sum())
+    assert in_memory_kb() > 500
+    FaissStore.of(kept)
+    assert in_memory_kb() == 0
 
 
 def test_a_store_of_sixteen_bits_takes_half_and_scores_alike(vectors, tmp_path) -> None:
