@@ -167,29 +167,17 @@ def file_records(directory: Path) -> dict[str, FileRecord]:
     return {p.name: FileRecord(sha256=sha256(p), bytes=p.stat().st_size) for p in sorted(directory.iterdir())}
 
 
-def in_order(blob: bytes) -> bytes:
-    """A safetensors file with its metadata in order of their names: else it is another in each process."""
-    size = int.from_bytes(blob[:8], "little")
-    text = _in_order(blob[8 : 8 + size])
-    return len(text).to_bytes(8, "little") + text + blob[8 + size :]
-
-
 def save_in_order(columns: dict[str, npt.NDArray[Any]], facts: dict[str, str], path: Path) -> None:
-    """Write arrays and metadata in ASCII as `in_order` has them, without a copy of all in memory."""
+    """Write a safetensors file with its metadata in order of their names: else it is another in each process."""
     save_file(columns, path, facts)
     with path.open("r+b") as file:
         size = int.from_bytes(file.read(8), "little")
-        text = _in_order(file.read(size))
-        assert len(text) == size, "the same, in another order"
+        header = json.loads(file.read(size))
+        header["__metadata__"] = dict(sorted(header["__metadata__"].items()))
+        text = json.dumps(header, ensure_ascii=False, separators=(",", ":")).encode()
+        assert size - 8 < len(text) <= size, "the same, in another order"
         file.seek(8)
-        file.write(text)
-
-
-def _in_order(text: bytes) -> bytes:
-    header = json.loads(text)
-    header["__metadata__"] = dict(sorted(header["__metadata__"].items()))
-    text = json.dumps(header, ensure_ascii=False, separators=(",", ":")).encode()
-    return text + b" " * (-len(text) % 8)  # so that tensors stay aligned
+        file.write(text.ljust(size))  # so that tensors stay aligned
 
 
 def mapped(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]:

@@ -26,6 +26,7 @@ from models.city.points import Ints
 from models.city.queries import Queries, Statements
 from models.city.regions import SPLITS, split_regions
 from models.city.scenery.cloud import encode_cloud
+from models.city.scenery.files import Encoded
 from models.city.scenery.shapes import Outlines, Place
 from models.city.store.files import load_data
 from models.city.store.pose_store import PoseStore
@@ -84,7 +85,7 @@ class Source(ABC):
         """What a passer-by could name there; empty where nothing has a name."""
 
     @abstractmethod
-    def scenery(self, gazetteer: Gazetteer) -> Iterator[bytes]:
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[Encoded]:
         """What it looks like, in parts, as `models.city.scenery` encodes it, with the names of a gazetteer."""
 
 
@@ -188,12 +189,11 @@ class MapSource(Source):
         """See Source; of the whole file, whatever the split."""
         return load_gazetteer(self._path, self.data.frame)
 
-    def scenery(self, gazetteer: Gazetteer) -> Iterator[bytes]:
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[Encoded]:
         """See Source; of the whole file, whatever the split."""
-        named = gazetteer.named.tolist()
-        places = [(gazetteer.middles_m[n].tolist(), gazetteer.words[n]) for n in named]
+        places = ((gazetteer.middles_m[n].tolist(), gazetteer.words[n]) for n in gazetteer.named.tolist())
         outlines = self._map.outlines or Outlines.of(())
-        yield outlines.encode([Place((x, y), w.names[0], w.kinds[0]) for (x, y), w in places])
+        yield outlines.encode(Place((x, y), w.names[0], w.kinds[0]) for (x, y), w in places)
 
 
 class StoreSource(Source):
@@ -260,7 +260,7 @@ class StoreSource(Source):
         """See Source; scans have no names."""
         return NOTHING_NAMED
 
-    def scenery(self, gazetteer: Gazetteer) -> Iterator[bytes]:
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[Encoded]:
         """See Source; one point a cube of VOXEL_M."""
         del gazetteer
         cells, cube = self.data.cells, self.data.cells.parts.cube

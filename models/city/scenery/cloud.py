@@ -5,18 +5,17 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from safetensors.numpy import save
 
+from models.city.scenery.files import Encoded
 from models.city.types import Floats
-from models.files import in_order
 
 POINTS_A_PART = 200_000
 UNITS_A_METRE = 10
 SEED = 0
 
 
-def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[bytes]:
-    """Safetensors files of at most POINTS_A_PART points each, drawn at random.
+def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[Encoded]:
+    """Parts of at most POINTS_A_PART points each, drawn at random.
 
     Tensors: "steps" [P, 3], decimetres, each point from the one before it, the first from the origin; "rgb" [P, 3].
 
@@ -33,4 +32,4 @@ def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[bytes]:
             "steps": np.diff(xyz[by_place], axis=0, prepend=np.zeros((1, 3), np.int32)).astype(np.int32),
             "rgb": np.ascontiguousarray(rgb[rows][by_place]),
         }
-        yield in_order(save(tensors, {"kind": "points", "of": str(len(order))}))
+        yield Encoded(tensors, {"kind": "points", "of": str(len(order))})

@@ -1,11 +1,29 @@
 """Scenery on disk: parts in files of their own, each compressed as it is sent."""
 
 import gzip
+import shutil
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy.typing as npt
+
+from models.files import save_in_order
 
 LEVEL = 9
+
+
+class Encoded(NamedTuple):
+    """A part as a safetensors file holds it.
+
+    Attributes:
+        tensors: by name.
+        facts: its metadata.
+    """
+
+    tensors: dict[str, npt.NDArray[Any]]
+    facts: dict[str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,10 +39,18 @@ class SceneryPart:
     sha256: str
 
 
-def save_scenery(directory: Path, parts: Iterable[bytes]) -> None:
-    """Write the parts, scenery.0.safetensors.gz and on."""
+def save_scenery(directory: Path, parts: Iterable[Encoded]) -> None:
+    """Write the parts, scenery.0.safetensors.gz and on; no copy of one is in memory."""
+    plain = directory / "scenery"
     for number, part in enumerate(parts):
-        (directory / file_name(number)).write_bytes(gzip.compress(part, LEVEL, mtime=0))
+        save_in_order(part.tensors, part.facts, plain)
+        with (
+            plain.open("rb") as read,
+            (directory / file_name(number)).open("wb") as written,
+            gzip.GzipFile("", "wb", LEVEL, written, mtime=0) as packed,
+        ):
+            shutil.copyfileobj(read, packed)
+        plain.unlink()
 
 
 def file_name(number: int) -> str:

@@ -1,18 +1,18 @@
 """A map as outlines, lines and places with heights and names, in as few bytes as drawing needs."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 import shapely
-from safetensors.numpy import save
 
 from models.city.points import ranges
+from models.city.scenery.files import Encoded
 from models.city.types import Floats, MapShape
-from models.files import in_order
+from models.spool import spooled
 
 UNITS_A_METRE: Final = 10  # what is sent is in decimetres
 SIMPLER_M: Final = 0.3  # how far an outline may be from the one that is mapped
@@ -83,10 +83,11 @@ class Outlines:
             **{name: column[paths if name in of_path else order] for name, column in columns.items()},
             "steps": np.diff(xy, axis=0, prepend=np.zeros((1, 2), np.int32)).astype(np.int32),
         }
-        return cls(labels, {n: name for n, row in enumerate(order.tolist()) if (name := names[row])}, tensors)
+        named = {n: name for n, row in enumerate(order.tolist()) if (name := names[row])}
+        return cls(labels, named, spooled([tensors]))
 
-    def encode(self, places: Sequence[Place] = ()) -> bytes:
-        """A safetensors file of it, with "labels", "names" and "places" [[x, y, name, kind]] as JSON in its metadata.
+    def encode(self, places: Iterable[Place] = ()) -> Encoded:
+        """A part of scenery, with "labels", "names" and "places" [[x, y, name, kind]] as JSON in its facts.
 
         Args:
             places: what has a name.
@@ -97,7 +98,7 @@ class Outlines:
             "places": [[*(round(v * UNITS_A_METRE) for v in place.at_m), place.name, place.kind] for place in places],
         }
         words = {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in told.items()}
-        return in_order(save(self.tensors, {"kind": "shapes", **words}))
+        return Encoded(self.tensors, {"kind": "shapes", **words})
 
 
 @dataclass(frozen=True, slots=True, eq=False)

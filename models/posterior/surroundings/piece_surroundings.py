@@ -24,7 +24,7 @@ from models.files import mapped
 from models.posterior.surroundings.around import STEP_M, Around
 from models.posterior.surroundings.nodes import SPACING_M, nearest_nodes, owner_of, put_in_order, slices
 from models.posterior.surroundings.things import Things
-from models.spool import in_turn, spooled
+from models.spool import forget, in_turn, on_disk, spooled
 from models.strings import compact
 
 FILE: Final = "pieces.safetensors"
@@ -65,9 +65,10 @@ class PieceSurroundings:
 
         found = spooled(counted())
         starts = np.concatenate([[0], np.cumsum(count)])
-        offset, place = np.empty((starts[-1], 2), np.int8), starts[:-1].copy()
+        offset, place = on_disk(2 * int(starts[-1]), np.int8).reshape(-1, 2), starts[:-1].copy()
         for some in in_turn(found):
             put_in_order(some["owner"], some["offset"], place, offset)
+            forget([offset])
         return cls(things, compact(starts), offset, bodies.pieces, bodies.rules, center_m)
 
     @property
@@ -135,6 +136,7 @@ class PieceSurroundings:
     def forget(self) -> None:
         """See Surroundings."""
         self.pieces.forget()
+        forget([self.offset])
 
     def save(self, directory: Path) -> None:
         """Write one file."""

@@ -2,7 +2,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from safetensors.numpy import load
 
 from models.city.kitti360.job import prepare_data
 from models.city.queries import Queries
@@ -80,7 +79,7 @@ def test_a_data_set_and_its_store_are_one(prepared, tmp_path) -> None:
 
 def test_a_scan_looks_like_its_points(prepared) -> None:
     source = open_source(prepared)
-    (part,) = (load(part) for part in source.scenery(source.gazetteer()))
+    (part,) = (part.tensors for part in source.scenery(source.gazetteer()))
     xyz = part["steps"].cumsum(axis=0) / 10
     bodies = source.bodies().xyz
     assert 0.5 * len(bodies) < len(xyz) <= len(bodies) + 1, "one point a cube, whatever cells it is in"

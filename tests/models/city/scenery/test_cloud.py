@@ -1,5 +1,4 @@
 import numpy as np
-from safetensors.numpy import load
 
 from models.city.scenery import cloud
 from models.city.scenery.cloud import encode_cloud
@@ -9,7 +8,7 @@ def test_every_part_shows_all_of_the_map(monkeypatch) -> None:
     monkeypatch.setattr(cloud, "POINTS_A_PART", 400)
     rng = np.random.default_rng(0)
     xyz, rgb = rng.uniform(-500, 500, (1000, 3)), rng.integers(0, 256, (1000, 3)).astype(np.uint8)
-    parts = [load(part) for part in encode_cloud(xyz, rgb)]
+    parts = [part.tensors for part in encode_cloud(xyz, rgb)]
     assert [len(part["steps"]) for part in parts] == [400, 400, 200]
     found = np.concatenate([part["steps"].cumsum(axis=0) for part in parts])
     wanted = {(*row, *colour) for row, colour in zip(np.rint(xyz * 10).astype(int).tolist(), rgb.tolist(), strict=True)}
@@ -23,4 +22,4 @@ def test_every_part_shows_all_of_the_map(monkeypatch) -> None:
 
 def test_no_points_are_one_empty_part() -> None:
     (part,) = encode_cloud(np.zeros((0, 3)), np.zeros((0, 3), np.uint8))
-    assert load(part)["steps"].shape == (0, 3)
+    assert part.tensors["steps"].shape == (0, 3)

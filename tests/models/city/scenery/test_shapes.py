@@ -1,10 +1,8 @@
 import json
-import struct
 
 import numpy as np
 import pytest
 import shapely
-from safetensors.numpy import load
 
 from models.city.osm.map import load_osm
 from models.city.scenery.shapes import KINDS, Outlines, Place
@@ -13,10 +11,8 @@ from models.city.types import MapShape
 HOUSE = shapely.Polygon([(0, 0), (20, 0), (20, 10), (0, 10)], [[(5, 2), (8, 2), (8, 5), (5, 5)]])
 
 
-def decoded(blob):
-    (size,) = struct.unpack("<Q", blob[:8])
-    told = json.loads(blob[8 : 8 + size])["__metadata__"]
-    tensors = load(blob)
+def decoded(part):
+    tensors, told = part
     xy = tensors["steps"].cumsum(axis=0) / 10
     paths = np.split(xy, tensors["size"].cumsum()[:-1])
     owner = np.repeat(np.arange(len(tensors["label"])), tensors["paths"])
