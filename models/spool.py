@@ -46,22 +46,11 @@ def scratch() -> Iterator[Path]:
 
 
 def spooled(parts: Iterable[Mapping[str, Column]]) -> dict[str, Column]:
-    """The columns of some tables one after the other, large ones in files without names, which go with their readers.
-
-    These lie where `spooling_in` says, else where temporary files do (TMPDIR). Pages come when they are looked at;
-    `forget` has them go.
-
-    Args:
-        parts: at least one; of each column all have the same type, and rows of the same shape.
-
-    Raises:
-        DataError: there is no room.
-    """
-    columns = dict[str, _Spool]()
+    """The columns of some tables, at least one, one after the other; see Spool."""
+    spool = Spool()
     for part in parts:
-        for name, column in part.items():
-            columns.setdefault(name, _Spool()).append(column)
-    return {name: spool.array() for name, spool in columns.items()}
+        spool.add(part)
+    return spool.columns()
 
 
 def on_disk(rows: int, dtype: npt.DTypeLike) -> Column:
@@ -104,7 +93,31 @@ def spooling() -> Iterator[None]:
         raise DataError(f"{_room or gettempdir()} cannot be written: {error}; make room, or {advice}") from error
 
 
-class _Spool:
+class Spool:
+    """Columns that grow, large ones in files without names, which go with their readers.
+
+    These lie where `spooling_in` says, else where temporary files do (TMPDIR). Pages come when they are looked at;
+    `forget` has them go.
+    """
+
+    def __init__(self) -> None:
+        self._columns = dict[str, _Growing]()
+
+    def add(self, part: Mapping[str, Column]) -> None:
+        """Put some rows at the end of columns; of each all have the same type, and rows of the same shape.
+
+        Raises:
+            DataError: there is no room.
+        """
+        for name, rows in part.items():
+            self._columns.setdefault(name, _Growing()).append(rows)
+
+    def columns(self) -> dict[str, Column]:
+        """All rows; nothing is added after that."""
+        return {name: column.array() for name, column in self._columns.items()}
+
+
+class _Growing:
     """A column that grows."""
 
     def __init__(self) -> None:

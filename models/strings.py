@@ -13,6 +13,7 @@ from marisa_trie import Trie
 
 Column = npt.NDArray[Any]
 _NONE: Final = np.zeros(0, np.int64)
+AT_ONCE: Final = 2**17  # strings that are looked at together
 
 
 class Strings(Sequence[str]):
@@ -91,10 +92,18 @@ class Categorical(Sequence[Any]):
     @classmethod
     def of_ascii(cls, strings: Column) -> "Categorical":
         """That of an array of bytes [I], of which most are different."""
-        categories, codes = np.unique(strings, return_inverse=True)
-        text = np.frombuffer(b"".join(categories.tolist()), np.uint8)
-        ends = compact(np.cumsum(np.char.str_len(categories)))
-        return cls(Strings(text, ends), codes.astype(np.min_scalar_type(-len(categories) - 1)))
+        order, codes = np.argsort(strings, kind="stable"), np.empty(len(strings), np.int32)
+        text, sizes, count, last = list[bytes](), [np.zeros(0, np.int64)], 0, strings[:0]
+        for first in range(0, len(order), AT_ONCE):
+            rows = order[first : first + AT_ONCE]
+            some = strings[rows]
+            is_new = np.concatenate([some[:1] != last if first else [True], some[1:] != some[:-1]])
+            codes[rows] = count - 1 + np.cumsum(is_new)
+            text.append(b"".join(some[is_new].tolist()))
+            sizes.append(np.char.str_len(some[is_new]))
+            count, last = count + int(is_new.sum()), some[-1:]
+        categories = Strings(np.frombuffer(b"".join(text), np.uint8), compact(np.cumsum(np.concatenate(sizes))))
+        return cls(categories, codes.astype(np.min_scalar_type(-count - 1)))
 
     def __len__(self) -> int:
         return len(self.codes)

@@ -31,7 +31,7 @@ from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
-from models.spool import spooled
+from models.spool import forget, spooled
 
 FILE: Final = "part.safetensors"
 COLUMNS: Final = ("vectors", "digests", "holds", "statement", "starts")
@@ -109,6 +109,10 @@ class Part:
             self.levels.save(directory)
         if self.scanned is not None:
             self.scanned.save(directory)
+
+    def forget(self) -> None:
+        """Have what lies on disk take no memory until it is looked at."""
+        forget([self.vectors, self.digests, *self.levels.vectors.values(), self.rows.statement, self.rows.holds])
 
     @classmethod
     def load(cls, directory: Path, levels: Sequence[Level], cells: CellTable) -> "Part":

@@ -100,6 +100,7 @@ class Publisher:
                 FaissStore.of(vectors, like=like).save(directory / VECTORS_FILE)
             forget([vectors])
             self._save_parts(directory, parts, data, surroundings)
+            give_back()
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)
             surroundings.forget()
@@ -131,12 +132,16 @@ class Publisher:
         save_hint_features(directory, self.retriever, template_hints(data.gallery, surroundings.things, data.palette))
         statements = Statements.joined([part.rows for part in parts], len(colour_words(data.palette)))
         statements.save(directory, self.posterior_fingerprint)
+        forget([statements.cell, statements.share])
+        for part in parts:
+            part.forget()
 
 
 def save_names(path: Path, directory: Path) -> Path:
     """Write what a map names, what that is found by, and what it means, into a directory, which is returned."""
-    gazetteer, vocabulary, encoder = gazetteer_of(path), load_vocabulary(), load_text_encoder()
-    gazetteer.save(directory)
+    gazetteer_of(path).save(directory)
+    give_back()
+    gazetteer, vocabulary, encoder = Gazetteer.load(directory), load_vocabulary(), load_text_encoder()
     table = NameTable.of(gazetteer, vocabulary, encoder.is_everyday)
     table.save(directory)
     phrases = Lookup(gazetteer, vocabulary, encoder.is_everyday, table).phrases()

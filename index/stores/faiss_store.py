@@ -1,6 +1,7 @@
 """Vectors in a file of the index: FAISS."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
 
@@ -68,7 +69,7 @@ class FaissStore:
             else:
                 index.train(np.stack(_reach(vectors)))  # which is all that the steps are made by
         if bits == 8 and len(vectors) > MANY:
-            index = _lists(vectors, index)
+            return cls(_listed(vectors, index), positions_m)
         for some in _in_turn(vectors):
             index.add(np.ascontiguousarray(some))
         return cls(index, positions_m)
@@ -166,7 +167,32 @@ class FaissStore:
                 raise failed or error from error
 
 
-def _lists(vectors: Floats, flat: Any) -> Any:
+def _listed(vectors: Floats, flat: Any) -> Any:
+    """Vectors [N, D] in lists of like ones, with the 8 bits of a trained index.
+
+    Each list is made as long as it gets: one that grows takes up to twice that.
+    """
+    kinds: Any = faiss  # some of which have no types
+    index = _trained(vectors, flat)
+    lists = kinds.downcast_InvertedLists(index.invlists)
+    of = np.concatenate([index.quantizer.search(some, 1)[1][:, 0].astype(np.int16) for some in _in_turn(vectors)])
+    for number, size in enumerate(np.bincount(of, minlength=LISTS).tolist()):
+        lists.resize(number, size)
+    place, row = np.zeros(LISTS, np.int64), 0
+    for some in _in_turn(vectors):
+        here = of[row : row + len(some)]
+        order = np.argsort(here, kind="stable")
+        ids, codes, at = row + order, flat.sa_encode(some)[order], np.cumsum(np.bincount(here, minlength=LISTS))
+        for number, (first, last) in enumerate(pairwise([0, *at.tolist()])):
+            of_list = kinds.swig_ptr(ids[first:last]), kinds.swig_ptr(codes[first:last])
+            lists.update_entries(number, int(place[number]), last - first, *of_list)
+        place, row = place + np.diff(at, prepend=0), row + len(some)
+    index.ntotal = len(vectors)
+    index.make_direct_map()  # of each row, where its vector is
+    return index
+
+
+def _trained(vectors: Floats, flat: Any) -> Any:
     """Empty lists for vectors [N, D] like these, of the 8 bits of a trained index."""
     dim = vectors.shape[1]
     # Not of what is left of a vector beside its list's middle: so its bits are the same in any list, and without.
@@ -178,7 +204,6 @@ def _lists(vectors: Floats, flat: Any) -> Any:
     is_sampled[sample] = True
     chosen = zip(_in_turn(vectors), np.split(is_sampled, range(AT_ONCE, len(vectors), AT_ONCE)), strict=True)
     index.train(np.concatenate([some[kept] for some, kept in chosen]))
-    index.make_direct_map()  # of each row, where its vector is
     faiss.copy_array_to_vector(faiss.vector_to_array(flat.sq.trained), index.sq.trained)
     return index
 

@@ -88,6 +88,16 @@ def test_categories_come_back(strings) -> None:
     assert found != (*strings, "x")
 
 
+@pytest.mark.parametrize("at_once", [1, 2, 3, 1000])
+@pytest.mark.parametrize("strings", [("b", "a", "b", "ab", "", "b", "a"), ("x",) * 7, ("one",), ()])
+def test_categories_of_bytes_are_those_of_strings_however_many_are_looked_at(at_once, strings, monkeypatch) -> None:
+    monkeypatch.setattr("models.strings.AT_ONCE", at_once)
+    found, expected = Categorical.of_ascii(np.array(strings, "S8")), Categorical.of(strings)
+    for name, column in joined([expected.columns("x")]).items():
+        assert np.array_equal(found.columns("x")[name], column)
+        assert found.columns("x")[name].dtype == column.dtype
+
+
 def test_many_categories_take_more_bytes() -> None:
     strings = [str(n) for n in range(200)]
     assert Categorical.of(strings).codes.dtype == np.int16

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 import shapely
@@ -20,13 +21,13 @@ class Ways:
 
     Attributes:
         words: its names.
-        nodes: numbers of its nodes; streets that share one meet.
-        segments_m: [n, 4].
-        nodes_m: [nodes, 2] where they are.
+        nodes: [n] numbers of its nodes; streets that share one meet.
+        segments_m: [s, 4].
+        nodes_m: [n, 2] where they are.
     """
 
     words: Words
-    nodes: tuple[int, ...]
+    nodes: Ints
     segments_m: Floats
     nodes_m: Floats
 
@@ -48,26 +49,15 @@ def join_streets(pieces: Sequence[Ways], first: int) -> Streets:
         pieces: of all streets.
         first: number of the first street in the gazetteer.
     """
-    by_name: dict[str, list[int]] = {}
-    for n, piece in enumerate(pieces):
-        by_name.setdefault(piece.words.names[0].casefold(), []).append(n)
+    by_name: dict[str, list[Ways]] = {}
+    for piece in pieces:
+        by_name.setdefault(piece.words.names[0].casefold(), []).append(piece)
     words, segments = [], []
-    streets_at: dict[int, set[int]] = {}
-    place: dict[int, Floats] = {}
-    for number, rows in enumerate(by_name.values(), first):
-        names = dict.fromkeys(name for n in rows for name in pieces[n].words.names)
-        words.append(Words((STREET,), tuple(names), source_id=pieces[rows[0]].words.source_id))
-        segments.append(np.concatenate([pieces[n].segments_m for n in rows]))
-        for n in rows:
-            for node, at in zip(pieces[n].nodes, pieces[n].nodes_m, strict=True):
-                streets_at.setdefault(node, set()).add(number)
-                place[node] = at
-    meets: dict[tuple[int, int], list[Floats]] = {}
-    for node, some in streets_at.items():
-        ordered = sorted(some)
-        for k, one in enumerate(ordered):
-            for other in ordered[k + 1 :]:
-                meets.setdefault((one, other), []).append(place[node])
+    for some in by_name.values():
+        names = dict.fromkeys(name for piece in some for name in piece.words.names)
+        words.append(Words((STREET,), tuple(names), source_id=some[0].words.source_id))
+        segments.append(np.concatenate([piece.segments_m for piece in some]))
+    meets = _meetings(list(by_name.values()), first)
     for pair, at in _crossings(segments, first):
         if pair not in meets:
             meets[pair] = at
@@ -78,6 +68,25 @@ def join_streets(pieces: Sequence[Ways], first: int) -> Streets:
             places.append(corner)
     corner_streets = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     return Streets(words, segments, corner_streets, np.array(places, dtype=np.float32).reshape(-1, 2))
+
+
+def _meetings(streets: Sequence[Sequence[Ways]], first: int) -> dict[tuple[int, int], list[Floats]]:
+    """Streets that share a node, the lower first, and where; `first` is the number of the first street."""
+    pieces = [piece for some in streets for piece in some]
+    if not pieces:
+        return {}
+    street = np.repeat(np.arange(len(streets)), [sum(len(piece.nodes) for piece in some) for some in streets])
+    nodes, nodes_m = (np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("nodes", "nodes_m"))
+    _, at, which = np.unique(nodes, return_index=True, return_inverse=True)
+    node, street = np.divmod(np.unique(which * len(streets) + street), len(streets))  # each street of a node once
+    begin = np.flatnonzero(np.diff(node, prepend=-1))
+    end = np.append(begin[1:], len(node))
+    shared = np.flatnonzero(end - begin > 1)
+    meets: dict[tuple[int, int], list[Floats]] = {}
+    for n in shared[np.argsort(at[shared])].tolist():  # as they come along the streets
+        for pair in combinations((first + street[begin[n] : end[n]]).tolist(), 2):
+            meets.setdefault(pair, []).append(nodes_m[at[n]])
+    return meets
 
 
 def _crossings(segments: Sequence[Floats], first: int) -> Iterator[tuple[tuple[int, int], list[Floats]]]:

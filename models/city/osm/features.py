@@ -94,7 +94,7 @@ def joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
     it is also mapped as a way.
 
     Returns:
-        Rows [D] of those that are left out, and [E, 2] pairs of the others that are one.
+        Rows [D] of those that are left out, and [E, 2] pairs of the others that are one, the lower first.
     """
     is_crossing = np.array([f.label == "crossing" for f in features], np.bool_)
     is_node = np.array([f.source_id.startswith("node/") for f in features], np.bool_)
@@ -111,5 +111,5 @@ def joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
     left, right = shapely.STRtree(geometries).query(geometries, "dwithin", distance=UPRIGHT_MERGE_M)
     touches = is_joinable[left] & (keys[left] == keys[right])
     touches[touches] = shapely.intersects(geometries[left[touches]], geometries[right[touches]])
-    joined = touches | (is_upright[left] & is_upright[right])
+    joined = (left < right) & (touches | (is_upright[left] & is_upright[right]))
     return gone, np.stack([rows[left[joined]], rows[right[joined]]], axis=1)

@@ -193,4 +193,4 @@ def _segments(shape: shapely.Geometry) -> Floats:
 
 def _piece(found: _Found, segments_m: Floats, frame: Frame) -> Ways:
     lon, lat = np.array(list(found.nodes.values())).T
-    return Ways(found.words, tuple(found.nodes), segments_m, frame.from_wgs84(lat, lon))
+    return Ways(found.words, np.array(list(found.nodes)), segments_m, frame.from_wgs84(lat, lon))

@@ -1,7 +1,7 @@
 """What becomes of the features of a map, strip by strip: pieces, instances and outlines."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
@@ -13,7 +13,7 @@ from models.city.osm.classes import load_classes
 from models.city.osm.features import Feature
 from models.city.osm.strips import Instances, Strips
 from models.city.points import Ints
-from models.city.scenery.shapes import Drawing, Outlines
+from models.city.scenery.shapes import Drawing, Drawings, Outlines
 from models.city.tiled.pieces import PieceTable
 from models.city.tiled.rows import Rows, rows_in
 from models.city.types import Floats, MapShape
@@ -88,23 +88,22 @@ class Taken:
     @classmethod
     def of(cls, strips: Strips) -> "Taken":
         """What becomes of features, in several processes, some strips at a time."""
-        instances = Instances.of(strips)
-        found = _Found(strips, instances)
+        instances, classes = Instances.of(strips), load_classes()
+        lying = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.of_feature >= 0]))
+        found = _Found(strips, instances, Drawings(lying))
         pieces = PieceTable.joined(found.rows())
         there = np.unique(pieces.instance)
-        pieces = replace(pieces, instance=np.searchsorted(there, pieces.instance).astype(np.int32))
-        classes = load_classes()
-        order = strips.order[instances.first]
-        lying = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.of_feature >= 0]))
+        pieces = pieces.of_instances(there)
+        order = strips.order[instances.first[there]]
         table = InstanceTable(
-            Categorical.of([classes[n].label for n in order[there]]),
-            Categorical.of([found.names[n] for n in there]),
+            Categorical.of([classes[n].label for n in order]),
+            Categorical.of([found.names.get(n) for n in there.tolist()]),
             Categorical.of_ascii(found.sources[there]),
-            Categorical.of([classes[n].shape for n in order[there]]),
+            Categorical.of([classes[n].shape for n in order]),
             found.rgb[there],
         )
-        is_walkable = np.array([row.walkable for row in classes])[order[there]]
-        return cls(table, is_walkable, pieces, Outlines.joined(list(lying), found.drawings))
+        is_walkable = np.array([row.walkable for row in classes])[order]
+        return cls(table, is_walkable, pieces, found.drawings.outlines())
 
 
 class _Found:
@@ -113,27 +112,28 @@ class _Found:
     Args:
         strips: of features.
         instances: among these.
+        drawings: where strips are drawn.
 
     Attributes:
-        names: [I] of the instances.
-        sources: [I] likewise.
+        drawings: see above.
+        names: of the I instances that have one, by number.
+        sources: [I] of the instances.
         rgb: [I, 3] likewise.
-        drawings: of strips.
     """
 
-    def __init__(self, strips: Strips, instances: Instances) -> None:
+    def __init__(self, strips: Strips, instances: Instances, drawings: Drawings) -> None:
         count = len(instances.first)
-        self._strips, self._instances = strips, instances
-        self.names: list[str | None] = [None] * count
+        self._strips, self._instances, self.drawings = strips, instances, drawings
+        self.names = dict[int, str]()
         self.sources = np.empty(count, "S32")
         self.rgb = np.empty((count, 3), np.float32)
-        self.drawings = list[Drawing]()
 
     def rows(self) -> Iterator[Rows]:
         """The pieces of one strip after the other."""
         for strip in map_forked(partial(_taken, self._strips, self._instances), self._strips.numbers):
-            self.drawings.append(strip.drawing)
+            self.drawings.add(strip.drawing)
             self.sources[strip.instance], self.rgb[strip.instance] = strip.sources, strip.rgb
-            for number, name in zip(strip.instance.tolist(), strip.names, strict=True):
-                self.names[number] = name
+            self.names |= {
+                n: name for n, name in zip(strip.instance.tolist(), strip.names, strict=True) if name is not None
+            }
             yield strip.rows

@@ -1,7 +1,7 @@
 """A map as outlines, lines and places with heights and names, in as few bytes as drawing needs."""
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -12,12 +12,13 @@ import shapely
 from models.city.points import ranges
 from models.city.scenery.files import Encoded
 from models.city.types import Floats, MapShape
-from models.spool import spooled
+from models.spool import AT_ONCE, Spool, spooled
 
 UNITS_A_METRE: Final = 10  # what is sent is in decimetres
 SIMPLER_M: Final = 0.3  # how far an outline may be from the one that is mapped
 KINDS: Final = ("node", "way", "relation")
 MAX_HEIGHT: Final = 65535
+OF_PATHS: Final = ("size", "hole")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,34 +58,9 @@ class Outlines:
     @classmethod
     def of(cls, shapes: Sequence[MapShape]) -> "Outlines":
         """Those of what there is, what lies on top of others first; labels keep this order."""
-        labels = list(dict.fromkeys(shape.label for shape in shapes))
-        return cls.joined(labels, [Drawing.of(shapes, np.arange(len(shapes)))])
-
-    @classmethod
-    def joined(cls, labels: list[str], drawings: Sequence["Drawing"]) -> "Outlines":
-        """Those of some drawings, of which at least one is given.
-
-        Args:
-            labels: those that lie on top of others first.
-            drawings: what is drawn.
-        """
-        number = {label: n for n, label in enumerate(labels)}
-        names = [name for drawing in drawings for name in drawing.names]
-        columns = {
-            name: np.concatenate([drawing.tensors[name] for drawing in drawings]) for name in drawings[0].tensors
-        }
-        label = np.array([number[label] for drawing in drawings for label in drawing.labels], np.uint16)
-        order = np.lexsort((columns.pop("place"), _morton(columns.pop("low")), label))
-        paths = _rows_of(columns["paths"], order)
-        xy = columns.pop("xy")[_rows_of(columns["size"], paths)]
-        of_path = {"size", "hole"}
-        tensors = {
-            "label": label[order],
-            **{name: column[paths if name in of_path else order] for name, column in columns.items()},
-            "steps": np.diff(xy, axis=0, prepend=np.zeros((1, 2), np.int32)).astype(np.int32),
-        }
-        named = {n: name for n, row in enumerate(order.tolist()) if (name := names[row])}
-        return cls(labels, named, spooled([tensors]))
+        drawings = Drawings(dict.fromkeys(shape.label for shape in shapes))
+        drawings.add(Drawing.of(shapes, np.arange(len(shapes))))
+        return drawings.outlines()
 
     def encode(self, places: Iterable[Place] = ()) -> Encoded:
         """A part of scenery, with "labels", "names" and "places" [[x, y, name, kind]] as JSON in its facts.
@@ -140,10 +116,49 @@ class Drawing:
         return cls([shape.label for shape in shapes], [shape.name for shape in shapes], tensors)
 
 
-def _rows_of(sizes: npt.NDArray[Any], order: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """The rows of groups of some sizes, group after group in an order."""
-    ends = np.cumsum(sizes, dtype=np.int64)[order]
-    return ranges(ends - sizes[order], ends)
+class Drawings:
+    """What is drawn of a map, which grows; it lies on disk.
+
+    Args:
+        labels: of all that is drawn, those that lie on top of others first.
+    """
+
+    def __init__(self, labels: Iterable[str]) -> None:
+        self._number = {label: n for n, label in enumerate(labels)}
+        self._spool, self._names, self._count = Spool(), dict[int, str](), 0
+
+    def add(self, drawing: Drawing) -> None:
+        """Draw some more; there is at least one drawing."""
+        self._spool.add({"label": np.array([self._number[of] for of in drawing.labels], np.uint16), **drawing.tensors})
+        self._names |= {self._count + n: name for n, name in enumerate(drawing.names) if name}
+        self._count += len(drawing.labels)
+
+    def outlines(self) -> Outlines:
+        """All of it; nothing is drawn after that."""
+        columns = self._spool.columns()
+        order = np.lexsort((columns.pop("place"), _morton(columns.pop("low")), columns["label"]))
+        place = np.empty_like(order)
+        place[order] = np.arange(len(order))
+        names = dict(sorted((int(place[row]), name) for row, name in self._names.items()))
+        return Outlines(list(self._number), names, spooled(_in_order(columns, order)))
+
+
+def _in_order(columns: Mapping[str, npt.NDArray[Any]], order: npt.NDArray[Any]) -> Iterator[dict[str, Any]]:
+    """Tensors of Outlines, some objects at a time, of columns of drawings."""
+    ends = {name: np.cumsum(columns[name], dtype=np.int64) for name in ("paths", "size")}
+    last = np.zeros((1, 2), np.int32)
+    for first in range(0, len(order) or 1, AT_ONCE):
+        rows = order[first : first + AT_ONCE]
+        paths = _rows_of(ends["paths"], columns["paths"], rows)
+        xy = columns["xy"][_rows_of(ends["size"], columns["size"], paths)]
+        found = {name: column[paths if name in OF_PATHS else rows] for name, column in columns.items() if name != "xy"}
+        yield found | {"steps": np.diff(xy, axis=0, prepend=last).astype(np.int32)}
+        last = xy[-1:] if len(xy) else last
+
+
+def _rows_of(ends: npt.NDArray[Any], sizes: npt.NDArray[Any], groups: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The rows of some groups, group after group."""
+    return ranges(ends[groups] - sizes[groups], ends[groups])
 
 
 def _paths(geometry: Any, form: npt.NDArray[np.uint8]) -> tuple[Any, npt.NDArray[np.intp], npt.NDArray[np.bool_]]:

@@ -1,7 +1,7 @@
 """The table of pieces: what of each instance of a map lies in each tile, and which pieces hang together."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from typing import Any, Final
 
@@ -17,7 +17,7 @@ from models.city.tiled.tiling import FAR_M, TILE_M, TOUCHING_M, Geometries, band
 from models.city.types import Floats
 from models.compiled import compiled
 from models.processes import map_forked
-from models.spool import forget, spooled
+from models.spool import forget, in_turn, spooled
 
 AT_ONCE: Final = 20_000  # pieces whose geometry is put together for a moment
 COLUMNS: Final = 64  # of tiles whose pieces are linked together
@@ -100,6 +100,11 @@ class PieceTable:
     def forget(self) -> None:
         """Have what lies on disk take no memory until it is looked at."""
         forget(self.columns().values())
+
+    def of_instances(self, numbers: Ints) -> "PieceTable":
+        """The same, of instances that have other numbers: each is now its place among these [I], ascending."""
+        some = (some["instance"] for some in in_turn({"instance": self.instance}))
+        return replace(self, **spooled({"instance": np.searchsorted(numbers, n).astype(np.int32)} for n in some))
 
     def geometry(self, pieces: Ints) -> Geometries:
         """[n] of some pieces, metres, map frame; put together once of each, however often it is asked for."""

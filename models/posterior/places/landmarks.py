@@ -25,7 +25,7 @@ from models.strings import Column, joined
 
 FILE: Final = "landmarks.safetensors"
 FAINT: Final = 0.01  # what is said more seldom is not kept
-AT_ONCE: Final = 65_536  # cells: what is known of them before that takes ten times the room
+AT_ONCE: Final = 16_384  # cells: what is known of them before that takes ten times the room
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,7 +10,9 @@ FIRST = 10
 
 def piece(name: str | tuple[str, ...], nodes: tuple[int, ...], *xy: tuple[float, float], number: int = 1) -> Ways:
     names = (name,) if isinstance(name, str) else name
-    return Ways(Words((STREET,), names, source_id=f"way/{number}"), nodes, line(*xy), np.array(xy, dtype=float))
+    return Ways(
+        Words((STREET,), names, source_id=f"way/{number}"), np.array(nodes), line(*xy), np.array(xy, dtype=float)
+    )
 
 
 def corners(pieces: list[Ways]) -> list[tuple[set[str], list[float]]]:

@@ -3,9 +3,10 @@ import json
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 
 from models.city.osm.map import load_osm
-from models.city.scenery.shapes import KINDS, Outlines, Place
+from models.city.scenery.shapes import KINDS, Drawing, Drawings, Outlines, Place
 from models.city.types import MapShape
 
 HOUSE = shapely.Polygon([(0, 0), (20, 0), (20, 10), (0, 10)], [[(5, 2), (8, 2), (8, 5), (5, 5)]])
@@ -61,6 +62,28 @@ def test_neighbours_stand_together() -> None:
     _, tensors, _ = decoded(Outlines.of(trees).encode())
     apart = np.hypot(*tensors["steps"][1:].T / 10)
     assert np.median(apart) < 100, "in the order in which they came it is 900 m"
+
+
+@pytest.mark.parametrize("at_once", [1, 7, 1000])
+def test_what_is_drawn_a_part_at_a_time_is_the_same(at_once, monkeypatch) -> None:
+    rng = np.random.default_rng(0)
+    shapes = [
+        MapShape(label, geometry, name=f"{label} {n}" if n % 3 == 0 else None, source_id=f"way/{n}")
+        for n, at in enumerate(rng.uniform(-900, 900, (40, 2)))
+        for label, geometry in (("tree", shapely.Point(at)), ("building", shapely.affinity.translate(HOUSE, *at)))
+    ]
+    shapes.sort(key=lambda shape: shape.label)
+    expected = Outlines.of(shapes)
+    monkeypatch.setattr("models.city.scenery.shapes.AT_ONCE", at_once)
+    drawings, order = Drawings(["building", "tree"]), rng.permutation(len(shapes))
+    for some in np.array_split(order, 5):
+        drawings.add(Drawing.of([shapes[n] for n in some], some))
+    found = drawings.outlines()
+    assert (found.labels, found.names) == (expected.labels, expected.names)
+    assert list(found.names) == sorted(found.names)
+    for name, column in expected.tensors.items():
+        assert np.array_equal(found.tensors[name], column), name
+        assert found.tensors[name].dtype == column.dtype
 
 
 def test_nothing_is_a_map_too() -> None:
