@@ -1,5 +1,6 @@
 """Strings and what they stand for, in arrays: a city has a million, which open at once and take no object each."""
 
+from array import array
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -33,12 +34,6 @@ class Strings(Sequence[str]):
         strings = tuple(strings)
         sizes = np.fromiter((len(string.encode()) for string in strings), np.int64, len(strings))
         return cls(np.frombuffer("".join(strings).encode(), np.uint8), compact(np.cumsum(sizes)))
-
-    @classmethod
-    def joined(cls, some: Sequence["Strings"]) -> "Strings":
-        """Those of some, one after the other; at least one."""
-        sizes = np.concatenate([np.diff(strings._ends, prepend=0) for strings in some])
-        return cls(np.concatenate([strings._text for strings in some]), compact(np.cumsum(sizes, dtype=np.int64)))
 
     def __len__(self) -> int:
         return len(self._ends)
@@ -151,13 +146,11 @@ class Postings:
 
     @classmethod
     def of(cls, pairs: Iterable[tuple[str, int]]) -> "Postings":
-        """Those of pairs (key, number); the numbers of a key in the order in which they come, each once."""
-        pairs = list(dict.fromkeys(pairs))
-        keys = Trie([key for key, _ in pairs])
-        row = np.array([keys[key] for key, _ in pairs], np.int64)
-        order = np.argsort(row, kind="stable")
-        starts = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=len(keys)))])
-        return cls(keys, compact(starts), np.array([number for _, number in pairs], np.int32)[order])
+        """Those of pairs (key, number); see Pairs."""
+        some = Pairs()
+        for key, number in pairs:
+            some.add(key, number)
+        return some.postings()
 
     def __len__(self) -> int:
         return len(self.keys)
@@ -203,6 +196,29 @@ class Postings:
         """What `columns` gave of a name."""
         keys = Trie().frombytes(columns[f"{name}.keys"].tobytes())  # few bytes, even of a city
         return cls(keys, columns[f"{name}.starts"], columns[f"{name}.numbers"])
+
+
+class Pairs:
+    """Keys and numbers, as these come: a city has millions, of which each key is held once."""
+
+    def __init__(self) -> None:
+        self._row, self._rows, self._numbers = dict[str, int](), array("q"), array("q")
+
+    def add(self, key: str, number: int) -> None:
+        """Add a number below 2 ** 31 to those of a key."""
+        self._rows.append(self._row.setdefault(key, len(self._row)))
+        self._numbers.append(number)
+
+    def postings(self) -> Postings:
+        """The numbers of each key in the order in which they came, each once."""
+        row, numbers = np.array(self._rows, np.int64), np.array(self._numbers, np.int64)
+        once = np.sort(np.unique(row << 32 | numbers, return_index=True)[1])
+        row, numbers = row[once], numbers[once].astype(np.int32)
+        keys = Trie(list(self._row), weights=np.bincount(row, minlength=len(self._row)).tolist())
+        row = np.array([keys[key] for key in self._row], np.int64)[row]
+        order = np.argsort(row, kind="stable")
+        starts = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=len(keys)))])
+        return Postings(keys, compact(starts), numbers[order])
 
 
 def joined(columns: Iterable[Mapping[str, Column]]) -> dict[str, Column]:

@@ -11,11 +11,12 @@ import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
-from models.city.gazetteer.words import STREET, Words, WordTable
+from models.city.gazetteer.words import STREET, Words, WordSpool, WordTable
 from models.city.points import Ints
 from models.city.types import Floats
 from models.errors import IndexBroken
 from models.files import mapped
+from models.spool import Spool
 from models.strings import compact, joined
 
 ADDRESS: Final = "address"  # the kind of what has a house number alone
@@ -126,44 +127,42 @@ class Gazetteer:
 _ARRAYS = tuple(f.name for f in fields(Gazetteer) if f.name != "words")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Objects:
-    """Some objects of a gazetteer, in columns; see there.
+    """Objects of a gazetteer, as they come; what they take lies on disk."""
 
-    Attributes:
-        words: O of them.
-        sizes: [O] how many segments each has.
-        segments_m: [G, 4] float32.
-        is_area: [O] bool.
-    """
+    def __init__(self) -> None:
+        self._words, self._spool, self._count = WordSpool(), Spool(), 0
 
-    words: WordTable
-    sizes: Ints
-    segments_m: Floats
-    is_area: npt.NDArray[np.bool_]
+    def __len__(self) -> int:
+        return self._count
 
-    @classmethod
-    def of(cls, words: Sequence[Words], segments_m: Sequence[Floats], is_area: Sequence[bool]) -> "Objects":
-        """Some objects with their segments, [n, 4] each."""
-        sizes = np.array([len(some) for some in segments_m], np.int64)
-        segments = np.concatenate([np.zeros((0, 4)), *segments_m]).astype(np.float32)
-        return cls(WordTable.of(words), sizes, segments, np.array(is_area, dtype=np.bool_))
+    def add(self, words: Sequence[Words], segments_m: Sequence[Floats], is_area: Sequence[bool]) -> None:
+        """Add some with their segments, [n, 4] each; at least none."""
+        self._words.add(words)
+        sizes, areas = np.array([len(some) for some in segments_m], np.int64), np.array(is_area, dtype=np.bool_)
+        self._spool.add({"sizes": sizes, "segments_m": joined_segments(segments_m), "is_area": areas})
+        self._count += len(words)
+
+    def gazetteer(self, corners: Any = None) -> Gazetteer:
+        """All of them, with corners (streets [C, 2], places [C, 2]) if any; none is added after that."""
+        streets, places = corners if corners is not None else (np.zeros((0, 2), np.int64), np.zeros((0, 2), np.float32))
+        columns = self._spool.columns()
+        starts = compact(np.append(0, np.cumsum(columns["sizes"])))
+        return Gazetteer(self._words.table(), columns["segments_m"], starts, columns["is_area"], streets, places)
+
+
+def joined_segments(some: Sequence[Floats]) -> Floats:
+    """[n, 4] float32, all segments of some, [k, 4] each."""
+    return np.concatenate([np.zeros((0, 4)), *some], dtype=np.float32, casting="same_kind")
 
 
 def build_gazetteer(
     words: Sequence[Words], segments_m: Sequence[Floats], is_area: Sequence[bool], corners: Any = None
 ) -> Gazetteer:
-    """A gazetteer of objects with their segments, [n, 4] each; corners as `join_gazetteer`."""
-    return join_gazetteer([Objects.of(words, segments_m, is_area)], corners)
-
-
-def join_gazetteer(some: Sequence[Objects], corners: Any = None) -> Gazetteer:
-    """A gazetteer of objects, at least of none, with corners (streets [C, 2], places [C, 2]) if any."""
-    streets, places = corners if corners is not None else (np.zeros((0, 2), np.int64), np.zeros((0, 2), np.float32))
-    starts = compact(np.append(0, np.cumsum(np.concatenate([objects.sizes for objects in some]))))
-    segments, is_area = (np.concatenate([getattr(each, name) for each in some]) for name in ("segments_m", "is_area"))
-    words = WordTable.joined([objects.words for objects in some])
-    return Gazetteer(words, segments, starts, is_area, streets, places)
+    """A gazetteer of objects with their segments, [n, 4] each; corners as `Objects.gazetteer`."""
+    objects = Objects()
+    objects.add(words, segments_m, is_area)
+    return objects.gazetteer(corners)
 
 
 NOTHING_NAMED = build_gazetteer((), (), ())

@@ -1,7 +1,7 @@
 """What is written of the objects of a gazetteer: kinds, names, addresses."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final, overload
@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from models.city.points import Ints
+from models.spool import Spool
 from models.strings import Column, Strings, compact, joined
 
 STREET: Final = "street"  # the kind of a street with all its pieces
@@ -62,28 +63,9 @@ class WordTable(Sequence[Words]):
     @classmethod
     def of(cls, words: Sequence[Words]) -> "WordTable":
         """That of some objects."""
-        known = sorted({kind for some in words for kind in some.kinds})
-        number = {kind: n for n, kind in enumerate(known)}
-        kinds = np.array([number[kind] for some in words for kind in some.kinds], np.int32)
-        written = np.array([[one is not None for one in _address(some)] for some in words], np.bool_).reshape(-1, 3)
-        starts = _ends(len(some.names) for some in words) + np.append(0, written.sum(axis=1).cumsum()).astype(np.int32)
-        strings = Strings.of(one for some in words for one in (*some.names, *_address(some)) if one is not None)
-        return cls(known, _ends(len(some.kinds) for some in words), kinds, starts, written, strings)
-
-    @classmethod
-    def joined(cls, tables: Sequence["WordTable"]) -> "WordTable":
-        """That of the objects of some tables, one after the other; at least one."""
-        known = sorted({kind for table in tables for kind in table._known})
-        number = {kind: n for n, kind in enumerate(known)}
-        numbers = [np.array([number[kind] for kind in table._known], np.int32) for table in tables]
-        return cls(
-            known,
-            _joined_ends([table._kind_starts for table in tables]),
-            np.concatenate([of[table._kinds] for of, table in zip(numbers, tables, strict=True)]),
-            _joined_ends([table._string_starts for table in tables]),
-            np.concatenate([table._written for table in tables]),
-            Strings.joined([table._strings for table in tables]),
-        )
+        spool = WordSpool()
+        spool.add(words)
+        return spool.table()
 
     def __len__(self) -> int:
         return len(self._written)
@@ -147,15 +129,43 @@ class WordTable(Sequence[Words]):
 _COLUMNS: Final = ("kind_starts", "kinds", "string_starts", "written")
 
 
+class WordSpool:
+    """What is written of objects, as these come; it lies on disk."""
+
+    def __init__(self) -> None:
+        self._spool, self._kinds = Spool(), dict[str, int]()
+
+    def add(self, words: Sequence[Words]) -> None:
+        """Add some objects, at least none."""
+        kinds = [self._kinds.setdefault(kind, len(self._kinds)) for some in words for kind in some.kinds]
+        written = np.array([[one is not None for one in _address(some)] for some in words], np.bool_).reshape(-1, 3)
+        names = np.array([len(some.names) for some in words], np.int32)
+        strings = [one.encode() for some in words for one in (*some.names, *_address(some)) if one is not None]
+        self._spool.add(
+            {
+                "kinds": np.array(kinds, np.int32),
+                "kinds_of": np.array([len(some.kinds) for some in words], np.int32),
+                "written": written,
+                "strings_of": names + written.sum(axis=1, dtype=np.int32),
+                "text": np.frombuffer(b"".join(strings), np.uint8),
+                "bytes_of": np.array([len(string) for string in strings], np.int32),
+            }
+        )
+
+    def table(self) -> WordTable:
+        """All of them; none is added after that."""
+        columns, known = self._spool.columns(), sorted(self._kinds)
+        number = np.empty(len(known), np.int32)
+        number[[self._kinds[kind] for kind in known]] = np.arange(len(known))
+        kind_starts, starts = _starts(columns["kinds_of"]), _starts(columns["strings_of"])
+        strings = Strings(columns["text"], _starts(columns["bytes_of"])[1:])
+        return WordTable(known, kind_starts, number[columns["kinds"]], starts, columns["written"], strings)
+
+
 def _address(words: Words) -> tuple[str | None, str | None, str | None]:
     return words.number, words.street, words.source_id
 
 
-def _ends(sizes: Iterable[int]) -> Ints:
+def _starts(sizes: Ints) -> Ints:
     """[n + 1] where each of n runs begins, and the end."""
-    return compact(np.append(0, np.cumsum(list(sizes), dtype=np.int64)))
-
-
-def _joined_ends(starts: Sequence[Ints]) -> Ints:
-    """[n + 1] as `_ends` of runs of which each [k + 1] has some."""
-    return compact(np.append(0, np.cumsum(np.concatenate([np.diff(some) for some in starts]), dtype=np.int64)))
+    return compact(np.append(0, np.cumsum(sizes, dtype=np.int64)))

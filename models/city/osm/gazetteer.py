@@ -11,12 +11,13 @@ import osmium
 import shapely
 
 from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer, Objects, join_gazetteer
-from models.city.gazetteer.streets import Ways, join_streets
+from models.city.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer, Objects, joined_segments
+from models.city.gazetteer.streets import Pieces, Ways, join_streets
 from models.city.gazetteer.words import STREET, Words
 from models.city.kinds.vocabulary import Vocabulary, load_vocabulary
 from models.city.osm.map import batches_of, geometries, reading, source_id
 from models.city.types import Floats
+from models.spool import Spool
 
 NAME_KEYS = (
     "name",
@@ -63,30 +64,20 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
     Raises:
         MapError: it cannot be read.
     """
-    objects, pieces, walked = list[Objects](), list[Ways](), list[Floats]()
+    objects, pieces, walked = Objects(), Pieces(), Spool()
+    walked.add({"segments_m": joined_segments([])})
     for some in _read_some(path):
         found = list(zip(some, _segments_of(some, frame), strict=True))
-        pieces += [_piece(one, segments, frame) for one, segments in found if one.nodes]
-        walked.append(_joined([segments for one, segments in found if one.words is _WALKED]))
+        pieces.add([_piece(one, segments, frame) for one, segments in found if one.nodes])
+        walked.add({"segments_m": joined_segments([segments for one, segments in found if one.words is _WALKED])})
         others = [(one, segments) for one, segments in found if not one.nodes and one.words is not _WALKED]
-        objects.append(_objects([one for one, _ in others], [segments for _, segments in others]))
-    count = sum(len(each.words) for each in objects)
-    streets = join_streets(pieces, count)
-    objects.append(Objects.of(streets.words, streets.segments_m, [False] * len(streets.words)))
-    lines = _joined(walked)
-    if len(lines) and count + len(streets.words):
-        objects.append(Objects.of([_WALKED], [lines], [False]))
-    return join_gazetteer(objects, (streets.corner_streets, streets.corners_m))
-
-
-def _objects(found: Sequence[_Found], segments_m: Sequence[Floats]) -> Objects:
-    return Objects.of([one.words for one in found], segments_m, [one.is_area for one in found])
-
-
-def _joined(segments_m: Sequence[Floats]) -> Floats:
-    """[n, 4] float32, all of some."""
-    joined: Floats = np.concatenate([np.zeros((0, 4)), *segments_m]).astype(np.float32)
-    return joined
+        objects.add([one.words for one, _ in others], [of for _, of in others], [one.is_area for one, _ in others])
+    streets = join_streets(pieces, len(objects))
+    objects.add(streets.words, streets.segments_m, [False] * len(streets.words))
+    lines = walked.columns()["segments_m"]
+    if len(lines) and len(objects):
+        objects.add([_WALKED], [lines], [False])
+    return objects.gazetteer((streets.corner_streets, streets.corners_m))
 
 
 def _read_some(path: Path) -> Iterator[list[_Found]]:

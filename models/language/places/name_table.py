@@ -18,12 +18,11 @@ from models.errors import IndexBroken
 from models.files import mapped
 from models.language.places.names import plain_words
 from models.language.places.streets import forms_of, full_words
-from models.strings import Postings, joined
+from models.strings import Pairs, Postings, joined
 
 FILE: Final = "names.safetensors"
 BETWEEN: Final = "\t"  # a street and a house number
 _POSTINGS: Final = ("names", "words", "spellings", "numbers", "streets", "street_words")
-Pairs = list[tuple[str, int]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,19 +52,22 @@ class NameTable:
     @classmethod
     def of(cls, gazetteer: Gazetteer, vocabulary: Vocabulary, is_common: Callable[[str], bool]) -> "NameTable":
         """That of a gazetteer; arguments as of Lookup."""
-        names, numbers, others = Pairs(), Pairs(), Pairs()
+        names, numbers, others = Pairs(), Pairs(), list[tuple[str, int]]()
         forms = dict[tuple[str, int], float]()
         for number, words in enumerate(gazetteer.words):
-            numbers += ((key, number) for key in _addresses(words))
+            for address in _addresses(words):
+                numbers.add(address, number)
             if words.kinds == (STREET,):
                 for form, weight in (form for name in words.names for form in forms_of(name)):
                     key = " ".join(form), number
                     forms[key] = max(weight, forms.get(key, 0.0))
                 continue
-            names += ((plain, number) for name in words.names if (plain := " ".join(plain_words(name))))
+            for plain in (" ".join(plain_words(name)) for name in words.names):
+                if plain:
+                    names.add(plain, number)
             if words.kinds:
                 others += ((other, number) for name in words.names for other in vocabulary.spellings(name))
-        of_names = Postings.of(names)
+        of_names = names.postings()
         nouns = {" ".join(plain_words(noun)) for noun in vocabulary.nouns("en")}
 
         def is_new(plain: tuple[str, ...]) -> bool:
@@ -78,7 +80,7 @@ class NameTable:
             of_names,
             Postings.of((word, row) for row, name in enumerate(of_names.all_keys) for word in set(name.split())),
             Postings.of((" ".join(plain), number) for plain, number in spelt if is_new(plain)),
-            Postings.of(numbers),
+            numbers.postings(),
             Postings.of((form, row) for row, (form, _) in enumerate(forms)),
             Postings.of((word, 0) for form, _ in forms for word in form.split()),
             np.array([number for _, number in forms], np.int64),

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from models.city.gazetteer.streets import ONE_CORNER_M, Ways, join_streets
+from models.city.gazetteer.streets import ONE_CORNER_M, Pieces, Streets, Ways, join_streets
 from models.city.gazetteer.words import STREET, Words
 from tests.models.city.gazetteer.made_town import line
 
@@ -15,8 +15,15 @@ def piece(name: str | tuple[str, ...], nodes: tuple[int, ...], *xy: tuple[float,
     )
 
 
+def joined_of(ways: list[Ways]) -> Streets:
+    pieces = Pieces()
+    for some in (ways[:1], ways[1:]):
+        pieces.add(some)
+    return join_streets(pieces, FIRST)
+
+
 def corners(pieces: list[Ways]) -> list[tuple[set[str], list[float]]]:
-    joined = join_streets(pieces, FIRST)
+    joined = joined_of(pieces)
     return [
         ({joined.words[n - FIRST].names[0] for n in pair}, at.tolist())
         for pair, at in zip(joined.corner_streets, joined.corners_m, strict=True)
@@ -24,13 +31,12 @@ def corners(pieces: list[Ways]) -> list[tuple[set[str], list[float]]]:
 
 
 def test_pieces_of_one_name_are_one_street() -> None:
-    joined = join_streets(
+    joined = joined_of(
         [
             piece(("Main Street", "Hauptstrasse"), (1, 2), (0, 0), (50, 0), number=4),
             piece("Side Road", (7, 8), (0, 90), (9, 90), number=5),
             piece(("MAIN STREET", "Main St"), (2, 3), (50, 0), (90, 0), number=6),
-        ],
-        FIRST,
+        ]
     )
     main, side = joined.words
     assert main.kinds == (STREET,)
@@ -89,7 +95,7 @@ def test_three_streets_at_a_node_meet_in_pairs() -> None:
 
 def test_the_lower_street_of_a_corner_is_first() -> None:
     pieces = [piece(f"Street {n}", (n, 99), (n * 10, 50), (0, 0)) for n in range(12)]
-    pairs = join_streets(pieces, FIRST).corner_streets
+    pairs = joined_of(pieces).corner_streets
     assert len(pairs) == 12 * 11 / 2
     assert (pairs[:, 0] < pairs[:, 1]).all()
     assert pairs.min() == FIRST
@@ -101,6 +107,6 @@ def test_streets_on_top_of_each_other_have_a_finite_corner() -> None:
 
 
 def test_a_town_without_streets() -> None:
-    joined = join_streets([], 0)
+    joined = joined_of([])
     assert joined.words == []
     assert joined.corner_streets.shape == joined.corners_m.shape == (0, 2)
