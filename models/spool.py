@@ -70,6 +70,19 @@ def on_disk(rows: int, dtype: npt.DTypeLike) -> Column:
         return np.memmap(file, dtype, "r+", shape=(rows,)).view(np.ndarray)
 
 
+def starts_of(sizes: Column) -> Column:
+    """[n + 1] int32 where each of n runs of some sizes begins, and the end; on disk if they are many.
+
+    Raises:
+        DataError: there is no room.
+    """
+    found, end = on_disk(len(sizes) + 1, np.int32), 0
+    for first in range(0, len(sizes), AT_ONCE):
+        some = np.cumsum(sizes[first : first + AT_ONCE], dtype=np.int64) + end
+        found[first + 1 : first + 1 + len(some)], end = some, int(some[-1])
+    return found
+
+
 def in_turn(columns: Mapping[str, Column]) -> Iterator[dict[str, Column]]:
     """Columns of one length, some rows after the other; what was looked at takes no memory any more."""
     for first in range(0, max(map(len, columns.values())), AT_ONCE):

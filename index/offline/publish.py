@@ -108,6 +108,7 @@ class Publisher:
                 shutil.move(file, directory)
             gazetteer = Gazetteer.load(directory)
             landmarks_of(gazetteer, data.cells).save(directory)
+            give_back()
             save_scenery(directory, source.scenery(gazetteer))
             manifest = Manifest(
                 **origin,

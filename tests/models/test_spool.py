@@ -5,7 +5,7 @@ import pytest
 
 from models.errors import DataError
 from models.files import BUILDING
-from models.spool import forget, in_turn, on_disk, scratch, spooled, spooling_in
+from models.spool import forget, in_turn, on_disk, scratch, spooled, spooling_in, starts_of
 
 
 def parts(sizes):
@@ -62,6 +62,16 @@ def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
     found[order] = np.arange(50_000)
     forget([found] if held == 1000 else [])
     assert np.array_equal(found[order], np.arange(50_000)), "what was written stays when its pages go"
+
+
+@pytest.mark.parametrize("held", [1, 2**30])
+@pytest.mark.parametrize("sizes", [[], [3], [0, 2, 0, 5, 1, 0, 0, 4]])
+def test_runs_begin_where_those_before_them_end(held, sizes, monkeypatch) -> None:
+    monkeypatch.setattr("models.spool.HELD", held)
+    monkeypatch.setattr("models.spool.AT_ONCE", 3)
+    found = starts_of(np.array(sizes, np.int16))
+    assert found.dtype == np.int32
+    assert found.tolist() == [sum(sizes[:n]) for n in range(len(sizes) + 1)]
 
 
 def test_a_full_disk_is_said(monkeypatch, tmp_path) -> None:

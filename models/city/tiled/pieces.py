@@ -17,7 +17,7 @@ from models.city.tiled.tiling import FAR_M, TILE_M, TOUCHING_M, Geometries, band
 from models.city.types import Floats
 from models.compiled import compiled
 from models.processes import map_forked
-from models.spool import forget, in_turn, spooled
+from models.spool import forget, in_turn, spooled, starts_of
 
 AT_ONCE: Final = 20_000  # pieces whose geometry is put together for a moment
 COLUMNS: Final = 64  # of tiles whose pieces are linked together
@@ -76,15 +76,14 @@ class PieceTable:
         column, row, sizes = (columns.pop(name) for name in ("column", "row", "sizes"))
         low = np.array([column.min(), row.min()], dtype=np.int64)
         shape = np.array([column.max(), row.max()], dtype=np.int64) - low + 1
-        tiles = (_counts(column, row, low, shape), sizes)
-        starts = (np.concatenate([[0], np.cumsum(count)]).astype(np.int32) for count in tiles)
-        tile_starts, segment_starts = starts
+        tile_starts, segment_starts = starts_of(_counts(column, row, low, shape)), starts_of(sizes)
         links = spooled(_links(column, row, segment_starts, columns))
-        link_starts = np.concatenate([[0], np.cumsum(links["sizes"])]).astype(np.int32)
         table = cls(
-            low, shape, tile_starts, segment_starts=segment_starts, link_starts=link_starts, links=links["links"],
-            **columns,
+            low, shape, tile_starts, segment_starts=segment_starts, link_starts=starts_of(links["sizes"]),
+            links=links["links"], **columns,
         )  # fmt: skip
+        at = ({"tile": np.stack([some["column"], some["row"]], 1)} for some in in_turn({"column": column, "row": row}))
+        table.__dict__["tile"] = spooled(at)["tile"]  # on disk, before anybody has it made in memory
         table.forget()
         return table
 
@@ -99,12 +98,14 @@ class PieceTable:
 
     def forget(self) -> None:
         """Have what lies on disk take no memory until it is looked at."""
-        forget(self.columns().values())
+        forget(column for column in vars(self).values() if isinstance(column, np.ndarray))
 
     def of_instances(self, numbers: Ints) -> "PieceTable":
         """The same, of instances that have other numbers: each is now its place among these [I], ascending."""
         some = (some["instance"] for some in in_turn({"instance": self.instance}))
-        return replace(self, **spooled({"instance": np.searchsorted(numbers, n).astype(np.int32)} for n in some))
+        table = replace(self, **spooled({"instance": np.searchsorted(numbers, n).astype(np.int32)} for n in some))
+        table.__dict__["tile"] = self.tile  # where they are stays the same
+        return table
 
     def geometry(self, pieces: Ints) -> Geometries:
         """[n] of some pieces, metres, map frame; put together once of each, however often it is asked for."""

@@ -1,6 +1,6 @@
 """What people say when asked: their street, a place that they see, the nearest cross street or house number."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -21,6 +21,7 @@ from models.files import mapped
 from models.posterior.places.addresses import Addresses
 from models.posterior.places.chances import Chances, shares
 from models.posterior.places.spelt import Spelt
+from models.spool import Spool, starts_of
 from models.strings import Column, joined
 
 FILE: Final = "landmarks.safetensors"
@@ -45,22 +46,9 @@ class Table:
     chance: npt.NDArray[np.float16]
 
     @classmethod
-    def of_rows(cls, rows: csr_array) -> "Table":
-        """That of [N, K], without what is FAINT."""
-        cell = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
-        kept = rows.data >= FAINT
-        starts = np.searchsorted(cell[kept], np.arange(rows.shape[0] + 1)).astype(np.int32)
-        few = rows.shape[1] <= 1 << 16
-        name = rows.indices[kept].astype(np.uint16 if few else np.int32)
-        return cls(rows.shape[1], starts, name, rows.data[kept].astype(np.float16))
-
-    @classmethod
-    def joined(cls, tables: Sequence["Table"]) -> "Table":
-        """That of the cells of some tables of the same names, one after the other; at least one."""
-        sizes = np.concatenate([np.diff(table.starts) for table in tables])
-        starts = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
-        names, chances = ([getattr(table, kind) for table in tables] for kind in ("name", "chance"))
-        return cls(tables[0].names, starts, np.concatenate(names), np.concatenate(chances))
+    def of_entries(cls, names: int, entries: Mapping[str, Column]) -> "Table":
+        """That of so many names, of `_entries_of` cell after cell."""
+        return cls(names, starts_of(entries["sizes"]), entries["name"], entries["chance"])
 
     def rows(self, cells: Ints) -> csr_array:
         """[C, K] of some cells."""
@@ -89,6 +77,17 @@ class Table:
 
 
 _ENTRIES: Final = ("starts", "name", "chance")
+
+
+def _entries_of(rows: csr_array) -> dict[str, Column]:
+    """How many entries each of some cells has in a table [N, K], without what is FAINT, and these."""
+    cell = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
+    kept = rows.data >= FAINT
+    return {
+        "sizes": np.bincount(cell[kept], minlength=rows.shape[0]),
+        "name": rows.indices[kept].astype(np.uint16 if rows.shape[1] <= 1 << 16 else np.int32),
+        "chance": rows.data[kept].astype(np.float16),
+    }
 
 
 @compiled
@@ -179,14 +178,16 @@ class Landmarks:
         streets = Spelt.of([words[n].names for n in roads.tolist()], are_streets=True)
         names = Spelt.of([words[n].names for n in known.tolist()], are_streets=False)
         addresses = Addresses.of(words)
-        tables = list[tuple[Table, ...]]()
+        spools = [Spool() for _ in range(4)]
         for first in range(0, len(centers_m) or 1, AT_ONCE):
             chances = Chances(gazetteer, centers_m[first : first + AT_ONCE])
             on_street = chances.on_street(roads, streets)
             pairs, on, other = chances.crossings(roads, streets, on_street)
             found = on_street, chances.said(known, names), chances.numbered(addresses), pairs
-            tables.append(tuple(map(Table.of_rows, found)))
-        on_street_table, said, numbered, crossing = (Table.joined(some) for some in zip(*tables, strict=True))
+            for spool, rows in zip(spools, found, strict=True):
+                spool.add(_entries_of(rows))
+        tables = [Table.of_entries(rows.shape[1], spool.columns()) for spool, rows in zip(spools, found, strict=True)]
+        on_street_table, said, numbered, crossing = tables
         crossings = Crossings(crossing, on, other, max(1, len(streets)))
         return cls(streets, names, addresses, on_street_table, said, numbered, crossings)
 

@@ -1,7 +1,10 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
 
+from models.city.tiled.pieces import PieceTable
 from models.city.tiled.segments import STEP_M, geometry_of, ring_starts, segments_of, snapped
 
 
@@ -19,6 +22,21 @@ def test_pieces_are_put_together_again_from_their_segments(city) -> None:
         of = slice(*table.segment_starts[[piece, piece + 1]])
         segments = segments_of(np.array([geometry]), table.tile[[piece]])[1]
         assert sorted(_undirected(segments)) == sorted(_undirected(table.segments[of]))
+
+
+def test_a_table_of_a_file_finds_the_same_tiles(city) -> None:
+    """Whoever makes a table knows the tiles of its pieces, whoever opens one finds them when they are asked for."""
+    opened = PieceTable.of_columns(city.pieces.columns())
+    assert "tile" not in vars(opened)
+    assert np.array_equal(opened.tile, city.pieces.tile)
+    assert opened.tile.dtype == city.pieces.tile.dtype
+
+
+def test_instances_are_numbered_anew(city) -> None:
+    numbers = np.unique(city.pieces.instance)
+    table = replace(city.pieces, instance=2 * city.pieces.instance + 7).of_instances(2 * numbers + 7)
+    assert np.array_equal(table.instance, city.pieces.instance)
+    assert np.array_equal(table.tile, city.pieces.tile)
 
 
 def _undirected(segments: np.ndarray) -> list[tuple[tuple[int, int], ...]]:
