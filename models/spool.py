@@ -13,7 +13,7 @@ from models.errors import DataError
 from models.files import let_go, new_scratch
 
 Column = npt.NDArray[Any]
-HELD: Final = 2**23  # bytes of a column, up to which it stays in memory
+HELD: Final = 2**20  # bytes of a column, up to which it stays in memory
 AT_ONCE: Final = 2**20  # rows
 _room: Path | None = None
 
