@@ -208,7 +208,7 @@ def let_go(array: npt.NDArray[Any]) -> None:
     """
     base: Any = array
     while base is not None and not isinstance(base, mmap.mmap):
-        base = base.base
+        base = getattr(base, "base", None)  # bytes that an array is a view of have none
     if base is not None:
         base.madvise(mmap.MADV_DONTNEED)
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 import torch
-from safetensors import SafetensorError, safe_open
+from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
 from index.offline.earlier import Earlier
@@ -20,6 +20,7 @@ from models.city.points import Ints
 from models.city.source import MapSource, Source
 from models.city.types import Progress
 from models.errors import DataError, IndexBroken
+from models.files import mapped
 from models.posterior.likelihood import Likelihood
 from models.posterior.statements import StatementRows, statement_rows
 from models.posterior.surroundings.piece_surroundings import PieceSurroundings
@@ -34,7 +35,7 @@ from models.retrieval.retriever import Retriever
 from models.spool import forget, spooled
 
 FILE: Final = "part.safetensors"
-COLUMNS: Final = ("vectors", "digests", "holds", "statement", "starts")
+COLUMNS: Final = ("starts", "statement", "holds", "vectors", "digests")
 AT_ONCE: Final = 32 * BLOCK  # cells
 
 
@@ -127,18 +128,17 @@ class Part:
             IndexBroken: the files do not hold a part of it.
         """
         try:
-            with safe_open(directory / FILE, framework="numpy") as file:
-                columns = {name: file.get_tensor(name) for name in COLUMNS}
-                possible = int(file.metadata()["statements"])
-            rows = StatementRows(columns["starts"], columns["statement"], columns["holds"], possible)
-            if (len(rows.starts) - 1, rows.starts[-1]) != (len(columns["vectors"]), len(rows.holds)):
+            columns, facts = mapped(directory / FILE)
+            starts, statement, holds, vectors, digests = (columns[name] for name in COLUMNS)
+            rows = StatementRows(starts, statement, holds, int(facts["statements"]))
+            if (len(rows.starts) - 1, rows.starts[-1]) != (len(vectors), len(rows.holds)):
                 raise ValueError("its columns are of different lengths")
         except (OSError, SafetensorError, KeyError, TypeError, ValueError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; make this shard again") from error
         table = NO_LEVELS if tuple(levels) == ("global",) else LevelTable.load(directory, levels)
         is_scan = (directory / SURROUNDINGS_FILE).exists()
         scanned = ScanSurroundings.load(directory, cells) if is_scan else None
-        return cls(columns["vectors"], columns["digests"], table, rows, scanned)
+        return cls(vectors, digests, table, rows, scanned)
 
 
 @contextmanager
