@@ -74,12 +74,16 @@ def starts_of(sizes: Column) -> Column:
     """[n + 1] int32 where each of n runs of some sizes begins, and the end; on disk if they are many.
 
     Raises:
-        DataError: there is no room.
+        DataError: there is no room, or the end is no int32.
     """
     found, end = on_disk(len(sizes) + 1, np.int32), 0
     for first in range(0, len(sizes), AT_ONCE):
         some = np.cumsum(sizes[first : first + AT_ONCE], dtype=np.int64) + end
         found[first + 1 : first + 1 + len(some)], end = some, int(some[-1])
+    if end > np.iinfo(np.int32).max:
+        raise DataError(
+            f"the map is too large for one index: it has {end} rows of a kind; take a part of it (--within)"
+        )
     return found
 
 

@@ -74,6 +74,12 @@ def test_runs_begin_where_those_before_them_end(held, sizes, monkeypatch) -> Non
     assert found.tolist() == [sum(sizes[:n]) for n in range(len(sizes) + 1)]
 
 
+def test_more_rows_than_can_be_numbered_are_said() -> None:
+    assert starts_of(np.array([2**31 - 2, 1])).tolist() == [0, 2**31 - 2, 2**31 - 1]
+    with pytest.raises(DataError, match=r"2147483648 rows .*--within"):
+        starts_of(np.array([2**31 - 2, 2]))
+
+
 def test_a_full_disk_is_said(monkeypatch, tmp_path) -> None:
     monkeypatch.setattr("models.spool.HELD", 10)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "missing"))
