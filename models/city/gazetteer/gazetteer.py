@@ -16,8 +16,8 @@ from models.city.points import Ints
 from models.city.types import Floats
 from models.errors import IndexBroken
 from models.files import mapped
-from models.spool import Spool
-from models.strings import compact, joined
+from models.spool import Spool, starts_of
+from models.strings import joined
 
 ADDRESS: Final = "address"  # the kind of what has a house number alone
 WALKED: Final = "walked"  # the kind of the one object that is all lines people walk on
@@ -147,7 +147,7 @@ class Objects:
         """All of them, with corners (streets [C, 2], places [C, 2]) if any; none is added after that."""
         streets, places = corners if corners is not None else (np.zeros((0, 2), np.int64), np.zeros((0, 2), np.float32))
         columns = self._spool.columns()
-        starts = compact(np.append(0, np.cumsum(columns["sizes"])))
+        starts = starts_of(columns["sizes"])
         return Gazetteer(self._words.table(), columns["segments_m"], starts, columns["is_area"], streets, places)
 
 

@@ -11,7 +11,7 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from models.city.gazetteer.words import STREET, Words
 from models.city.points import Ints, ranges
 from models.city.types import Floats
-from models.spool import Column, Spool
+from models.spool import Column, Spool, starts_of
 
 ONE_CORNER_M = 45.0  # carriageways of one street meet another at several places, which are one corner
 
@@ -60,9 +60,7 @@ class Pieces:
     def columns(self) -> dict[str, Column]:
         """Of all, one after the other, what Ways has, and where that of each begins; none is added after that."""
         columns = self._spool.columns()
-        for name in ("nodes", "segments"):
-            columns[f"{name}_of"] = np.append(0, np.cumsum(columns[f"{name}_of"]))
-        return columns
+        return columns | {name: starts_of(columns[name]) for name in ("nodes_of", "segments_of")}
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from models.city.points import Ints
-from models.spool import Spool
-from models.strings import Column, Strings, compact, joined
+from models.spool import Spool, starts_of
+from models.strings import Column, Strings, joined
 
 STREET: Final = "street"  # the kind of a street with all its pieces
 _SEVERAL: Final = re.compile("[;,&]")
@@ -157,15 +157,10 @@ class WordSpool:
         columns, known = self._spool.columns(), sorted(self._kinds)
         number = np.empty(len(known), np.int32)
         number[[self._kinds[kind] for kind in known]] = np.arange(len(known))
-        kind_starts, starts = _starts(columns["kinds_of"]), _starts(columns["strings_of"])
-        strings = Strings(columns["text"], _starts(columns["bytes_of"])[1:])
+        kind_starts, starts = starts_of(columns["kinds_of"]), starts_of(columns["strings_of"])
+        strings = Strings(columns["text"], starts_of(columns["bytes_of"])[1:])
         return WordTable(known, kind_starts, number[columns["kinds"]], starts, columns["written"], strings)
 
 
 def _address(words: Words) -> tuple[str | None, str | None, str | None]:
     return words.number, words.street, words.source_id
-
-
-def _starts(sizes: Ints) -> Ints:
-    """[n + 1] where each of n runs begins, and the end."""
-    return compact(np.append(0, np.cumsum(sizes, dtype=np.int64)))
