@@ -61,7 +61,7 @@ def description(axes: Axes) -> Box:
     bound = box(axes, (x, 76, wide, TALL), "models", "In the map's own words", "models/posterior/binding.py",
                 "labels, colours and names, each a distribution")  # fmt: skip
     left, right, half = x - 15.5, x + 15.5, 27.0
-    render = box(axes, (left, 62.5, half, TALL), "models", "Template hints", "models/city/templates.py",
+    render = box(axes, (left, 62.5, half, TALL), "models", "Template hints", "models/citymap/templates.py",
                  "what was understood, rendered")  # fmt: skip
     encode = box(axes, (left, 51, half, TALL), "models", "Retriever encodes", "models/retrieval/",
                  "a unit vector a description")  # fmt: skip
@@ -95,9 +95,9 @@ def city(axes: Axes) -> Box:
     x, wide = 103.0, 52.0
     axes.text(x, 109.5, "A map becomes an index", ha="center", fontsize=11, weight="bold", color=INK)
     command = box(axes, (x, 101, wide, TALL), "app", "hereabouts index", "app/cli/main.py", "map, directory, split")
-    door = box(axes, (x, 88.5, wide, TALL), "models", "One door to data", "models/city/source.py and a folder a source",
+    door = box(axes, (x, 88.5, wide, TALL), "models", "One door to data", "models/sources/source.py and a folder a source",
                "OpenStreetMap, KITTI360Pose, a converted store")  # fmt: skip
-    cells = box(axes, (x, 76, wide, TALL), "models", "Cells", "models/city/tiled/ and cells.py",
+    cells = box(axes, (x, 76, wide, TALL), "models", "Cells", "models/citymap/geometry/ and cells.py",
                 "cubes of 30 m each 10 m; things whole, stuff clipped")  # fmt: skip
     left, right, half = x - 13.5, x + 13.5, 25.0
     encode = box(axes, (left, 62.5, half, TALL), "models", "Retriever encodes", "models/retrieval/",

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 if TYPE_CHECKING:  # so that the command line starts without NumPy
-    from models.city.frame import Frame
-    from models.city.types import Floats
+    from models.citymap.frame import Frame
+    from models.citymap.types import Floats
 
 Status = Literal["ok", "ambiguous", "no_match"]
 Method = Literal["cell_center", "regressor", "matching", "posterior"]

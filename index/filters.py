@@ -7,10 +7,10 @@ import numpy as np
 import numpy.typing as npt
 
 from index.query import Box, Circle, Query
-from models.city.frame import Frame
-from models.city.hints import BEST_CELL_REACH_M
-from models.city.points import ranges
-from models.city.types import Floats
+from models.citymap.frame import Frame
+from models.citymap.hints import BEST_CELL_REACH_M
+from models.citymap.points import ranges
+from models.citymap.types import Floats
 from models.posterior.inside import Inside
 from models.posterior.surroundings.surroundings import Surroundings
 

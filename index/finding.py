@@ -20,10 +20,10 @@ from index.answers import (
     Radius,
 )
 from index.query import Query
-from models.city.cells import CellTable
-from models.city.frame import Frame
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.cells import CellTable
+from models.citymap.frame import Frame
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.localization.located import Located
 
 HEAT_POINTS, HEAT_HELD = 500, 0.95  # squares of a heat map, and what they hold of the distribution at least

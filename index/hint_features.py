@@ -4,13 +4,13 @@ import json
 from pathlib import Path
 
 import numpy as np
+from models.citymap.templates import render_hint
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 
-from models.city.colours import Palette
-from models.city.gallery import Gallery
-from models.city.templates import render_hint
-from models.city.types import DIRECTIONS, Hint
+from models.citymap.colours import Palette
+from models.citymap.gallery import Gallery
+from models.citymap.types import DIRECTIONS, Hint
 from models.errors import IndexBroken
 from models.posterior.surroundings.things import Things
 from models.retrieval.retriever import Retriever

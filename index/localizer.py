@@ -20,14 +20,14 @@ from index.stores.faiss_store import FaissStore
 from index.stores.opening import open_store
 from index.vector_localizer import VectorLocalizer, raw_sentences
 from index.words.describing import Describer
-from models.city.cells import Parts
-from models.city.colours import PALETTES
-from models.city.frame import Frame
-from models.city.gallery import Gallery, MapData
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.points import Ints
-from models.city.scenery.files import SceneryPart, file_name, is_scenery
-from models.city.types import Floats
+from models.citymap.cells import Parts
+from models.citymap.colours import PALETTES
+from models.citymap.frame import Frame
+from models.citymap.gallery import Gallery, MapData
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.points import Ints
+from models.citymap.scenery.files import SceneryPart, file_name, is_scenery
+from models.citymap.types import Floats
 from models.errors import IndexBroken
 from models.files import hold
 from models.language.places.name_table import NameTable

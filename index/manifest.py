@@ -17,10 +17,10 @@ from pydantic import (
     model_validator,
 )
 
-from models.city.kitti360pose.files import list_scenes, select_scenes
-from models.city.store.layout import MANIFEST as STORE_MANIFEST
 from models.errors import DataError, IndexBroken, IndexMismatch
 from models.files import FileRecord, sha256
+from models.sources.kitti360pose.files import list_scenes, select_scenes
+from models.sources.store.layout import MANIFEST as STORE_MANIFEST
 
 MANIFEST: Final = "manifest.json"
 FORMAT: Final = 10
@@ -36,7 +36,7 @@ Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
 
 
 class FrameRecord(BaseModel):
-    """The map's frame; see models.city.frame.Frame."""
+    """The map's frame; see models.citymap.frame.Frame."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 

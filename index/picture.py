@@ -15,7 +15,7 @@ from matplotlib.patheffects import withStroke
 
 from index.answers import Answer, Estimate
 from index.localizer import Localizer
-from models.city.scenery.reading import AREA, LINE, POINT, Drawn, Outline, look, read_scenery
+from models.citymap.scenery.reading import AREA, LINE, POINT, Drawn, Outline, look, read_scenery
 
 SIZE_IN: Final = (11.0, 6.2)
 DPI: Final = 130

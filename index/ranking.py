@@ -9,8 +9,8 @@ import numpy.typing as npt
 
 from index.stores.faiss_store import FaissStore
 from index.stores.store import Floats, Rows, VectorStore
-from models.city.cells import CellTable
-from models.city.points import Ints
+from models.citymap.cells import CellTable
+from models.citymap.points import Ints
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Levels

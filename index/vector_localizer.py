@@ -12,10 +12,10 @@ from index.filters import inside, log_prior
 from index.finding import Finding
 from index.query import Query
 from index.ranking import Ranker
-from models.city.frame import Frame
-from models.city.gallery import Gallery, MapData
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.frame import Frame
+from models.citymap.gallery import Gallery, MapData
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.language.sentences import split_hints
 from models.localization.fine_model import FineModel
 from models.localization.located import Located

@@ -22,20 +22,20 @@ from filelock import FileLock
 from index.localizer import Localizer
 from index.offline.build import build_index
 from models.checkpoint import round_weights
-from models.city.bodies import Bodies, bodies_of, cut_cells
-from models.city.cells import CellTable
-from models.city.gallery import MapData
-from models.city.kitti360.job import prepare_data
-from models.city.osm.map import features_of, frame_and_box, load_osm
-from models.city.osm.strips import Instances, Strips
-from models.city.points import PointTable
-from models.city.queries import Queries
-from models.city.source import MapSource
-from models.city.tiled.solids import points_on
-from models.city.types import CityMap
+from models.citymap.cells import CellTable
+from models.citymap.gallery import MapData
+from models.citymap.geometry.solids import points_on
+from models.citymap.map_geometry import Bodies, bodies_of, cut_cells
+from models.citymap.points import PointTable
+from models.citymap.queries import Queries
+from models.citymap.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.retrieval.checkpoint import save_retriever
 from models.retrieval.mncl import Mncl, MnclConfig
+from models.sources.kitti360.job import prepare_data
+from models.sources.osm.feature_strips import Instances, Strips
+from models.sources.osm.map import features_of, frame_and_box, load_osm
+from models.sources.source import MapSource
 from tests.milvus_server import SKIPPED, MilvusServer
 from tests.models.city.raw_scenes import TEST_STREET, TRAIN_STREETS, VAL_STREET, write_towns
 

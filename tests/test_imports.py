@@ -10,25 +10,25 @@ import pytest
 ROOT = Path(__file__).parent.parent
 LAYERS = ("models", "index", "app")
 FILES = [path for layer in LAYERS for path in sorted((ROOT / layer).rglob("*.py"))]
-CITY = ("models", "models.city")
+CITY = ("models", "models.citymap")
 LANGUAGE = (*CITY, "models.language", "models.language.lexicon")
 GRAMMAR = "models.language.grammar"  # trains and measures alone: what is served must not change with a phrase of it
 RETRIEVAL = (*LANGUAGE, "models.retrieval")
 # What is served; it knows of the data that come to it as files, too.
-SOURCES = ("models.city.osm", "models.city.kitti360", "models.city.kitti360pose", "models.city.store")
-NAMES = ("models.city.gazetteer", "models.city.kinds")
+SOURCES = ("models.sources.osm", "models.sources.kitti360", "models.sources.kitti360pose", "models.sources.store")
+NAMES = ("models.citymap.gazetteer", "models.citymap.kinds")
 PLACES = (*NAMES, "models.language.places", "models.posterior.places")
 SERVED = (
     *RETRIEVAL,
-    "models.city.tiled",
+    "models.citymap.geometry",
     *SOURCES,
     *PLACES,
-    "models.city.scenery",
+    "models.citymap.scenery",
     "models.localization",
     "models.posterior",
     "models.posterior.surroundings",
 )
-TRAINED = (*SERVED, GRAMMAR, "models.city.synthetic", "models.training", "models.training.engine")
+TRAINED = (*SERVED, GRAMMAR, "models.sources.synthetic", "models.training", "models.training.engine")
 FITTED = (*TRAINED, "models.training.posterior")
 INDEX = (
     "index",
@@ -45,16 +45,16 @@ REPRODUCES = (*MEASURES, "index.reproduction")
 # A package: whose modules it may import, beside its own. "models" stands for the modules right in models/.
 MAY_IMPORT = {
     "models": ("models.language",),
-    "models.city": ("models", "models.city.scenery", "models.city.tiled"),
-    "models.city.tiled": CITY,
-    "models.city.kinds": ("models",),
-    "models.city.gazetteer": CITY,
-    "models.city.scenery": CITY,
-    "models.city.osm": (*CITY, *NAMES, "models.city.scenery", "models.city.tiled"),
-    "models.city.kitti360pose": CITY,
-    "models.city.kitti360": (*CITY, "models.city.kitti360pose"),
-    "models.city.store": (*CITY, "models.city.kitti360pose"),
-    "models.city.synthetic": (*CITY, "models.city.kitti360", "models.city.kitti360pose"),
+    "models.citymap": ("models", "models.citymap.scenery", "models.citymap.geometry"),
+    "models.citymap.geometry": CITY,
+    "models.citymap.kinds": ("models",),
+    "models.citymap.gazetteer": CITY,
+    "models.citymap.scenery": CITY,
+    "models.sources.osm": (*CITY, *NAMES, "models.citymap.scenery", "models.citymap.geometry"),
+    "models.sources.kitti360pose": CITY,
+    "models.sources.kitti360": (*CITY, "models.sources.kitti360pose"),
+    "models.sources.store": (*CITY, "models.sources.kitti360pose"),
+    "models.sources.synthetic": (*CITY, "models.sources.kitti360", "models.sources.kitti360pose"),
     "models.language": LANGUAGE,
     "models.language.lexicon": LANGUAGE,
     "models.language.places": (*LANGUAGE, *NAMES),
@@ -64,14 +64,14 @@ MAY_IMPORT = {
     "models.posterior": (
         *LANGUAGE,
         *SOURCES,
-        "models.city.tiled",
+        "models.citymap.geometry",
         "models.localization",
         "models.posterior.places",
         "models.posterior.surroundings",
         "models.language.places",
     ),
-    "models.posterior.surroundings": (*CITY, "models.city.tiled"),
-    "models.posterior.places": (*LANGUAGE, "models.city.gazetteer", "models.language.places"),
+    "models.posterior.surroundings": (*CITY, "models.citymap.geometry"),
+    "models.posterior.places": (*LANGUAGE, "models.citymap.gazetteer", "models.language.places"),
     "models.training": TRAINED,
     "models.training.posterior": FITTED,
     "models.training.engine": RETRIEVAL,
@@ -96,7 +96,7 @@ MAY_IMPORT = {
 }
 # Of a package that may be imported, the modules that may be; (importing, imported), sub-packages included.
 ONLY = {
-    ("models.city", "models"): {
+    ("models.citymap", "models"): {
         "models.compiled",
         "models.errors",
         "models.files",
@@ -106,16 +106,16 @@ ONLY = {
     },
     ("models.posterior", "models.localization"): {"models.localization.located"},
     ("index.remote", "index"): {"index.artifact", "index.manifest"},
-    ("index.remote", "models.city"): {"models.city.types"},
+    ("index.remote", "models.citymap"): {"models.citymap.types"},
     ("index.stores", "index"): {"index.manifest", "index.query"},  # where they are, and the box of a filter
-    ("index.stores", "models.city"): {"models.city.types"},
+    ("index.stores", "models.citymap"): {"models.citymap.types"},
 }
 EXCEPT = {
-    "models/city/source.py": (
+    "models/sources/source.py": (
         *SOURCES,
-        "models.city.gazetteer",
-        "models.city.scenery",
-    ),  # the one door to data; the rest of models/city knows no source
+        "models.citymap.gazetteer",
+        "models.citymap.scenery",
+    ),  # the one door to data; the rest of models/citymap knows no source
 }
 ONLY_IN = {
     "transformers": "models/language/text_encoder.py",
@@ -131,7 +131,7 @@ ONLY_IN = {
     "typer": "app",
 }
 WITHOUT_TORCH = [
-    ROOT / "models/city",
+    ROOT / "models/citymap",
     ROOT / "models/compiled.py",
     ROOT / "models/processes.py",
     ROOT / "models/spool.py",
@@ -198,7 +198,7 @@ def test_transformers_are_imported_when_they_are_asked_for() -> None:
 
 
 def test_the_city_model_loads_without_torch() -> None:
-    city = [".".join(p.relative_to(ROOT).with_suffix("").parts) for p in FILES if ROOT / "models/city" in p.parents]
+    city = [".".join(p.relative_to(ROOT).with_suffix("").parts) for p in FILES if ROOT / "models/citymap" in p.parents]
     code = f"""
 import sys, {", ".join(city)}, models.training.metrics, index.answers
 sys.exit("torch" in sys.modules)

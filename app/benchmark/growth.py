@@ -11,8 +11,8 @@ from app.benchmark.processes import measure_index, serving
 from app.benchmark.questions import Question, ask_all, shared_out, take_questions
 from app.benchmark.searches import measure_searches
 from app.benchmark.service import PARTS, measure_parts, open_index
-from models.city.osm.tiling import Block, Extract
 from models.errors import DataError, HereaboutsError
+from models.sources.osm.city_copies import Block, Extract
 
 if TYPE_CHECKING:  # so that the command line starts without torch
     from index.localizer import Localizer
@@ -79,7 +79,7 @@ def run_growth(map_path: Path, sizes: Sequence[int], out: Path | None = None) ->
 
 def _of_one_copy(map_path: Path) -> tuple[int, list[Question]]:
     """Cells of a map, and what to ask about it."""
-    from models.city.source import open_sources  # noqa: PLC0415 - heavy
+    from models.sources.source import open_sources  # noqa: PLC0415 - heavy
 
     whole, asked = open_sources(map_path, [None, ASKED_IN])
     questions = take_questions(asked)

@@ -10,12 +10,12 @@ import httpx
 import numpy as np
 
 from app.benchmark.service import percentiles
-from models.city.osm.tiling import Block
 from models.errors import MapError
+from models.sources.osm.city_copies import Block
 
 if TYPE_CHECKING:  # so that the command line starts without torch
-    from models.city.gazetteer.gazetteer import Gazetteer
-    from models.city.source import Source
+    from models.citymap.gazetteer.gazetteer import Gazetteer
+    from models.sources.source import Source
 
 QUERIES = 200  # of each sort
 WARM_UP = 10  # requests that are not counted

@@ -17,7 +17,7 @@ def prepare(
 ) -> None:
     """Make KITTI360Pose's cells and poses from raw KITTI-360; scenes that are done are kept."""
     from app.cli.progress import stage_bars
-    from models.city.kitti360.job import prepare_data
+    from models.sources.kitti360.job import prepare_data
 
     with stage_bars() as show:
         scenes = prepare_data(raw, out, scene, seed=seed, progress=show)
@@ -31,7 +31,7 @@ def convert(
 ) -> None:
     """Write KITTI360Pose's pickles as a store that opens at once."""
     from app.cli.progress import stage_bars
-    from models.city.store.files import convert as run
+    from models.sources.store.files import convert as run
 
     with stage_bars() as show:
         store = run(data, out, split, lambda done, total: show("MB of points", done >> 20, total >> 20))
@@ -48,7 +48,7 @@ def synth(
 ) -> None:
     """Make up towns, as raw KITTI-360 files: nine scenes under KITTI-360's names, so that the standard splits work."""
     from app.cli.progress import stage_bars
-    from models.city.synthetic.towns import write_towns
+    from models.sources.synthetic.towns import write_towns
 
     with stage_bars() as show:
         scenes = write_towns(out, scale, seed, lambda done, total: show("towns", done, total), pieces)

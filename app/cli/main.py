@@ -113,7 +113,7 @@ def index(
     from app.cli.progress import stage_bars
     from app.settings import load_settings
     from index.offline.build import IndexJob
-    from models.city.osm.extract import Region
+    from models.sources.osm.extract import Region
 
     region = None if within is None else Region.parse(within)
     given = path, out, load_settings().weights_dir, split, keep_current, levels

@@ -13,8 +13,8 @@ from rich.table import Table
 import models
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Seed, Split
 from index.query import Refine
-from models.city.told_texts import SUFFIXES as TOLD_SUFFIXES
 from models.errors import DataError
+from models.sources.place_texts import SUFFIXES as TOLD_SUFFIXES
 
 if TYPE_CHECKING:
     from app.settings import Settings
@@ -80,7 +80,7 @@ def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> Non
     from app.cli.progress import stage_bars
     from index.evaluation.told import evaluate_told, told_tables
     from index.localizer import Localizer
-    from models.city.told_texts import load_told_texts
+    from models.sources.place_texts import load_told_texts
 
     texts = load_told_texts(data)
     weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
@@ -144,7 +144,7 @@ def questions(
     from app.settings import load_settings
     from index.evaluation.questions import evaluate_questions, questions_table
     from index.localizer import Localizer
-    from models.city.source import open_source
+    from models.sources.source import open_source
 
     settings = load_settings(index_dir=index_dir)
     weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir

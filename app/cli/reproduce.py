@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from models.training.experiments import Run, Scale
 
-MADE_UP = ("demo", "full")  # scales of `models.city.synthetic.towns.write_towns`
+MADE_UP = ("demo", "full")  # scales of `models.sources.synthetic.towns.write_towns`
 TOWN_SEED = 0
 PARTS = ("retriever", "fine", "points")  # tables of a --config
 
@@ -122,8 +122,8 @@ def _numbers(text: str) -> list[int]:
 
 def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path:
     """Made-up towns in the published layout, made if they are not there yet."""
-    from models.city.kitti360.job import prepare_data
-    from models.city.synthetic.towns import write_towns
+    from models.sources.kitti360.job import prepare_data
+    from models.sources.synthetic.towns import write_towns
 
     raw, prepared = (out / "data" / scale / name for name in ("raw", "prepared"))
     if not raw.is_dir():
@@ -135,8 +135,8 @@ def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path
 def _store(data: Path, out: Path, show: Callable[[str, int, int], None]) -> Path:
     """Data as a store, which each training opens in no time; an OpenStreetMap file and a store stay what they are."""
     from index.manifest import fingerprint
-    from models.city.store.files import convert
-    from models.city.store.layout import MANIFEST
+    from models.sources.store.files import convert
+    from models.sources.store.layout import MANIFEST
 
     if not data.is_dir() or (data / MANIFEST).is_file():
         return data

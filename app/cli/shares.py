@@ -9,7 +9,7 @@ from index.offline.shard import Shard
 
 if TYPE_CHECKING:
     from index.offline.build import IndexJob
-    from models.city.types import Progress
+    from models.citymap.types import Progress
 
 
 def parse_shard(text: str | Shard) -> Shard:

@@ -5,8 +5,8 @@ from typing import Protocol
 
 from index.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
 from index.query import Query
-from models.city.frame import Frame
-from models.city.scenery.files import SceneryPart
+from models.citymap.frame import Frame
+from models.citymap.scenery.files import SceneryPart
 
 
 class LocalizerLike(Protocol):

@@ -14,8 +14,8 @@ from app.http.schemas.evaluate_requests import EvaluateQuery, EvaluateRequest, e
 from app.settings import Settings
 from index.artifact import open_version
 from index.query import DEFAULT_REFINE, Refine
-from models.city.frame import Frame
-from models.city.types import Progress
+from models.citymap.frame import Frame
+from models.citymap.types import Progress
 from models.errors import DataError
 
 if TYPE_CHECKING:  # torch takes seconds, and the service itself does without SciPy and Numba too
@@ -23,9 +23,9 @@ if TYPE_CHECKING:  # torch takes seconds, and the service itself does without Sc
     from index.posterior.localizer import PosteriorLocalizer
     from index.ranking import Ranker
     from index.vector_localizer import VectorLocalizer
-    from models.city.queries import Queries
-    from models.city.source import Source
+    from models.citymap.queries import Queries
     from models.retrieval.retriever import Retriever
+    from models.sources.source import Source
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
 WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # of Settings and of Evaluation
@@ -39,7 +39,7 @@ class Evaluation(BaseModel):
         grow_m: radii of a growing gallery.
         refine: what finds positions inside the retrieved cells.
         fine_weights_dir, posterior_weights_dir: its model, as weights_dir.
-        data, split: as `models.city.source.open_sources`; None for queries of one's own.
+        data, split: as `models.sources.source.open_sources`; None for queries of one's own.
         index_dir: an index directory or a version of it, which queries of one's own are asked of.
         descriptions, positions_m: what was said, and where, map frame.
     """
@@ -69,7 +69,7 @@ class Evaluation(BaseModel):
         """
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415  # brings torch, which takes seconds
         from index.localizer import Localizer  # noqa: PLC0415
-        from models.city.queries import Queries  # noqa: PLC0415
+        from models.citymap.queries import Queries  # noqa: PLC0415
 
         if self.data is not None:
             source, queries = self._open(progress)
@@ -85,7 +85,7 @@ class Evaluation(BaseModel):
         return evaluate(data, queries, answering, report_dir, self.grow_m, progress)
 
     def _open(self, progress: Progress) -> "tuple[Source, Queries]":
-        from models.city.source import open_source  # noqa: PLC0415
+        from models.sources.source import open_source  # noqa: PLC0415
 
         assert self.data is not None
         source = open_source(self.data, self.split, progress)

@@ -11,8 +11,8 @@ from app.workers.order import OpenOrder, WorkerFault
 from app.workers.pool import WorkerPool
 from index.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
 from index.query import Query
-from models.city.frame import Frame
-from models.city.scenery.files import SceneryPart
+from models.citymap.frame import Frame
+from models.citymap.scenery.files import SceneryPart
 
 TRIES: Final = 2  # a worker that dies may have been killed; what kills a second one is at fault itself
 

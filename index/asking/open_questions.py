@@ -8,8 +8,8 @@ from scipy.sparse import csr_array
 
 from index.asking.asked import LISTED, OPEN, UNKNOWN, Asked
 from index.query import Reply
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.posterior.places.addresses import Addresses
 from models.posterior.places.landmarks import Landmarks, Table

@@ -11,11 +11,11 @@ from index.asking.asked import LISTED, UNKNOWN, Asked
 from index.asking.heard import Heard
 from index.asking.open_questions import OpenQuestions
 from index.query import MOST_REPLIES, Reply
-from models.city.cells import CellTable
-from models.city.colours import Palette
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.cells import CellTable
+from models.citymap.colours import Palette
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.asked import load_asked
 from models.localization.located import Located, heaviest

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_array
 
-from models.city.gallery import MapData
-from models.city.hints import hint_table
-from models.city.queries import Queries
-from models.city.types import DIRECTIONS, Hint
+from models.citymap.gallery import MapData
+from models.citymap.hints import hint_table
+from models.citymap.queries import Queries
+from models.citymap.types import DIRECTIONS, Hint
 from models.training.metrics import RETRIEVAL_KS
 
 QUERIES_AT_ONCE = 1024

@@ -8,7 +8,7 @@ import numpy as np
 from index.evaluation.report import Table
 from index.posterior.localizer import PosteriorLocalizer
 from index.vector_localizer import raw_sentences
-from models.city.queries import Queries
+from models.citymap.queries import Queries
 
 SIZES = (10, 20, 50, 100, 200, 500)  # of the candidate set
 SOURCES = ("vector index, raw text", "vector index, read and rendered", "inverted list", "both, so many of each")

@@ -11,7 +11,7 @@ from index.answers import Answer, Described
 from index.evaluation.report import Table
 from index.localizer import Localizer
 from index.query import Query
-from models.city.types import Floats, Progress
+from models.citymap.types import Floats, Progress
 
 WITHIN_M: Final = (5, 10, 15, 30)
 AT_ONCE: Final = 50  # descriptions that are localized together; no more answers are held

@@ -15,9 +15,9 @@ from index.evaluation.report import write_report
 from index.evaluation.scoring import score
 from index.finding import CellLocalizer
 from index.query import Query
-from models.city.gallery import MapData
-from models.city.queries import Queries
-from models.city.types import Floats, Progress
+from models.citymap.gallery import MapData
+from models.citymap.queries import Queries
+from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 

@@ -9,14 +9,14 @@ import numpy as np
 from index.answers import Question
 from index.asking.asked import OTHER, UNKNOWN, Asked
 from index.query import Reply
-from models.city.bodies import PieceBodies
-from models.city.colours import Palette
-from models.city.gallery import Clouds, Finder, Gallery
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.ways import Around, Ways, cut, ways_to
-from models.city.gazetteer.words import STREET
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.colours import Palette
+from models.citymap.gallery import Clouds, Finder, Gallery
+from models.citymap.gazetteer.closest_points import Around, Ways, cut, ways_to
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.gazetteer.name_columns import STREET
+from models.citymap.map_geometry import PieceBodies
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.language.lexicon.asked import load_asked
 from models.posterior.sights import QUARTERS
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from models.city.types import Floats
+from models.citymap.types import Floats
 from models.errors import DataError
 from models.files import replacing
 

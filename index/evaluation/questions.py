@@ -5,17 +5,17 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
+from models.citymap.templates import render_hint
 
 from index.answers import Answer
 from index.evaluation.person import Person, Truth
 from index.evaluation.report import Table
 from index.localizer import Localizer
 from index.query import Query
-from models.city.queries import Queries
-from models.city.source import Source
-from models.city.templates import render_hint
-from models.city.types import Floats, Progress
+from models.citymap.queries import Queries
+from models.citymap.types import Floats, Progress
 from models.errors import DataError
+from models.sources.source import Source
 
 QUESTIONS: Final = 3  # the most that are asked
 HINTS: Final = 2

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from scipy.stats import ecdf
 
 from index.evaluation.predictions import Predictions
-from models.city.types import Floats
+from models.citymap.types import Floats
 from models.training.metrics import LOCALIZATION_RADII_M
 
 DPI = 130

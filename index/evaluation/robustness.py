@@ -16,13 +16,13 @@ from index.finding import CellLocalizer
 from index.posterior.localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
-from models.city.cells import CellTable, Parts
-from models.city.gallery import Gallery, MapData
-from models.city.hints import direction_index
-from models.city.point_sample import Sampler
-from models.city.points import Ints, ranges
-from models.city.queries import Queries
-from models.city.types import DIRECTIONS, Direction, Floats, Hint, Progress
+from models.citymap.cells import CellTable, Parts
+from models.citymap.gallery import Gallery, MapData
+from models.citymap.hints import direction_index
+from models.citymap.point_sample import Sampler
+from models.citymap.points import Ints, ranges
+from models.citymap.queries import Queries
+from models.citymap.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
 from models.posterior.surroundings.surroundings import Surroundings
 from models.posterior.surroundings.things import Things

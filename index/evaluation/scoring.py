@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from index.evaluation.predictions import Predictions
-from models.city.types import Floats
+from models.citymap.types import Floats
 from models.training.metrics import (
     LOCALIZATION_KS,
     LOCALIZATION_RADII_M,

@@ -17,11 +17,11 @@ from index.evaluation.scoring import calibration
 from index.localizer import Localizer
 from index.posterior.place_reader import PlaceReader, constructions
 from index.query import Prior, Query
-from models.city.told_texts import SIGMA_M, ToldText
-from models.city.types import Floats, Progress
+from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.language.places.languages import language_of
 from models.language.places.reader import listener_wind
+from models.sources.place_texts import SIGMA_M, ToldText
 
 WITHIN_M: Final = (10, 30, 100, 250)
 CONSTRUCTIONS: Final = (

@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from models.citymap.templates import TEMPLATES, render_hint
 
-from models.city.gallery import MapData
-from models.city.templates import TEMPLATES, render_hint
-from models.city.types import DIRECTIONS, Direction, Hint
+from models.citymap.gallery import MapData
+from models.citymap.types import DIRECTIONS, Direction, Hint
 from models.language.grammar.labelled_text import Fact, LabelledText
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording

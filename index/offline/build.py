@@ -14,10 +14,8 @@ from index.offline.part import Part, writing
 from index.offline.parts import Origin, Parts
 from index.offline.publish import Publisher, save_names
 from index.offline.shard import Shard
-from models.city.cells import BLOCK
-from models.city.osm.extract import Region, extracted
-from models.city.source import open_source
-from models.city.types import Progress
+from models.citymap.cells import BLOCK
+from models.citymap.types import Progress
 from models.errors import IndexUnusable
 from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
@@ -26,6 +24,8 @@ from models.processes import forked
 from models.retrieval.checkpoint import load_retriever
 from models.retrieval.level_table import STARTS_FILE
 from models.retrieval.retriever import Retriever
+from models.sources.osm.extract import Region, extracted
+from models.sources.source import open_source
 from models.spool import scratch, spooling_in
 
 
@@ -64,10 +64,10 @@ class IndexJob:
     Both ways give the same bytes, on processors of one kind.
 
     Attributes:
-        map_path: as `models.city.source.open_sources`.
+        map_path: as `models.sources.source.open_sources`.
         out_dir: index directory; older versions in it are kept.
         weights_dir: the retriever's weights; None for those that ship with the package.
-        split: as `models.city.source.open_sources`.
+        split: as `models.sources.source.open_sources`.
         keep_current: build nothing if the default version is of this map and this model.
         levels: keep the retriever's other levels too: any `refine` but the default ranks by them.
         store: where the vectors go: a file of the version, or the Milvus that HEREABOUTS_MILVUS_URI names.

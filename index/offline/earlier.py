@@ -12,7 +12,7 @@ from index.manifest import check_model
 from index.stores.faiss_store import FaissStore
 from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats
-from models.city.points import Ints
+from models.citymap.points import Ints
 from models.errors import IndexBroken
 from models.retrieval.level_table import NO_LEVELS, STARTS_FILE, LevelTable
 from models.retrieval.levels import Level

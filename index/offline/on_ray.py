@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from index.offline.build import IndexJob, silent
 from index.offline.shard import Shard
-from models.city.types import Progress
+from models.citymap.types import Progress
 from models.errors import ClusterUnavailable, DataError, HereaboutsError
 from models.processes import one_process
 

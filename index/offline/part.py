@@ -14,11 +14,10 @@ from safetensors.numpy import save_file
 
 from index.offline.earlier import Earlier
 from index.stores.store import Floats
-from models.city.cells import BLOCK, CellTable
-from models.city.gallery import MapData
-from models.city.points import Ints
-from models.city.source import MapSource, Source
-from models.city.types import Progress
+from models.citymap.cells import BLOCK, CellTable
+from models.citymap.gallery import MapData
+from models.citymap.points import Ints
+from models.citymap.types import Progress
 from models.errors import DataError, IndexBroken
 from models.files import mapped
 from models.posterior.likelihood import Likelihood
@@ -32,6 +31,7 @@ from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.retrieval.levels import Level
 from models.retrieval.retriever import Retriever
+from models.sources.source import MapSource, Source
 from models.spool import forget, spooled
 
 FILE: Final = "part.safetensors"

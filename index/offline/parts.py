@@ -17,7 +17,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from index.manifest import MANIFEST, Name, Sha256
 from index.offline.part import Part
 from index.offline.shard import Shard
-from models.city.cells import BLOCK, CellTable
+from models.citymap.cells import BLOCK, CellTable
 from models.errors import IndexBroken
 from models.files import FileRecord, file_records, new_directory, sha256
 from models.retrieval.levels import Level

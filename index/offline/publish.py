@@ -19,12 +19,11 @@ from index.stores.faiss_store import FaissStore
 from index.stores.milvus_store import MilvusStore
 from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats
-from models.city.gallery import MapData
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.kinds.vocabulary import load_vocabulary
-from models.city.scenery.files import save_scenery
-from models.city.source import Source, gazetteer_of
-from models.city.types import Progress
+from models.citymap.gallery import MapData
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.kinds.vocabulary import load_vocabulary
+from models.citymap.scenery.files import save_scenery
+from models.citymap.types import Progress
 from models.files import file_records, new_directory
 from models.language.places.lookup import Lookup
 from models.language.places.name_table import NameTable
@@ -35,6 +34,7 @@ from models.posterior.surroundings.surroundings import Surroundings
 from models.processes import give_back
 from models.retrieval.level_table import LevelTable
 from models.retrieval.retriever import Retriever
+from models.sources.source import Source, gazetteer_of
 from models.spool import forget, spooled
 
 

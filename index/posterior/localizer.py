@@ -19,11 +19,11 @@ from index.posterior.texts import Texts, as_read, in_the_text
 from index.query import Query
 from index.ranking import Ranker
 from index.words.place_text import place_text
-from models.city.colours import Palette
-from models.city.frame import Frame
-from models.city.gallery import Gallery, MapData
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
-from models.city.points import Ints
+from models.citymap.colours import Palette
+from models.citymap.frame import Frame
+from models.citymap.gallery import Gallery, MapData
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
+from models.citymap.points import Ints
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.places.contradictions import contradictions
 from models.language.places.languages import ENGLISH, NAMES, language_of

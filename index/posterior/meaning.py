@@ -10,7 +10,7 @@ from cachetools import LRUCache, cachedmethod
 from torch import Tensor
 
 from index.stores.faiss_store import FaissStore
-from models.city.types import Floats
+from models.citymap.types import Floats
 from models.errors import IndexBroken
 from models.language.places.lookup import EMPTY
 from models.language.places.names import plain_words

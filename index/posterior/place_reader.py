@@ -11,9 +11,9 @@ from cachetools import LRUCache, cachedmethod
 from index.answers import Evidence, Heading
 from index.finding import pair
 from index.posterior.meaning import Meanings
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.kinds.vocabulary import load_vocabulary
-from models.city.types import Floats
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.kinds.vocabulary import load_vocabulary
+from models.citymap.types import Floats
 from models.language.parsed_hint import WINDS, ParsedHint
 from models.language.places.cue_reader import CueReader
 from models.language.places.languages import ENGLISH

@@ -5,7 +5,7 @@ from pathlib import Path
 from index.artifact import Aliases, find_version, open_version, read_aliases
 from index.manifest import ADVICE, MANIFEST
 from index.remote.place import Place
-from models.city.types import Progress
+from models.citymap.types import Progress
 from models.errors import IndexBroken
 from models.files import sha256
 

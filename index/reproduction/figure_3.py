@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from index.evaluation.report import DPI
 from index.query import Query
 from index.vector_localizer import VectorLocalizer
-from models.city.gallery import MapData
-from models.city.queries import Queries
+from models.citymap.gallery import MapData
+from models.citymap.queries import Queries
 
 SHOWN, LISTED = 4, 3  # queries, and retrieved cells of each
 SEED = 0  # which queries are shown is drawn, not picked

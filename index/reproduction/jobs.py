@@ -18,15 +18,15 @@ from index.manifest import fingerprint
 from index.ranking import RERANKED, Ranker
 from index.reproduction.figure_3 import draw_figure_3
 from index.vector_localizer import VectorLocalizer
-from models.city.gallery import MapData
-from models.city.queries import Queries
-from models.city.source import CHOSEN_BY, open_sources
+from models.citymap.gallery import MapData
+from models.citymap.queries import Queries
 from models.files import replace_file, sha256
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineModel
 from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.retriever import Retriever
+from models.sources.source import CHOSEN_BY, open_sources
 from models.training.engine.loop import pick_device
 from models.training.engine.run_dir import METRICS_FILE
 from models.training.experiments import POINTS, VARIANTS, Run, Scale, made_of

@@ -11,9 +11,9 @@ import torch
 
 from index.evaluation.ambiguity import ambiguity
 from index.reproduction.jobs import FIGURE_3, TEST, Job, localize, localized, train_and_measure
-from models.city.source import open_source
-from models.city.types import Progress
+from models.citymap.types import Progress
 from models.errors import DataError
+from models.sources.source import open_source
 from models.training.experiments import Experiment, Scale, pairs_of, runs_of
 from models.training.paper_tables import EXPERIMENTS, HEAD, MNCL
 from models.training.settings import load_settings

@@ -7,7 +7,7 @@ from index.manifest import Manifest
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_store import MilvusStore
 from index.stores.store import VectorStore
-from models.city.types import Floats
+from models.citymap.types import Floats
 
 VECTORS_FILE: Final = "vectors.faiss"
 

@@ -14,20 +14,20 @@ from typing import Final
 
 import numpy as np
 import numpy.typing as npt
+from models.citymap.templates import OPPOSITE
 from scipy.spatial import cKDTree
 
 from index.answers import Described, Fact, LatLon
 from index.finding import pair
 from index.words.place_text import AT_CORNER_M, nearest_street, place_text, street_text, ways_from, wind_of
-from models.city.colours import Palette
-from models.city.frame import Frame
-from models.city.gallery import Gallery
-from models.city.gazetteer.gazetteer import ADDRESS, Gazetteer
-from models.city.gazetteer.words import STREET
-from models.city.hints import BEST_CELL_REACH_M, direction_index, round_robin
-from models.city.points import Ints
-from models.city.templates import OPPOSITE
-from models.city.types import DIRECTIONS, Floats, Hint
+from models.citymap.colours import Palette
+from models.citymap.frame import Frame
+from models.citymap.gallery import Gallery
+from models.citymap.gazetteer.gazetteer import ADDRESS, Gazetteer
+from models.citymap.gazetteer.name_columns import STREET
+from models.citymap.hints import BEST_CELL_REACH_M, direction_index, round_robin
+from models.citymap.points import Ints
+from models.citymap.types import DIRECTIONS, Floats, Hint
 from models.posterior.surroundings.surroundings import Surroundings
 
 MOST_FACTS: Final = 6

@@ -5,10 +5,10 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.ways import Around, Ways, cut, ways_to
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.gazetteer.closest_points import Around, Ways, cut, ways_to
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.language.parsed_hint import WINDS
 
 ON_STREET_M: Final = 30.0

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from models.city.types import Direction, Hint
+from models.citymap.types import Direction, Hint
 
 OPPOSITE: Final[dict[Direction, Direction]] = {
     "north": "south",

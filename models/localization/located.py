@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.compiled import compiled
 
 SUBSQUARE_M, MOST_SUBSQUARES = 0.75, 5  # a point stands for a square; radii see it as up to 5 x 5 points this far apart

@@ -6,9 +6,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
-from models.city.templates import render_hint
-from models.city.types import DIRECTIONS, Hint
+from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
+from models.citymap.templates import render_hint
+from models.citymap.types import DIRECTIONS, Hint
 from models.language.labels import MOST_KEPT, BoundLabels, LabelMatcher
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS

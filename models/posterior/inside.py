@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from models.city.types import Floats
+from models.citymap.types import Floats
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,7 +8,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from models.city.colours import Palette
+from models.citymap.colours import Palette
 from models.posterior.node_batch import OFFSET, RANKS, NodeBatch, colour_words
 from models.posterior.surroundings.around import STEP_M
 

@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from models.city.cells import CellTable
-from models.city.points import Ints, ranges
-from models.city.types import Floats
+from models.citymap.cells import CellTable
+from models.citymap.points import Ints, ranges
+from models.citymap.types import Floats
 from models.compiled import compiled
 from models.localization.located import Located, heaviest
 from models.posterior.inside import Inside

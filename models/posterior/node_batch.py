@@ -7,9 +7,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from models.city.colours import Palette
-from models.city.hints import ON_TOP_M
-from models.city.points import Ints
+from models.citymap.colours import Palette
+from models.citymap.hints import ON_TOP_M
+from models.citymap.points import Ints
 from models.compiled import compiled
 from models.posterior.surroundings.around import STEP_M, Around
 

@@ -9,9 +9,9 @@ import numpy.typing as npt
 import torch
 from torch import Tensor
 
-from models.city.colours import Palette
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.colours import Palette
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.compiled import compiled
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
 from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, WAYS, colour_words, count_ranks, no_counts

@@ -5,8 +5,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.compiled import compiled
 from models.posterior.likelihood import HABITS, SPOKEN
 

@@ -9,10 +9,10 @@ import numpy.typing as npt
 import torch
 from torch import Tensor
 
-from models.city.cells import CellTable
-from models.city.colours import Palette
-from models.city.points import Ints, ranges
-from models.city.types import Floats
+from models.citymap.cells import CellTable
+from models.citymap.colours import Palette
+from models.citymap.points import Ints, ranges
+from models.citymap.types import Floats
 from models.posterior.inside import Inside
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import usual_statements

@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 from scipy.sparse import csr_array, find
 
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 
 WRONG: Final = 0.1  # of people's answers, those that are not what the map has
 

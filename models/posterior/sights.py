@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.posterior.surroundings.around import STEP_M, Around
 from models.posterior.surroundings.surroundings import Surroundings
 from models.threads import THREADS, shared_out

@@ -13,10 +13,10 @@ from safetensors import SafetensorError
 from scipy.sparse import coo_array
 from torch import Tensor
 
-from models.city.cells import BLOCK
-from models.city.hints import ON_TOP_M
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.cells import BLOCK
+from models.citymap.hints import ON_TOP_M
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
 from models.files import mapped, save_in_order

@@ -12,9 +12,9 @@ import numpy.typing as npt
 import torch
 from torch import Tensor, nn
 
-from models.city.cells import BLOCK, CellTable
-from models.city.point_sample import Sampler
-from models.city.points import Ints, ranges
+from models.citymap.cells import BLOCK, CellTable
+from models.citymap.point_sample import Sampler
+from models.citymap.points import Ints, ranges
 from models.errors import WeightsError
 from models.files import cache_directory, replacing
 from models.language.text_encoder import fingerprint_of

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from models.city.cells import BLOCK
-from models.city.points import Ints, ranges
+from models.citymap.cells import BLOCK
+from models.citymap.points import Ints, ranges
 from models.errors import IndexBroken
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.levels import Level, Levels

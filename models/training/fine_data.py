@@ -10,14 +10,14 @@ import torch
 from scipy.spatial import cKDTree
 from torch import Tensor
 
-from models.city.cells import CellTable
-from models.city.gallery import Gallery
-from models.city.points import Ints
-from models.city.queries import Queries
-from models.city.source import APART_M
-from models.city.types import Floats
+from models.citymap.cells import CellTable
+from models.citymap.gallery import Gallery
+from models.citymap.points import Ints
+from models.citymap.queries import Queries
+from models.citymap.types import Floats
 from models.localization.fine_model import FineModel, Truth
 from models.retrieval.instance_encoder import CellBatch, CellFeatures
+from models.sources.source import APART_M
 from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect
 
 CLONED = 0.5  # share of the examples whose cell is a neighbour

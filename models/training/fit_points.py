@@ -16,7 +16,7 @@ from safetensors.torch import load_file, save
 from torch import Tensor, nn
 
 from models.checkpoint import CONFIG_FILE, WEIGHTS_FILE
-from models.city.colours import KITTI360_PALETTE
+from models.citymap.colours import KITTI360_PALETTE
 from models.errors import TrainingError, WeightsError
 from models.files import replace_file
 from models.localization.fine_model import FineModel

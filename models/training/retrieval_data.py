@@ -9,10 +9,10 @@ import torch
 from scipy.spatial import cKDTree
 from torch import Tensor
 
-from models.city.hints import NUM_HINTS, STRATEGIES, choose_hints
-from models.city.queries import Statements
-from models.city.templates import TEMPLATES, render_hint
-from models.city.types import DIRECTIONS, Hint
+from models.citymap.hints import NUM_HINTS, STRATEGIES, choose_hints
+from models.citymap.queries import Statements
+from models.citymap.templates import TEMPLATES, render_hint
+from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DataError
 from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.retrieval.instance_encoder import CellBatch, CellFeatures

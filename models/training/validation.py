@@ -8,8 +8,8 @@ import numpy.typing as npt
 from scipy.optimize import minimize
 from scipy.special import logsumexp
 
-from models.city.gallery import Gallery
-from models.city.queries import Queries
+from models.citymap.gallery import Gallery
+from models.citymap.queries import Queries
 from models.retrieval.instance_encoder import CellFeatures
 from models.retrieval.level_table import encode_gallery
 from models.retrieval.levels import Level

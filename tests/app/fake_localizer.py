@@ -16,7 +16,7 @@ from index.answers import (
     ModelName,
     Radius,
 )
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 MADE_IT, ANSWERED = ModelName("fake", "ab" * 32), ModelName("posterior/fake", "cd" * 32)
 TRUE_FRAME = Frame("map", 60.17, 24.94)

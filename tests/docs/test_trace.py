@@ -75,10 +75,10 @@ def test_a_map_begins_at_its_command_and_ends_with_files(strip_file, weights_dir
     [helpers] = [line for line in lines if line.startswith("helpers")]
     assert helpers.split(": ")[1].startswith("app/cli/main.py")
     order = [
-        "models/city/osm/map.py",
-        "models/city/tiled/cutting.py",
+        "models/sources/osm/map.py",
+        "models/citymap/geometry/cutting.py",
         "index/offline/publish.py",
-        "models/city/osm/gazetteer.py",
+        "models/sources/osm/gazetteer.py",
     ]
     assert [name for name in files if name in order] == order
     assert "manifest.json" in lines[-1]

@@ -10,7 +10,7 @@ from geojson_pydantic.types import Position2D
 
 from app.http.schemas.responses import CellResponse, CellsResponse, LocalizeResponse, Provenance
 from index.answers import Status
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 AnyFeature = Feature[Point | Polygon, dict[str, Any]]
 EXAMPLE = {

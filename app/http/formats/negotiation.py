@@ -9,7 +9,7 @@ from pydantic import BaseModel
 from starlette.responses import Response
 
 from app.http.errors import Code, Problem
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 JSON = "application/json"
 GEOJSON = "application/geo+json"

@@ -8,7 +8,7 @@ import numpy as np
 from app.http.protocol import LocalizerLike
 from app.http.schemas.responses import LocalizeResponse
 from index.answers import Described, LatLon
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 Format = Literal["json", "jsonv2", "geojson"]
 NOTHING: Final = {"error": "Unable to geocode"}  # Nominatim's words for a position that is nowhere, with status 200

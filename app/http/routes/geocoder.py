@@ -19,7 +19,7 @@ from app.http.routes.localize import check_reach, found_for
 from app.http.schemas.requests import request_model
 from app.settings import Settings
 from index.artifact import DEFAULT
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 MOST = 40  # results, as of Nominatim
 TWO_CORNERS: Final = "takes lon,lat,lon,lat: two corners, longitudes -180..180, latitudes -90..90"

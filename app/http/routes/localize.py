@@ -23,7 +23,7 @@ from app.http.schemas.requests import DescribeRequest, LocalizeRequest, request_
 from app.http.schemas.responses import LocalizeResponse
 from app.http.schemas.ros import pose_of
 from app.settings import Settings
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 ERRORS = (
     *REFUSALS,

@@ -24,7 +24,7 @@ from index.answers import (
     Status,
 )
 from index.artifact import DEFAULT
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 
 class _Out(BaseModel):

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from models.city.points import Ints
+from models.citymap.points import Ints
 from models.language.places.lookup import Lookup
 from models.language.places.mentions import Mention
 from models.language.places.names import plain_words

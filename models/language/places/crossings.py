@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.language.places.cues import Cue
 from models.language.places.lookup import Lookup
 from models.language.places.mentions import Mention

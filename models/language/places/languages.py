@@ -5,7 +5,7 @@ from typing import Final
 
 from py3langid.langid import MODEL_FILE, LanguageIdentifier
 
-from models.city.kinds.vocabulary import load_vocabulary
+from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.places.names import words_of
 from models.language.places.words import english
 

@@ -10,10 +10,10 @@ import numpy as np
 from cachetools import LRUCache, cachedmethod
 from rapidfuzz import fuzz, process
 
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.kinds.vocabulary import Vocabulary
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.kinds.vocabulary import Vocabulary
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.language.places.languages import ENGLISH
 from models.language.places.name_table import BETWEEN, NameTable
 from models.language.places.names import ARTICLES, plain_word, plain_words

@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.language.places.cue_reader import CueReader, ReadCue
 from models.language.places.cues import SEEN, WIND_WORD, Cue, Said, distances_of, wind_of, winds_of
 from models.language.places.names import Word

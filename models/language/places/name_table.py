@@ -9,11 +9,11 @@ import numpy as np
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.words import STREET, Words
-from models.city.kinds.vocabulary import Vocabulary
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.kinds.vocabulary import Vocabulary
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.errors import IndexBroken
 from models.files import mapped
 from models.language.places.names import plain_words

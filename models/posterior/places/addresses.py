@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from models.city.gazetteer.words import Words
-from models.city.points import Ints
+from models.citymap.gazetteer.name_columns import Words
+from models.citymap.points import Ints
 from models.language.places.name_table import BETWEEN
 from models.language.places.names import plain_words
 from models.language.places.streets import ORDINAL

@@ -6,10 +6,10 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 from scipy.spatial import cKDTree
 
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.ways import Around, cut, ways_to
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.gazetteer.closest_points import Around, cut, ways_to
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.posterior.places.addresses import Addresses
 from models.posterior.places.spelt import Spelt
 

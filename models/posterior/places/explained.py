@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from torch import Tensor
 
-from models.city.types import Floats
+from models.citymap.types import Floats
 from models.language.places.mentions import Mention
 
 

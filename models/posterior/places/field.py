@@ -12,12 +12,12 @@ import torch
 from cachetools import LRUCache, cachedmethod
 from torch import Tensor
 
-from models.city.gazetteer.gazetteer import WALKED, Gazetteer
-from models.city.gazetteer.raster import Away, Raster
-from models.city.gazetteer.walkways import Walkways
-from models.city.gazetteer.ways import Around, Ways, cut, ways_to
-from models.city.points import Ints, corners
-from models.city.types import Floats
+from models.citymap.gazetteer.closest_points import Around, Ways, cut, ways_to
+from models.citymap.gazetteer.distance_raster import Away, Raster
+from models.citymap.gazetteer.gazetteer import WALKED, Gazetteer
+from models.citymap.gazetteer.walkways import Walkways
+from models.citymap.points import Ints, corners
+from models.citymap.types import Floats
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.posterior.places.explained import NOT_EXPLAINED, Explained, Places

@@ -11,10 +11,10 @@ from safetensors import SafetensorError
 from safetensors.numpy import save_file
 from scipy.sparse import csr_array, find
 
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.words import STREET
-from models.city.points import Ints, ranges
-from models.city.types import Floats
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.gazetteer.name_columns import STREET
+from models.citymap.points import Ints, ranges
+from models.citymap.types import Floats
 from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
 from models.files import mapped

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from models.city.points import Ints
+from models.citymap.points import Ints
 from models.language.places.names import plain_words
 from models.language.places.streets import forms_of, full_words
 from models.strings import Column, Postings, Strings

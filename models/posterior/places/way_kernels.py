@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 import torch
 
-from models.city.gazetteer.ways import Ways
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.gazetteer.closest_points import Ways
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.compiled import compiled
 from models.language.places.mentions import Mention
 from models.posterior.places.kernels import HEADINGS, TYPES, PlaceKernels, kernel_of, with_angle

@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.hints import HINT_REACH_M
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.hints import HINT_REACH_M
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 
 STEP_M: Final = HINT_REACH_M / 127  # of the ways
 

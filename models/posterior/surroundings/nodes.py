@@ -7,10 +7,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from models.city.cells import CellTable
-from models.city.hints import BEST_CELL_REACH_M
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.cells import CellTable
+from models.citymap.hints import BEST_CELL_REACH_M
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.compiled import compiled
 
 SPACING_M: Final = 1.5

@@ -10,14 +10,14 @@ import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
-from models.city.bodies import PieceBodies
-from models.city.cells import CellTable, Parts
-from models.city.hints import HINT_REACH_M
-from models.city.points import Ints, ranges
-from models.city.tiled.cutting import cut_pieces
-from models.city.tiled.pieces import PieceTable
-from models.city.tiled.ways import ways_around
-from models.city.types import CutRules, Floats
+from models.citymap.cells import CellTable, Parts
+from models.citymap.geometry.closest_points import ways_around
+from models.citymap.geometry.cutting import cut_pieces
+from models.citymap.geometry.pieces import PieceTable
+from models.citymap.hints import HINT_REACH_M
+from models.citymap.map_geometry import PieceBodies
+from models.citymap.points import Ints, ranges
+from models.citymap.types import CutRules, Floats
 from models.compiled import compiled
 from models.errors import IndexBroken
 from models.files import mapped

@@ -16,9 +16,9 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
-from models.city.cells import CellTable
-from models.city.points import Ints, ranges
-from models.city.types import Floats
+from models.citymap.cells import CellTable
+from models.citymap.points import Ints, ranges
+from models.citymap.types import Floats
 
 TILE_M = 5.0  # nodes that share a cube; a cube of each node's own costs ten times as much and finds the same
 PIXEL_M = 0.75  # points in pixels that touch hang together

@@ -10,10 +10,10 @@ import numpy.typing as npt
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 
-from models.city.cells import CellTable
-from models.city.gallery import Clouds
-from models.city.points import Ints, ranges
-from models.city.types import Floats, Progress
+from models.citymap.cells import CellTable
+from models.citymap.gallery import Clouds
+from models.citymap.points import Ints, ranges
+from models.citymap.types import Floats, Progress
 from models.errors import IndexBroken
 from models.posterior.surroundings.around import STEP_M, Around
 from models.posterior.surroundings.nodes import grid, nearest_nodes, owner_of

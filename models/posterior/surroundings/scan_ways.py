@@ -6,11 +6,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from models.city.cells import CellTable
-from models.city.gallery import Clouds
-from models.city.hints import HINT_REACH_M
-from models.city.points import Ints
-from models.city.types import Floats
+from models.citymap.cells import CellTable
+from models.citymap.gallery import Clouds
+from models.citymap.hints import HINT_REACH_M
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.posterior.surroundings.scan_pieces import PieceFinder, Tiles
 
 PIECE = 0.6  # a piece has at least this share of the points that a part has; cubes of nodes and of cells differ

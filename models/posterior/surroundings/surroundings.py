@@ -10,11 +10,11 @@ from typing import Protocol
 
 import numpy as np
 
-from models.city.bodies import PieceBodies
-from models.city.cells import CellTable
-from models.city.gallery import Clouds
-from models.city.points import Ints
-from models.city.types import Floats, Progress
+from models.citymap.cells import CellTable
+from models.citymap.gallery import Clouds
+from models.citymap.map_geometry import PieceBodies
+from models.citymap.points import Ints
+from models.citymap.types import Floats, Progress
 from models.posterior.surroundings.around import Around
 from models.posterior.surroundings.piece_surroundings import FILE, PieceSurroundings
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings

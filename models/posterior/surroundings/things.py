@@ -6,11 +6,11 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.city.bodies import PieceBodies
-from models.city.cells import CellTable, Parts
-from models.city.gallery import Gallery
-from models.city.points import Ints, ranges
-from models.city.types import Floats
+from models.citymap.cells import CellTable, Parts
+from models.citymap.gallery import Gallery
+from models.citymap.map_geometry import PieceBodies
+from models.citymap.points import Ints, ranges
+from models.citymap.types import Floats
 from models.strings import Categorical
 
 FLAT_M: Final = 0.5  # what is no higher is ground

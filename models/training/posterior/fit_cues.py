@@ -8,7 +8,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from models.city.points import Ints
+from models.citymap.points import Ints
 from models.errors import TrainingError
 from models.language.places.cue_reader import ANGLES, FLAGS, FORMS, RELATIONS, CueReader, token_span
 from models.training.posterior.cue_texts import CueText, names_of, varied

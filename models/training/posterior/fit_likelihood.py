@@ -9,8 +9,8 @@ import torch
 from scipy.spatial import cKDTree
 from torch import Tensor
 
-from models.city.cells import CellTable
-from models.city.points import Ints, ranges
+from models.citymap.cells import CellTable
+from models.citymap.points import Ints, ranges
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import NodeBatch
 from models.posterior.posterior import HintPosterior

@@ -8,13 +8,12 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.gazetteer.ways import Around, Ways
-from models.city.kinds.vocabulary import load_vocabulary
-from models.city.points import Ints
-from models.city.told_texts import SIGMA_M, ToldText
-from models.city.types import Floats
+from models.citymap.frame import Frame
+from models.citymap.gazetteer.closest_points import Around, Ways
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.kinds.vocabulary import load_vocabulary
+from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.errors import TrainingError
 from models.language.places.cue_reader import CueReader
 from models.language.places.lookup import Lookup
@@ -24,6 +23,7 @@ from models.posterior.locate import PLACE_HIT_M
 from models.posterior.places.explained import Places
 from models.posterior.places.field import PlaceField, Rough
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
+from models.sources.place_texts import SIGMA_M, ToldText
 
 HARD, NEAR_M, RANDOM = 250, 25.0, 60  # cells that fit the text best, around the truth, and any
 NODE_M = 3.0  # spacing of the nodes in a cell

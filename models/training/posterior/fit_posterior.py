@@ -9,13 +9,13 @@ import numpy as np
 import torch
 
 from models.checkpoint import CONFIG_FILE, round_weights
-from models.city.source import open_sources
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
 from models.localization.located import TOLD
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
+from models.sources.source import open_sources
 from models.training.engine.devices import lent_to
 from models.training.engine.loop import Progress, pick_device, run_training
 from models.training.posterior.cue_texts import labelled_texts

@@ -6,12 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from models.city.cells import CellTable
-from models.city.colours import Palette
-from models.city.points import Ints
-from models.city.queries import Queries
-from models.city.source import CHOSEN_BY, SPACING_M, Source
-from models.city.types import DIRECTIONS, Floats, Hint
+from models.citymap.cells import CellTable
+from models.citymap.colours import Palette
+from models.citymap.points import Ints
+from models.citymap.queries import Queries
+from models.citymap.types import DIRECTIONS, Floats, Hint
 from models.language.grammar.files import Grammar
 from models.language.grammar.labelled_text import Fact
 from models.language.grammar.wording import Wording
@@ -21,6 +20,7 @@ from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
 from models.posterior.posterior import HintPosterior
 from models.posterior.surroundings.surroundings import Surroundings, surroundings_of
+from models.sources.source import CHOSEN_BY, SPACING_M, Source
 
 READ_AT_ONCE = 16
 SLIPS = 0.15  # share of the texts that say something wrong, as people do

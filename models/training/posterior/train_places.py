@@ -12,11 +12,11 @@ import numpy as np
 import torch
 
 from models.checkpoint import CONFIG_FILE, SHIPPED
-from models.city.source import open_source
-from models.city.told_texts import load_told_texts
 from models.language.places.cue_reader import CueReader
 from models.posterior.model import PosteriorModel, load_posterior, save_posterior
 from models.posterior.places.kernels import PlaceKernels
+from models.sources.place_texts import load_told_texts
+from models.sources.source import open_source
 from models.training.posterior.cue_texts import LABELLED, OTHERS, PEOPLE, CueText, load_labelled
 from models.training.posterior.fit_cues import EPOCHS, accuracy, fit_cues
 from models.training.posterior.fit_places import ToldPlace, calibrate_places, fit_places, read_cases

@@ -9,7 +9,7 @@ from pyproj import Geod
 
 from app.benchmark import questions
 from app.benchmark.questions import Question, ask_all, shared_out, take_questions
-from models.city.osm.tiling import Block
+from models.sources.osm.city_copies import Block
 
 BOX = 250_000_000, 600_000_000, 250_100_000, 600_050_000  # 0.01 by 0.005 degrees
 BLOCK = Block(BOX, 4)

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from app.cli.main import app
 from app.threads import THREAD_VARIABLES
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 from models.errors import IndexBroken, MapError
 
 TEXT = "I am north of a gray building. A black pole is to my west."

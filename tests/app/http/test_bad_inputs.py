@@ -16,7 +16,7 @@ from good_requests import GOOD, IN_PATH, JSON, WITH_BODY, ask
 from app.jobs.job import Job
 from app.main import create_app
 from app.settings import Settings
-from models.city.scenery.files import SceneryPart
+from models.citymap.scenery.files import SceneryPart
 
 ADMIN = "admin-key-1"
 MOST_BYTES = 2_000_000

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 from fake_localizer import FakeLocalizer
 
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 PATH = "/cells/fakeville_00001"
 GEO = {"Accept": "application/geo+json"}

@@ -6,7 +6,7 @@ from fake_localizer import TRUE_FRAME, FakeLocalizer
 from app.http.routes.localize import check_reach
 from app.http.schemas.requests import describe_model
 from app.settings import Settings
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 PATH = "/describe"
 

@@ -9,7 +9,7 @@ from fake_localizer import TRUE_FRAME, FakeLocalizer
 from app.http.schemas.evaluate_requests import evaluate_model
 from app.jobs.order import find_data, read_evaluation, to_evaluation
 from app.settings import Settings
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 from models.errors import DataError
 
 ASKED = {"description": "I am north of a gray building. A pole is to my west.", "position": [1.0, 2.0]}

@@ -7,7 +7,7 @@ from geopy.geocoders import Nominatim
 
 from app.main import create_app
 from app.settings import Settings
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 TEXT = "I am north of a gray building. A black pole is to my west."
 HERE = (60.17, 24.94)

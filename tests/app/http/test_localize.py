@@ -9,7 +9,7 @@ from fake_localizer import FakeLocalizer
 
 from index.answers import Choice, Question
 from index.query import Box, Circle, Prior, Query, Reply
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 from models.errors import ReplyError, WeightsError
 
 TREE = {"question": "near:tree", "choice": "yes"}

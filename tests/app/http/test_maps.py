@@ -4,7 +4,7 @@ from hashlib import sha256
 import pytest
 from fake_localizer import FakeLocalizer
 
-from models.city.scenery.files import SceneryPart
+from models.citymap.scenery.files import SceneryPart
 
 PATH = "/maps/fakeville/points"
 BLOBS = b"geometry" * 100, b"more"

@@ -15,8 +15,8 @@ from service_states import Services, raises
 from app.jobs.runner import EvaluationJobs
 from app.main import create_app
 from app.settings import Settings
-from models.city.frame import Frame
-from models.city.scenery.files import SceneryPart
+from models.citymap.frame import Frame
+from models.citymap.scenery.files import SceneryPart
 from models.errors import IndexMismatch, StoreUnavailable
 
 READ, ADMIN = "read-key-1", "admin-key-1"

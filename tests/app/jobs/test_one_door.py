@@ -7,7 +7,7 @@ from app.jobs.order import Evaluation
 from index.evaluation.predictions import FILE, Predictions
 from index.localizer import Localizer
 from index.offline.build import build_index
-from models.city.source import CHOSEN_BY, open_source
+from models.sources.source import CHOSEN_BY, open_source
 from models.training.settings import TrainingConfig
 from models.training.training_data import load_training
 

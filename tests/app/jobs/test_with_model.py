@@ -12,8 +12,8 @@ from app.main import create_app
 from app.settings import Settings
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
-from models.city.queries import Queries
-from models.city.source import open_source
+from models.citymap.queries import Queries
+from models.sources.source import open_source
 
 TIMEOUT_S = 120
 

@@ -4,7 +4,7 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from models.city.scenery.reading import LOOK_FILE
+from models.citymap.scenery.reading import LOOK_FILE
 from tests.app.web.conftest import CHROMIUM, EVIL, SOFTWARE, Visitor
 
 pytestmark = pytest.mark.slow

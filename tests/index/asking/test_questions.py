@@ -8,8 +8,8 @@ from index.asking.heard import Heard
 from index.asking.questions import Questions
 from index.posterior.localizer import GOOD_M
 from index.query import MOST_REPLIES, Box, Circle, Prior, Query, Reply
-from models.city.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED
-from models.city.gazetteer.words import Words, WordTable
+from models.citymap.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED
+from models.citymap.gazetteer.name_columns import Words, WordTable
 from models.errors import ReplyError
 from models.posterior.questions import expected_entropy
 from tests.conftest import LAT, LAT_M, LON, LON_M

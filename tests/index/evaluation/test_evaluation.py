@@ -10,11 +10,11 @@ from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.scoring import score
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
-from models.city.hints import hint_table
-from models.city.queries import Queries
-from models.city.source import open_source
-from models.city.types import DIRECTIONS
+from models.citymap.hints import hint_table
+from models.citymap.queries import Queries
+from models.citymap.types import DIRECTIONS
 from models.errors import DataError
+from models.sources.source import open_source
 
 
 @pytest.fixture(scope="module")

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from index.evaluation.questions import evaluate_questions, questions_table, vague_texts
-from models.city.source import open_source
 from models.errors import DataError
+from models.sources.source import open_source
 
 
 def test_vague_texts_have_two_hints(asked) -> None:

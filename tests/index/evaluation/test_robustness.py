@@ -10,7 +10,7 @@ from index.evaluation.trials import Trial, all_trials
 from index.posterior.localizer import PosteriorLocalizer
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
-from models.city.types import Hint
+from models.citymap.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
 from models.posterior.surroundings.surroundings import surroundings_of

@@ -3,7 +3,7 @@ import json
 import pytest
 
 from index.evaluation.told import evaluate_told, told_tables
-from models.city.told_texts import ToldText
+from models.sources.place_texts import ToldText
 
 
 @pytest.fixture

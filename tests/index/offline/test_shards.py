@@ -14,7 +14,7 @@ from index.offline.build import IndexJob
 from index.offline.part import FILE, Part
 from index.offline.parts import PARTS
 from index.offline.shard import Shard
-from models.city.cells import BLOCK
+from models.citymap.cells import BLOCK
 from models.errors import DataError, IndexBroken
 from models.files import BUILDING
 from tests.told import told

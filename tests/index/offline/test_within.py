@@ -7,7 +7,7 @@ import models
 from index.artifact import open_version
 from index.localizer import Localizer
 from index.offline.build import build_index
-from models.city.osm.extract import Region
+from models.sources.osm.extract import Region
 
 SHIPPED_PATH = Path(models.__file__).parent / "maps" / "helsinki.osm.pbf"
 

@@ -1,9 +1,9 @@
 import pytest
 
 from index.posterior.meaning import PHRASES_FILE, VECTORS_FILE, Meanings, meanings_of
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.city.gazetteer.words import Words
-from models.city.kinds.vocabulary import load_vocabulary
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.citymap.gazetteer.name_columns import Words
+from models.citymap.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
 from models.language.places.cue_reader import CueReader
 from models.language.places.lookup import Lookup

@@ -16,9 +16,9 @@ from index.words.describing import (
     named_text,
     street_facts,
 )
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.city.gazetteer.words import STREET, Words
-from models.city.types import Hint
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.types import Hint
 from models.language.places.cues import WIND_DEGREES
 from models.posterior.surroundings.surroundings import surroundings_of
 from tests.models.city.gazetteer.made_town import line, made_gazetteer, point, ring

@@ -12,15 +12,15 @@ from unittest import mock
 import numpy as np
 import pytest
 
-from models.city.kitti360 import job as kitti360_job
-from models.city.kitti360.job import prepare_data
-from models.city.kitti360.rules import PrepareConfig
-from models.city.kitti360pose.files import Scene, save_scene
-from models.city.kitti360pose.pickle_values import RECORD_MODULE, RECORDS, Record
-from models.city.kitti360pose.pickle_writer import write_records
-from models.city.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
-from models.city.store.pose_store import PoseStore
-from models.city.types import DIRECTIONS
+from models.citymap.types import DIRECTIONS
+from models.sources.kitti360 import job
+from models.sources.kitti360.job import prepare_data
+from models.sources.kitti360.rules import PrepareConfig
+from models.sources.kitti360pose.files import Scene, save_scene
+from models.sources.kitti360pose.pickle_values import RECORD_MODULE, RECORDS, Record
+from models.sources.kitti360pose.pickle_writer import write_records
+from models.sources.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
+from models.sources.store.pose_store import PoseStore
 from tests.models.city.raw_scenes import TEST_STREET, VAL_STREET
 
 MINI = Path(__file__).parents[4] / "shared/data/k360-mini"

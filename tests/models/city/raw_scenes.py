@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import plyfile
 
-from models.city.kitti360.raw import RawScene
-from models.city.kitti360.rules import CLASSES
-from models.city.types import Instance
+from models.citymap.types import Instance
+from models.sources.kitti360.raw import RawScene
+from models.sources.kitti360.rules import CLASSES
 
 FOLDER = "2013_05_28_drive_0042_sync"
 TRAIN_STREETS = ("2013_05_28_drive_0000_sync", "2013_05_28_drive_0002_sync")

@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 from sklearn.cluster import DBSCAN
 
-from models.city.bodies import bodies_of, cut_cells
-from models.city.cells import cut_cube, cut_cubes, grid_centers
-from models.city.points import PointTable
-from models.city.types import CityMap, CutRules, Instance
+from models.citymap.cells import cut_cube, cut_cubes, grid_centers
+from models.citymap.map_geometry import bodies_of, cut_cells
+from models.citymap.points import PointTable
+from models.citymap.types import CityMap, CutRules, Instance
 from models.errors import MapError
 
 
@@ -75,7 +75,7 @@ def test_the_summary_of_parts(scan, points) -> None:
 def test_processes_give_what_one_gives(scan, points, monkeypatch) -> None:
     centers = grid_centers(scan.locations_m, scan.rules)
     many = cut_cubes(points, centers, scan.rules)
-    monkeypatch.setattr("models.city.cells.CHUNK", 10**6)
+    monkeypatch.setattr("models.citymap.cells.CHUNK", 10**6)
     one = cut_cubes(points, centers, scan.rules)
     for name in ("starts", "instance", "count", "low_m", "closest_m", "rgb"):
         assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)
@@ -101,7 +101,7 @@ def test_the_grid_is_regular_and_within_reach(city) -> None:
 
 def test_a_grid_is_the_same_however_much_of_it_is_looked_at_together(city, monkeypatch) -> None:
     whole = grid_centers(city.locations_m, city.rules)
-    monkeypatch.setattr("models.city.cells.AT_ONCE", 7)
+    monkeypatch.setattr("models.citymap.cells.AT_ONCE", 7)
     assert np.array_equal(grid_centers(city.locations_m, city.rules), whole)
 
 

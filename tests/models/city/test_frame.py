@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from models.city.frame import Frame
+from models.citymap.frame import Frame
 
 
 @pytest.mark.parametrize(

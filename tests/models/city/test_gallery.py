@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from models.city.gallery import CELLS_FILE, NAMES_FILE, Gallery, Numbered
+from models.citymap.gallery import CELLS_FILE, NAMES_FILE, Gallery, Numbered
 from models.errors import IndexBroken
 
 

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.hints import STRATEGIES, choose_hints, describe_poses, direction_index, hint_table, sample_positions
-from models.city.regions import split_regions
-from models.city.types import DIRECTIONS
+from models.citymap.hints import STRATEGIES, choose_hints, describe_poses, direction_index, hint_table, sample_positions
+from models.citymap.regions import split_regions
+from models.citymap.types import DIRECTIONS
 
 
 @pytest.mark.parametrize(

@@ -3,11 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from models.city.kitti360.job import prepare_data
-from models.city.queries import Queries
-from models.city.source import CHOSEN_BY, VOXEL_M, MapSource, open_source, open_sources
-from models.city.store.files import convert
+from models.citymap.queries import Queries
 from models.errors import DataError, MapError
+from models.sources.kitti360.job import prepare_data
+from models.sources.source import CHOSEN_BY, VOXEL_M, MapSource, open_source, open_sources
+from models.sources.store.files import convert
 from tests.models.city.raw_scenes import write_town
 
 SCENE = "2013_05_28_drive_0010_sync"

@@ -3,8 +3,8 @@ import json
 
 import pytest
 
-from models.city.told_texts import ToldText, load_told_texts
 from models.errors import DataError
+from models.sources.place_texts import ToldText, load_told_texts
 
 ROWS = [
     {"text": "At 25th and 10th", "goal": [40.75, -74.0], "start": [40.76, -73.99], "id": 5},

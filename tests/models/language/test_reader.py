@@ -2,7 +2,7 @@ import pytest
 import torch
 from torch import nn
 
-from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
+from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.grammar.labelled_text import Fact
 from models.language.grammar.wording import Wording
 from models.language.parsed_hint import RELATIONS, ParsedHint

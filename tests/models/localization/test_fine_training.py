@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.queries import Queries
-from models.city.source import open_source
-from models.city.store.files import load_data
+from models.citymap.queries import Queries
 from models.localization.checkpoint import FINE_METHODS, load_fine
 from models.localization.fine_model import FineConfig, FineModel
 from models.localization.regressor import Regressor, RegressorConfig
+from models.sources.source import open_source
+from models.sources.store.files import load_data
 from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, reflect_offset
 from models.training.fit_fine import FineTask, train_fine
 from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.colours import BASIC_PALETTE, KITTI360_PALETTE
+from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.parsed_hint import RELATIONS
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
 from models.posterior.node_batch import WAYS, NodeBatch, colour_words, ranks_of, usual_statements, way_number

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.colours import KITTI360_PALETTE
+from models.citymap.colours import KITTI360_PALETTE
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import NodeBatch, colour_words, usual_statements
 from models.posterior.node_likelihood import NodeLikelihood

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.point_sample import NUM_POINTS, sample_points
+from models.citymap.point_sample import NUM_POINTS, sample_points
 from models.errors import WeightsError
 from models.retrieval.instance_encoder import OURS, CellFeatures
 from models.retrieval.level_table import LevelTable, encode_gallery

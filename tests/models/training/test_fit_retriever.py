@@ -7,9 +7,8 @@ import torch
 from safetensors.torch import load_file
 
 from index.ranking import Ranker
-from models.city.hints import direction_index
-from models.city.source import open_sources
-from models.city.types import DIRECTIONS
+from models.citymap.hints import direction_index
+from models.citymap.types import DIRECTIONS
 from models.errors import DataError, WeightsError
 from models.localization.checkpoint import load_fine
 from models.localization.matching import MatchingConfig
@@ -18,6 +17,7 @@ from models.retrieval.checkpoint import METHODS, load_retriever
 from models.retrieval.instance_encoder import PAPERS, CellFeatures
 from models.retrieval.mncl import Mncl, MnclConfig
 from models.retrieval.text2loc import Text2Loc, Text2LocConfig
+from models.sources.source import open_sources
 from models.training.fit_fine import train_fine
 from models.training.fit_points import train_points
 from models.training.fit_retriever import RetrievalTask, train_retriever

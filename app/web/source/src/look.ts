@@ -1,6 +1,6 @@
 // Colours of the map, light and dark: quiet, so that the answer is what stands out. The service's own pictures have them too.
 
-import given from "../../../../models/city/scenery/look.json";
+import given from "../../../../models/citymap/scenery/look.json";
 
 /** `mentions` are of what a text mentions: eight that colour-blind eyes tell apart (after Okabe and Ito). */
 export type Look = Omit<typeof given.light, "heat"> & { heat: number[][] };

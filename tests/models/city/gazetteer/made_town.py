@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from models.city.gazetteer.gazetteer import ADDRESS, Gazetteer, build_gazetteer
-from models.city.gazetteer.words import STREET, Words
+from models.citymap.gazetteer.gazetteer import ADDRESS, Gazetteer, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET, Words
 
 EAST_WEST = {"West 24th Street": 0.0, "West 25th Street": 80.0, "West 26th Street": 160.0}
 NORTH_SOUTH = {"11th Avenue": 0.0, "10th Avenue": 200.0, "9th Avenue": 400.0}

@@ -5,8 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from models.city.gazetteer.drawing import Grid, draw_areas, draw_lines, pixels_of
-from models.city.gazetteer.ways import is_inside
+from models.citymap.gazetteer.closest_points import is_inside
+from models.citymap.gazetteer.rasterize import Grid, draw_areas, draw_lines, pixels_of
 from tests.models.city.gazetteer.made_town import line, point
 
 GRID = Grid(100.0, -50.0, 10.0, 3, 4)

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from safetensors.numpy import load_file, save_file
 
-from models.city.gazetteer.gazetteer import ADDRESS, FILE, NOTHING_NAMED, Gazetteer, build_gazetteer
-from models.city.gazetteer.words import STREET, Words
+from models.citymap.gazetteer.gazetteer import ADDRESS, FILE, NOTHING_NAMED, Gazetteer, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET, Words
 from models.errors import IndexBroken
 from tests.models.city.gazetteer.made_town import EAST_WEST, MARKET, NORTH_SOUTH, made_gazetteer, numbered
 

@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from scipy.ndimage import distance_transform_edt
 
-from models.city.gazetteer.nearest import MOST_REACH, MOST_SQUARED, columns_away, pixels_away, squares_away
+from models.citymap.gazetteer.distance_transform import (
+    MOST_REACH,
+    MOST_SQUARED,
+    columns_away,
+    pixels_away,
+    squares_away,
+)
 
 
 @pytest.mark.parametrize("drawn", [0, 1, 3, 40, 400])

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.city.gazetteer.raster import BLOCK, MARGIN_M, NEAR_M, Raster
-from models.city.gazetteer.words import Words
+from models.citymap.gazetteer.distance_raster import BLOCK, MARGIN_M, NEAR_M, Raster
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.citymap.gazetteer.name_columns import Words
 from tests.models.city.gazetteer.made_town import MARKET, PARK, line, made_gazetteer, numbered, point
 
 GRID_M = 10.0
@@ -142,7 +142,7 @@ def test_a_map_where_nothing_is_named() -> None:
 def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
     raster = Raster(town, CENTERS, GRID_M)
     most = 5 * max(raster.away([np.array([n])]).nbytes for n in range(5)) // 2
-    monkeypatch.setattr("models.city.gazetteer.raster.KEPT_BYTES", most)
+    monkeypatch.setattr("models.citymap.gazetteer.distance_raster.KEPT_BYTES", most)
     raster = Raster(town, CENTERS, GRID_M)
     first = [away(raster, np.array([n])).copy() for n in range(5)]
     assert 2 <= len(raster._lately) < 5
@@ -151,7 +151,7 @@ def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
 
 
 def test_what_is_larger_than_all_that_is_kept_is_found_and_not_kept(town, raster, monkeypatch) -> None:
-    monkeypatch.setattr("models.city.gazetteer.raster.KEPT_BYTES", 100)
+    monkeypatch.setattr("models.citymap.gazetteer.distance_raster.KEPT_BYTES", 100)
     small = Raster(town, CENTERS, GRID_M)
     assert (away(small, np.array([0])) == away(raster, np.array([0]))).all()
     assert not small._lately

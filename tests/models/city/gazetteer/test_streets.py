@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from models.city.gazetteer.streets import ONE_CORNER_M, Pieces, Streets, Ways, join_streets
-from models.city.gazetteer.words import STREET, Words
+from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.streets import ONE_CORNER_M, Pieces, Streets, Ways, join_streets
 from tests.models.city.gazetteer.made_town import line
 
 FIRST = 10

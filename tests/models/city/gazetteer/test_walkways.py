@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from models.city.gazetteer.gazetteer import WALKED, build_gazetteer
-from models.city.gazetteer.walkways import FARTHEST_M, Walkways
-from models.city.gazetteer.words import Words
+from models.citymap.gazetteer.gazetteer import WALKED, build_gazetteer
+from models.citymap.gazetteer.name_columns import Words
+from models.citymap.gazetteer.walkways import FARTHEST_M, Walkways
 from tests.models.city.gazetteer.made_town import line, ring
 
 LOW, HIGH = np.array([0.0, 0.0]), np.array([200.0, 200.0])

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer, build_gazetteer
-from models.city.gazetteer.ways import Around, cut, ways_to
-from models.city.gazetteer.words import Words
+from models.citymap.gazetteer.closest_points import Around, cut, ways_to
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer, build_gazetteer
+from models.citymap.gazetteer.name_columns import Words
 from tests.models.city.gazetteer.made_town import line, point, ring
 
 BOX = ring(10, 10, 30, 20)

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from models.city.kinds import make, vocabulary
-from models.city.kinds.brands import plain
-from models.city.kinds.vocabulary import HERE, Vocabulary, load_vocabulary
-from models.city.kinds.words import sayings
+from models.citymap.kinds import make, vocabulary
+from models.citymap.kinds.brands import plain
+from models.citymap.kinds.vocabulary import HERE, Vocabulary, load_vocabulary
+from models.citymap.kinds.words import sayings
 from models.errors import DataError
 
 

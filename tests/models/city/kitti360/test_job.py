@@ -7,15 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.kitti360.job import prepare_data
-from models.city.kitti360.prepare import prepare_scene
-from models.city.kitti360.raw import load_raw_scene
-from models.city.kitti360.rules import PrepareConfig
-from models.city.kitti360pose.direction import load_direction
-from models.city.kitti360pose.files import load_cells, load_scene
-from models.city.store.files import load_data
-from models.city.types import CutRules
+from models.citymap.types import CutRules
 from models.errors import DataError
+from models.sources.kitti360.job import prepare_data
+from models.sources.kitti360.prepare import prepare_scene
+from models.sources.kitti360.raw import load_raw_scene
+from models.sources.kitti360.rules import PrepareConfig
+from models.sources.kitti360pose.direction import load_direction
+from models.sources.kitti360pose.files import load_cells, load_scene
+from models.sources.store.files import load_data
 from tests.models.city.conftest import LONG, MINI, QUICK, VAL, assert_same, contents, forbid, needs_mini
 from tests.models.city.raw_scenes import write_town
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from models.city.kitti360 import job as kitti360_job
-from models.city.kitti360.job import prepare_data
-from models.city.kitti360pose.files import load_scene
 from models.errors import DataError
+from models.sources.kitti360 import job
+from models.sources.kitti360.job import prepare_data
+from models.sources.kitti360pose.files import load_scene
 from tests.models.city.conftest import LONG, QUICK, VAL, contents, forbid
 
 
@@ -77,7 +77,7 @@ def test_what_a_killed_run_left_is_removed(raw_root: Path, prepared: Path, tmp_p
 
 
 def test_two_runs_do_not_make_one_scene(raw_root: Path, prepared: Path, tmp_path: Path) -> None:
-    code = "import sys; from pathlib import Path; from models.city.kitti360.job import prepare_data\n"
+    code = "import sys; from pathlib import Path; from models.sources.kitti360.job import prepare_data\n"
     code += "prepare_data(Path(sys.argv[1]), Path(sys.argv[2]), '0003')"
     command = [sys.executable, "-c", code, str(raw_root), str(tmp_path)]
     others = []

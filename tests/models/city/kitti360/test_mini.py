@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.kitti360.prepare import choose_locations, describe_positions, prepare_scene, scene_points
-from models.city.kitti360.raw import RawScene, load_raw_scene
-from models.city.kitti360.rules import PrepareConfig
-from models.city.kitti360pose.records import PublishedHint
+from models.sources.kitti360.prepare import choose_locations, describe_positions, prepare_scene, scene_points
+from models.sources.kitti360.raw import RawScene, load_raw_scene
+from models.sources.kitti360.rules import PrepareConfig
+from models.sources.kitti360pose.records import PublishedHint
 
 MINI = Path(__file__).parents[4].parent / "shared/data/k360-mini"
 

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from sklearn.cluster import DBSCAN
 
-from models.city.colours import KITTI360_PALETTE
-from models.city.hints import round_robin
-from models.city.kitti360.prepare import (
+from models.citymap.colours import KITTI360_PALETTE
+from models.citymap.hints import round_robin
+from models.citymap.types import CutRules
+from models.errors import DataError
+from models.sources.kitti360.prepare import (
     choose_locations,
     cut_cells,
     describe_positions,
@@ -14,11 +16,9 @@ from models.city.kitti360.prepare import (
     prepare_scene,
     scene_points,
 )
-from models.city.kitti360.raw import RawScene
-from models.city.kitti360.rules import PrepareConfig
-from models.city.kitti360pose.records import PublishedHint
-from models.city.types import CutRules
-from models.errors import DataError
+from models.sources.kitti360.raw import RawScene
+from models.sources.kitti360.rules import PrepareConfig
+from models.sources.kitti360pose.records import PublishedHint
 from tests.models.city.raw_scenes import town
 
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.kitti360.raw import list_raw_scenes, load_raw_scene, read_tile, read_trajectory
-from models.city.kitti360.rules import CLASSES
 from models.errors import DataError
+from models.sources.kitti360.raw import list_raw_scenes, load_raw_scene, read_tile, read_trajectory
+from models.sources.kitti360.rules import CLASSES
 from tests.models.city.raw_scenes import FOLDER, VERTEX, write_ply, write_trajectory
 
 POLE, ROAD, CAR, UNLABELLED = (17, 17001), (7, 7001), (26, 26001), (0, 0)

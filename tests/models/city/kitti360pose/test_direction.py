@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.kitti360pose.direction import find_neighbours, load_direction, save_direction
-from models.city.kitti360pose.files import load_cells
-from models.city.kitti360pose.records import PublishedCell
 from models.errors import DataError
+from models.sources.kitti360pose.direction import find_neighbours, load_direction, save_direction
+from models.sources.kitti360pose.files import load_cells
+from models.sources.kitti360pose.records import PublishedCell
 from tests.models.city.conftest import MINI, make_cell, needs_mini
 
 POINTS = ["east", "west", "north", "south", "northeast", "northwest", "southeast", "southwest"]

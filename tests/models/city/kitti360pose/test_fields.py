@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.kitti360pose.files import load_cells, load_poses, load_scene, save_scene
-from models.city.kitti360pose.pickle_values import Record
-from models.city.kitti360pose.pickle_writer import cell_record, pose_record
 from models.errors import DataError
+from models.sources.kitti360pose.files import load_cells, load_poses, load_scene, save_scene
+from models.sources.kitti360pose.pickle_values import Record
+from models.sources.kitti360pose.pickle_writer import cell_record, pose_record
 from tests.models.city.conftest import LONG, dump, make_cell, make_hint, make_pose, oracle
 
 

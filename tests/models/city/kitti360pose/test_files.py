@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from models.city.kitti360pose.files import (
+from models.errors import DataError
+from models.sources.kitti360pose.files import (
     list_scenes,
     load_cells,
     load_poses,
@@ -17,9 +18,8 @@ from models.city.kitti360pose.files import (
     select_scenes,
     short_name,
 )
-from models.city.kitti360pose.pickle_values import RECORD_MODULE, RECORDS
-from models.city.kitti360pose.pickle_writer import pose_record
-from models.errors import DataError
+from models.sources.kitti360pose.pickle_values import RECORD_MODULE, RECORDS
+from models.sources.kitti360pose.pickle_writer import pose_record
 from tests.models.city.conftest import (
     LONG,
     MINI,

@@ -12,15 +12,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.kitti360pose.files import (
+from models.errors import DataError
+from models.sources.kitti360pose.files import (
     iter_cells,
     load_cells,
     load_poses,
 )
-from models.city.kitti360pose.pickle_values import RECORD_MODULE
-from models.city.kitti360pose.pickle_writer import cell_record, pose_record
-from models.city.kitti360pose.records import PublishedCell
-from models.errors import DataError
+from models.sources.kitti360pose.pickle_values import RECORD_MODULE
+from models.sources.kitti360pose.pickle_writer import cell_record, pose_record
+from models.sources.kitti360pose.records import PublishedCell
 from tests.models.city.conftest import LONG, dump, make_cell, make_pose, reference_pickle
 
 

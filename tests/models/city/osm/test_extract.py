@@ -6,9 +6,9 @@ import osmium
 import pytest
 
 import models
-from models.city.osm.extract import Region, extract, extracted
-from models.city.osm.map import load_osm
 from models.errors import MapError
+from models.sources.osm.extract import Region, extract, extracted
+from models.sources.osm.map import load_osm
 
 SHIPPED_PATH = Path(models.__file__).parent / "maps" / "helsinki.osm.pbf"
 BOX = "24.9440,60.1690,24.9500,60.1720"

@@ -3,11 +3,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.frame import Frame
-from models.city.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer
-from models.city.gazetteer.words import STREET
-from models.city.osm.gazetteer import MOST_NAMES, load_gazetteer
+from models.citymap.frame import Frame
+from models.citymap.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer
+from models.citymap.gazetteer.name_columns import STREET
 from models.errors import MapError
+from models.sources.osm.gazetteer import MOST_NAMES, load_gazetteer
 
 FRAME = Frame("map", 60.0, 25.0)
 LAT_M, LON_M = 1 / 111_412.0, 1 / 55_800.0  # degrees a metre, near enough at 60 degrees

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.colours import parse_colour
-from models.city.osm.classes import OsmClass, class_of, load_classes
-from models.city.osm.map import frame_of, load_osm
+from models.citymap.colours import parse_colour
 from models.errors import MapError
+from models.sources.osm.classes import OsmClass, class_of, load_classes
+from models.sources.osm.map import frame_of, load_osm
 
 HEADER = "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>"
 STREET = (

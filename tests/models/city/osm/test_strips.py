@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.osm.classes import load_classes
-from models.city.osm.features import Feature
-from models.city.osm.map import load_osm
-from models.city.osm.strips import Instances, Strips
-from models.city.osm.taking import Taken
+from models.sources.osm.classes import load_classes
+from models.sources.osm.feature_strips import Instances, Strips
+from models.sources.osm.features import Feature
+from models.sources.osm.imported_map import Taken
+from models.sources.osm.map import load_osm
 
 
 def feature(label, geometry, source, height_m=0.0):
@@ -19,15 +19,15 @@ def feature(label, geometry, source, height_m=0.0):
 
 
 def filed(tmp_path, features, monkeypatch, band):
-    monkeypatch.setattr("models.city.osm.strips.BAND", band)
+    monkeypatch.setattr("models.sources.osm.feature_strips.BAND", band)
     return Strips(tmp_path, [features[:2], [], features[2:]])
 
 
 @pytest.mark.parametrize("band", [1, 2, 7])
 def test_a_map_is_the_same_in_strips_of_any_width(band, osm_file, monkeypatch) -> None:
-    monkeypatch.setattr("models.city.osm.strips.BAND", 10_000)
+    monkeypatch.setattr("models.sources.osm.feature_strips.BAND", 10_000)
     whole = load_osm(osm_file)
-    monkeypatch.setattr("models.city.osm.strips.BAND", band)
+    monkeypatch.setattr("models.sources.osm.feature_strips.BAND", band)
     some = load_osm(osm_file)
     assert len(some.instances) == len(whole.instances) > 20
     for one, other in zip(some.instances, whole.instances, strict=True):

@@ -7,12 +7,12 @@ import numpy as np
 import osmium
 import pytest
 
-from models.city.frame import Frame
-from models.city.gazetteer.words import STREET
-from models.city.osm.gazetteer import load_gazetteer
-from models.city.osm.map import load_osm
-from models.city.osm.tiling import Block, Extract
+from models.citymap.frame import Frame
+from models.citymap.gazetteer.name_columns import STREET
 from models.errors import MapError
+from models.sources.osm.city_copies import Block, Extract
+from models.sources.osm.gazetteer import load_gazetteer
+from models.sources.osm.map import load_osm
 
 COPIES = 5
 LETTERS = {"n": 0, "w": 1, "r": 2}

@@ -1,7 +1,7 @@
 import numpy as np
 
-from models.city.scenery import cloud
-from models.city.scenery.cloud import encode_cloud
+from models.citymap.scenery import cloud
+from models.citymap.scenery.cloud import encode_cloud
 
 
 def test_every_part_shows_all_of_the_map(monkeypatch) -> None:

@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.scenery.cloud import encode_cloud
-from models.city.scenery.files import file_name, save_scenery
-from models.city.scenery.reading import AREA, LINE, POINT, look, read_scenery
-from models.city.scenery.shapes import Outlines, Place
-from models.city.types import MapShape
+from models.citymap.scenery.cloud import encode_cloud
+from models.citymap.scenery.files import file_name, save_scenery
+from models.citymap.scenery.reading import AREA, LINE, POINT, look, read_scenery
+from models.citymap.scenery.shapes import Outlines, Place
+from models.citymap.types import MapShape
 
 
 def test_shapes_are_read_as_they_were_written(tmp_path) -> None:

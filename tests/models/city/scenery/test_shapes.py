@@ -5,9 +5,9 @@ import pytest
 import shapely
 import shapely.affinity
 
-from models.city.osm.map import load_osm
-from models.city.scenery.shapes import KINDS, Drawing, Drawings, Outlines, Place
-from models.city.types import MapShape
+from models.citymap.scenery.shapes import KINDS, Drawing, Drawings, Outlines, Place
+from models.citymap.types import MapShape
+from models.sources.osm.map import load_osm
 
 HOUSE = shapely.Polygon([(0, 0), (20, 0), (20, 10), (0, 10)], [[(5, 2), (8, 2), (8, 5), (5, 5)]])
 
@@ -74,7 +74,7 @@ def test_what_is_drawn_a_part_at_a_time_is_the_same(at_once, monkeypatch) -> Non
     ]
     shapes.sort(key=lambda shape: shape.label)
     expected = Outlines.of(shapes)
-    monkeypatch.setattr("models.city.scenery.shapes.AT_ONCE", at_once)
+    monkeypatch.setattr("models.citymap.scenery.shapes.AT_ONCE", at_once)
     drawings, order = Drawings(["building", "tree"]), rng.permutation(len(shapes))
     for some in np.array_split(order, 5):
         drawings.add(Drawing.of([shapes[n] for n in some], some))

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from models.citymap.templates import render_hint
 
-from models.city.kitti360pose.files import Scene, load_scene, save_scene
-from models.city.store.files import convert, load_data, open_store, verify_store
-from models.city.store.layout import COLUMNS
-from models.city.templates import render_hint
 from models.errors import DataError
+from models.sources.kitti360pose.files import Scene, load_scene, save_scene
+from models.sources.store.files import convert, load_data, open_store, verify_store
+from models.sources.store.layout import COLUMNS
 from tests.models.city.conftest import MINI, assert_kept, needs_mini
 
 

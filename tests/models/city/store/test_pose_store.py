@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.kitti360pose.files import Scene, save_scene
-from models.city.kitti360pose.records import PublishedCell, PublishedObject
-from models.city.point_sample import sample_points
-from models.city.store.files import convert, load_data
-from models.city.store.pose_store import PoseStore
+from models.citymap.point_sample import sample_points
 from models.errors import DataError
+from models.sources.kitti360pose.files import Scene, save_scene
+from models.sources.kitti360pose.records import PublishedCell, PublishedObject
+from models.sources.store.files import convert, load_data
+from models.sources.store.pose_store import PoseStore
 from tests.models.city.conftest import assert_kept, assert_same
 
 

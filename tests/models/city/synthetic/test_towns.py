@@ -5,19 +5,19 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from models.city.colours import KITTI360_PALETTE
-from models.city.kitti360.prepare import prepare_scene
-from models.city.kitti360.raw import list_raw_scenes, load_raw_scene
-from models.city.kitti360.rules import CLASSES, GROUND, PrepareConfig
-from models.city.kitti360pose.files import STANDARD_SPLITS, short_name
-from models.city.synthetic import towns as synthetic
-from models.city.synthetic.drive import count_cells, draw_drive, spaced
-from models.city.synthetic.layout import draw_land, draw_plan
-from models.city.synthetic.objects import FURNITURE
-from models.city.synthetic.shapes import Spot, box, patch
-from models.city.synthetic.styles import COLOURS, STYLES
-from models.city.synthetic.towns import SCALES, SIZES, TOWN_STYLES, build_town, write_town, write_towns
+from models.citymap.colours import KITTI360_PALETTE
 from models.errors import DataError
+from models.sources.kitti360.prepare import prepare_scene
+from models.sources.kitti360.raw import list_raw_scenes, load_raw_scene
+from models.sources.kitti360.rules import CLASSES, GROUND, PrepareConfig
+from models.sources.kitti360pose.files import STANDARD_SPLITS, short_name
+from models.sources.synthetic import towns
+from models.sources.synthetic.drive import count_cells, draw_drive, spaced
+from models.sources.synthetic.layout import draw_land, draw_plan
+from models.sources.synthetic.objects import FURNITURE
+from models.sources.synthetic.shapes import Spot, box, patch
+from models.sources.synthetic.styles import COLOURS, STYLES
+from models.sources.synthetic.towns import SCALES, SIZES, TOWN_STYLES, build_town, write_town, write_towns
 
 LABELS = {rule.label for rule in CLASSES}
 TINY = {"train": (12, 20), "val": (15,), "test": ()}

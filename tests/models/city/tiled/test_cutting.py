@@ -5,9 +5,9 @@ import pytest
 import shapely
 from scipy.cluster.hierarchy import DisjointSet
 
-from models.city.bodies import ScannedBodies, bodies_of
-from models.city.tiled.solids import GROUND_SPACING_M, crown_reach_m
-from models.city.tiled.tiling import TOUCHING_M
+from models.citymap.geometry.solids import GROUND_SPACING_M, crown_reach_m
+from models.citymap.geometry.tiling import TOUCHING_M
+from models.citymap.map_geometry import ScannedBodies, bodies_of
 
 
 def naive_parts(city, center):
@@ -83,7 +83,7 @@ def test_the_town_as_geometry_is_nearly_the_town_as_points(city, scan, bodies, c
 
 def test_processes_give_what_one_gives(bodies, cells, monkeypatch):
     many = bodies.cut(cells.center_m)
-    monkeypatch.setattr("models.city.tiled.cutting.CHUNK", 64)
+    monkeypatch.setattr("models.citymap.geometry.cutting.CHUNK", 64)
     one = bodies.cut(cells.center_m)
     for name in ("starts", "instance", "count", "low_m", "high_m", "closest_m", "rgb"):
         assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.tiled.pieces import PieceTable
-from models.city.tiled.segments import STEP_M, geometry_of, ring_starts, segments_of, snapped
+from models.citymap.geometry.pieces import PieceTable
+from models.citymap.geometry.segments import STEP_M, geometry_of, ring_starts, segments_of, snapped
 
 
 def test_pieces_are_put_together_again_from_their_segments(city) -> None:

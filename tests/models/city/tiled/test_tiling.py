@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import shapely
 
-from models.city.tiled.pieces import PieceTable
-from models.city.tiled.solids import Solid, points_on
-from models.city.tiled.tiling import EVERYWHERE, TILE_M, clip_to_tiles, take_apart, uncovered
+from models.citymap.geometry.pieces import PieceTable
+from models.citymap.geometry.solids import Solid, points_on
+from models.citymap.geometry.tiling import EVERYWHERE, TILE_M, clip_to_tiles, take_apart, uncovered
 
 
 def array(*geometries):
@@ -106,7 +106,7 @@ def test_pieces_of_some_columns_at_a_time_hang_together_as_all_do(columns, monke
     whole = PieceTable.of(solids)
     assert whole.shape[0] > 6
     assert len(whole.links)
-    monkeypatch.setattr("models.city.tiled.pieces.COLUMNS", columns)
+    monkeypatch.setattr("models.citymap.geometry.pieces.COLUMNS", columns)
     some = PieceTable.of(solids)
     assert np.array_equal(some.link_starts, whole.link_starts)
     assert np.array_equal(some.links, whole.links)
@@ -121,5 +121,5 @@ def test_places_to_stand_are_the_same_however_many_areas_are_looked_at_together(
     block = np.floor(whole[:, :2] / 2.0)
     assert not whole[:, 2].any()
     assert len(np.unique(block, axis=0)) == len(whole) > 500
-    monkeypatch.setattr("models.city.tiled.pieces.AT_ONCE", at_once)
+    monkeypatch.setattr("models.citymap.geometry.pieces.AT_ONCE", at_once)
     assert np.array_equal(table.lattice(rows, 2.0), whole)

@@ -5,11 +5,11 @@ import pytest
 import shapely
 from scipy.cluster.hierarchy import DisjointSet
 
-from models.city.tiled.cutting import THING
-from models.city.tiled.segments import STEP_M
-from models.city.tiled.solids import crown_reach_m
-from models.city.tiled.tiling import TILE_M
-from models.city.tiled.ways import LEAST, ways_around
+from models.citymap.geometry.closest_points import LEAST, ways_around
+from models.citymap.geometry.cutting import THING
+from models.citymap.geometry.segments import STEP_M
+from models.citymap.geometry.solids import crown_reach_m
+from models.citymap.geometry.tiling import TILE_M
 
 REACH_M, WAY_STEP_M = 15.0, 15.0 / 127
 

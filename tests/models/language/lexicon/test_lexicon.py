@@ -2,11 +2,11 @@ from dataclasses import replace
 
 import pytest
 
-from models.city.kitti360.rules import CLASSES
-from models.city.osm.classes import load_classes
 from models.language.grammar.files import load_grammar
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.reader import COLOURS
+from models.sources.kitti360.rules import CLASSES
+from models.sources.osm.classes import load_classes
 
 KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "vegetation")
 

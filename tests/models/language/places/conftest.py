@@ -1,7 +1,7 @@
 import pytest
 
-from models.city.gazetteer.gazetteer import Gazetteer
-from models.city.kinds.vocabulary import load_vocabulary
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.places.cue_reader import CueReader
 from models.language.places.lookup import Lookup
 from models.posterior.model import load_posterior

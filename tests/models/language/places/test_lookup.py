@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from models.city.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED, build_gazetteer
-from models.city.gazetteer.words import STREET, Words
-from models.city.kinds.vocabulary import load_vocabulary
+from models.citymap.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.places.lookup import KEPT, Lookup
 from models.language.places.names import plain_words
 from tests.models.city.gazetteer.made_town import NUMBERS, called, is_common, line, numbered, point

@@ -1,7 +1,7 @@
 import pytest
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED
-from models.city.kinds.vocabulary import load_vocabulary
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED
+from models.citymap.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
 from models.language.places.lookup import Lookup
 from models.language.places.name_table import FILE, NameTable

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.city.gazetteer.words import Words
-from models.city.kinds.vocabulary import load_vocabulary
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.citymap.gazetteer.name_columns import Words
+from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.places.lookup import Lookup
 from models.language.places.reader import MOST_OBJECTS, find_mentions, is_meeting, listener_wind, with_goal
 from tests.models.city.gazetteer.made_town import called, is_common, point

@@ -1,6 +1,6 @@
 import pytest
 
-from models.city.gazetteer.words import Words
+from models.citymap.gazetteer.name_columns import Words
 from models.posterior.places.addresses import Addresses
 
 HOUSES = [

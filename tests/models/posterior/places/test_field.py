@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.gazetteer.gazetteer import NOTHING_NAMED, WALKED, build_gazetteer
-from models.city.gazetteer.ways import Around
-from models.city.gazetteer.words import STREET, Words
+from models.citymap.gazetteer.closest_points import Around
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, WALKED, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET, Words
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.posterior.places.field import PlaceField, Told

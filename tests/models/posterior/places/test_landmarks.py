@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from models.city.gazetteer.gazetteer import build_gazetteer
-from models.city.gazetteer.words import Words
+from models.citymap.gazetteer.gazetteer import build_gazetteer
+from models.citymap.gazetteer.name_columns import Words
 from models.errors import IndexBroken
 from models.posterior.places.chances import ON_STREET_M
 from models.posterior.places.landmarks import FILE, Landmarks

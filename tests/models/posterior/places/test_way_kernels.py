@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.gazetteer.ways import Ways
+from models.citymap.gazetteer.closest_points import Ways
 from models.language.places.cues import Cue
 from models.language.places.mentions import Mention
 from models.posterior.places.field import PlaceField

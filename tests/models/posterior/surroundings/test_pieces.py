@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.city.bodies import bodies_of, cut_cells
-from models.city.source import MapSource
-from models.city.types import CityMap, CutRules, Instance
+from models.citymap.map_geometry import bodies_of, cut_cells
+from models.citymap.types import CityMap, CutRules, Instance
 from models.posterior.surroundings.around import STEP_M
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
+from models.sources.source import MapSource
 
 LEFT, RIGHT = np.array([0.2, 0.2, 0.2]), np.array([0.8, 0.8, 0.8])
 ROAD_M = 8.0  # between the sidewalks

@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
-from models.city.bodies import bodies_of, cut_cells
-from models.city.source import MapSource, open_source
+from models.citymap.map_geometry import bodies_of, cut_cells
 from models.errors import IndexBroken
 from models.posterior.surroundings.around import STEP_M
 from models.posterior.surroundings.nodes import SPACING_M
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 from models.posterior.surroundings.surroundings import load_surroundings, surroundings_of
+from models.sources.source import MapSource, open_source
 
 
 @pytest.fixture(scope="module")

@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.frame import Frame
-from models.city.told_texts import ToldText
+from models.citymap.frame import Frame
 from models.errors import TrainingError
 from models.posterior.model import load_posterior
 from models.posterior.places.kernels import PlaceKernels
+from models.sources.place_texts import ToldText
 from models.training.posterior.fit_places import Case, ToldPlace, calibrate_places, fit_places, read_cases
 from tests.models.city.gazetteer.made_town import is_common, made_gazetteer
 

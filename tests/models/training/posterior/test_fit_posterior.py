@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import torch
 
-from models.city.colours import KITTI360_PALETTE
-from models.city.types import Hint
+from models.citymap.colours import KITTI360_PALETTE
+from models.citymap.types import Hint
 from models.language.grammar.files import load_grammar
 from models.language.grammar.labelled_text import LabelledText
 from models.language.grammar.wording import Wording

@@ -1,0 +1,282 @@
+"""Cutting a map into cells: the instances, whole or clipped, inside cubes around given centres.
+
+One function cuts both the cells of the grid and the cell around a pose from which its hints are made
+(docs/formats.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property, partial
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from models.citymap.point_sample import Sampler, sample_points, samples
+from models.citymap.points import Ints, PointTable, ranges
+from models.citymap.types import CutRules, Floats
+from models.processes import map_forked
+from models.spool import forget
+
+CHUNK = 128  # cubes a task
+AT_ONCE: Final = 100_000  # points of the grid, for which a tree is made of the locations around them
+BLOCK: Final = 1024  # cells that are encoded or tabulated together: their bits depend on no cell of another block
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parts:
+    """What lies in a number of cubes: one row an instance (or a connected part of it) and cube.
+
+    Attributes:
+        starts: [N + 1] cube n has the rows starts[n] to starts[n + 1].
+        instance: [R] int32, row in `CityMap.instances`.
+        count: [R] int32, points of the part.
+        low_m, high_m: [R, 3] float32, the part's bounding box, map frame.
+        closest_m: [R, 3] float32, the part's point nearest to the centre of the cube, map frame.
+        rgb: [R, 3] float32 mean colour, NaN where unknown.
+    """
+
+    starts: Ints
+    instance: Ints
+    count: Ints
+    low_m: Floats
+    high_m: Floats
+    closest_m: Floats
+    rgb: Floats
+
+    @property
+    def center_m(self) -> Floats:
+        """[R, 3] middle of the bounding boxes."""
+        return (self.low_m + self.high_m) / 2
+
+    @property
+    def cube(self) -> Ints:
+        """[R] the cube of each row."""
+        return np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
+
+    def forget(self) -> None:
+        """Have what lies on disk take no memory until it is looked at."""
+        forget(getattr(self, f.name) for f in fields(self))
+
+    def take(self, cubes: Ints) -> "Parts":
+        """The rows of some cubes, in the given order."""
+        begin, end = self.starts[cubes], self.starts[cubes + 1]
+        if (
+            len(cubes) and (begin[1:] == end[:-1]).all() and end[-1] - begin[0] == len(self.instance)
+        ):  # others are empty
+            return replace(self, starts=np.append(begin, end[-1]))  # the others are empty
+        rows = ranges(begin, end)
+        columns = {f.name: getattr(self, f.name)[rows] for f in fields(self) if f.name != "starts"}
+        return Parts(starts=np.concatenate([[0], np.cumsum(end - begin)]), **columns)
+
+
+@dataclass(frozen=True, eq=False)
+class CellTable:
+    """The cells of a map, or of several, in columns.
+
+    Attributes:
+        ids: N names "<scene>_<number>".
+        scenes: N scene names.
+        center_m: [N, 3] float64, map frame.
+        size_m: edge of the cubes.
+        content: what is in them, or what cuts that of some rows when it is asked for.
+        sample: gives points of the parts; None where they are not at hand, as in an index.
+    """
+
+    ids: Sequence[str]
+    scenes: tuple[str, ...]
+    center_m: Floats
+    size_m: float
+    content: Parts | Callable[[Ints], Parts]
+    sample: Sampler | None = field(default=None, repr=False)
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    @cached_property
+    def parts(self) -> Parts:
+        """What is in them; of a map of pieces it takes seconds to cut that out of a city, of some cells no time."""
+        return self.content if isinstance(self.content, Parts) else self.content(np.arange(len(self)))
+
+    @property
+    def extent_m(self) -> float:
+        """Radius of a circle round any position of the map that holds all of it."""
+        return float(np.linalg.norm(np.ptp(self.center_m[:, :2], axis=0)) + self.size_m)
+
+    def take(self, rows: Ints) -> "CellTable":
+        """Some cells, in the given order."""
+        sample, content = self.sample, self.content
+        return CellTable(
+            ids=tuple(self.ids[r] for r in rows),
+            scenes=tuple(self.scenes[r] for r in rows),
+            center_m=self.center_m[rows],
+            size_m=self.size_m,
+            content=content.take(rows) if isinstance(content, Parts) else (lambda chosen: content(rows[chosen])),
+            sample=sample and (lambda chosen: sample(rows[chosen])),
+        )
+
+
+def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
+    """[N, 3] float64 centres of the grid within reach of a location, at that location's height."""
+    low = np.floor(locations_m[:, :2].min(axis=0) / rules.grid_m).astype(int)
+    high = np.ceil(locations_m[:, :2].max(axis=0) / rules.grid_m).astype(int)
+    x, y = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1), indexing="ij")
+    return centers_near(np.column_stack([x.ravel(), y.ravel()]) * rules.grid_m, locations_m, rules.reach_m)
+
+
+def centers_near(grid_m: Floats, locations_m: Floats, reach_m: float) -> Floats:
+    """[N, 3] those of the [G, 2] points of a grid that are within reach of a location, at the nearest one's height."""
+    found = [np.zeros((0, 3))]
+    for n in range(0, len(grid_m), AT_ONCE):
+        some = grid_m[n : n + AT_ONCE]
+        low, high = some.min(axis=0) - reach_m, some.max(axis=0) + reach_m
+        around = locations_m[((locations_m[:, :2] >= low) & (locations_m[:, :2] <= high)).all(axis=1)]
+        if len(around):
+            distance, nearest = cKDTree(around[:, :2]).query(some, distance_upper_bound=reach_m)
+            near = np.isfinite(distance)
+            found.append(np.column_stack([some[near], around[nearest[near], 2]]))
+    return np.concatenate(found)
+
+
+def cut_cubes(
+    points: PointTable, centers_m: Floats, rules: CutRules, progress: Callable[[int, int], None] | None = None
+) -> Parts:
+    """What lies in the cubes around some centres; in several processes when there are many.
+
+    Args:
+        points: the map's points.
+        centers_m: [N, 3] centres, metres; for hints, the position of the pose.
+        rules: size of the cubes and how to clip.
+        progress: called with (cubes cut, cubes to cut).
+    """
+    done, results = 0, []
+    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
+    for result in map_forked(partial(_summarise_chunk, points, rules), chunks):
+        results.append(result)
+        done += len(result[0])
+        if progress:
+            progress(done, len(centers_m))
+    sizes = np.concatenate([result[0] for result in results]) if results else np.zeros(0, dtype=np.int64)
+    columns = [np.concatenate(column) for column in zip(*(r[1:] for r in results), strict=True)] or _columns([])
+    return Parts(np.concatenate([[0], np.cumsum(sizes)]), *columns)
+
+
+def sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
+    """[R, 256, 6] points of the parts of some cubes, in order of `Parts`."""
+    members = [rows for center in centers_m[cubes].astype(np.float64) for rows in _cut_cube(points, center, rules)]
+    return samples([sample_points(points.xyz[rows], points.colours(rows)) for rows in members])
+
+
+def _summarise_chunk(points: PointTable, rules: CutRules, centers: Floats) -> tuple[Any, ...]:
+    """(rows a cube, then the columns of Parts) of some cubes."""
+    members = [_cut_cube(points, center, rules) for center in centers.astype(np.float64)]
+    sizes = np.array([len(rows) for rows in members], dtype=np.int64)
+    summaries = [_summarise(points, rows, center) for rows, center in zip(members, centers, strict=True) if rows]
+    return (sizes, *_columns(summaries))
+
+
+def _columns(summaries: list[tuple[Any, ...]]) -> list[npt.NDArray[Any]]:
+    empty = (
+        *(np.zeros(0, dtype=np.int32),) * 2,
+        *(np.zeros((0, 3), dtype=np.float32),) * 4,
+    )
+    return [np.concatenate(column) for column in zip(empty, *summaries, strict=True)]
+
+
+def _summarise(points: PointTable, members: list[Ints], center: Floats) -> tuple[Any, ...]:
+    """The columns of Parts for the parts of one cube."""
+    count = np.array([len(m) for m in members], dtype=np.int32)
+    starts = np.cumsum(count) - count
+    rows = np.concatenate(members)
+    xyz = points.xyz[rows]
+    distance = ((xyz - center) ** 2).sum(axis=1)
+    part = np.repeat(np.arange(len(members)), count)
+    # The first row of each part when sorted by distance within the part.
+    closest = np.lexsort((distance, part))[starts]
+    instance = points.instance[rows[starts]]
+    rgb = points.instance_rgb[instance]
+    if points.rgb is not None:
+        rgb = np.add.reduceat(points.rgb[rows], starts) / count[:, None]
+    return (
+        instance,
+        count,
+        np.minimum.reduceat(xyz, starts),
+        np.maximum.reduceat(xyz, starts),
+        xyz[closest],
+        rgb.astype(np.float32),
+    )
+
+
+def cut_cube(points: PointTable, center_m: Floats, rules: CutRules) -> list[Ints]:
+    """The point rows of each part in one cube, by instance, then as DBSCAN numbers the parts."""
+    return sorted(_cut_cube(points, center_m, rules), key=lambda rows: int(points.instance[rows[0]]))
+
+
+def _cut_cube(points: PointTable, center: Floats, rules: CutRules) -> list[Ints]:
+    """The point rows of each part in one cube, ordered by instance: things first, then stuff."""
+    half = rules.cell_size_m / 2
+    inside = points.inside(center - half, center + half)
+    stuff = points.is_stuff[points.instance[inside]]
+    present, counts = np.unique(points.instance[inside[~stuff]], return_counts=True)
+    whole = np.diff(points.starts)[present]
+    things = present[counts >= rules.thing_share * whole]
+    parts = [np.arange(points.starts[i], points.starts[i + 1]) for i in things]
+    labels = _dbscan(points, inside[stuff], rules.min_samples)
+    order = np.argsort(labels, kind="stable")
+    sizes = np.bincount(labels[labels >= 0])
+    rows = inside[stuff][order[(labels < 0).sum() :]]
+    clipped = np.split(rows, np.cumsum(sizes)[:-1]) if len(sizes) else []
+    clipped = [part for part in clipped if len(part) >= rules.min_part_points]
+    return parts + sorted(clipped, key=lambda part: int(points.instance[part[0]]))
+
+
+def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
+    """DBSCAN labels of some points from the table's neighbour pairs, as scikit-learn numbers them.
+
+    Args:
+        points: the table.
+        min_samples: neighbours within eps, itself included, that make a core point.
+        rows: [M] ascending point rows; neighbours outside of them do not count.
+
+    Returns:
+        [M] cluster of each row, -1 for noise. Clusters never cross from one instance to another.
+    """
+    source, target = _pairs_among(points, rows)
+    degree = 1 + np.bincount(source, minlength=len(rows)) + np.bincount(target, minlength=len(rows))
+    core = degree >= min_samples
+    from_core, to_core = core[source], core[target]
+    both = from_core & to_core
+    number = np.cumsum(core, dtype=np.int32) - 1  # core points among themselves
+    starts = np.concatenate([[0], np.cumsum(np.bincount(source[both], minlength=len(rows)))[core]]).astype(np.int32)
+    graph = csr_array((np.ones(starts[-1]), number[target[both]], starts), shape=(core.sum(),) * 2)
+    labels = np.full(len(rows), len(rows), dtype=np.int64)
+    labels[core] = connected_components(graph, directed=False)[1]
+    # A border point joins the first cluster that reaches it: the least number among its core neighbours.
+    found = labels.copy()
+    leaving, arriving = from_core & ~to_core, to_core & ~from_core
+    np.minimum.at(found, target[leaving], labels[source[leaving]])
+    np.minimum.at(found, source[arriving], labels[target[arriving]])
+    return np.where(found == len(rows), -1, found)
+
+
+def _pairs_among(points: PointTable, rows: Ints) -> tuple[Ints, Ints]:
+    """[E], [E] positions in `rows`, ascending point rows, of neighbours that are both among them; the first ascends."""
+    if not len(rows):
+        return rows, rows
+    begin, end = points.pair_starts[rows], points.pair_starts[rows + 1]
+    source = np.repeat(np.arange(len(rows)), end - begin)
+    target_row = points.pairs[ranges(begin, end)]
+    # Positions of rows are looked up in a table of the rows from the first to the last of each instance.
+    first = np.flatnonzero(np.diff(points.instance[rows], prepend=-1))
+    last = np.append(first[1:], len(rows)) - 1
+    span = rows[last] - rows[first] + 1
+    shift = np.repeat(np.cumsum(span) - span - rows[first], last - first + 1)
+    position = np.zeros(span.sum(), dtype=np.int64)
+    position[rows + shift] = np.arange(len(rows))
+    within = np.minimum(target_row, np.repeat(rows[last], last - first + 1)[source])
+    target = position[within + shift[source]]
+    valid = rows[target] == target_row
+    return source[valid], target[valid]

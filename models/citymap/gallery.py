@@ -1,0 +1,215 @@
+"""What is known of cells beside their vectors: where they are, what is in them, and what map they are of."""
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, fields, replace
+from operator import eq
+from pathlib import Path
+from typing import Any, Final, overload
+
+import numpy as np
+import numpy.typing as npt
+from safetensors import SafetensorError
+from safetensors.numpy import save_file
+from scipy.spatial import cKDTree
+
+from models.citymap.cells import CellTable, Parts
+from models.citymap.colours import Palette
+from models.citymap.frame import Frame
+from models.citymap.instances import InstanceTable
+from models.citymap.points import Ints
+from models.citymap.types import CityMap, Floats
+from models.errors import IndexBroken
+from models.files import mapped
+from models.strings import Categorical, joined
+
+Finder = Callable[[Floats], tuple[Floats, int]]  # position [2] -> way [2] to the nearest instance, and which it is
+CELLS_FILE = "cells.safetensors"
+NAMES_FILE = "cells.json"
+SAID: Final = ("labels", "names", "sources")  # of each instance
+PARTS: Final = tuple(f.name for f in fields(Parts))
+MOST_DIGITS: Final = 19  # of a number of a cell
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Gallery:
+    """Cells, and labels, names and sources of the instances they hold.
+
+    Attributes:
+        cells: the cells; `parts.instance` points into the lists below.
+        labels, names, sources: I entries, of each instance.
+    """
+
+    cells: CellTable
+    labels: Sequence[str]
+    names: Sequence[str | None]
+    sources: Sequence[str | None]
+
+    @classmethod
+    def of(cls, city_map: CityMap, cells: CellTable) -> "Gallery":
+        """The gallery of cells cut from a map."""
+        instances = city_map.instances
+        if isinstance(instances, InstanceTable):
+            return cls(cells, instances.labels, instances.names, instances.sources)
+        return cls(
+            cells,
+            tuple(i.label for i in instances),
+            tuple(i.name for i in instances),
+            tuple(i.source_id for i in instances),
+        )
+
+    def save(self, directory: Path, *, with_parts: bool = True) -> None:
+        """Write cells.safetensors and cells.json; without parts, if something else can cut them."""
+        cells = self.cells
+        arrays = {"center_m": cells.center_m}
+        if with_parts:
+            arrays |= {name: getattr(cells.parts, name) for name in PARTS}
+        said = (Categorical.of(getattr(self, name)).columns(name) for name in SAID)
+        save_file(joined([arrays, *said]), directory / CELLS_FILE)
+        scene = cells.scenes[0] if cells.ids == Numbered(cells.scenes[0], len(cells)) else None
+        names: dict[str, Any] = {
+            "scene": scene,
+            "ids": None if scene else tuple(cells.ids),
+            "scenes": None if scene else cells.scenes,
+            "size_m": cells.size_m,
+        }
+        (directory / NAMES_FILE).write_text(json.dumps(names, ensure_ascii=False))
+
+    @classmethod
+    def load(cls, directory: Path, cut: Callable[[Ints], Parts] | None = None) -> "Gallery":
+        """Read what `save` wrote.
+
+        Args:
+            directory: where.
+            cut: cuts the parts of some cells, if they were left out.
+
+        Raises:
+            IndexBroken: the files do not hold a gallery.
+        """
+        try:
+            arrays = mapped(directory / CELLS_FILE)[0]
+            names = json.loads((directory / NAMES_FILE).read_text())
+            center_m, scene = arrays.pop("center_m"), names["scene"]
+            ids = Numbered(scene, len(center_m)) if scene else tuple(names["ids"])
+            scenes = (scene,) * len(center_m) if scene else tuple(names["scenes"])
+            parts = {name: column for name, column in arrays.items() if name in PARTS}
+            content = Parts(**parts) if parts or cut is None else cut
+            cells = CellTable(ids, scenes, center_m, names["size_m"], content)
+            return cls(cells, *(Categorical.of_columns(arrays, name) for name in SAID))
+        except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
+            raise IndexBroken(f"the cells in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
+
+
+class Numbered(Sequence[str]):
+    """The names of the cells of one scene: a city has a million, each of which is made when it is asked for.
+
+    Args:
+        scene: its name.
+        count: of the cells.
+    """
+
+    def __init__(self, scene: str, count: int) -> None:
+        self._scene, self._count = scene, count
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, n: int) -> str: ...
+
+    @overload
+    def __getitem__(self, n: slice) -> tuple[str, ...]: ...
+
+    def __getitem__(self, n: int | slice) -> str | tuple[str, ...]:
+        """The name of one cell, or those of a slice."""
+        if isinstance(n, slice):
+            return tuple(self[row] for row in range(*n.indices(self._count)))
+        return f"{self._scene}_{range(self._count)[n]:05d}"
+
+    def index(self, value: str, start: int = 0, stop: int | None = None) -> int:
+        """Which cell has a name, as sequences do, without looking at others."""
+        number = value.rpartition("_")[2]
+        rows = range(*slice(start, stop).indices(self._count))
+        if number.isdecimal() and len(number) < MOST_DIGITS and int(number) in rows and self[int(number)] == value:
+            return int(number)
+        raise ValueError(f"no cell is named {value}")
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Numbered):
+            return (self._scene, self._count) == (other._scene, other._count)
+        return isinstance(other, Sequence) and len(self) == len(other) and all(map(eq, self, other))
+
+    __hash__ = None  # type: ignore[assignment]  # as of a list: equal to others
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapData:
+    """A map, some of its scenes, or a region of it.
+
+    Attributes:
+        name: of the map.
+        split: what was taken of it; "all" for everything, "index" for what an index holds.
+        gallery: its cells and what is in them.
+        palette: its colour words.
+        frame: what its metres mean on Earth.
+        grid_m: distance between neighbouring cells.
+        attribution: what the data's licence asks to show.
+    """
+
+    name: str
+    split: str
+    gallery: Gallery
+    palette: Palette
+    frame: Frame = field(default_factory=Frame)
+    grid_m: float = 10.0
+    attribution: str = ""
+
+    @property
+    def cells(self) -> CellTable:
+        """The cells."""
+        return self.gallery.cells
+
+    def cut_anew(self, cut: Callable[[Floats], Parts]) -> "MapData":
+        """The same without the parts of cells, which are cut (round centres [N, 3]) when they are asked for."""
+        centers_m = self.cells.center_m
+        cells = replace(self.cells, content=lambda rows: cut(centers_m[rows]))
+        return replace(self, gallery=replace(self.gallery, cells=cells))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Clouds:
+    """The instances of a scan (or of several scenes) with all their points.
+
+    Attributes:
+        xyz: [P, 3] float32 metres, ordered by instance.
+        starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
+        is_thing: [I] bool, True for what is mentioned only where a share of it is near (`thing_share`).
+        scene: [I] number of the scene of each.
+        of_part: [R] instance of each row of the cells' parts.
+        thing_share: see `CutRules`.
+        min_part_points: see `CutRules`.
+    """
+
+    xyz: Floats
+    starts: Ints
+    is_thing: npt.NDArray[np.bool_]
+    scene: Ints
+    of_part: Ints
+    thing_share: float
+    min_part_points: int
+
+    def part_instance(self, _cells: CellTable) -> Ints:
+        """[R] instance of each row of the cells' parts."""
+        return self.of_part
+
+    def finder(self, instances: Sequence[int]) -> Finder:
+        """What tells which of some instances is nearest to a position."""
+        spans = [slice(int(self.starts[n]), int(self.starts[n + 1])) for n in instances]
+        tree = cKDTree(np.concatenate([self.xyz[span, :2] for span in spans]).astype(np.float64))
+        owner = np.repeat(instances, [span.stop - span.start for span in spans])
+
+        def find(position: Floats) -> tuple[Floats, int]:
+            row = int(tree.query(position)[1])
+            return tree.data[row] - position, int(owner[row])
+
+        return find

@@ -1,0 +1,153 @@
+"""Streets: pieces of one name joined, and the corners where two of them meet."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+import shapely
+from scipy.cluster.hierarchy import fcluster, linkage
+
+from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.points import Ints, ranges
+from models.citymap.types import Floats
+from models.spool import Column, Spool, starts_of
+
+ONE_CORNER_M = 45.0  # carriageways of one street meet another at several places, which are one corner
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ways:
+    """A piece of a street.
+
+    Attributes:
+        words: its names.
+        nodes: [n] numbers of its nodes; streets that share one meet.
+        segments_m: [s, 4].
+        nodes_m: [n, 2] where they are.
+    """
+
+    words: Words
+    nodes: Ints
+    segments_m: Floats
+    nodes_m: Floats
+
+
+class Pieces:
+    """Pieces of streets, as they come; of these the words alone stay in memory.
+
+    Attributes:
+        words: of each.
+    """
+
+    def __init__(self) -> None:
+        self.words, self._names, self._spool = list[Words](), dict[tuple[str, ...], tuple[str, ...]](), Spool()
+
+    def add(self, ways: Sequence[Ways]) -> None:
+        """Add some, at least none."""
+        names = [self._names.setdefault(way.words.names, way.words.names) for way in ways]  # once for all of a street
+        self.words += [replace(way.words, names=some) for way, some in zip(ways, names, strict=True)]
+        self._spool.add(
+            {
+                "nodes": np.concatenate([np.zeros(0, np.int64), *(way.nodes for way in ways)]),
+                "nodes_m": np.concatenate([np.zeros((0, 2)), *(way.nodes_m for way in ways)]),
+                "nodes_of": np.array([len(way.nodes) for way in ways], np.int64),
+                "segments_m": np.concatenate([np.zeros((0, 4)), *(way.segments_m for way in ways)]),
+                "segments_of": np.array([len(way.segments_m) for way in ways], np.int64),
+            }
+        )
+
+    def columns(self) -> dict[str, Column]:
+        """Of all, one after the other, what Ways has, and where that of each begins; none is added after that."""
+        columns = self._spool.columns()
+        return columns | {name: starts_of(columns[name]) for name in ("nodes_of", "segments_of")}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Streets:
+    """Streets with all their pieces; see Gazetteer."""
+
+    words: list[Words]
+    segments_m: list[Floats]
+    corner_streets: Ints
+    corners_m: Floats
+
+
+def join_streets(pieces: Pieces, first: int) -> Streets:
+    """Join the pieces of each name.
+
+    Args:
+        pieces: of all streets; none is added after that.
+        first: number of the first street in the gazetteer.
+    """
+    by_name: dict[str, list[int]] = {}
+    for n, of in enumerate(pieces.words):
+        by_name.setdefault(of.names[0].casefold(), []).append(n)
+    columns, streets = pieces.columns(), list(by_name.values())
+    words, segments = [], []
+    for rows in streets:
+        names = dict.fromkeys(name for n in rows for name in pieces.words[n].names)
+        words.append(Words((STREET,), tuple(names), source_id=pieces.words[rows[0]].source_id))
+        segments.append(columns["segments_m"][_of(columns["segments_of"], np.array(rows))])
+    meets = _meetings(columns, streets, first)
+    for pair, at in _crossings(segments, first):
+        if pair not in meets:
+            meets[pair] = at
+    pairs, places = [], []
+    for pair, at in sorted(meets.items()):
+        for corner in _corners(np.array(at)):
+            pairs.append(pair)
+            places.append(corner)
+    corner_streets = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    return Streets(words, segments, corner_streets, np.array(places, dtype=np.float32).reshape(-1, 2))
+
+
+def _meetings(
+    columns: Mapping[str, Column], streets: Sequence[Sequence[int]], first: int
+) -> dict[tuple[int, int], list[Floats]]:
+    """Streets that share a node, the lower first, and where.
+
+    Args:
+        columns: of pieces.
+        streets: of each, its pieces.
+        first: number of the first street.
+    """
+    pieces = np.array([n for rows in streets for n in rows], np.int64)
+    street = np.repeat(np.arange(len(streets)), [len(rows) for rows in streets])
+    street, rows = np.repeat(street, np.diff(columns["nodes_of"])[pieces]), _of(columns["nodes_of"], pieces)
+    nodes, nodes_m = columns["nodes"][rows], columns["nodes_m"][rows]
+    _, at, which = np.unique(nodes, return_index=True, return_inverse=True)
+    pairs = np.unique(which * len(streets) + street)  # each street of a node once
+    node, street = np.divmod(pairs, max(1, len(streets)))
+    begin = np.flatnonzero(np.diff(node, prepend=-1))
+    end = np.append(begin[1:], len(node))
+    shared = np.flatnonzero(end - begin > 1)
+    meets: dict[tuple[int, int], list[Floats]] = {}
+    for n in shared[np.argsort(at[shared])].tolist():  # as they come along the streets
+        for pair in combinations((first + street[begin[n] : end[n]]).tolist(), 2):
+            meets.setdefault(pair, []).append(nodes_m[at[n]])
+    return meets
+
+
+def _of(starts: Ints, pieces: Ints) -> Ints:
+    """What belongs to some pieces, piece after piece."""
+    return ranges(starts[pieces], starts[pieces + 1])
+
+
+def _crossings(segments: Sequence[Floats], first: int) -> Iterator[tuple[tuple[int, int], list[Floats]]]:
+    """Streets that cross without meeting, on bridges and in tunnels, and where."""
+    if not segments:
+        return
+    lines = [shapely.multilinestrings(some.reshape(-1, 2, 2)) for some in segments]
+    one, other = shapely.STRtree(lines).query(lines, "intersects")
+    for a, b in zip(*(some[one < other].tolist() for some in (one, other)), strict=True):
+        at = shapely.get_coordinates(shapely.intersection(lines[a], lines[b]))
+        yield (first + a, first + b), list(at)
+
+
+def _corners(at: Floats) -> list[Floats]:
+    """The middles of the places [n, 2] that are one corner."""
+    if len(at) == 1:
+        return [at[0]]
+    of = fcluster(linkage(at, "single"), ONE_CORNER_M, "distance")
+    return [at[of == number].mean(axis=0) for number in np.unique(of)]

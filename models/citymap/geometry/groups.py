@@ -1,0 +1,148 @@
+"""Which pieces of a map count as one thing around a cell: those that hang together there, compiled."""
+
+from typing import Final
+
+import numpy as np
+
+from models.citymap.geometry.solids import FORMS
+from models.citymap.geometry.tiling import TILE_M
+from models.citymap.points import Ints
+from models.citymap.types import Floats
+from models.compiled import compiled
+
+THING: Final = FORMS.index("thing")
+
+
+@compiled
+def window(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts: Ints) -> tuple[Ints, Ints]:
+    """(pieces, runs) in tiles within reach of some points, ascending; runs [R, 3]: first, end, place of the first."""
+    first, last = np.empty(2, np.int64), np.empty(2, np.int64)
+    for axis in range(2):
+        first[axis] = max(np.floor((points_m[:, axis].min() - reach_m) / TILE_M + 0.5) - low[axis], 0)
+        last[axis] = min(np.floor((points_m[:, axis].max() + reach_m) / TILE_M + 0.5) - low[axis], shape[axis] - 1)
+    columns = max(last[0] - first[0] + 1, 0) if first[1] <= last[1] else 0
+    runs, count = np.empty((columns, 3), np.int64), 0
+    for c in range(columns):
+        runs[c, 0] = tile_starts[(first[0] + c) * shape[1] + first[1]]
+        runs[c, 1] = tile_starts[(first[0] + c) * shape[1] + last[1] + 1]
+        runs[c, 2] = count
+        count += runs[c, 1] - runs[c, 0]
+    pieces = np.empty(count, np.int64)
+    for c in range(columns):
+        for k in range(runs[c, 0], runs[c, 1]):
+            pieces[runs[c, 2] + k - runs[c, 0]] = k
+    return pieces, runs
+
+
+@compiled
+def _place(piece: int, runs: Ints) -> int:
+    """Where a piece is among those of `window`; -1 if it is not."""
+    for r in range(len(runs)):
+        if runs[r, 0] <= piece < runs[r, 1]:
+            place: int = runs[r, 2] + piece - runs[r, 0]
+            return place
+    return -1
+
+
+@compiled
+def groups(
+    pieces: Ints, runs: Ints, center_m: Floats, half_m: float, least: float, tile: Ints, instance: Ints, form: Ints,
+    worth: Floats, link_starts: Ints, links: Ints,
+) -> tuple[Ints, Ints]:  # fmt: skip
+    """(pieces by group, where each group begins and, last, their number) of what counts around a cell."""
+    count = len(pieces)
+    kind = np.empty(count, np.int64)  # 0 for what is in the cube, 1 for what is beside it, 2 for things
+    first, last = np.floor((center_m - half_m) / TILE_M + 0.5), np.floor((center_m + half_m) / TILE_M + 0.5)
+    for p in range(count):
+        column, row = tile[pieces[p]]
+        is_inside = first[0] <= column <= last[0] and first[1] <= row <= last[1]
+        kind[p] = 2 if form[pieces[p]] == THING else 0 if is_inside else 1
+    group = _hanging_together(pieces, runs, kind, instance, link_starts, links)
+    size, total = np.zeros(count, np.int64), np.zeros(count)
+    for p in range(count):
+        size[group[p]] += 1
+        total[group[p]] += worth[pieces[p]]
+    place, pieces_kept, groups_kept = np.full(count, -1, np.int64), 0, 0
+    starts = np.empty(count + 1, np.int64)
+    for g in range(count):
+        if size[g] and _counts(g, size, total, least, kind, pieces, instance):
+            place[g], starts[groups_kept] = pieces_kept, pieces_kept
+            pieces_kept += size[g]
+            groups_kept += 1
+    starts[groups_kept] = pieces_kept
+    order = np.empty(pieces_kept, np.int64)
+    for p in range(count):
+        g = group[p]
+        if place[g] >= 0:
+            order[place[g]] = pieces[p]
+            place[g] += 1
+    return order, starts[: groups_kept + 1]
+
+
+@compiled
+def _counts(g: int, size: Ints, total: Floats, least: float, kind: Ints, pieces: Ints, instance: Ints) -> bool:
+    """Whether a group is large enough, a thing, or all that there is of its instance."""
+    if total[g] >= least or kind[g] == 2:
+        return True
+    for other in range(len(size)):
+        if other != g and size[other] and instance[pieces[other]] == instance[pieces[g]]:
+            return False
+    return True
+
+
+@compiled
+def _hanging_together(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: Ints, links: Ints) -> Ints:
+    """[P] the first piece of what each hangs together with; what is beside a cube with what it goes on in."""
+    count = len(pieces)
+    parent = np.arange(count)
+    things, thing, seen = np.empty(count, np.int64), np.empty(count, np.int64), 0
+    for p in range(count):
+        if kind[p] == 2:
+            mine = instance[pieces[p]]
+            for t in range(seen):
+                if thing[t] == mine:
+                    parent[p] = things[t]
+                    break
+            if parent[p] == p:
+                things[seen], thing[seen] = p, mine
+                seen += 1
+            continue
+        for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
+            q = _place(other, runs)
+            if q >= 0 and kind[q] == kind[p]:
+                a, b = _root(parent, p), _root(parent, q)
+                parent[max(a, b)] = min(a, b)
+    inside = np.full(count, -1, np.int64)  # of what is beside the cube
+    for p in range(count):
+        if kind[p] != 1:
+            continue
+        for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
+            q = _place(other, runs)
+            if q >= 0 and kind[q] == 0:
+                inside[_root(parent, p)] = _root(parent, q)
+    group = np.empty(count, np.int64)
+    for p in range(count):
+        root = _root(parent, p)
+        group[p] = inside[root] if inside[root] >= 0 else root
+    named: Ints = _by_first(group)
+    return named
+
+
+@compiled
+def _by_first(group: Ints) -> Ints:
+    """Groups by the first piece of each."""
+    first = np.full(len(group), -1, np.int64)
+    named = np.empty(len(group), np.int64)
+    for p in range(len(group)):
+        if first[group[p]] < 0:
+            first[group[p]] = p
+        named[p] = first[group[p]]
+    return named
+
+
+@compiled
+def _root(parent: Ints, p: int) -> int:
+    while parent[p] != p:
+        parent[p] = parent[parent[p]]
+        p = parent[p]
+    return p

@@ -1,0 +1,277 @@
+"""The table of pieces: what of each instance of a map lies in each tile, and which pieces hang together."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, partial
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+import shapely
+
+from models.citymap.geometry.piece_rows import BAND, Rows, rows_in
+from models.citymap.geometry.segments import STEP_M, Steps, geometry_of
+from models.citymap.geometry.solids import FORMS, Solid
+from models.citymap.geometry.tiling import FAR_M, TILE_M, TOUCHING_M, Geometries, band_of
+from models.citymap.points import Ints, block_keys, ranges, thin
+from models.citymap.types import Floats
+from models.compiled import compiled
+from models.processes import map_forked
+from models.spool import forget, in_turn, spooled, starts_of
+
+AT_ONCE: Final = 20_000  # pieces whose geometry is put together for a moment
+COLUMNS: Final = 64  # of tiles whose pieces are linked together
+BORDER: Final = round(TILE_M / 2 / STEP_M)  # of a tile, in steps from its middle
+THING: Final = FORMS.index("thing")
+
+
+@dataclass(frozen=True, eq=False)
+class PieceTable:
+    """K pieces, in order of tile, then instance.
+
+    Attributes:
+        low: [2] column and row of the first tile, shape: [2] how many there are.
+        tile_starts: [columns * rows + 1] tile (c, r) has the pieces tile_starts[c * rows + r] to the next.
+        instance: [K] int32.
+        form: [K] index into FORMS.
+        dimension: [K] int8 of its geometry: 0 for points, 1 for lines, 2 for areas.
+        bounds_m: [K, 4] float32 its box, metres, map frame.
+        heights_m: [K, 2] float32 base and top.
+        crown_m: [K] float32 radius of a tree's crown, 0 for what has none.
+        worth: [K] float32 points that a sensor would see of it.
+        segment_starts: [K + 1] int32, segments: [S, 4] int16 its lines and rings, see `segments_of`.
+        link_starts: [K + 1], links: piece k hangs together with links[link_starts[k]:link_starts[k + 1]].
+    """
+
+    low: Ints
+    shape: Ints
+    tile_starts: Ints
+    instance: Ints
+    form: Ints
+    dimension: Ints
+    bounds_m: Floats
+    heights_m: Floats
+    crown_m: Floats
+    worth: Floats
+    segment_starts: Ints
+    segments: Steps
+    link_starts: Ints
+    links: Ints
+
+    @classmethod
+    def of(cls, solids: Sequence[Solid]) -> "PieceTable":
+        """The pieces of some solids."""
+        columns = np.stack(band_of(shapely.bounds([solid.geometry for solid in solids])[:, [0, 2]]), axis=1)
+        bands = [(low, low + BAND) for low in range(int(columns.min()), int(columns.max()) + 1, BAND)]
+        return cls.joined(map_forked(partial(rows_in, solids), bands))
+
+    @classmethod
+    def joined(cls, bands: Iterable[Rows]) -> "PieceTable":
+        """The pieces of all solids of a map, which are laid down on disk.
+
+        Args:
+            bands: of `rows_in`, from west to east; at least one has pieces.
+        """
+        columns = spooled({f.name: getattr(rows, f.name) for f in fields(Rows)} for rows in bands)
+        column, row, sizes = (columns.pop(name) for name in ("column", "row", "sizes"))
+        low = np.array([column.min(), row.min()], dtype=np.int64)
+        shape = np.array([column.max(), row.max()], dtype=np.int64) - low + 1
+        tile_starts, segment_starts = starts_of(_counts(column, row, low, shape)), starts_of(sizes)
+        links = spooled(_links(column, row, segment_starts, columns))
+        table = cls(
+            low, shape, tile_starts, segment_starts=segment_starts, link_starts=starts_of(links["sizes"]),
+            links=links["links"], **columns,
+        )  # fmt: skip
+        at = ({"tile": np.stack([some["column"], some["row"]], 1)} for some in in_turn({"column": column, "row": row}))
+        table.__dict__["tile"] = spooled(at)["tile"]  # on disk, before anybody has it made in memory
+        table.forget()
+        return table
+
+    @classmethod
+    def of_columns(cls, columns: Mapping[str, npt.NDArray[Any]]) -> "PieceTable":
+        """What `columns` gave."""
+        return cls(**columns)
+
+    def columns(self) -> dict[str, npt.NDArray[Any]]:
+        """All of it, by name."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
+
+    def forget(self) -> None:
+        """Have what lies on disk take no memory until it is looked at."""
+        forget(column for column in vars(self).values() if isinstance(column, np.ndarray))
+
+    def of_instances(self, numbers: Ints) -> "PieceTable":
+        """The same, of instances that have other numbers: each is now its place among these [I], ascending."""
+        some = (some["instance"] for some in in_turn({"instance": self.instance}))
+        table = replace(self, **spooled({"instance": np.searchsorted(numbers, n).astype(np.int32)} for n in some))
+        table.__dict__["tile"] = self.tile  # where they are stays the same
+        return table
+
+    def geometry(self, pieces: Ints) -> Geometries:
+        """[n] of some pieces, metres, map frame; put together once of each, however often it is asked for."""
+        known, which = np.unique(pieces, return_inverse=True)
+        return geometry_of(self.segment_starts, self.segments, self.tile, self.dimension, known)[which]
+
+    def in_tiles(self, first: Ints, last: Ints) -> tuple[Ints, Ints]:
+        """The pieces in rectangles of tiles.
+
+        Args:
+            first: [n, 2] column and row of their first corners.
+            last: [n, 2] the same of the last, which are within.
+
+        Returns:
+            [P] which rectangle, ascending, and [P] which piece, ascending in it.
+        """
+        first = np.maximum(first - self.low, 0)
+        last = np.minimum(last - self.low, self.shape - 1)
+        columns = np.maximum(last[:, 0] - first[:, 0] + 1, 0)
+        of = np.repeat(np.arange(len(first)), columns)
+        column = ranges(first[:, 0], first[:, 0] + columns) * self.shape[1]
+        begin = self.tile_starts[column + np.minimum(first[of, 1], self.shape[1])]
+        end = np.maximum(begin, self.tile_starts[column + np.maximum(last[of, 1] + 1, 0)])
+        return np.repeat(of, end - begin), ranges(begin, end)
+
+    @cached_property
+    def tile(self) -> Ints:
+        """[K, 2] int32, column and row of each piece's tile."""
+        tile: Ints = _tiles(self.tile_starts, self.low, self.shape)
+        return tile
+
+    def lattice(self, pieces: Ints, spacing_m: float) -> Floats:
+        """[n, 3] float32 places on the ground of areas, one a square block of which a corner or a middle is inside.
+
+        Args:
+            pieces: rows of the areas, ascending.
+            spacing_m: edge of the blocks.
+        """
+        places: Floats = spooled({"m": some} for some in self._places(pieces, spacing_m))["m"]
+        return places
+
+    def _places(self, pieces: Ints, spacing_m: float) -> Iterator[Floats]:
+        """See `lattice`."""
+        yield np.zeros((0, 3), np.float32)
+        seen = np.zeros(0, np.int64)
+        for n in range(0, len(pieces), AT_ONCE):
+            some = pieces[n : n + AT_ONCE]
+            xy = thin(self._inside(some, spacing_m), spacing_m)
+            block = block_keys(xy, spacing_m)
+            new = ~np.isin(block, seen)
+            yield np.column_stack([xy[new], np.zeros(new.sum())]).astype(np.float32)
+            column_m = (self.tile[some[-1], 0] - 0.5) * TILE_M - spacing_m  # what is west of it does not come again
+            seen = np.concatenate([seen, block[new]])
+            seen = seen[seen >= block_keys(np.array([[column_m, -FAR_M]]), spacing_m)[0]]
+
+    def _inside(self, pieces: Ints, spacing_m: float) -> Floats:
+        """[n, 2] corners and middles of blocks that are inside some areas."""
+        step_m = spacing_m / 2
+        low, high = (np.floor(self.bounds_m[pieces, axis : axis + 2] / step_m).astype(np.int64) + 1 for axis in (0, 2))
+        across, along = (np.maximum(high - low, 0)).T
+        of = np.repeat(np.arange(len(pieces)), across * along)
+        nth = ranges(np.zeros(len(pieces), np.int64), across * along)
+        xy = np.stack([low[of, 0] + nth // along[of], low[of, 1] + nth % along[of]], axis=1) * step_m
+        areas = self.geometry(pieces)
+        shapely.prepare(areas)
+        found: Floats = xy[shapely.contains_xy(areas[of], *xy.T)]
+        return found
+
+
+@compiled
+def _tiles(tile_starts: Ints, low: Ints, shape: Ints) -> Ints:
+    """See `PieceTable.tile`."""
+    tile = np.empty((tile_starts[-1], 2), np.int32)
+    for number in range(len(tile_starts) - 1):
+        column, row = low[0] + number // shape[1], low[1] + number % shape[1]
+        for k in range(tile_starts[number], tile_starts[number + 1]):
+            tile[k, 0], tile[k, 1] = column, row
+    return tile
+
+
+@compiled
+def _counts(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
+    """[columns * rows] how many pieces each tile has."""
+    count = np.zeros(shape[0] * shape[1], np.int64)
+    for k in range(len(columns)):
+        count[(columns[k] - low[0]) * shape[1] + rows[k] - low[1]] += 1
+    return count
+
+
+def _links(column: Ints, row: Ints, starts: Ints, columns: Mapping[str, npt.NDArray[Any]]) -> Iterator[dict[str, Ints]]:
+    """CSR of pairs of pieces of one instance that touch across the border of two tiles, some columns at a time.
+
+    Args:
+        column: [K] of each piece's tile, ascending.
+        row: [K] likewise.
+        starts: [K + 1] of the pieces' segments.
+        columns: of the table.
+
+    Yields:
+        "sizes", how many links each of the next pieces has, and "links".
+    """
+    instance, dimension, form, segments = (columns[name] for name in ("instance", "dimension", "form", "segments"))
+    count, known, pending = len(column), 0, np.zeros(0, np.int64)
+    rows = range(int(row.min()), int(row.max()) + 2)
+    for first in range(int(column[0]), int(column[-1]) + 2, COLUMNS):
+        # Their western neighbours too, for the border between; the one in their east comes with the next ones.
+        begin, own, end = np.searchsorted(column, [first - 1, first, first + COLUMNS])
+        at = np.stack([column[begin:end], row[begin:end]], axis=1).astype(np.int64)
+        of = np.repeat(np.arange(end - begin), np.diff(starts[begin : end + 1]))
+        ends = segments[starts[begin] : starts[end]]
+        on_border = (np.abs(ends) == BORDER).any(axis=1) & (form[begin:end] != THING)[of]
+        of, ends = of[on_border], ends[on_border]
+        here = at, instance[begin:end], dimension[begin:end]
+        pairs = _across(0, of, ends, *here, range(first, first + COLUMNS))
+        is_own = of >= own - begin
+        pairs = np.concatenate([pairs, _across(1, of[is_own], ends[is_own], *here, rows)]) + begin
+        keys = np.unique(np.concatenate([pending, np.concatenate([pairs, pairs[:, ::-1]]) @ [count, 1]]))
+        # The last column's pieces may have links to what comes next.
+        done = count if end == count else int(np.searchsorted(column, first + COLUMNS - 1))
+        pending = keys[keys >= done * count]
+        keys = keys[: len(keys) - len(pending)]
+        yield {
+            "sizes": np.bincount(keys // count - known, minlength=done - known).astype(np.int32),
+            "links": (keys % count).astype(np.int32),
+        }
+        known = done
+
+
+def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints, wanted: range) -> Ints:
+    """[L, 2] pairs of pieces that touch across borders where x (axis 0) or y (axis 1) is constant.
+
+    Args:
+        axis: which.
+        of: [S] the piece of each segment.
+        segments: [S, 4] of those that may be on a border.
+        at: [K, 2] column and row of each piece's tile.
+        instance: [K].
+        dimension: [K].
+        wanted: borders; one is west of the column or south of the row of its number.
+    """
+    is_line = dimension[of] == 1
+    along_m = segments[:, [1 - axis, 3 - axis]] * STEP_M + at[of, 1 - axis, None] * TILE_M
+    borders, intervals, pieces = [], [], []
+    for side in (-1, 1):
+        on = segments[:, [axis, 2 + axis]] == side * BORDER
+        number = at[of, axis] + (side + 1) // 2  # of the border, from low to high
+        on &= ((number >= wanted.start) & (number < wanted.stop))[:, None]
+        for rows, ends in ((on.all(axis=1), [0, 1]), (on[:, 0] & is_line, [0, 0]), (on[:, 1] & is_line, [1, 1])):
+            piece = of[rows]
+            borders.append(np.stack([number[rows], at[piece, 1 - axis], instance[piece]], axis=1))
+            intervals.append(np.sort(along_m[rows][:, ends], axis=1))
+            pieces.append(piece)
+    border, interval, piece = (np.concatenate(some) for some in (borders, intervals, pieces))
+    group = np.unique(border, axis=0, return_inverse=True)[1].ravel()
+    order = np.lexsort((interval[:, 0], group))
+    group, interval, piece = group[order], interval[order], piece[order]
+    # In each group, sweep along the border: what begins before all earlier ones have ended touches them.
+    reach = _running_end(group, interval[:, 1])
+    touches = np.flatnonzero((group[1:] == group[:-1]) & (interval[1:, 0] <= reach[:-1] + TOUCHING_M))
+    pairs: Ints = np.stack([piece[touches], piece[touches + 1]], axis=1)
+    different: Ints = pairs[pairs[:, 0] != pairs[:, 1]]
+    return different
+
+
+def _running_end(group: Ints, end: Floats) -> Floats:
+    """Greatest end so far in each group; `group` ascending."""
+    span = float(np.ptp(end)) + 1.0 if len(end) else 1.0
+    raised: Floats = np.maximum.accumulate(end + group * 2 * span) - group * 2 * span
+    return raised

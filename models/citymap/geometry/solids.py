@@ -1,0 +1,151 @@
+"""Features of a map as they stand there, and points on them for models that look at points."""
+
+from dataclasses import dataclass
+from math import ceil
+from typing import Final, Literal
+
+import numpy as np
+import shapely
+
+from models.citymap.types import Floats
+
+Shape = Literal["outline", "wall", "ground", "column", "crown", "box"]
+Form = Literal["area", "line", "thing"]
+FORMS: Final[tuple[Form, ...]] = ("area", "line", "thing")
+GROUND_SPACING_M: Final = 0.5  # diagonal neighbours lie within the 0.75 m that hang together
+RAISED_SPACING_M: Final = {"outline": 0.7, "wall": 0.5, "box": 0.5}
+COLUMN_SPACING_M: Final = 0.25
+VISIBLE_HEIGHT_M: Final = 15.0  # a 30 m cell on the ground ends here
+CROWN_POINTS: Final = 64
+BOX_M: Final = 0.3  # from the middle of a small box to its sides
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solid:
+    """A feature of a map.
+
+    Attributes:
+        instance: which instance it is part of.
+        shape: what it is: "ground" is filled and covered by what comes before it; "outline" and "wall" are raised along
+            their lines; "column", "crown" and "box" are things, kept whole.
+        geometry: areas of ground, else lines or a point. Metres, map frame.
+        base_m, height_m: where it begins above the ground, and where it ends.
+    """
+
+    instance: int
+    shape: Shape
+    geometry: shapely.Geometry
+    base_m: float = 0.0
+    height_m: float = 0.0
+
+    @property
+    def form(self) -> Form:
+        """How it is cut."""
+        if self.shape == "ground":
+            return "area"
+        return "line" if self.shape in ("outline", "wall") else "thing"
+
+    @property
+    def is_raised(self) -> bool:
+        """Whether it stands along lines."""
+        return self.form == "line" or (self.shape == "box" and shapely.length(self.geometry) > 0)
+
+    @property
+    def levels_m(self) -> Floats:
+        """Heights of the points above each place of it."""
+        if self.shape == "ground":
+            return np.zeros(1)
+        if not self.is_raised:
+            return self.base_m + np.arange(0, self.height_m + 1e-9, COLUMN_SPACING_M)
+        top_m = min(max(self.height_m, self.base_m + 1.0), max(VISIBLE_HEIGHT_M, self.base_m + 1.0))
+        spacing_m = RAISED_SPACING_M[self.shape]
+        return self.base_m + np.arange(max(1, int((top_m - self.base_m) / spacing_m)) + 1) * spacing_m
+
+    @property
+    def top_m(self) -> float:
+        """Where it ends."""
+        return float(self.levels_m[-1])
+
+    @property
+    def radius_m(self) -> float:
+        """How far it reaches beyond its geometry."""
+        if self.is_raised:
+            return 0.0
+        return BOX_M if self.shape == "box" else self.crown_m
+
+    @property
+    def crown_m(self) -> float:
+        """Radius of a tree's crown, whose middle is three times as high; 0 for what has none."""
+        return self.height_m / 4 if self.shape == "crown" else 0.0
+
+    @property
+    def worth(self) -> float:
+        """Points on a square metre of ground, on a metre of a line; on a thing, in all."""
+        if self.shape == "ground":
+            return 1 / GROUND_SPACING_M**2
+        if self.form == "line":
+            return len(self.levels_m) / RAISED_SPACING_M[self.shape]
+        if self.is_raised:
+            return float(len(self.levels_m) * (1 + ceil(shapely.length(self.geometry) / RAISED_SPACING_M[self.shape])))
+        return float(len(template(self.shape, self.height_m)))
+
+
+def crown_reach_m(metres: Floats, crown_m: Floats) -> Floats:
+    """How much nearer than the trunk the closest point of a crown is in the plane, at some distances from the trunk.
+
+    The closest point in space is of the trunk up to four radii away, beyond that of the ball of leaves.
+    """
+    reach: Floats = crown_m * metres / np.sqrt(metres**2 + (3 * crown_m) ** 2 + 1e-12)
+    nearer: Floats = np.where(metres > 4 * crown_m, reach, 0.0)
+    return nearer
+
+
+def points_on(solid: Solid) -> Floats:
+    """[P, 3] float64 points on a solid, metres."""
+    if solid.shape == "ground":
+        xy = np.concatenate([_lattice_inside(part) for part in shapely.get_parts(solid.geometry)])
+    elif solid.is_raised:
+        xy = _along(solid.geometry, RAISED_SPACING_M[solid.shape])
+    else:
+        at = np.array([*shapely.get_coordinates(solid.geometry)[0], solid.base_m])
+        placed: Floats = template(solid.shape, solid.height_m) + at
+        return placed
+    levels = solid.levels_m
+    return np.column_stack([np.repeat(xy, len(levels), axis=0), np.tile(levels, len(xy))])
+
+
+def _lattice_inside(polygon: shapely.Geometry) -> Floats:
+    """[n, 2] points of a lattice inside one polygon."""
+    shapely.prepare(polygon)
+    west, south, east, north = np.floor(np.array(polygon.bounds) / GROUND_SPACING_M).astype(np.int64)
+    x, y = np.meshgrid(np.arange(west + 1, east + 1), np.arange(south + 1, north + 1))
+    x, y = x * GROUND_SPACING_M, y * GROUND_SPACING_M
+    inside = shapely.contains_xy(polygon, x, y)
+    return np.column_stack([x[inside], y[inside]])
+
+
+def _along(geometry: shapely.Geometry, spacing_m: float) -> Floats:
+    """[n, 2] points along lines, both ends among them."""
+    lines = shapely.get_parts(geometry)
+    steps = np.maximum(1, np.ceil(shapely.length(lines) / spacing_m).astype(int)) + 1
+    share = np.concatenate([np.linspace(0, 1, n) for n in steps])
+    points = shapely.line_interpolate_point(np.repeat(lines, steps), share, normalized=True)
+    xy: Floats = shapely.get_coordinates(points)
+    return xy
+
+
+def template(shape: str, height_m: float) -> Floats:
+    """[P, 3] points of a column, a crown or a small box that stands at the origin."""
+    z = np.arange(0, height_m + 1e-9, COLUMN_SPACING_M)
+    if shape == "box":
+        sides = np.array([-BOX_M, 0.0, BOX_M])
+        return np.stack(np.meshgrid(sides, sides, z), axis=-1).reshape(-1, 3)
+    if shape == "column":
+        return np.column_stack([np.zeros((len(z), 2)), z])
+    # a trunk below a ball of leaves, the ball's points on a golden spiral
+    radius_m = height_m / 4
+    i = np.arange(CROWN_POINTS) + 0.5
+    polar, azimuth = np.arccos(1 - 2 * i / CROWN_POINTS), np.pi * (1 + 5**0.5) * i
+    ball = np.column_stack([np.cos(azimuth) * np.sin(polar), np.sin(azimuth) * np.sin(polar), np.cos(polar)])
+    trunk = template("column", height_m - 2 * radius_m)
+    return np.concatenate([trunk, ball * radius_m + [0, 0, height_m - radius_m]])

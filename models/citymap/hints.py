@@ -1,0 +1,161 @@
+"""Describing a position in hints (docs/formats.md, rules 3, 5 and 6), and choosing positions to describe."""
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import cKDTree
+
+from models.citymap.cells import CellTable, Parts
+from models.citymap.colours import Palette
+from models.citymap.map_geometry import Bodies
+from models.citymap.points import thin
+from models.citymap.types import DIRECTIONS, CityMap, Description, Direction, Floats, Hint, Pose
+
+Strategy = Literal["closest", "class", "direction"]
+STRATEGIES: tuple[Strategy, ...] = ("closest", "class", "direction")
+NUM_HINTS = 6
+HINT_REACH_M = 15.0  # nothing further away is mentioned
+BEST_CELL_REACH_M = 15.0  # a pose further from every cell's centre has no best cell
+ON_TOP_M = 1.5  # 0.05 of a 30 m cell
+
+
+def direction_index(offset_m: Floats, on_top_m: float = ON_TOP_M) -> npt.NDArray[np.intp]:
+    """Where a position lies, seen from an instance (docs/formats.md, rule 6).
+
+    Args:
+        offset_m: [..., 2 or 3] position minus the instance's closest point, metres.
+        on_top_m: nearer than this, in the plane, is "on-top"; in the unit of the offset.
+
+    Returns:
+        [...] index into DIRECTIONS.
+    """
+    x, y = np.asarray(offset_m)[..., 0], np.asarray(offset_m)[..., 1]
+    north_south = np.where(y > 0, 0, 1)
+    east_west = np.where(x > 0, 2, 3)
+    sector = np.where(np.abs(x) > np.abs(y), east_west, north_south)
+    return np.where(np.hypot(x, y) < on_top_m, 4, sector)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HintTable:
+    """What could be said at each of N positions, in columns.
+
+    Attributes:
+        starts: [N + 1] position n has the rows starts[n] to starts[n + 1], nearest first.
+        instance: [R] row in `CityMap.instances`.
+        direction: [R] index into DIRECTIONS.
+        colour: [R] index into the palette's words, -1 if unknown.
+        distance_m: [R] from the position to the closest point, in the plane.
+    """
+
+    starts: npt.NDArray[Any]
+    instance: npt.NDArray[Any]
+    direction: npt.NDArray[Any]
+    colour: npt.NDArray[Any]
+    distance_m: Floats
+
+
+def hint_table(palette: Palette, parts: Parts, positions_m: Floats) -> HintTable:
+    """All hints that are true at some positions.
+
+    Args:
+        palette: the colour words.
+        parts: the cubes around the positions (`Bodies.cut`).
+        positions_m: [N, 3] metres.
+    """
+    cube = parts.cube
+    offset = positions_m[cube] - parts.closest_m
+    distance = np.hypot(offset[:, 0], offset[:, 1])
+    near = np.flatnonzero(distance <= HINT_REACH_M)
+    near = near[np.lexsort((distance[near], cube[near]))]
+    sizes = np.bincount(cube[near], minlength=len(positions_m))
+    return HintTable(
+        starts=np.concatenate([[0], np.cumsum(sizes)]),
+        instance=parts.instance[near],
+        direction=direction_index(offset[near]),
+        colour=palette.word_index(parts.rgb[near]),
+        distance_m=distance[near],
+    )
+
+
+def choose_hints(
+    table: HintTable, n: int, labels: npt.NDArray[Any], strategy: Strategy, count: int
+) -> npt.NDArray[Any]:
+    """Rows of the hints that one strategy picks at position n.
+
+    Args:
+        table: what could be said.
+        n: the position.
+        labels: [I] label number of each instance.
+        strategy: "closest" takes the nearest; "class" and "direction" take the nearest of each class or
+            direction in turn, so that the hints differ.
+        count: hints to pick; fewer if there are fewer.
+    """
+    rows = np.arange(table.starts[n], table.starts[n + 1])
+    if strategy == "closest":
+        return rows[:count]
+    keys = labels[table.instance[rows]] if strategy == "class" else table.direction[rows]
+    return rows[np.argsort(_occurrence(keys), kind="stable")[:count]]
+
+
+def _occurrence(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """[M] how many earlier entries have the same key: round-robin over the keys is a sort by it."""
+    order = np.argsort(keys, kind="stable")
+    starts = np.flatnonzero(np.diff(keys[order], prepend=-1))
+    nth = np.empty(len(keys), dtype=np.intp)
+    nth[order] = np.arange(len(keys)) - np.repeat(starts, np.diff(starts, append=len(keys)))
+    return nth
+
+
+def round_robin(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """[M] order in which the keys take turns, each with its next entry; keys go in the order they first appear."""
+    _, first, key = np.unique(keys, return_index=True, return_inverse=True)
+    return np.lexsort((first[key], _occurrence(keys)))
+
+
+def sample_positions(locations_m: Floats, spacing_m: float, rng: np.random.Generator) -> Floats:
+    """[N, 3] locations at random, one a square block of `spacing_m`, in random order."""
+    return thin(rng.permutation(locations_m), spacing_m)
+
+
+def describe_poses(
+    city_map: CityMap, bodies: Bodies, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
+) -> list[Pose]:
+    """Poses with descriptions at some positions, by each strategy (docs/formats.md, rule 5).
+
+    Args:
+        city_map: the map.
+        bodies: what stands in it.
+        cells: the gallery; a position without a cell centre within 15 m is left out.
+        positions_m: [N, 3] metres.
+        num_hints: hints a description; a position with fewer things around it is left out.
+
+    Returns:
+        Poses in order of position, then strategy; a description that mentions the same instances as
+        another of the same position is dropped.
+    """
+    distance, best = cKDTree(cells.center_m).query(positions_m)
+    reachable = np.flatnonzero(distance <= BEST_CELL_REACH_M)
+    positions, best = positions_m[reachable], best[reachable]
+    table = hint_table(city_map.palette, bodies.cut(positions), positions)
+    labels = np.unique([i.label for i in city_map.instances], return_inverse=True)[1]
+    poses = []
+    for n in np.flatnonzero(np.diff(table.starts) >= num_hints):
+        mentioned: set[frozenset[int]] = set()
+        for strategy in STRATEGIES:
+            rows = choose_hints(table, int(n), labels, strategy, num_hints)
+            instances = frozenset(table.instance[rows].tolist())
+            if instances not in mentioned:
+                mentioned.add(instances)
+                hints = tuple(_hint(city_map, table, int(row)) for row in rows)
+                poses.append(Pose(positions[n], cells.ids[best[n]], Description(hints), strategy))
+    return poses
+
+
+def _hint(city_map: CityMap, table: HintTable, row: int) -> Hint:
+    instance, colour = int(table.instance[row]), int(table.colour[row])
+    direction: Direction = DIRECTIONS[table.direction[row]]
+    word = None if colour < 0 else city_map.palette.words[colour]
+    return Hint(direction, city_map.instances[instance].label, word, city_map.instances[instance].id)

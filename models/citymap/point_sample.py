@@ -1,0 +1,34 @@
+"""A fixed number of points of each part of some cells, as point encoders take them."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from models.citymap.types import Floats
+
+NUM_POINTS = 256
+# [C] rows of cells -> [R, 256, 6] the samples of all their parts, cell after cell.
+Sampler = Callable[[npt.NDArray[np.integer[Any]]], Floats]
+
+
+def sample_points(xyz: Floats, rgb: Floats) -> Floats:
+    """[256, 6] float32 of a part: place and colour of points spread evenly over their list, some twice if it is short.
+
+    Places are relative to the middle of the part, the furthest of all its points at 1: a shape, whatever the unit.
+
+    Args:
+        xyz: [P, 3] any unit.
+        rgb: [P, 3] 0..1, NaN where unknown, which becomes -1.
+    """
+    middle = (xyz.min(axis=0) + xyz.max(axis=0)) / 2
+    reach = float(np.linalg.norm(xyz - middle, axis=1).max())
+    rows = np.linspace(0, len(xyz) - 1, NUM_POINTS).astype(np.intp)
+    shape = (xyz[rows] - middle) / max(reach, 1e-6)
+    return np.concatenate([shape, np.nan_to_num(rgb[rows], nan=-1.0)], axis=1).astype(np.float32)
+
+
+def samples(parts: list[Floats]) -> Floats:
+    """[R, 256, 6] of R samples, of none too."""
+    return np.stack(parts) if parts else np.zeros((0, NUM_POINTS, 6), dtype=np.float32)

@@ -1,0 +1,114 @@
+"""Descriptions with known positions, as they are asked; and all that can be said at positions, as it is trained on."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import cKDTree
+
+from models.citymap.cells import CellTable
+from models.citymap.gallery import Gallery
+from models.citymap.hints import BEST_CELL_REACH_M, HintTable
+from models.citymap.templates import render_hint
+from models.citymap.types import Floats, Hint
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Queries:
+    """Q descriptions with known positions.
+
+    Attributes:
+        sentences: each description's hint sentences, in the benchmark's wording unless they are someone's own.
+        positions_m: [Q, 2] float64 true positions, map frame.
+        truth: [Q] row of the best cell, -1 if no centre is within 15 m of the position.
+        scenes: scene of each query; what is found in another is wrong wherever it lies.
+        strategies: how the hints were chosen, "" if that is not known.
+        hints: what the sentences say; None where only text is known.
+    """
+
+    sentences: Sequence[tuple[str, ...]]
+    positions_m: Floats
+    truth: npt.NDArray[np.intp]
+    scenes: Sequence[str]
+    strategies: Sequence[str]
+    hints: Sequence[tuple[Hint, ...]] | None = None
+
+    @classmethod
+    def of_text(cls, sentences: Sequence[tuple[str, ...]], positions_m: Floats, cells: CellTable) -> "Queries":
+        """Queries of one's own; a description's best cell is the one whose centre is nearest.
+
+        Args:
+            sentences: each description's hint sentences.
+            positions_m: [Q, 2] where they were said, map frame.
+            cells: the gallery.
+        """
+        distance, nearest = cKDTree(cells.center_m[:, :2]).query(positions_m)
+        scenes = [cells.scenes[n] for n in nearest]
+        truth = np.where(distance <= BEST_CELL_REACH_M, nearest, -1)
+        return cls(sentences, positions_m, truth, scenes, [""] * len(sentences))
+
+    @classmethod
+    def of_hints(
+        cls,
+        hints: Sequence[tuple[Hint, ...]],
+        positions_m: Floats,
+        truth: npt.NDArray[np.intp],
+        strategies: Sequence[str],
+        cells: CellTable,
+    ) -> "Queries":
+        """Queries in the benchmark's wording; arguments as the attributes, of the gallery `cells`."""
+        sentences = [tuple(render_hint(hint) for hint in said) for said in hints]
+        return cls(sentences, positions_m, truth, [cells.scenes[n] for n in truth], strategies, hints)
+
+    @classmethod
+    def joined(cls, parts: Sequence["Queries"]) -> "Queries":
+        """Those of one gallery, one after the other; what they say is known."""
+
+        def all_of(name: str) -> list[Any]:
+            return [one for part in parts for one in getattr(part, name)]
+
+        positions_m, truth = (
+            np.concatenate([getattr(part, name) for part in parts]) for name in ("positions_m", "truth")
+        )
+        return cls(all_of("sentences"), positions_m, truth, *map(all_of, ("scenes", "strategies", "hints")))
+
+    def __len__(self) -> int:
+        return len(self.truth)
+
+    def take(self, rows: npt.NDArray[np.intp]) -> "Queries":
+        """Some of them."""
+        return Queries(
+            sentences=[self.sentences[q] for q in rows],
+            positions_m=self.positions_m[rows],
+            truth=self.truth[rows],
+            scenes=[self.scenes[q] for q in rows],
+            strategies=[self.strategies[q] for q in rows],
+            hints=None if self.hints is None else [self.hints[q] for q in rows],
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Statements:
+    """Positions, and everything that can be said at each of them.
+
+    Attributes:
+        gallery: the cells around them.
+        positions_m: [N, 2 or more] positions; those of different scenes are far from each other.
+        best: [N] best cell of each position.
+        table: what can be said there.
+        labels: label of each instance that the table names.
+        words: colour words that the table numbers.
+        part_number: [R] number of each instance, in rows of the cells' parts; parts of one instance share it.
+        said_number: [H] number of the instance that each row of the table means, -1 if unknown.
+    """
+
+    gallery: Gallery
+    positions_m: Floats
+    best: npt.NDArray[np.intp]
+    table: HintTable
+    labels: Sequence[str]
+    words: tuple[str, ...]
+    part_number: npt.NDArray[Any]
+    said_number: npt.NDArray[Any]

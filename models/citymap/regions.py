@@ -1,0 +1,49 @@
+"""Cutting one city into train, validation and test regions that share no cell and no described instance part."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from models.citymap.cells import CellTable
+from models.citymap.hints import HINT_REACH_M
+from models.citymap.types import Floats
+
+# Shares of the extent from west to east; what lies between two regions is used by neither.
+SHARES = {"train": (0.0, 0.5), "val": (0.5, 0.64), "test": (0.64, 1.0)}
+SPLITS = tuple(SHARES)
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """A strip of a map from south to north: everything with west_m <= x < east_m."""
+
+    west_m: float
+    east_m: float
+
+    def contains(self, x_m: Floats, margin_m: float) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """[N] whether what reaches `margin_m` around x_m lies in the region whole."""
+        inside: np.ndarray[tuple[int], np.dtype[np.bool_]] = (x_m - margin_m >= self.west_m) & (
+            x_m + margin_m < self.east_m
+        )
+        return inside
+
+    def cells(self, cells: CellTable) -> CellTable:
+        """The cells that lie in the region whole."""
+        return cells.take(np.flatnonzero(self.contains(cells.center_m[:, 0], cells.size_m / 2)))
+
+    def locations(self, locations_m: Floats) -> Floats:
+        """The locations whose hints are all in the region."""
+        kept: Floats = locations_m[self.contains(locations_m[:, 0], HINT_REACH_M)]
+        return kept
+
+
+def split_regions(cells: CellTable) -> dict[str, Region]:
+    """West to train on, a strip between to choose by, east to test on.
+
+    Args:
+        cells: all cells of the map; their extent is what is shared out.
+    """
+    half = cells.size_m / 2
+    west, east = float(cells.center_m[:, 0].min()) - half, float(cells.center_m[:, 0].max()) + half + 1e-6
+    width = east - west
+    return {split: Region(west + low * width, west + high * width) for split, (low, high) in SHARES.items()}

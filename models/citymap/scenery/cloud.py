@@ -1,0 +1,35 @@
+"""A map as coloured points, in an order in which any first part of them shows all of it."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from models.citymap.scenery.files import Encoded
+from models.citymap.types import Floats
+
+POINTS_A_PART = 200_000
+UNITS_A_METRE = 10
+SEED = 0
+
+
+def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[Encoded]:
+    """Parts of at most POINTS_A_PART points each, drawn at random.
+
+    Tensors: "steps" [P, 3], decimetres, each point from the one before it, the first from the origin; "rgb" [P, 3].
+
+    Args:
+        xyz_m: [P, 3] metres, map frame.
+        rgb: [P, 3].
+    """
+    order = np.random.default_rng(SEED).permutation(len(xyz_m))
+    for start in range(0, max(1, len(order)), POINTS_A_PART):
+        rows = order[start : start + POINTS_A_PART]
+        xyz = np.rint(xyz_m[rows] * UNITS_A_METRE).astype(np.int32)
+        by_place = np.lexsort(xyz.T)
+        tensors: dict[str, npt.NDArray[Any]] = {
+            "steps": np.diff(xyz[by_place], axis=0, prepend=np.zeros((1, 3), np.int32)).astype(np.int32),
+            "rgb": np.ascontiguousarray(rgb[rows][by_place]),
+        }
+        yield Encoded(tensors, {"kind": "points", "of": str(len(order))})

@@ -1,0 +1,197 @@
+"""A map as outlines, lines and places with heights and names, in as few bytes as drawing needs."""
+
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+import shapely
+
+from models.citymap.points import ranges
+from models.citymap.scenery.files import Encoded
+from models.citymap.types import Floats, MapShape
+from models.spool import AT_ONCE, Spool, spooled
+
+UNITS_A_METRE: Final = 10  # what is sent is in decimetres
+SIMPLER_M: Final = 0.3  # how far an outline may be from the one that is mapped
+KINDS: Final = ("node", "way", "relation")
+MAX_HEIGHT: Final = 65535
+OF_PATHS: Final = ("size", "hole")
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """What has a name and is found at one point: a shop, a museum.
+
+    Attributes:
+        at_m: x, y, map frame.
+        name: the one to show.
+        kind: what it is, in a word.
+    """
+
+    at_m: tuple[float, float]
+    name: str
+    kind: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Outlines:
+    """O objects of R paths of V vertices as they are drawn; numbers are decimetres.
+
+    Objects stand by label, within a label by where they are.
+
+    Attributes:
+        labels: those that lie on top of others first.
+        names: of objects that have one, by number.
+        tensors: of O: "label" (number in `labels`), "form" (0 point, 1 line, 2 area), "base", "top", "width", "paths"
+            (how many), "source" (OpenStreetMap's number times 4, and 0 node, 1 way, 2 relation; -1 for none). Of R:
+            "size" (vertices), "hole" (of an area). "steps" [V, 2]: each vertex from the one before it, the first from
+            the origin.
+    """
+
+    labels: list[str]
+    names: dict[int, str]
+    tensors: dict[str, npt.NDArray[Any]]
+
+    @classmethod
+    def of(cls, shapes: Sequence[MapShape]) -> "Outlines":
+        """Those of what there is, what lies on top of others first; labels keep this order."""
+        drawings = Drawings(dict.fromkeys(shape.label for shape in shapes))
+        drawings.add(Drawing.of(shapes, np.arange(len(shapes))))
+        return drawings.outlines()
+
+    def encode(self, places: Iterable[Place] = ()) -> Encoded:
+        """A part of scenery, with "labels", "names" and "places" [[x, y, name, kind]] as JSON in its facts.
+
+        Args:
+            places: what has a name.
+        """
+        told: dict[str, Any] = {
+            "labels": self.labels,
+            "names": self.names,
+            "places": [[*(round(v * UNITS_A_METRE) for v in place.at_m), place.name, place.kind] for place in places],
+        }
+        words = {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in told.items()}
+        return Encoded(self.tensors, {"kind": "shapes", **words})
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawing:
+    """What is drawn of some objects, O of them.
+
+    Attributes:
+        labels, names: of each.
+        tensors: as of Outlines but for "label" and "steps"; "place" [O] of each among all, "low" [O, 2] the least
+            coordinates of each in metres, "xy" [V, 2].
+    """
+
+    labels: list[str]
+    names: list[str | None]
+    tensors: dict[str, npt.NDArray[Any]]
+
+    @classmethod
+    def of(cls, shapes: Sequence[MapShape], place: npt.NDArray[Any]) -> "Drawing":
+        """That of some shapes that are each at a place [S] among all."""
+        geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLER_M)
+        drawn = np.flatnonzero(~(shapely.is_missing(geometry) | shapely.is_empty(geometry)))
+        shapes, geometry = [shapes[n] for n in drawn.tolist()], geometry[drawn]
+        form = shapely.get_dimensions(geometry).astype(np.uint8) if shapes else np.zeros(0, np.uint8)
+        path, owner, hole = _paths(geometry, form)
+        xy, of_path = shapely.get_coordinates(path, return_index=True)
+        tensors = {
+            "form": form,
+            "base": _heights([shape.base_m for shape in shapes]),
+            "top": _heights([shape.top_m for shape in shapes]),
+            "width": _heights([shape.width_m for shape in shapes]),
+            "paths": np.bincount(owner, minlength=len(shapes)).astype(np.uint32),
+            "source": np.array([_number_of(shape.source_id) for shape in shapes], dtype=np.float64),
+            "size": np.bincount(of_path, minlength=len(path)).astype(np.uint32),
+            "hole": hole.astype(np.uint8),
+            "place": place[drawn],
+            "low": np.nan_to_num(shapely.bounds(geometry))[:, :2],
+            "xy": np.rint(xy * UNITS_A_METRE).astype(np.int32),
+        }
+        return cls([shape.label for shape in shapes], [shape.name for shape in shapes], tensors)
+
+
+class Drawings:
+    """What is drawn of a map, which grows; it lies on disk.
+
+    Args:
+        labels: of all that is drawn, those that lie on top of others first.
+    """
+
+    def __init__(self, labels: Iterable[str]) -> None:
+        self._number = {label: n for n, label in enumerate(labels)}
+        self._spool, self._names, self._count = Spool(), dict[int, str](), 0
+
+    def add(self, drawing: Drawing) -> None:
+        """Draw some more; there is at least one drawing."""
+        self._spool.add({"label": np.array([self._number[of] for of in drawing.labels], np.uint16), **drawing.tensors})
+        self._names |= {self._count + n: name for n, name in enumerate(drawing.names) if name}
+        self._count += len(drawing.labels)
+
+    def outlines(self) -> Outlines:
+        """All of it; nothing is drawn after that."""
+        columns = self._spool.columns()
+        order = np.lexsort((columns.pop("place"), _morton(columns.pop("low")), columns["label"]))
+        place = np.empty_like(order)
+        place[order] = np.arange(len(order))
+        names = dict(sorted((int(place[row]), name) for row, name in self._names.items()))
+        return Outlines(list(self._number), names, spooled(_in_order(columns, order)))
+
+
+def _in_order(columns: Mapping[str, npt.NDArray[Any]], order: npt.NDArray[Any]) -> Iterator[dict[str, Any]]:
+    """Tensors of Outlines, some objects at a time, of columns of drawings."""
+    ends = {name: np.cumsum(columns[name], dtype=np.int64) for name in ("paths", "size")}
+    last = np.zeros((1, 2), np.int32)
+    for first in range(0, len(order) or 1, AT_ONCE):
+        rows = order[first : first + AT_ONCE]
+        paths = _rows_of(ends["paths"], columns["paths"], rows)
+        xy = columns["xy"][_rows_of(ends["size"], columns["size"], paths)]
+        found = {name: column[paths if name in OF_PATHS else rows] for name, column in columns.items() if name != "xy"}
+        yield found | {"steps": np.diff(xy, axis=0, prepend=last).astype(np.int32)}
+        last = xy[-1:] if len(xy) else last
+
+
+def _rows_of(ends: npt.NDArray[Any], sizes: npt.NDArray[Any], groups: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The rows of some groups, group after group."""
+    return ranges(ends[groups] - sizes[groups], ends[groups])
+
+
+def _paths(geometry: Any, form: npt.NDArray[np.uint8]) -> tuple[Any, npt.NDArray[np.intp], npt.NDArray[np.bool_]]:
+    """Points, lines and rings, with the object of each, in order of objects, and whether it is a hole."""
+    parts, owner = shapely.get_parts(geometry, return_index=True)
+    kept = shapely.get_dimensions(parts) == form[owner]  # a collection also holds what a clip left over
+    parts, owner = parts[kept], owner[kept]
+    is_area = shapely.get_dimensions(parts) == 2
+    rings, polygon = shapely.get_rings(parts[is_area], return_index=True)
+    is_hole = np.diff(polygon, prepend=-1) == 0
+    others = ~is_area
+    path = np.concatenate([rings, parts[others]])
+    of_object = np.concatenate([owner[is_area][polygon], owner[others]])
+    hole = np.concatenate([is_hole, np.zeros(int(others.sum()), dtype=bool)])
+    order = np.argsort(of_object, kind="stable")
+    return path[order], of_object[order], hole[order]
+
+
+def _heights(values_m: Sequence[float]) -> npt.NDArray[np.uint16]:
+    rounded = np.rint(np.array(values_m, dtype=np.float64) * UNITS_A_METRE)
+    return rounded.clip(0, MAX_HEIGHT).astype(np.uint16)
+
+
+def _number_of(source_id: str | None) -> float:
+    kind, _, number = (source_id or "").partition("/")
+    return float(int(number) * 4 + KINDS.index(kind)) if kind in KINDS and number.isdigit() else -1.0
+
+
+def _morton(low_m: Floats) -> npt.NDArray[np.int64]:
+    """[O] where objects [O, 2] are, so that what is near has near numbers."""
+    low = low_m - low_m.min(axis=0, initial=0.0)
+    cell = np.minimum(low / 4, 0xFFFFF).astype(np.int64)
+    found = np.zeros(len(cell), dtype=np.int64)
+    for bit in range(20):
+        found |= ((cell[:, 0] >> bit & 1) << 2 * bit) | ((cell[:, 1] >> bit & 1) << 2 * bit + 1)
+    return found

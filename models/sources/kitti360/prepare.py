@@ -1,0 +1,207 @@
+"""From a raw KITTI-360 scene to KITTI360Pose's cells and poses (docs/formats.md, preparation rules)."""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from models.citymap.cells import centers_near, cut_cube
+from models.citymap.points import Ints, PointTable
+from models.citymap.types import CityMap, Floats
+from models.errors import DataError
+from models.processes import map_forked
+from models.sources.kitti360.describe import descriptions, look_around
+from models.sources.kitti360.raw import RawScene
+from models.sources.kitti360.rules import PrepareConfig
+from models.sources.kitti360pose.records import PublishedCell, PublishedObject, PublishedPose
+
+CHUNK = 16  # cubes a task
+Progress = Callable[[int, int], None]
+
+
+def prepare_scene(
+    raw: RawScene, config: PrepareConfig, rng: np.random.Generator, progress: Progress | None = None
+) -> tuple[list[PublishedCell], list[PublishedPose]]:
+    """Make a scene's cells and poses.
+
+    Args:
+        raw: the scene, read with the classes of the same config.
+        config: every option.
+        rng: draws where positions are.
+        progress: called with (cubes cut, cubes to cut).
+
+    Returns:
+        Cells in order of x, then y; poses in order of location, copy and strategy.
+
+    Raises:
+        DataError: no location near a thing, no cell, or no position with enough around it.
+    """
+    points = scene_points(raw, config)
+    locations = choose_locations(raw, config)
+    centers = grid_centers(raw, locations, config)
+    positions = shifted(locations, config, rng)
+    step = _Steps(len(centers) + len(positions), progress)
+    cells = cut_cells(raw, points, centers, config, step)
+    poses = describe_positions(raw, points, cells, positions, config, step)
+    if not poses:
+        raise DataError(
+            f"scene '{raw.name}': field 'poses': none of {len(positions)} positions has {config.num_hints} instances "
+            f"within {config.hint_reach_m} m and a cell's centre within {config.best_cell_reach_m} m"
+        )
+    return cells, poses
+
+
+class _Steps:
+    """Counts cubes for a progress bar."""
+
+    def __init__(self, total: int, progress: Progress | None) -> None:
+        self.done, self.total, self.progress = 0, total, progress
+
+    def __call__(self, cubes: int) -> None:
+        self.done += cubes
+        if self.progress:
+            self.progress(self.done, self.total)
+
+
+def scene_points(raw: RawScene, config: PrepareConfig) -> PointTable:
+    """The scene's points with their index, for `describe_positions`."""
+    city_map = CityMap(raw.name, raw.instances, raw.stuff, raw.trajectory_m, rules=config.cut)
+    return PointTable.of(city_map, config.cut.eps_m)
+
+
+def choose_locations(raw: RawScene, config: PrepareConfig) -> Floats:
+    """[L, 3] poses of the trajectory, spaced, near some thing (rule 3).
+
+    Raises:
+        DataError: there is none.
+    """
+    spaced = raw.trajectory_m[:1]
+    for position in raw.trajectory_m[1:]:
+        if np.linalg.norm(spaced - position, axis=1).min() >= config.spacing_m:
+            spaced = np.vstack([spaced, position])
+    things = [instance.points_m for instance in raw.instances if instance.label not in raw.stuff]
+    if things:
+        tree = cKDTree(np.concatenate(things), balanced_tree=False, compact_nodes=False)
+        near: Floats = spaced[tree.query(spaced)[0] <= config.thing_reach_m]
+        if len(near):
+            return near
+    raise DataError(
+        f"scene '{raw.name}': field 'trajectory': no pose within {config.thing_reach_m} m of a thing; "
+        "are points and trajectory of the same scene, in the same frame?"
+    )
+
+
+def grid_centers(raw: RawScene, locations_m: Floats, config: PrepareConfig) -> Floats:
+    """[N, 3] centres of the cells to cut, in order of x, then y (rule 4): whole metres, the greatest bound left out.
+
+    Raises:
+        DataError: the locations span no step of the grid.
+    """
+    low, high = locations_m.min(axis=0).astype(int), locations_m.max(axis=0).astype(int)
+    axes = [np.arange(low[axis], high[axis], config.cut.grid_m) for axis in range(2)]
+    x, y = np.meshgrid(*axes, indexing="ij")
+    if not x.size:
+        raise DataError(
+            f"scene '{raw.name}': field 'trajectory': its locations span {np.ptp(locations_m[:, :2], axis=0)} m in x "
+            "and y; cells need a metre in each"
+        )
+    return centers_near(np.column_stack([x.ravel(), y.ravel()]), locations_m, config.cut.reach_m)
+
+
+def shifted(locations_m: Floats, config: PrepareConfig, rng: np.random.Generator) -> Floats:
+    """[L * copies, 3] positions: every location some times, moved by whole metres towards east and north (rule 5)."""
+    positions = np.repeat(locations_m, config.copies, axis=0)
+    share = rng.random((len(positions), 2))
+    positions[:, :2] += np.trunc(share * config.cut.cell_size_m / config.shift_divisor)
+    return positions
+
+
+def cut_cells(
+    raw: RawScene, points: PointTable, centers_m: Floats, config: PrepareConfig, step: Callable[[int], None]
+) -> list[PublishedCell]:
+    """The cells around some centres; numbers count the centres, those with too few instances too (rule 4).
+
+    Raises:
+        DataError: no cell has enough instances.
+    """
+    cells: list[PublishedCell] = []
+    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
+    number = 0
+    for members in map_forked(partial(_members, points, config), chunks):
+        for parts in members:
+            if parts is not None:
+                cells.append(_cell(raw, points, number, centers_m[number], parts, config))
+            number += 1
+        step(len(members))
+    if not cells:
+        raise DataError(
+            f"scene '{raw.name}': field 'cells': none of {len(centers_m)} has {config.cut.min_instances} instances"
+        )
+    return cells
+
+
+def _members(points: PointTable, config: PrepareConfig, centers_m: Floats) -> list[list[Ints] | None]:
+    """The point rows of the parts of some cubes; None for one with too few parts."""
+    cubes = (cut_cube(points, center, config.cut) for center in centers_m)
+    return [[p.astype(np.int32) for p in parts] if len(parts) >= config.cut.min_instances else None for parts in cubes]
+
+
+def _cell(
+    raw: RawScene, points: PointTable, number: int, center_m: Floats, parts: list[Ints], config: PrepareConfig
+) -> PublishedCell:
+    size_m = config.cut.cell_size_m
+    low_m = center_m - size_m / 2
+    objects = []
+    for part, rows in enumerate(parts):
+        instance = raw.instances[points.instance[rows[0]]]
+        xyz = (points.xyz[rows] - low_m) / size_m
+        objects.append(PublishedObject(part, instance.id, xyz, points.colours(rows), instance.label))
+    box_m = np.concatenate([low_m, center_m + size_m / 2])
+    return PublishedCell(f"{raw.name}_{number:05d}", raw.name, tuple(objects), size_m, box_m)
+
+
+def describe_positions(
+    raw: RawScene,
+    points: PointTable,
+    cells: list[PublishedCell],
+    positions_m: Floats,
+    config: PrepareConfig,
+    step: Callable[[int], None] = lambda cubes: None,
+) -> list[PublishedPose]:
+    """Poses with descriptions at given positions (rules 5 to 8).
+
+    Args:
+        raw: the scene.
+        points: `scene_points(raw, config)`.
+        cells: what hints are matched to; a position without a centre in reach is left out.
+        positions_m: [N, 3] world metres.
+        config: every option.
+        step: called with the number of positions done since the last call.
+
+    Returns:
+        In order of position, then strategy; a position with fewer instances in reach than hints is left out.
+    """
+    distance, best = _best_cells(cells, positions_m, config)
+    reachable = np.flatnonzero(distance <= config.best_cell_reach_m)
+    step(len(positions_m) - len(reachable))
+    chunks = [reachable[i : i + CHUNK] for i in range(0, len(reachable), CHUNK)]
+    poses = []
+    looked = map_forked(partial(look_around, points, config), [positions_m[chunk] for chunk in chunks])
+    for chunk, surroundings in zip(chunks, looked, strict=True):
+        for n, around in zip(chunk, surroundings, strict=True):
+            if len(around) >= config.num_hints:
+                cell, position = cells[best[n]], positions_m[n]
+                pose = (position - cell.bbox_w[:3]) / cell.cell_size
+                for strategy, hints in descriptions(around, raw, cell, pose, config):
+                    poses.append(PublishedPose(pose, position, cell.id, raw.name, strategy, hints))
+        step(len(chunk))
+    return poses
+
+
+def _best_cells(cells: list[PublishedCell], positions_m: Floats, config: PrepareConfig) -> tuple[Floats, Ints]:
+    """[N] distances to the nearest centre, metres, and its rows in `cells`; the first of several equally near."""
+    centers_m = np.array([cell.bbox_w[:3] for cell in cells]) + config.cut.cell_size_m / 2
+    # On a grid at most four centres are equally near.
+    distance, row = cKDTree(centers_m).query(positions_m, k=[1, 2, 3, 4])
+    return distance[:, 0], np.where(distance == distance[:, :1], row, len(cells)).min(axis=1)

@@ -1,0 +1,123 @@
+"""prepared/<scene>.json: what a prepared scene was made from, by which settings, and how large its files are."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
+
+from models.errors import DataError
+from models.sources.kitti360.raw import POSES, scene_folder, tile_paths
+from models.sources.kitti360.rules import PrepareConfig
+from models.sources.kitti360pose.files import file_name
+
+SHOWN = 3  # differences that a message names
+LONGEST = 60  # characters of a value that a message shows
+
+
+class RawFile(BaseModel):
+    """A file of the raw data, as it was when a scene was made from it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    bytes: int
+    modified_ns: int
+
+
+class Recipe(BaseModel):
+    """All that decides what comes out of a preparation.
+
+    Attributes:
+        format: of what the software makes; another number when the same raw files would give other cells or poses.
+        scene: name of the scene's files.
+        seed: of the positions.
+        config: every option.
+        raw: the files, by path below the raw data's root.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="constants")
+
+    kind: Literal["hereabouts prepared scene"] = "hereabouts prepared scene"
+    format: Literal[1] = 1
+    scene: str
+    seed: int
+    config: dict[str, Any]
+    raw: dict[str, RawFile]
+
+
+class Record(Recipe):
+    """A scene that is complete.
+
+    Attributes:
+        cells, poses: how many.
+        files: size in bytes by path below the root.
+    """
+
+    cells: int
+    poses: int
+    files: dict[str, int]
+
+
+def recipe_of(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Recipe:
+    """What a scene would be made from now.
+
+    Args:
+        raw: root of the raw data.
+        folder: of the scene; files that it lacks are left out, reading it says which.
+        config: every option.
+        seed: of the positions.
+    """
+    try:
+        files = tile_paths(scene_folder(raw, folder))
+    except DataError:
+        files = []
+    files.append(raw / POSES / folder / "poses.txt")
+    stats = {path.relative_to(raw).as_posix(): path.stat() for path in files if path.is_file()}
+    return Recipe(
+        scene=file_name(folder),
+        seed=seed,
+        config=TypeAdapter(PrepareConfig).dump_python(config, mode="json"),
+        raw={name: RawFile(bytes=stat.st_size, modified_ns=stat.st_mtime_ns) for name, stat in stats.items()},
+    )
+
+
+def read_record(path: Path, advice: str) -> Record:
+    """The record of a prepared scene.
+
+    Args:
+        path: prepared/<scene>.json.
+        advice: what to do if it is not usable.
+
+    Raises:
+        DataError: it cannot be read, is none, or is of another version of this software.
+    """
+    try:
+        return Record.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise DataError(f"{path}: cannot be read: {error.strerror}; {advice}") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(str(part) for part in first["loc"])
+        raise DataError(f"{path}: field '{field}': {first['msg']}; {advice}") from error
+
+
+def differences(record: Record, recipe: Recipe) -> str:
+    """What a scene was made from that is not so now, in words; empty if nothing."""
+    found = list(_changes(record.model_dump(include=set(Recipe.model_fields)), recipe.model_dump()))
+    more = f" and {len(found) - SHOWN} more" if len(found) > SHOWN else ""
+    return ", ".join(found[:SHOWN]) + more
+
+
+def _changes(before: Mapping[str, Any], now: Mapping[str, Any], within: str = "") -> Iterator[str]:
+    for name in dict.fromkeys([*before, *now]):
+        old, new = before.get(name), now.get(name)
+        if name not in before or name not in now:
+            yield f"{within}{name} is {'new' if name in now else 'gone'}"
+        elif isinstance(old, dict) and isinstance(new, dict):
+            yield from _changes(old, new, f"{within}{name}.")
+        elif old != new:
+            yield f"{within}{name} was {_short(old)}, is {_short(new)}"
+
+
+def _short(value: Any) -> str:
+    return str(value) if len(str(value)) < LONGEST else "another"

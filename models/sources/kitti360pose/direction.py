@@ -1,0 +1,104 @@
+"""direction/<scene>.json: the neighbours of each cell, for prototype-based map cloning (docs/method.md, fine stage).
+
+One JSON object a scene: cell id -> {"east": cell id or null, ...} with the eight points of the compass. A neighbour's
+centre is one step of the grid away in x, in y or in both; heights do not count. Text2Loc's fine stage takes a pose's
+neighbours from it by the pose's cell id, so that every cell of the scene must be in it.
+"""
+
+import json
+from collections.abc import Collection, Sequence
+from pathlib import Path
+from typing import Literal, get_args
+
+import numpy as np
+from pydantic import TypeAdapter, ValidationError
+from scipy.spatial import cKDTree
+
+from models.errors import DataError
+from models.files import replace_file
+from models.sources.kitti360pose.records import PublishedCell
+
+Compass = Literal["east", "west", "north", "south", "northeast", "northwest", "southeast", "southwest"]
+Neighbours = dict[str, dict[Compass, str]]
+STEPS: dict[Compass, tuple[int, int]] = {
+    "east": (1, 0),
+    "west": (-1, 0),
+    "north": (0, 1),
+    "south": (0, -1),
+    "northeast": (1, 1),
+    "northwest": (-1, 1),
+    "southeast": (1, -1),
+    "southwest": (-1, -1),
+}
+SAME_PLACE_M = 1e-3  # cells of one grid are whole steps apart; what is further off is of another grid
+ADVICE = "cells and direction must come from one preparation"
+
+
+def find_neighbours(cells: Sequence[PublishedCell], grid_m: float) -> Neighbours:
+    """The cells beside each cell of a scene.
+
+    Args:
+        cells: of one scene, on one grid.
+        grid_m: the grid's step, metres.
+
+    Returns:
+        For each cell's id, in order: point of the compass -> id of the cell there, where there is one.
+    """
+    neighbours: Neighbours = {cell.id: {} for cell in cells}
+    corners_m = np.array([cell.bbox_w[:2] for cell in cells])
+    tree = cKDTree(corners_m)
+    for point, step in STEPS.items():
+        distance, row = tree.query(corners_m + np.array(step) * grid_m)
+        for n in np.flatnonzero(distance <= SAME_PLACE_M).tolist():
+            neighbours[cells[n].id][point] = cells[int(row[n])].id
+    return neighbours
+
+
+def load_direction(path: Path, cell_ids: Collection[str]) -> Neighbours:
+    """The neighbours of a scene's cells.
+
+    Args:
+        path: direction/<scene>.json.
+        cell_ids: the cells of the scene.
+
+    Returns:
+        For each cell's id: point of the compass -> id of the cell there, where there is one.
+
+    Raises:
+        DataError: the file is missing, no JSON or of another form, names a cell that the scene has not, or lacks one.
+    """
+    try:
+        stored = TypeAdapter(dict[str, dict[Compass, str | None]]).validate_json(path.read_bytes())
+    except FileNotFoundError as error:
+        raise DataError(f"{path}: no neighbours for this scene; the file is missing; prepare the scene anew") from error
+    except OSError as error:
+        raise DataError(f"{path}: cannot be opened: {error.strerror}") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(repr(part)[:80] for part in first["loc"]) or "content"
+        raise DataError(f"{path}: {field}: {first['msg']}; expected cell id -> point of the compass -> id") from error
+    known = set(cell_ids)
+    for cell_id, points in stored.items():
+        for field, named in (("", cell_id), *((f".{point}", neighbour) for point, neighbour in points.items())):
+            if named is not None and named not in known:
+                raise DataError(f"{path}: {cell_id[:80]!r}{field}: no cell {named[:80]!r} in this scene; {ADVICE}")
+    missing = sorted(known - stored.keys())
+    if missing:
+        raise DataError(f"{path}: {missing[0]!r}: missing, and {len(missing) - 1} more of the scene's cells; {ADVICE}")
+    return {
+        cell_id: {point: named for point, named in points.items() if named is not None}
+        for cell_id, points in stored.items()
+    }
+
+
+def save_direction(path: Path, neighbours: Neighbours) -> None:
+    """Write the neighbours of a scene's cells as published: all points of the compass, null where there is no cell.
+
+    Args:
+        path: direction/<scene>.json; replaced when all is written.
+        neighbours: of each cell of the scene.
+    """
+    stored = {
+        cell_id: {point: points.get(point) for point in get_args(Compass)} for cell_id, points in neighbours.items()
+    }
+    replace_file(path, json.dumps(stored, indent=4).encode())

@@ -1,0 +1,263 @@
+"""KITTI360Pose on disk, as it is published: scenes, cells and poses (docs/formats.md, published layout)."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from models.citymap.types import Floats
+from models.errors import DataError
+from models.files import replacing
+from models.sources.kitti360pose.fields import Fields, Source, read_cell, read_pose
+from models.sources.kitti360pose.pickle_reader import read_pickle
+from models.sources.kitti360pose.pickle_writer import cell_record, pose_record, write_records
+from models.sources.kitti360pose.records import PublishedCell, PublishedPose
+
+STANDARD_SPLITS = {
+    "train": ("0000", "0002", "0004", "0006", "0007"),
+    "val": ("0010",),
+    "test": ("0003", "0005", "0009"),
+}
+SAME_PLACE_M = 0.5  # `pose` and `pose_w` say one place twice; further apart, two frames are mixed
+DRIVE = re.compile(r"\d{4}_\d{2}_\d{2}_drive_(.+)_sync")
+
+
+class Scene(NamedTuple):
+    """A scene of the published layout.
+
+    Attributes:
+        name: of its files, for example "2013_05_28_drive_0003_sync".
+        cells: in stored order.
+        poses: in stored order.
+    """
+
+    name: str
+    cells: list[PublishedCell]
+    poses: list[PublishedPose]
+
+
+class CellKey(NamedTuple):
+    """What poses refer to in a cell: its scene, corner (world metres), edge, and the ids of its objects."""
+
+    scene_name: str
+    low_m: Floats
+    size_m: float
+    objects: frozenset[int]
+
+
+def short_name(scene: str) -> str:
+    """The drive's digits, "0003" for "2013_05_28_drive_0003_sync"; any other name as it is."""
+    drive = DRIVE.fullmatch(scene)
+    return drive[1] if drive else scene
+
+
+def file_name(scene: str) -> str:
+    """What a scene's files are called: KITTI-360's name for four digits, any other name as it is."""
+    return f"2013_05_28_drive_{scene}_sync" if re.fullmatch(r"\d{4}", scene) else scene
+
+
+def list_scenes(root: Path) -> tuple[str, ...]:
+    """The scenes of a published layout, by name of file, in order.
+
+    Raises:
+        DataError: there is none.
+    """
+    scenes = tuple(sorted(path.stem for path in (root / "cells").glob("*.pkl") if path.is_file()))
+    if not scenes:
+        raise DataError(f"{root / 'cells'}: no scene; the published layout is cells/<scene>.pkl and poses/<scene>.pkl")
+    return scenes
+
+
+def select_scenes(available: Sequence[str], split: str | None, where: Path) -> tuple[str, ...]:
+    """The scenes of a split.
+
+    Args:
+        available: names of scenes, long or short.
+        split: "train", "val" or "test": those of the standard split that are available; or a comma list of names,
+            long or short, all of which must be; None for all.
+        where: what to name in messages.
+
+    Raises:
+        DataError: a named scene, or every scene of a standard split, is not there, or two go by one name.
+    """
+    if split is None:
+        return tuple(available)
+    standard = STANDARD_SPLITS.get(split) if split not in available else None
+    wanted = standard or tuple(name.strip() for name in split.split(",") if name.strip())
+    chosen: list[str] = []
+    for name in wanted:
+        found = [scene for scene in available if name in (scene, short_name(scene))]
+        if len(found) > 1:
+            raise DataError(f"{where}: scene '{name}' is any of {', '.join(found)}; give the whole name")
+        if not found and not standard:
+            raise DataError(f"{where}: no scene '{name}'; there are {', '.join(available)}")
+        chosen += [scene for scene in found if scene not in chosen]
+    if not chosen:
+        needed = f"'{split}' ({', '.join(wanted)})"
+        raise DataError(f"{where}: no scene of split {needed}; there are {', '.join(available)}: name some of them")
+    return tuple(chosen)
+
+
+def load_cells(path: Path) -> list[PublishedCell]:
+    """The cells of a scene.
+
+    Args:
+        path: cells/<scene>.pkl.
+
+    Raises:
+        DataError: it is missing, cut short, holds anything but cells, or a cell is not usable; file and field named.
+    """
+    return list(iter_cells(path))
+
+
+def iter_cells(path: Path) -> Iterator[PublishedCell]:
+    """The cells of a scene one by one; no more than one cell's points are in memory at a time.
+
+    Args:
+        path: cells/<scene>.pkl.
+
+    Raises:
+        DataError: as `load_cells`.
+    """
+    ids: set[str] = set()
+    scene_name = None
+    with _records(path, "cells", "Cell") as records:
+        for record in records:
+            cell = read_cell(record)
+            if cell.id in ids:
+                raise record.error("id", f"'{cell.id}' is taken by an earlier cell")
+            ids.add(cell.id)
+            scene_name = scene_name or cell.scene_name
+            _check_scene(record, cell.scene_name, scene_name)
+            yield cell
+
+
+def load_poses(path: Path) -> list[PublishedPose]:
+    """The poses of a scene.
+
+    Args:
+        path: poses/<scene>.pkl.
+
+    Raises:
+        DataError: it is missing, cut short, holds anything but poses, or a pose is not usable; file and field named.
+    """
+    poses: list[PublishedPose] = []
+    with _records(path, "poses", "Pose") as records:
+        for record in records:
+            poses.append(read_pose(record))
+            _check_scene(record, poses[-1].scene_name, poses[0].scene_name)
+    return poses
+
+
+def load_scene(root: Path, scene: str) -> Scene:
+    """The cells and poses of a scene.
+
+    Args:
+        root: of the published layout.
+        scene: its name, long or short.
+
+    Raises:
+        DataError: a file of it is missing or not usable, or its poses do not belong to its cells.
+    """
+    [name] = select_scenes(list_scenes(root), scene, root / "cells")
+    cells = load_cells(root / "cells" / f"{name}.pkl")
+    path = root / "poses" / f"{name}.pkl"
+    poses = load_poses(path)
+    check_poses(path, poses, {cell.id: key_of(cell) for cell in cells})
+    return Scene(name, cells, poses)
+
+
+def key_of(cell: PublishedCell) -> CellKey:
+    """What `check_poses` needs of a cell."""
+    return CellKey(cell.scene_name, cell.bbox_w[:3], cell.cell_size, frozenset(item.id for item in cell.objects))
+
+
+def check_poses(path: Path, poses: Sequence[PublishedPose], cells: Mapping[str, CellKey]) -> None:
+    """See that poses belong to a scene's cells.
+
+    Args:
+        path: of the poses, for messages.
+        poses: of one scene.
+        cells: of the same scene, by id.
+
+    Raises:
+        DataError: a pose's cell, or the object of a matched hint, is missing; or the cells are of another scene, or
+            in another frame.
+    """
+    for n, pose in enumerate(poses):
+        problem = _pose_problem(pose, cells)
+        if problem:
+            raise DataError(f"{path}: poses[{n}].{problem}; cells and poses must come from one preparation")
+
+
+def _pose_problem(pose: PublishedPose, cells: Mapping[str, CellKey]) -> str | None:
+    cell = cells.get(pose.cell_id)
+    if cell is None:
+        return f"cell_id: cell '{pose.cell_id}' is not in this scene's cells"
+    if pose.scene_name != cell.scene_name:
+        return f"scene_name: is '{pose.scene_name}', its cell is of scene '{cell.scene_name}'"
+    offset_m = pose.pose[:2] * cell.size_m + cell.low_m[:2] - pose.pose_w[:2]
+    if np.abs(offset_m).max() > SAME_PLACE_M:
+        return f"pose_w: lies {np.abs(offset_m).max():.3g} m from where `pose` puts it in cell '{pose.cell_id}'"
+    for h, hint in enumerate(pose.descriptions):
+        if hint.is_matched and hint.object_id not in cell.objects:
+            return f"descriptions[{h}].object_id: cell '{pose.cell_id}' has no object {hint.object_id}"
+    return None
+
+
+def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Sequence[PublishedPose]) -> None:
+    """Write a scene so that this module and the reference code can read it.
+
+    Args:
+        root: of the published layout; made if missing.
+        scene: name of the files; four digits become KITTI-360's name for them.
+        cells: may come one by one, so that they need not fit into memory.
+        poses: without any, no file of poses is left.
+
+    Raises:
+        DataError: poses do not belong to the cells, or the name is not one of a file; nothing is changed.
+    """
+    name = file_name(scene)
+    if not name or Path(name).name != name or name.startswith("."):
+        raise DataError(f"{root}: '{scene}' cannot be the name of a scene; take letters, digits and underscores")
+    poses_path, cells_path = (root / part / f"{name}.pkl" for part in ("poses", "cells"))
+    keys: dict[str, CellKey] = {}
+
+    def written() -> Iterator[PublishedCell]:
+        for cell in cells:
+            keys[cell.id] = key_of(cell)
+            yield cell
+
+    # The inner file first: if the poses are refused, the cells are not put in place either.
+    with replacing(cells_path) as cells_file:
+        write_records(cells_file, map(cell_record, written()))
+        check_poses(poses_path, poses, keys)
+        if poses:
+            with replacing(poses_path) as poses_file:
+                write_records(poses_file, map(pose_record, poses))
+        else:
+            poses_path.unlink(missing_ok=True)
+
+
+@contextmanager
+def _records(path: Path, name: str, kind: str) -> Iterator[list[Fields]]:
+    """The records of an open file."""
+    try:
+        file = path.open("rb")
+    except FileNotFoundError as error:
+        raise DataError(f"{path}: no {name} for this scene; the file is missing") from error
+    except OSError as error:
+        raise DataError(f"{path}: cannot be opened: {error.strerror}") from error
+    with file:
+        records = Source(path, file).records(read_pickle(file, path), name, kind)
+        if not records:
+            raise DataError(f"{path}: holds no {name}; delete the file or prepare the scene anew")
+        yield records
+
+
+def _check_scene(record: Fields, found: str, expected: str) -> None:
+    if found != expected:
+        raise record.error("scene_name", f"is '{found}', but '{expected}' before; a file holds one scene")

@@ -1,0 +1,206 @@
+"""A large city made of a small one: copies of an extract side by side, as one OpenStreetMap file."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import cos, radians, sqrt
+from pathlib import Path
+from typing import Any, Final
+
+import osmium
+
+from models.errors import MapError
+from models.sources.osm.copy_names import CopyNames, Names
+from models.sources.osm.map import SUFFIXES
+
+UNITS: Final = 10_000_000  # of a degree, in which OpenStreetMap keeps coordinates
+MARGIN: Final = 1000  # units round the nodes of a file without a box, for what is drawn wider than its line
+LETTERS: Final = {"n": osmium.osm.NODE, "w": osmium.osm.WAY, "r": osmium.osm.RELATION}  # in a file's order
+Box = tuple[int, int, int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """How copies lie: row by row from south-west, copy 0 where the extract is; the last row may be shorter.
+
+    Attributes:
+        box: west, south, east, north of one copy, in units of 1e-7 degrees.
+        copies: how many.
+    """
+
+    box: Box
+    copies: int
+
+    @property
+    def columns(self) -> int:
+        """Copies in a row, so that the block is as wide as it is high, near enough."""
+        width, height = self._size
+        metres = width * cos(radians((self.box[1] + self.box[3]) / 2 / UNITS))
+        return max(1, min(self.copies, round(sqrt(self.copies * height / metres))))
+
+    @property
+    def _size(self) -> tuple[int, int]:
+        """Of a copy, with one unit to its neighbour."""
+        west, south, east, north = self.box
+        return east - west + 1, north - south + 1
+
+    def shift(self, copy: int) -> tuple[int, int]:
+        """How far east and north of copy 0 a copy is, in units of 1e-7 degrees."""
+        row, column = divmod(copy, self.columns)
+        width, height = self._size
+        return column * width, row * height
+
+    def bounds(self) -> tuple[float, float, float, float]:
+        """West, south, east, north of the block in degrees.
+
+        Raises:
+            MapError: it does not fit on Earth.
+        """
+        west, south, east, north = self.box
+        east, north = east + self.shift(self.columns - 1)[0], north + self.shift(self.copies - 1)[1]
+        if east > 180 * UNITS or north > 85 * UNITS:
+            raise MapError(
+                f"{self.copies} copies side by side reach beyond 180 degrees east or 85 north; "
+                "ask for fewer cells, or give a map further from there"
+            )
+        return west / UNITS, south / UNITS, east / UNITS, north / UNITS
+
+    def folded(self, lat: float, lon: float) -> tuple[float, float]:
+        """A place of the block in degrees as the place of copy 0 that it is a copy of."""
+        width, height = self._size
+        rows = -(-self.copies // self.columns)
+        column = min(max(int((lon * UNITS - self.box[0]) // width), 0), self.columns - 1)
+        row = min(max(int((lat * UNITS - self.box[1]) // height), 0), rows - 1)
+        return lat - row * height / UNITS, lon - column * width / UNITS
+
+
+@dataclass(frozen=True, slots=True)
+class Extract:
+    """What is known of an extract before it is copied.
+
+    Attributes:
+        path: of the file.
+        box: of the file's header and of all nodes together, of a file without a box some metres more; see Block.
+        numbers: by osmium's letter, how many numbers a copy takes: all that the file names lie closer together.
+        names: of its elements.
+    """
+
+    path: Path
+    box: Box
+    numbers: dict[str, int]
+    names: Names
+
+    @classmethod
+    def of(cls, path: Path) -> "Extract":
+        """Read an OpenStreetMap file once.
+
+        Raises:
+            MapError: there is none, it cannot be read, or nothing is in it.
+        """
+        if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
+            raise MapError(f"{path}: no OpenStreetMap file; give one that ends in {' or '.join(SUFFIXES)} as --map")
+        element: Any
+        names, ids, places = Names(), {letter: {0} for letter in LETTERS}, _Corners()
+        try:
+            header = osmium.io.Reader(str(path)).header().box()
+            for element in osmium.FileProcessor(str(path)):
+                letter = element.type_str()
+                names.add((letter, element.id), {tag.k: tag.v for tag in element.tags})
+                for kind, number in [(letter, element.id), *_refs(element)]:
+                    ids[kind].add(number)
+                if letter == "n" and element.location.valid():
+                    places.add(element.location)
+        except (RuntimeError, ValueError, OSError) as error:
+            raise MapError(f"{path}: cannot be read as OpenStreetMap ({error}); download it again") from error
+        if header.valid():
+            places.add(header.bottom_left)
+            places.add(header.top_right)
+        box = places.box(path, 0 if header.valid() else MARGIN)
+        return cls(path, box, {kind: max(some) - min(some) + 1 for kind, some in ids.items()}, names)
+
+    def write_tiled(self, copies: int, out: Path) -> Block:
+        """Write copies side by side; the file is read again for each, and one element is held at a time.
+
+        Copy 0 is the extract as it is. In the others numbers and coordinates are shifted and things renamed, see
+        `models.sources.osm.copy_names`.
+
+        Args:
+            copies: how many.
+            out: where to, an .osm.pbf that is not there.
+
+        Returns:
+            How they lie.
+
+        Raises:
+            MapError: the copies do not fit on Earth, or a file cannot be read or written.
+        """
+        block, header = Block(self.box, copies), osmium.io.Header()
+        header.add_box(osmium.osm.Box(*block.bounds()))
+        header.set("sorting", "Type_then_ID")
+        try:
+            with osmium.SimpleWriter(str(out), header=header) as writer:
+                for letter, entity in LETTERS.items():
+                    for copy in range(copies):
+                        for element in self._copied(block, copy, entity):
+                            _ADD[letter](writer, element)
+        except (RuntimeError, ValueError, OSError) as error:
+            raise MapError(f"{out}: cannot be written ({error}); make room, or give another map") from error
+        return block
+
+    def _copied(self, block: Block, copy: int, entity: Any) -> Iterator[Any]:
+        """The elements of one sort as they are in a copy."""
+        elements = osmium.FileProcessor(str(self.path), entity)
+        if not copy:
+            yield from elements
+            return
+        names, shift = self.names.in_copy(copy), block.shift(copy)
+        by = {kind: copy * count for kind, count in self.numbers.items()}
+        for element in elements:
+            yield _moved(element, names, by, shift)
+
+
+class _Corners:
+    """A box round places."""
+
+    def __init__(self) -> None:
+        self._west = self._south = 1 << 40
+        self._east = self._north = -(1 << 40)
+
+    def add(self, place: Any) -> None:
+        self._west, self._east = min(self._west, place.x), max(self._east, place.x)
+        self._south, self._north = min(self._south, place.y), max(self._north, place.y)
+
+    def box(self, path: Path, margin: int) -> Box:
+        if self._west > self._east:
+            raise MapError(f"{path}: no place in it; take an extract of an inhabited place")
+        return self._west - margin, self._south - margin, self._east + margin, self._north + margin
+
+
+def _refs(element: Any) -> list[tuple[str, int]]:
+    """Letters and numbers of the elements that one names."""
+    if element.type_str() == "w":
+        return [("n", node.ref) for node in element.nodes]
+    if element.type_str() == "r":
+        return [(member.type, member.ref) for member in element.members]
+    return []
+
+
+def _moved(element: Any, names: CopyNames, by: dict[str, int], shift: tuple[int, int]) -> Any:
+    """An element with other numbers, names and coordinates."""
+    letter = element.type_str()
+    tags = names.tags((letter, element.id), {tag.k: tag.v for tag in element.tags})
+    changed: dict[str, Any] = {"id": element.id + by[letter], "tags": tags}
+    if letter == "n" and element.location.valid():
+        east, north = shift
+        changed["location"] = ((element.location.x + east) / UNITS, (element.location.y + north) / UNITS)
+    elif letter == "w":
+        changed["nodes"] = [node.ref + by["n"] for node in element.nodes]
+    elif letter == "r":
+        changed["members"] = [(m.type, m.ref + by[m.type], m.role) for m in element.members]
+    return element.replace(**changed)
+
+
+_ADD: Final = {
+    "n": osmium.SimpleWriter.add_node,
+    "w": osmium.SimpleWriter.add_way,
+    "r": osmium.SimpleWriter.add_relation,
+}

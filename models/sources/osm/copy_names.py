@@ -1,0 +1,133 @@
+"""Names in the copies of a tiled city: streets get new ones, other things those of their like."""
+
+import re
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from models.sources.osm.gazetteer import NO_STREETS
+
+# Of the keys of an element, the first of these says of what kind it is.
+MAIN_KEYS: Final = (
+    "amenity", "shop", "tourism", "office", "leisure", "healthcare", "craft", "historic", "club", "public_transport",
+    "railway", "highway", "natural", "waterway", "man_made", "building", "landuse", "boundary", "place", "route",
+    "type",
+)  # fmt: skip
+STREET_RELATIONS: Final = ("street", "associatedStreet")
+STREET_OF: Final = re.compile(r".*:street|addr:place")  # whose values are names of streets
+IN_A_LANGUAGE: Final = re.compile(r"addr:(?:street|place):.+")
+NAMING: Final = re.compile(r"(?:.*[:_])?name(?::.*)?|brand(?::.*)?")
+SYLLABLES: Final = tuple(c + v for c in "bdfghjklmnprstvz" for v in "aeiou")
+LENGTH: Final = 4  # syllables of a made-up name
+STEP: Final = 15_485_863  # has no divisor in common with the number of syllables, so that no two numbers share a name
+
+Tags = dict[str, str]
+Element = tuple[str, int]  # osmium's letter and the number
+Kind = tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """The names of an extract, taken in element by element.
+
+    Attributes:
+        streets: names of streets in lower case, also of those that only addresses name; each has a number.
+        things: by kind (main key and value) the tags that name each thing that is no street.
+    """
+
+    streets: dict[str, int] = field(default_factory=dict)
+    things: dict[Kind, dict[Element, Tags]] = field(default_factory=dict)
+
+    def add(self, element: Element, tags: Mapping[str, str]) -> None:
+        """Take in the names of one element."""
+        for key, value in tags.items():
+            if _is_address(key):
+                self._add_street(value)
+        naming = _naming(tags)
+        if naming and is_street(element, tags):
+            self._add_street(_first(naming))
+        elif naming:
+            self.things.setdefault(_kind(tags), {})[element] = naming
+
+    def _add_street(self, name: str) -> None:
+        self.streets.setdefault(name.casefold(), len(self.streets))
+
+    def in_copy(self, copy: int) -> "CopyNames":
+        """The names of a copy, from 1 on: which things swap names is drawn from its number."""
+        swapped: dict[Element, Tags] = {}
+        for kind, named in self.things.items():
+            rng = np.random.default_rng([copy, zlib.crc32("=".join(kind).encode())])
+            order, bundles = rng.permutation(len(named)), list(named.values())
+            swapped.update({element: bundles[n] for element, n in zip(named, order.tolist(), strict=True)})
+        return CopyNames(self, copy, swapped)
+
+
+@dataclass(frozen=True, slots=True)
+class CopyNames:
+    """What a copy's elements are called.
+
+    Attributes:
+        names: of the extract.
+        copy: its number, from 1.
+        swapped: the tags that name each thing in this copy.
+    """
+
+    names: Names
+    copy: int
+    swapped: dict[Element, Tags]
+
+    def tags(self, element: Element, tags: Tags) -> Tags:
+        """The tags of an element in this copy; `element` is as in the extract."""
+        naming = _naming(tags)
+        found = {
+            key: self.street(value) if _is_address(key) else value
+            for key, value in tags.items()
+            if key not in naming and not IN_A_LANGUAGE.fullmatch(key)
+        }
+        if naming and is_street(element, tags):
+            return found | {"name": self.street(_first(naming))}
+        return found | self.swapped[element] if naming else found
+
+    def street(self, name: str) -> str:
+        """The made-up name of a street of the extract; no other street of any copy has it."""
+        number = (self.copy - 1) * len(self.names.streets) + self.names.streets[name.casefold()]
+        return f"{_word(number)} Street"
+
+
+def is_street(element: Element, tags: Mapping[str, str]) -> bool:
+    """Whether an element with a name is (a piece of) a street or a square, after which addresses are called."""
+    if element[0] == "n":
+        return False
+    is_way = tags.get("highway", "bus_stop") not in NO_STREETS
+    return is_way or tags.get("place") == "square" or tags.get("type") in STREET_RELATIONS
+
+
+def _is_address(key: str) -> bool:
+    return key != "ref:street" and STREET_OF.fullmatch(key) is not None
+
+
+def _naming(tags: Mapping[str, str]) -> Tags:
+    """The tags that say what an element is called, in any language, and of which chain it is."""
+    return {key: value for key, value in tags.items() if NAMING.fullmatch(key)}
+
+
+def _first(naming: Tags) -> str:
+    """The name to know a street by."""
+    return naming.get("name") or next(iter(naming.values()))
+
+
+def _kind(tags: Mapping[str, str]) -> Kind:
+    key = next((key for key in MAIN_KEYS if key in tags), "")
+    return key, tags.get(key, "")
+
+
+def _word(number: int) -> str:
+    """A word that nobody has said; another for every number."""
+    rest, word = number * STEP % len(SYLLABLES) ** LENGTH, ""
+    for _ in range(LENGTH):
+        rest, syllable = divmod(rest, len(SYLLABLES))
+        word += SYLLABLES[syllable]
+    return word.capitalize()

@@ -1,0 +1,118 @@
+"""What of a large OpenStreetMap file lies in a region, as a file of its own."""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import osmium
+import shapely
+from shapely.errors import ShapelyError
+
+from models.errors import MapError
+from models.sources.osm.map import SUFFIXES
+from models.spool import scratch
+
+FORMS = "give west,south,east,north in degrees, or a GeoJSON file with a polygon"
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """A part of the Earth.
+
+    Attributes:
+        shape: in degrees, longitude first.
+    """
+
+    shape: shapely.Geometry
+
+    @classmethod
+    def parse(cls, text: str) -> "Region":
+        """A region from "west,south,east,north" or the path of a GeoJSON file.
+
+        Raises:
+            MapError: it is neither, or encloses nothing.
+        """
+        path = Path(text)
+        try:
+            shape = _of_geojson(path.read_text(encoding="utf-8")) if path.is_file() else _box(text)
+        except (ValueError, OSError, ShapelyError, KeyError, TypeError) as error:
+            raise MapError(f"'{text[:80]}' is no region: {FORMS}") from error
+        if shape.is_empty or not shape.area or not shapely.box(-180, -90, 180, 90).covers(shape):
+            raise MapError(f"'{text[:80]}' encloses nothing on Earth: {FORMS}")
+        return cls(shape)
+
+
+def _box(text: str) -> shapely.Geometry:
+    west, south, east, north = (float(number) for number in text.split(","))
+    if west < east and south < north:
+        return shapely.box(west, south, east, north)
+    return shapely.Polygon()  # and so where one is no number
+
+
+def _of_geojson(text: str) -> shapely.Geometry:
+    """All polygons of a GeoJSON object."""
+    shapes = shapely.get_parts(shapely.from_geojson(json.dumps(json.loads(text))))
+    areas = [shape for shape in shapely.get_parts(shapes) if shapely.get_dimensions(shape) == 2]
+    return shapely.make_valid(shapely.union_all(areas))
+
+
+@contextmanager
+def extracted(path: Path, region: Region | None) -> Iterator[Path]:
+    """A file with what of a file lies in a region, until the block ends; the file itself if there is no region.
+
+    Raises:
+        MapError: it is no OpenStreetMap file, cannot be read, or has nothing there.
+    """
+    if region is None:
+        yield path
+        return
+    if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
+        raise MapError(f"{path}: a region can be taken of an OpenStreetMap file alone; leave it out, or give one")
+    with scratch() as directory:
+        out = directory / f"{path.name.split('.')[0]}.osm.pbf"
+        extract(path, region, out)
+        yield out
+
+
+def extract(path: Path, region: Region, out: Path) -> None:
+    """Write what has a node in a region, with everything that it is made of, and the region's box as the file's.
+
+    The file is read some times over and never held: memory is a bit for each number of an element. A thing round the
+    region without a node in it is not taken.
+
+    Args:
+        path: an OpenStreetMap file.
+        region: of it.
+        out: where to, an .osm.pbf that is not there.
+
+    Raises:
+        MapError: it cannot be read, or has nothing there.
+    """
+    header = osmium.io.Header()
+    header.add_box(osmium.osm.Box(*region.shape.bounds))
+    try:
+        taken = _nodes_inside(path, region.shape)
+        taken.complete_forward_references(str(path))
+        taken.complete_backward_references(str(path), relation_depth=1)
+        with osmium.SimpleWriter(str(out), header=header) as writer:
+            for element in osmium.FileProcessor(str(path)).with_filter(taken.id_filter()):
+                writer.add(element)
+    except (RuntimeError, ValueError, OSError) as error:
+        raise MapError(f"{path}: cannot be read as OpenStreetMap ({error}); download it again") from error
+
+
+def _nodes_inside(path: Path, shape: shapely.Geometry) -> osmium.IdTracker:
+    west, south, east, north = shape.bounds
+    is_box, taken, count = shape.equals(shapely.box(*shape.bounds)), osmium.IdTracker(), 0
+    shapely.prepare(shape)
+    for node in osmium.FileProcessor(str(path), osmium.osm.NODE):
+        assert isinstance(node, osmium.osm.Node)
+        x, y = node.lon, node.lat
+        if west <= x <= east and south <= y <= north and (is_box or shapely.contains_xy(shape, x, y)):
+            taken.add_node(node.id)
+            count += 1
+    if not count:
+        raise MapError(f"{path}: nothing of it lies in the region; is it the right file, and longitude first?")
+    return taken

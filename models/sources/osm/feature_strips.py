@@ -1,0 +1,143 @@
+"""Features of a file on disk, by strips of the map: of a great city some strips are in memory, never all."""
+
+import pickle
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import shapely
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from models.citymap.geometry.piece_rows import BAND
+from models.citymap.geometry.tiling import Span, band_of
+from models.citymap.points import Ints, ranges
+from models.processes import map_forked
+from models.sources.osm.classes import load_classes
+from models.sources.osm.features import UPRIGHT_MERGE_M, Feature, joins
+from models.spool import spooling
+
+UPRIGHT: Final = "column"
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A feature among all.
+
+    Attributes:
+        number: in the order in which they were read.
+        feature: what it is.
+        is_here: whether this strip is the first that it reaches into, and so answers for it.
+    """
+
+    number: int
+    feature: Feature
+    is_here: bool
+
+
+class Strips:
+    """The N features of a map, each in every strip that it reaches into.
+
+    Args:
+        directory: an empty one.
+        features: what is read, some at a time.
+
+    Raises:
+        DataError: there is no room on disk.
+
+    Attributes:
+        numbers: of the strips that have features, from west to east.
+        order: [N] the class of each feature, by its number.
+        heights_m: [N, 2] base and height of each.
+    """
+
+    def __init__(self, directory: Path, features: Iterable[Sequence[Feature]]) -> None:
+        self._directory, count = directory, 0
+        order, heights, numbers = [np.zeros(0, np.int16)], [np.zeros((0, 2))], set[int]()
+        for some in features:
+            if not some:
+                continue
+            order.append(np.array([feature.order for feature in some], np.int16))
+            heights.append(np.array([(feature.base_m, feature.height_m) for feature in some]))
+            numbers |= self._file(count, some)
+            count += len(some)
+        self.numbers, self.order, self.heights_m = sorted(numbers), np.concatenate(order), np.concatenate(heights)
+
+    def _file(self, first: int, features: Sequence[Feature]) -> set[int]:
+        """Add features, numbered from one on, to their strips, which are returned."""
+        bounds = shapely.bounds([feature.geometry for feature in features])
+        ends = np.stack([bounds[:, 0] - UPRIGHT_MERGE_M, bounds[:, 2] + UPRIGHT_MERGE_M], axis=1)
+        low, high = (column // BAND for column in band_of(ends))
+        of, strip = np.repeat(np.arange(len(features)), high + 1 - low), ranges(low, high + 1)
+        numbers = set(strip.tolist())
+        for number in numbers:
+            here = [Placed(first + n, features[n], low[n] == number) for n in of[strip == number].tolist()]
+            with spooling(), self._path(number).open("ab") as file:
+                pickle.dump(here, file, pickle.HIGHEST_PROTOCOL)
+        return numbers
+
+    def _path(self, number: int) -> Path:
+        return self._directory / f"{number}.pickle"
+
+    def read(self, number: int) -> list[Placed]:
+        """The features of a strip, in order of their classes, then as they were read."""
+        found = list[Placed]()
+        with self._path(number).open("rb") as file:
+            while file.peek(1):
+                found += pickle.load(file)  # what this job has written
+        return sorted(found, key=lambda placed: (placed.feature.order, placed.number))
+
+    def band(self, number: int) -> Span:
+        """The columns of tiles of a strip."""
+        return number * BAND, (number + 1) * BAND
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Instances:
+    """Which features of a map are one instance; instances are numbered in order of the first feature of each.
+
+    Attributes:
+        of_feature: [N] instance of each feature, by its number; -1 of what is left out.
+        first: [I] number of the first feature of each.
+        place: [N] of each feature, by its number, in order of classes, then as they were read.
+    """
+
+    of_feature: Ints
+    first: Ints
+    place: Ints
+
+    @classmethod
+    def of(cls, strips: Strips) -> "Instances":
+        """Those of all features; see `joins`."""
+        found = list(map_forked(partial(_joins_in, strips), strips.numbers))
+        gone = np.concatenate([np.zeros(0, np.int64), *(some for some, _ in found)])
+        pairs = np.concatenate([np.zeros((0, 2), np.int64), *(some for _, some in found)])
+        count = len(strips.order)
+        is_gone = np.zeros(count, np.bool_)
+        is_gone[gone] = True
+        pairs = pairs[~is_gone[pairs].any(axis=1)]  # of what is left out, a strip may not know why
+        by_class = np.argsort(strips.order, kind="stable")
+        place = np.empty(count, np.int64)
+        place[by_class] = np.arange(count)
+        graph = coo_array((np.ones(len(pairs), np.bool_), tuple(pairs.T)), shape=(count, count))
+        group = connected_components(graph, directed=False)[1]
+        first = np.full(group.max(initial=-1) + 1, count)
+        np.minimum.at(first, group, place)
+        is_upright = np.array([row.shape == UPRIGHT for row in load_classes()])[strips.order]
+        is_left = ~is_gone & ~(is_upright & (first[group] != place))  # the first carries the others
+        is_first = is_left & (first[group] == place)
+        chosen = by_class[is_first[by_class]]
+        number = np.full(count, -1)
+        number[group[chosen]] = np.arange(len(chosen))
+        return cls(np.where(is_left, number[group], -1), chosen, place)
+
+
+def _joins_in(strips: Strips, number: int) -> tuple[Ints, Ints]:
+    """`joins` of a strip, by numbers of features."""
+    placed = strips.read(number)
+    numbers = np.array([each.number for each in placed])
+    gone, pairs = joins([each.feature for each in placed])
+    return numbers[gone], numbers[pairs]

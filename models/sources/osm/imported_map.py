@@ -1,0 +1,139 @@
+"""What becomes of the features of a map, strip by strip: pieces, instances and outlines."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from models.citymap.geometry.piece_rows import Rows, rows_in
+from models.citymap.geometry.pieces import PieceTable
+from models.citymap.instances import InstanceTable
+from models.citymap.points import Ints
+from models.citymap.scenery.shapes import Drawing, Drawings, Outlines
+from models.citymap.types import Floats, MapShape
+from models.processes import map_forked
+from models.sources.osm.classes import load_classes
+from models.sources.osm.feature_strips import Instances, Strips
+from models.sources.osm.features import Feature
+from models.strings import Categorical
+
+UNKNOWN: Final = (np.nan, np.nan, np.nan)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Strip:
+    """What becomes of a strip.
+
+    Attributes:
+        rows: its pieces.
+        drawing: of the features that it answers for.
+        instance: [n] those whose first features are among these.
+        names: [n] of these.
+        sources: [n] likewise.
+        rgb: [n, 3] likewise.
+    """
+
+    rows: Rows
+    drawing: Drawing
+    instance: Ints
+    names: list[str | None]
+    sources: npt.NDArray[np.bytes_]
+    rgb: Floats
+
+
+def _taken(strips: Strips, instances: Instances, number: int) -> _Strip:
+    placed = [each for each in strips.read(number) if instances.of_feature[each.number] >= 0]
+    instance = instances.of_feature[[each.number for each in placed]]
+    heights_m = strips.heights_m[instances.first[instance]]
+    solids = [each.feature.solid(int(n), *at) for each, n, at in zip(placed, instance, heights_m.tolist(), strict=True)]
+    own = [each for each in placed if each.is_here]
+    place = instances.place[[each.number for each in own]]
+    first = [each for each in own if instances.first[instances.of_feature[each.number]] == each.number]
+    return _Strip(
+        rows=rows_in(solids, strips.band(number)),
+        drawing=Drawing.of([_shape(each.feature) for each in own], place),
+        instance=instances.of_feature[[each.number for each in first]],
+        names=[each.feature.name for each in first],
+        sources=np.array([each.feature.source_id for each in first], np.bytes_),
+        rgb=np.array([each.feature.rgb or UNKNOWN for each in first], np.float32).reshape(-1, 3),
+    )
+
+
+def _shape(feature: Feature) -> MapShape:
+    top_m = feature.base_m + feature.height_m if feature.shape != "outline" else feature.height_m
+    drawn = feature.geometry if feature.axis is None else feature.axis
+    heights = feature.base_m, 0.0 if feature.shape == "ground" else max(top_m, feature.base_m)
+    return MapShape(feature.label, drawn, *heights, feature.width_m, feature.name, feature.source_id)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Taken:
+    """What a map has.
+
+    Attributes:
+        instances: those of which there are pieces; others are covered by what lies above them.
+        is_walkable: [I] whether one can stand there.
+        pieces: all.
+        outlines: all.
+    """
+
+    instances: InstanceTable
+    is_walkable: npt.NDArray[np.bool_]
+    pieces: PieceTable
+    outlines: Outlines
+
+    @classmethod
+    def of(cls, strips: Strips) -> "Taken":
+        """What becomes of features, in several processes, some strips at a time."""
+        instances, classes = Instances.of(strips), load_classes()
+        lying = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.of_feature >= 0]))
+        found = _Found(strips, instances, Drawings(lying))
+        pieces = PieceTable.joined(found.rows())
+        there = np.unique(pieces.instance)
+        pieces = pieces.of_instances(there)
+        order = strips.order[instances.first[there]]
+        table = InstanceTable(
+            Categorical.of([classes[n].label for n in order]),
+            Categorical.of([found.names.get(n) for n in there.tolist()]),
+            Categorical.of_ascii(found.sources[there]),
+            Categorical.of([classes[n].shape for n in order]),
+            found.rgb[there],
+        )
+        is_walkable = np.array([row.walkable for row in classes])[order]
+        return cls(table, is_walkable, pieces, found.drawings.outlines())
+
+
+class _Found:
+    """What comes of strips, beside their pieces, as these come.
+
+    Args:
+        strips: of features.
+        instances: among these.
+        drawings: where strips are drawn.
+
+    Attributes:
+        drawings: see above.
+        names: of the I instances that have one, by number.
+        sources: [I] of the instances.
+        rgb: [I, 3] likewise.
+    """
+
+    def __init__(self, strips: Strips, instances: Instances, drawings: Drawings) -> None:
+        count = len(instances.first)
+        self._strips, self._instances, self.drawings = strips, instances, drawings
+        self.names = dict[int, str]()
+        self.sources = np.empty(count, "S32")
+        self.rgb = np.empty((count, 3), np.float32)
+
+    def rows(self) -> Iterator[Rows]:
+        """The pieces of one strip after the other."""
+        for strip in map_forked(partial(_taken, self._strips, self._instances), self._strips.numbers):
+            self.drawings.add(strip.drawing)
+            self.sources[strip.instance], self.rgb[strip.instance] = strip.sources, strip.rgb
+            self.names |= {
+                n: name for n, name in zip(strip.instance.tolist(), strip.names, strict=True) if name is not None
+            }
+            yield strip.rows

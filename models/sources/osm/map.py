@@ -1,0 +1,231 @@
+"""Reader: OpenStreetMap (.osm.pbf, .osm) -> CityMap.
+
+A real map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): footprints, lines and nodes are read as
+mapped and raised as `classes.toml` says. Colours come from colour, material and surface tags.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+import osmium
+import shapely
+
+from models.citymap.colours import BASIC_PALETTE
+from models.citymap.frame import Frame
+from models.citymap.geometry.tiling import Geometries
+from models.citymap.types import CityMap, CutRules, Floats
+from models.errors import MapError
+from models.sources.osm.classes import OsmClass, class_of, load_classes
+from models.sources.osm.feature_strips import Strips
+from models.sources.osm.features import Feature, as_feature
+from models.sources.osm.imported_map import Taken
+from models.spool import scratch
+
+STUFF_SHAPES = ("outline", "wall", "ground")
+SUFFIXES = (".osm.pbf", ".pbf", ".osm", ".osm.bz2", ".osm.gz")
+ATTRIBUTION = "© OpenStreetMap contributors, ODbL 1.0"
+MIN_PART_POINTS = 24  # 6 m2 of ground
+AT_ONCE = 20_000  # elements
+LOCATIONS_M = 2.0  # between places to stand, about
+Element = TypeVar("Element")
+LINEAR_KEYS = ("highway", "railway", "barrier", "tunnel", "bridge")  # closed ways of these are loops, not areas
+
+
+@dataclass(frozen=True, slots=True)
+class _Element:
+    wkb: str
+    osm_class: OsmClass
+    order: int
+    tags: dict[str, str]
+    source_id: str
+
+
+Box = tuple[float, float, float, float]  # west, south, east, north in degrees
+Batch = tuple[list[_Element], Geometries]  # with the geometry of each, in degrees
+
+
+def load_osm(path: Path, name: str | None = None) -> CityMap:
+    """Read an OpenStreetMap file into a city map, in a local frame at the middle of the extract.
+
+    Args:
+        path: .osm.pbf, .pbf, .osm, .osm.gz or .osm.bz2.
+        name: name of the map; the file's name up to the first dot by default.
+
+    Raises:
+        MapError: the file is missing, empty, cut short, no OpenStreetMap, or nothing in it is usable.
+    """
+    frame, box = frame_and_box(path)
+    with scratch() as directory:
+        strips = Strips(directory, features_of(path, frame, box))
+        if not strips.numbers:
+            raise MapError(
+                f"{path}: nothing of it lies in the box that it names; download it again, or mend its bounds"
+            )
+        return _city_map(name or path.name.split(".")[0], strips, frame)
+
+
+def frame_and_box(path: Path) -> tuple[Frame, Box | None]:
+    """The frame of a file's map, for which a file that says its box is not read, and that box."""
+    box = _box(path)
+    return _middle(box or _bounds(_read_elements(path))), box
+
+
+def features_of(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Feature]]:
+    """What a file has in a box, if there is one, in metres, some at a time; errors as `load_osm`."""
+    for elements, lon_lat in _read_elements(path):
+        yield list(_features_of(elements, lon_lat, frame, box))
+
+
+def _features_of(elements: Sequence[_Element], lon_lat: Geometries, frame: Frame, box: Box | None) -> Iterator[Feature]:
+    """What of some elements lies in a box, if there is one."""
+    geometries = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
+    if box:
+        west, south, east, north = box
+        corners = frame.from_wgs84(np.array([south, north]), np.array([west, east]))
+        geometries = shapely.clip_by_rect(geometries, *corners[0], *corners[1])
+    for e, g in zip(elements, geometries, strict=True):
+        if not shapely.is_empty(g):
+            yield as_feature(e.osm_class, e.order, e.tags, e.source_id, g)
+
+
+def frame_of(path: Path) -> Frame:
+    """The frame of a file's map, for which a file that says its box is not read; arguments and errors as `load_osm`."""
+    return frame_and_box(path)[0]
+
+
+def _bounds(batches: Iterable[Batch]) -> Floats:
+    """[4] the box (west, south, east, north) round some geometry."""
+    bounds = np.array([shapely.total_bounds(geometry) for _, geometry in batches])
+    return np.concatenate([bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)])
+
+
+def _middle(box: Box | Floats) -> Frame:
+    """The frame at the middle of a box (west, south, east, north)."""
+    west, south, east, north = box
+    return Frame(origin_lat=round((south + north) / 2, 7), origin_lon=round((west + east) / 2, 7))
+
+
+def _box(path: Path) -> Box | None:
+    """The box of an extract (west, south, east, north), if it says so."""
+    if not path.is_file():
+        raise MapError(f"{path}: no such file; give the path of an .osm.pbf or .osm file")
+    if not path.name.lower().endswith(SUFFIXES):
+        raise MapError(f"{path}: not an OpenStreetMap file by its name; expected one of {', '.join(SUFFIXES)}")
+    if path.stat().st_size == 0:
+        raise MapError(f"{path}: the file is empty; download it again")
+    with reading(path):
+        box = osmium.io.Reader(str(path)).header().box()
+    if not box.valid():
+        return None
+    return box.bottom_left.lon, box.bottom_left.lat, box.top_right.lon, box.top_right.lat
+
+
+def _read_elements(path: Path) -> Iterator[Batch]:
+    """The elements of the file that belong to a class, some at once."""
+    keys = sorted({key for row in load_classes() for key, _ in row.required})
+    none = True
+    with reading(path):
+        processor = osmium.FileProcessor(str(path)).with_areas().with_filter(osmium.filter.KeyFilter(*keys))
+        for some in batches_of(_classify(processor)):
+            none = False
+            yield some, shapely.from_wkb([element.wkb for element in some])
+    if none:
+        raise MapError(
+            f"{path}: no building, street, tree or other known object in it; "
+            "take an extract of an inhabited place, or extend models/sources/osm/classes.toml"
+        )
+
+
+def batches_of(elements: Iterator[Element]) -> Iterator[list[Element]]:
+    """Elements of a file, some at once: what is read of all of them would take much room."""
+    while some := list(islice(elements, AT_ONCE)):
+        yield some
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Say so where a file is broken."""
+    try:
+        yield
+    except (RuntimeError, ValueError, OSError, osmium.InvalidLocationError) as error:
+        raise MapError(
+            f"{path}: cannot be read as OpenStreetMap ({error}); download it again, it may be cut short"
+        ) from error
+
+
+def geometries() -> dict[str, Any]:
+    """By osmium's letter of an element what makes its geometry: a point, a line or areas."""
+    factory = osmium.geom.WKBFactory()
+    return {"n": factory.create_point, "w": factory.create_linestring, "a": factory.create_multipolygon}
+
+
+def source_id(element: Any, kind: str) -> str:
+    """Where an element comes from, "way/1234"; `kind` is osmium's letter."""
+    if kind == "a":
+        return f"{'way' if element.from_way() else 'relation'}/{element.orig_id()}"
+    return f"{'node' if kind == 'n' else 'way'}/{element.id}"
+
+
+def _classify(processor: Any) -> Iterator[_Element]:
+    create = geometries()
+    for element in processor:
+        kind = element.type_str()
+        if kind not in create:
+            continue
+        if kind == "n" and not element.location.valid():
+            raise ValueError(f"node {element.id} has coordinates out of range")
+        tags = {tag.k: tag.v for tag in element.tags}
+        if not _is_visible(tags):
+            continue
+        found = class_of(tags)
+        if found is None or not _is_wanted(element, kind, found[1], tags):
+            continue
+        try:
+            wkb = create[kind](element)
+        except (osmium.InvalidLocationError, RuntimeError):
+            continue  # nodes left out by the extract, or a broken ring: this element has no geometry here
+        yield _Element(wkb, found[1], found[0], tags, source_id(element, kind))
+
+
+def _is_visible(tags: dict[str, str]) -> bool:
+    """Whether a passer-by at ground level can see an element; cellars, subways and rooms cannot be seen."""
+    layer, level = tags.get("layer", "0"), tags.get("level", "0")
+    underground = layer.startswith("-") or tags.get("location") in ("underground", "indoor")
+    return not underground and tags.get("indoor", "no") == "no" and "0" in level.replace(";", ",").split(",")
+
+
+def _is_wanted(element: Any, kind: str, row: OsmClass, tags: dict[str, str]) -> bool:
+    """Whether to take this spelling of an element: a closed way comes as a way and as an area."""
+    if kind == "n":
+        return row.shape in ("column", "crown", "box") or row.label == "crossing"
+    if row.shape in ("column", "crown"):
+        return False
+    linear = row.shape == "wall" or (row.required[0][0] in LINEAR_KEYS and tags.get("area") != "yes")
+    if kind == "w":
+        return linear if element.is_closed() else row.shape != "outline"
+    return not linear or (row.shape != "wall" and not element.from_way())
+
+
+def _city_map(name: str, strips: Strips, frame: Frame) -> CityMap:
+    taken = Taken.of(strips)
+    locations = taken.pieces.lattice(np.flatnonzero(taken.is_walkable[taken.pieces.instance]), LOCATIONS_M)
+    taken.pieces.forget()
+    if not len(locations):
+        raise MapError(f"{name}: no street, path or square in it, so there is no place to stand; take a larger extract")
+    return CityMap(
+        name=name,
+        instances=taken.instances,
+        stuff=frozenset(row.label for row in load_classes() if row.shape in STUFF_SHAPES),
+        locations_m=locations,
+        frame=frame,
+        palette=BASIC_PALETTE,
+        rules=CutRules(min_part_points=MIN_PART_POINTS),
+        attribution=ATTRIBUTION,
+        outlines=taken.outlines,
+        pieces=taken.pieces,
+    )

@@ -1,0 +1,221 @@
+"""A pose store on disk: written once from the published pickles, mapped into memory when opened.
+
+<store>/<column>.npy    models.sources.store.layout
+<store>/strings.json    ids of cells, and the words that columns number
+<store>/manifest.json   written last: scenes, format, and size and sha256 of every other file
+"""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from models.errors import DataError
+from models.files import FileRecord, file_records, new_directory, sha256
+from models.sources.kitti360pose.files import (
+    CellKey,
+    check_poses,
+    iter_cells,
+    key_of,
+    list_scenes,
+    load_poses,
+    select_scenes,
+)
+from models.sources.store.columns import ColumnWriter, DiskSink, MemorySink
+from models.sources.store.layout import COLUMNS, MANIFEST, STRINGS, Column, find_problem
+from models.sources.store.pose_store import PoseStore, StoredScene
+
+FORMAT = 2
+ADVICE = "convert the published files again with 'hereabouts convert --data DIR --out DIR'"
+Progress = Callable[[int, int], None]
+Step = Callable[[int], None]
+
+
+class SceneRecord(BaseModel):
+    """A scene of a store; see models.sources.store.pose_store.StoredScene."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    scene_name: str
+    cells: int
+    poses: int | None
+
+
+class Manifest(BaseModel):
+    """What a store holds."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    kind: Literal["hereabouts pose store"] = "hereabouts pose store"
+    format: int = FORMAT
+    scenes: tuple[SceneRecord, ...]
+    files: dict[str, FileRecord]
+
+
+class Strings(BaseModel):
+    """What strings.json holds."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    cell_ids: tuple[str, ...]
+    words: tuple[str, ...]
+
+
+def load_data(data: Path, split: str | None = None) -> PoseStore:
+    """The cells and poses of a split, from a store or from the published layout.
+
+    Args:
+        data: either. The published layout is converted in memory, every time: convert large ones once.
+        split: as `models.sources.kitti360pose.files.select_scenes`.
+
+    Raises:
+        DataError: it is neither, or not usable; the message names file and field.
+    """
+    if (data / MANIFEST).is_file():
+        return open_store(data).split(split)
+    if not (data / "cells").is_dir():
+        raise DataError(f"{data}: neither a converted store ({MANIFEST}) nor the published layout (cells/<scene>.pkl)")
+    sink = MemorySink()
+    writer = ColumnWriter(sink)
+    names = select_scenes(list_scenes(data), split, data / "cells")
+    scenes = tuple(_add_scene(writer, data, name, n, None) for n, name in enumerate(names))
+    return PoseStore.whole(data, scenes, sink.columns(), tuple(writer.words), tuple(writer.cell_ids))
+
+
+def convert(data: Path, out: Path, split: str | None = None, progress: Progress | None = None) -> PoseStore:
+    """Write a store from the published layout; one cell's points are in memory at a time.
+
+    Args:
+        data: root of the published layout.
+        out: the store, a new or empty directory; it appears when all is written.
+        split: scenes to take, as `models.sources.kitti360pose.files.select_scenes`.
+        progress: called with (bytes of points done, about how many there are).
+
+    Raises:
+        DataError: `out` has files in it, or `data` is not usable; nothing is left behind.
+    """
+    if out.exists() and (not out.is_dir() or any(out.iterdir())):
+        raise DataError(f"{out}: is there already and not empty; name a new directory")
+    names = select_scenes(list_scenes(data), split, data / "cells")
+    step = _bytes_done(data, names, progress) if progress else None
+    with new_directory(out) as directory:
+        with DiskSink(directory) as sink:
+            writer = ColumnWriter(sink)
+            scenes = tuple(_add_scene(writer, data, name, n, step) for n, name in enumerate(names))
+        strings = {"cell_ids": writer.cell_ids, "words": list(writer.words)}
+        (directory / STRINGS).write_text(json.dumps(strings) + "\n")
+        _write_manifest(directory, scenes)
+    return open_store(out)
+
+
+def open_store(path: Path) -> PoseStore:
+    """A store, its columns mapped into memory.
+
+    Args:
+        path: a directory that `convert` wrote. Sizes and structure are checked, sums are not (`verify_store`).
+
+    Raises:
+        DataError: it is no store, or incomplete, or its numbers point outside.
+    """
+    manifest = _read_manifest(path)
+    for name, record in manifest.files.items():
+        file = path / name
+        if not file.is_file() or file.stat().st_size != record.bytes:
+            raise DataError(f"{file}: missing or cut short; {ADVICE}")
+    try:
+        strings = Strings.model_validate_json((path / STRINGS).read_bytes())
+    except ValidationError as error:
+        raise DataError(f"{path / STRINGS}: {error.errors()[0]['msg']}; {ADVICE}") from error
+    columns = {name: _map_column(path / f"{name}.npy") for name in COLUMNS}
+    problem = find_problem(columns, len(strings.words), len(manifest.scenes))
+    if not problem and len(strings.cell_ids) != len(columns["cell_scene"]):
+        problem = f"{STRINGS} has {len(strings.cell_ids)} cell ids, not {len(columns['cell_scene'])}"
+    if problem:
+        raise DataError(f"{path}: {problem}; {ADVICE}")
+    scenes = tuple(StoredScene(**scene.model_dump()) for scene in manifest.scenes)
+    return PoseStore.whole(path, scenes, columns, strings.words, strings.cell_ids)
+
+
+def verify_store(path: Path) -> None:
+    """Read every file of a store and compare its sum.
+
+    Raises:
+        DataError: it is no store, or a file is missing or was changed.
+    """
+    open_store(path)
+    for name, record in _read_manifest(path).files.items():
+        if sha256(path / name) != record.sha256:
+            raise DataError(f"{path / name}: changed after it was written; {ADVICE}")
+
+
+def _add_scene(writer: ColumnWriter, data: Path, name: str, number: int, step: Step | None) -> StoredScene:
+    """Add the cells of a scene, and its poses if there are any."""
+    path = data / "cells" / f"{name}.pkl"
+    taken = set(writer.cell_ids)
+    keys: dict[str, CellKey] = {}
+    for cell in iter_cells(path):
+        if cell.id in taken:
+            raise DataError(
+                f"{path}: cells[{len(keys)}].id '{cell.id}' is taken by another scene; leave one of them out"
+            )
+        keys[cell.id] = key_of(cell)
+        writer.add_cell(cell, number)
+        if step:
+            step(sum(item.xyz.nbytes + item.rgb.nbytes for item in cell.objects))
+    scene_name = next(iter(keys.values())).scene_name
+    poses_path = data / "poses" / f"{name}.pkl"
+    if not poses_path.exists():
+        return StoredScene(name, scene_name, len(keys), None)
+    poses = load_poses(poses_path)
+    check_poses(poses_path, poses, keys)
+    writer.add_poses(poses)
+    return StoredScene(name, scene_name, len(keys), len(poses))
+
+
+def _bytes_done(data: Path, names: tuple[str, ...], progress: Progress) -> Step:
+    total = sum((data / "cells" / f"{name}.pkl").stat().st_size for name in names)
+    done = 0
+
+    def step(more: int) -> None:
+        nonlocal done
+        done += more
+        progress(done, total)
+
+    return step
+
+
+def _write_manifest(directory: Path, scenes: tuple[StoredScene, ...]) -> None:
+    """Write what the files of a directory are."""
+    records = tuple(SceneRecord(name=s.name, scene_name=s.scene_name, cells=s.cells, poses=s.poses) for s in scenes)
+    manifest = Manifest(scenes=records, files=file_records(directory))
+    (directory / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
+
+
+def _read_manifest(path: Path) -> Manifest:
+    try:
+        manifest = Manifest.model_validate_json((path / MANIFEST).read_bytes())
+    except OSError as error:
+        raise DataError(f"{path / MANIFEST}: cannot be read: no store here; {ADVICE}") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(str(part) for part in first["loc"])
+        raise DataError(f"{path / MANIFEST}: {field}: {first['msg']}; {ADVICE}") from error
+    if manifest.format != FORMAT:
+        raise DataError(f"{path}: has format {manifest.format}, this hereabouts reads {FORMAT}; {ADVICE}")
+    expected = {STRINGS, *(f"{name}.npy" for name in COLUMNS)}
+    if set(manifest.files) != expected:
+        odd = sorted(expected ^ set(manifest.files))
+        raise DataError(f"{path / MANIFEST}: files: unexpected or missing {', '.join(odd)[:200]}; {ADVICE}")
+    return manifest
+
+
+def _map_column(file: Path) -> Column:
+    try:
+        column: Column = np.load(file, mmap_mode="r", allow_pickle=False).view(np.ndarray)
+    except (ValueError, OSError, EOFError) as error:
+        raise DataError(f"{file}: no column of numbers; {ADVICE}") from error
+    return column

@@ -1,0 +1,229 @@
+"""Cells and poses in columns, as training, indexing and evaluation use them; all of a data set, or some scenes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from models.citymap.cells import CellTable, Parts
+from models.citymap.point_sample import sample_points, samples
+from models.citymap.points import Ints, ranges
+from models.citymap.types import Floats
+from models.errors import DataError
+from models.sources.kitti360pose.files import select_scenes
+from models.sources.store.layout import (
+    RGB_POOLS,
+    XYZ_POOLS,
+    Column,
+    from_bytes,
+    in_cell_units,
+    pool_starts,
+    starts_of,
+)
+from models.sources.store.pose_table import PoseTable
+
+
+@dataclass(frozen=True, slots=True)
+class StoredScene:
+    """A scene of a store.
+
+    Attributes:
+        name: of its files, for example "2013_05_28_drive_0003_sync".
+        scene_name: of its cells, for example "0003".
+        cells, poses: how many; poses is None if there was no file of poses.
+    """
+
+    name: str
+    scene_name: str
+    cells: int
+    poses: int | None
+
+
+@dataclass(frozen=True, eq=False)
+class PoseStore:
+    """Cells and poses of some scenes of a data set.
+
+    Rows count within this view: cell row n is `cell_table().ids[n]`, instance row r is row r of its parts, pose row q
+    is row q of `poses`.
+
+    Attributes:
+        source: what was opened, for messages.
+        scenes: in order.
+        columns: of the whole data set (models.sources.store.layout).
+        words, all_cell_ids: of the whole data set.
+        cell_rows, pose_rows: [N], [Q] rows of the whole data set that this view shows.
+    """
+
+    source: Path
+    scenes: tuple[StoredScene, ...]
+    columns: Mapping[str, Column]
+    words: tuple[str, ...]
+    all_cell_ids: tuple[str, ...]
+    all_scenes: tuple[StoredScene, ...]
+    cell_rows: Ints
+    pose_rows: Ints
+
+    @classmethod
+    def whole(
+        cls,
+        source: Path,
+        scenes: tuple[StoredScene, ...],
+        columns: Mapping[str, Column],
+        words: tuple[str, ...],
+        cell_ids: tuple[str, ...],
+    ) -> "PoseStore":
+        """A view of everything; the columns were checked (`find_problem`)."""
+        num_cells, num_poses = len(columns["cell_scene"]), len(columns["pose_cell"])
+        return cls(source, scenes, columns, words, cell_ids, scenes, np.arange(num_cells), np.arange(num_poses))
+
+    def split(self, split: str | None) -> "PoseStore":
+        """The view of some of its scenes.
+
+        Args:
+            split: as `models.sources.kitti360pose.files.select_scenes`.
+
+        Raises:
+            DataError: there is no such scene.
+        """
+        names = select_scenes([scene.name for scene in self.scenes], split, self.source)
+        chosen = [n for n, scene in enumerate(self.all_scenes) if scene.name in names]
+        cell_scene = self.columns["cell_scene"]
+        return replace(
+            self,
+            scenes=tuple(self.all_scenes[n] for n in chosen),
+            cell_rows=np.flatnonzero(np.isin(cell_scene, chosen)),
+            pose_rows=np.flatnonzero(np.isin(cell_scene[self.columns["pose_cell"]], chosen)),
+        )
+
+    @cached_property
+    def cell_ids(self) -> tuple[str, ...]:
+        """N ids as published."""
+        return tuple(self.all_cell_ids[n] for n in self.cell_rows)
+
+    @cached_property
+    def labels(self) -> tuple[str, ...]:
+        """The class of each instance, in rows of the cell table's parts."""
+        return tuple(self.words[n] for n in self.columns["object_label"][self._object_rows])
+
+    @property
+    def instance_ids(self) -> Ints:
+        """[R] the data set's number of each instance, in rows of the cell table's parts."""
+        numbers: Ints = self.columns["object_instance"][self._object_rows]
+        return numbers
+
+    def cell_table(self) -> CellTable:
+        """The cells with what is in them, world metres; `parts.instance` counts the rows: each part is an instance.
+
+        Raises:
+            DataError: the cells are not of one size.
+        """
+        sizes = self.columns["cell_size_m"][self.cell_rows]
+        if (sizes != sizes[0]).any():
+            raise DataError(
+                f"{self.source}: cells of {sizes.min():g} m and of {sizes.max():g} m; name scenes of one size"
+            )
+        box = self.columns["cell_bbox_m"][self.cell_rows]
+        rows = self._object_rows
+        low, high, closest, rgb = (
+            self.columns[name][rows]
+            for name in ("object_low_m", "object_high_m", "object_closest_m", "object_mean_rgb")
+        )
+        return CellTable(
+            ids=self.cell_ids,
+            scenes=tuple(self.all_scenes[n].scene_name for n in self.columns["cell_scene"][self.cell_rows]),
+            center_m=(box[:, :3] + box[:, 3:]) / 2,
+            size_m=float(sizes[0]),
+            content=Parts(
+                starts=starts_of(self.columns["cell_objects"][self.cell_rows]),
+                instance=np.arange(len(rows), dtype=np.int32),
+                count=self.columns["object_points"][rows],
+                low_m=low,
+                high_m=high,
+                closest_m=closest,
+                rgb=rgb,
+            ),
+            sample=self._sample,
+        )
+
+    @cached_property
+    def poses(self) -> PoseTable:
+        """The positions with their descriptions.
+
+        Raises:
+            DataError: a scene has cells only.
+        """
+        for scene in self.scenes:
+            if scene.poses is None:
+                raise DataError(
+                    f"{self.source}: scene '{scene.name}' has no poses/{scene.name}.pkl, only cells; add it"
+                )
+        c, rows = self.columns, self.pose_rows
+        hints = ranges(self._hint_starts[rows], self._hint_starts[rows + 1])
+        return PoseTable(
+            positions_m=c["pose_world_m"][rows],
+            cell=_positions(self.cell_rows, len(c["cell_scene"]))[c["pose_cell"][rows]],
+            strategies=tuple(self.words[n] for n in c["pose_strategy"][rows]),
+            starts=starts_of(c["pose_hints"][rows]),
+            direction=c["hint_direction"][hints],
+            label=c["hint_label"][hints],
+            colour=c["hint_colour"][hints],
+            # One more, so that -1, no instance, stays -1.
+            instance=np.append(_positions(self._object_rows, len(c["object_label"])), -1)[c["hint_object"][hints]],
+            words=self.words,
+        )
+
+    def instance_points(self, row: int) -> tuple[Floats, Floats]:
+        """The points of one instance, as stored.
+
+        Returns:
+            xyz: [P, 3] cell units, float32 or float64.
+            rgb: [P, 3] 0..1, float32 or float64.
+        """
+        return self._points(int(self._object_rows[row]))
+
+    def _sample(self, cells: Ints) -> Floats:
+        """[R, 256, 6] points of what is in some cells."""
+        rows = self.cell_rows[cells]
+        objects = ranges(self._cell_starts[rows], self._cell_starts[rows + 1])
+        return samples([sample_points(*self._points(row)) for row in objects.tolist()])
+
+    def _points(self, row: int) -> tuple[Floats, Floats]:
+        c = self.columns
+        xyz_kind, rgb_kind, count = c["object_xyz_kind"][row], c["object_rgb_kind"][row], int(c["object_points"][row])
+        xyz = c[XYZ_POOLS[xyz_kind]][self._xyz_starts[row] :][:count]
+        rgb = c[RGB_POOLS[rgb_kind]][self._rgb_starts[row] :][:count]
+        if xyz_kind == 0:
+            cell = np.searchsorted(self._cell_starts, row, side="right") - 1
+            xyz = in_cell_units(xyz, c["cell_bbox_m"][cell, :3], c["cell_size_m"][cell])
+        return np.array(xyz), from_bytes(rgb) if rgb_kind == 0 else np.array(rgb)
+
+    @cached_property
+    def _object_rows(self) -> Ints:
+        """[R] rows of the whole data set."""
+        return ranges(self._cell_starts[self.cell_rows], self._cell_starts[self.cell_rows + 1])
+
+    @cached_property
+    def _cell_starts(self) -> Ints:
+        return starts_of(self.columns["cell_objects"])
+
+    @cached_property
+    def _hint_starts(self) -> Ints:
+        return starts_of(self.columns["pose_hints"])
+
+    @cached_property
+    def _xyz_starts(self) -> Ints:
+        return pool_starts(self.columns["object_xyz_kind"], self.columns["object_points"])
+
+    @cached_property
+    def _rgb_starts(self) -> Ints:
+        return pool_starts(self.columns["object_rgb_kind"], self.columns["object_points"])
+
+
+def _positions(rows: Ints, size: int) -> Ints:
+    """[size] where each number stands in `rows`; -1 where it does not."""
+    positions: npt.NDArray[np.int64] = np.full(size, -1, dtype=np.int64)
+    positions[rows] = np.arange(len(rows))
+    return positions

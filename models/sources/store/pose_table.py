@@ -1,0 +1,47 @@
+"""Positions with their descriptions in columns: the queries of a data set."""
+
+from dataclasses import dataclass
+
+from models.citymap.points import Ints
+from models.citymap.types import DIRECTIONS, Floats, Hint
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PoseTable:
+    """Q positions with their descriptions, in columns.
+
+    Attributes:
+        positions_m: [Q, 3] float64 world metres.
+        cell: [Q] best cell, row in the store's cell table.
+        strategies: Q words: how the hints were chosen.
+        starts: [Q + 1] pose q has the hints starts[q] to starts[q + 1].
+        direction: [H] index into DIRECTIONS.
+        label, colour: [H] index into `words`.
+        instance: [H] the instance meant, row in the cell table's parts; -1 if the best cell lacks it.
+        words: labels and colours.
+    """
+
+    positions_m: Floats
+    cell: Ints
+    strategies: tuple[str, ...]
+    starts: Ints
+    direction: Ints
+    label: Ints
+    colour: Ints
+    instance: Ints
+    words: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.cell)
+
+    def hints(self, q: int) -> tuple[Hint, ...]:
+        """The hints of pose q, in stored order."""
+        return tuple(
+            Hint(
+                DIRECTIONS[self.direction[h]],
+                self.words[self.label[h]],
+                self.words[self.colour[h]],
+                int(self.instance[h]) if self.instance[h] >= 0 else None,
+            )
+            for h in range(self.starts[q], self.starts[q + 1])
+        )

@@ -1,0 +1,133 @@
+"""Made-up towns, part 6: the site on which a town is built: what stands near the drive, as points with numbers."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import cKDTree
+
+from models.citymap.points import Ints
+from models.citymap.types import Floats
+from models.sources.kitti360.rules import CLASSES, GROUND
+from models.sources.synthetic.layout import Land
+from models.sources.synthetic.shapes import Rng, Spot
+from models.sources.synthetic.styles import Habits, draw_shade, speckled
+
+REACH_M = 44.0  # what stands further from the drive was not scanned
+RASTER_M = 2.0
+MARGIN_M = 120.0
+CLASS_ROW = {rule.label: row for row, rule in enumerate(CLASSES)}
+NUMBERS = 1000  # instances a class, as KITTI-360 counts them
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scan:
+    """All points of a town.
+
+    Attributes:
+        xyz: [P, 3] float32, world metres.
+        rgb: [P, 3] uint8.
+        semantic, instance: [P] int32, KITTI-360's numbers.
+        pose: [P] int32, the nearest pose of the drive.
+    """
+
+    xyz: Floats
+    rgb: npt.NDArray[np.uint8]
+    semantic: Ints
+    instance: Ints
+    pose: Ints
+
+
+class Site:
+    """Takes what is built in the plan's frame, and keeps what stands near the drive.
+
+    Attributes:
+        rng: draws everything on it.
+        habits: of the town.
+    """
+
+    def __init__(self, rng: Rng, habits: Habits, land: Land, drive_m: Floats) -> None:
+        self.rng, self.habits, self._land = rng, habits, land
+        low, high = drive_m[:, :2].min(axis=0) - MARGIN_M, drive_m[:, :2].max(axis=0) + MARGIN_M
+        self._low, counts = low, np.ceil((high - low) / RASTER_M).astype(int)
+        places = low + (np.indices(tuple(counts)).reshape(2, -1).T + 0.5) * RASTER_M
+        away, pose = cKDTree(drive_m[:, :2]).query(places)
+        self._away, self._pose = away.reshape(counts), pose.reshape(counts).astype(np.int32)
+        self._clouds: list[Floats] = []
+        self._of: list[int] = []  # row of `_classes`, for each cloud
+        self._classes: list[int] = []  # row of CLASSES, for each instance
+        self._chains: dict[tuple[str, str], int] = {}
+
+    @property
+    def spacing_m(self) -> float:
+        """Between points of what was scanned well."""
+        return self.habits.spacing_m
+
+    def away_m(self, spot: Spot) -> float:
+        """From a spot to the drive, to the metre or two."""
+        return float(self._away[self._cells(self._land.to_world(np.array([[spot.u, spot.v, 0.0]])))][0])
+
+    def _cells(self, world: Floats) -> tuple[Ints, Ints]:
+        cell = np.clip(((world[:, :2] - self._low) / RASTER_M).astype(np.int64), 0, np.array(self._away.shape) - 1)
+        return cell[:, 0], cell[:, 1]
+
+    def add(self, label: str, spot: Spot, xyz: Floats, chain: str = "") -> None:
+        """Put something down, if the drive comes near it.
+
+        Args:
+            label: its class.
+            spot: its frame.
+            xyz: [P, 3] points in that frame.
+            chain: what is added with one name is one instance, until the chain is cut; "" for an instance of its own.
+        """
+        rule = CLASSES[CLASS_ROW[label]]
+        if not rule.is_stuff and self.away_m(spot) > REACH_M:
+            return
+        world = self._land.to_world(spot.plan(xyz))
+        if rule.is_stuff:
+            world = world[self._away[self._cells(world)] <= REACH_M]
+        if not len(world):
+            return
+        row = self._chains.get((label, chain)) if chain else None
+        if row is None:
+            row = len(self._classes)
+            self._classes.append(CLASS_ROW[label])
+        if chain:
+            self._chains[label, chain] = row
+        self._clouds.append(world.astype(np.float32))
+        self._of.append(row)
+
+    def cut_chains(self, share: float = 1.0, label: str | None = None) -> None:
+        """End some of the open chains, of a class or of all."""
+        for key in list(self._chains):
+            if label in (None, key[0]) and self.rng.random() < share:
+                del self._chains[key]
+
+    def scan(self, own_pieces: bool = False) -> Scan:
+        """All points, by instance as far as those were put down at once, numbered and coloured.
+
+        More than 999 instances of a class, which KITTI-360 cannot have, go on from (100 + semantic) * 1000.
+
+        Args:
+            own_pieces: give each piece of ground a number, in place of KITTI-360's one for all of a class.
+        """
+        classes = np.array(self._classes)
+        shades = [draw_shade(self.rng, self.habits, row) for row in self._classes]
+        mean = np.array([shade[0] for shade in shades], dtype=np.float32)
+        spread = np.array([shade[1] for shade in shades], dtype=np.float32)
+        semantic = np.array([rule.semantic for rule in CLASSES])[classes]
+        nth = np.zeros(len(classes), dtype=np.int64)
+        for row in range(len(CLASSES)):
+            of_class = np.flatnonzero(classes == row)
+            nth[of_class] = np.arange(len(of_class))
+        thousands, rest = np.divmod(nth, NUMBERS - 1)
+        number = (semantic + 100 * thousands) * NUMBERS + rest + 1
+        if not own_pieces:
+            is_ground = np.array([rule.label in GROUND for rule in CLASSES])[classes]
+            number[is_ground] = semantic[is_ground] * NUMBERS
+        of = np.repeat(self._of, [len(cloud) for cloud in self._clouds])
+        xyz = np.concatenate(self._clouds)
+        self._clouds.clear()
+        rgb = np.concatenate([speckled(self.rng, mean[rows], spread[rows]) for rows in np.array_split(of, 16)])
+        pose = np.concatenate([self._pose[self._cells(points)] for points in np.array_split(xyz, 16)])
+        return Scan(xyz, rgb, semantic[of].astype(np.int32), number[of].astype(np.int32), pose)
