@@ -63,7 +63,7 @@ def description(axes: Axes) -> Box:
     left, right, half = x - 15.5, x + 15.5, 27.0
     render = box(axes, (left, 62.5, half, TALL), "models", "Template hints", "models/citymap/templates.py",
                  "what was understood, rendered")  # fmt: skip
-    encode = box(axes, (left, 51, half, TALL), "models", "Retriever encodes", "models/retrieval/",
+    encode = box(axes, (left, 51, half, TALL), "models", "Retriever encodes", "models/paper/",
                  "a unit vector a description")  # fmt: skip
     vector = box(axes, (left, 39.5, half, TALL), "index", "Vector search", "index/stores/, index/ranking.py",
                  "FAISS: the 100 nearest cells")  # fmt: skip
@@ -100,7 +100,7 @@ def city(axes: Axes) -> Box:
     cells = box(axes, (x, 76, wide, TALL), "models", "Cells", "models/citymap/geometry/ and cells.py",
                 "cubes of 30 m each 10 m; things whole, stuff clipped")  # fmt: skip
     left, right, half = x - 13.5, x + 13.5, 25.0
-    encode = box(axes, (left, 62.5, half, TALL), "models", "Retriever encodes", "models/retrieval/",
+    encode = box(axes, (left, 62.5, half, TALL), "models", "Retriever encodes", "models/paper/",
                  "vectors of cells, features of hints")  # fmt: skip
     around = box(axes, (right, 62.5, half, TALL), "models", "Surroundings", "models/posterior/surroundings/",
                  "what is within 15 m of each node")  # fmt: skip

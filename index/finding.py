@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
+from models.paper.fine.located import Located
 
 from index.answers import (
     Answer,
@@ -24,7 +25,6 @@ from models.citymap.cells import CellTable
 from models.citymap.frame import Frame
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.localization.located import Located
 
 HEAT_POINTS, HEAT_HELD = 500, 0.95  # squares of a heat map, and what they hold of the distribution at least
 

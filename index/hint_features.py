@@ -12,8 +12,8 @@ from models.citymap.colours import Palette
 from models.citymap.gallery import Gallery
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import IndexBroken
+from models.paper.retriever import Retriever
 from models.posterior.surroundings.things import Things
-from models.retrieval.retriever import Retriever
 
 FILE = "hints.safetensors"
 

@@ -32,16 +32,16 @@ from models.errors import IndexBroken
 from models.files import hold
 from models.language.places.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
-from models.localization.checkpoint import load_refiner
-from models.localization.fine_model import FineMethod, FineModel
+from models.paper.checkpoint import load_retriever
+from models.paper.fine.checkpoint import load_refiner
+from models.paper.fine.fine_model import FineMethod, FineModel
+from models.paper.level_table import STARTS_FILE
+from models.paper.retriever import Retriever
 from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.statements import Statements
 from models.posterior.surroundings.piece_surroundings import PieceSurroundings
 from models.posterior.surroundings.surroundings import Surroundings, load_surroundings
-from models.retrieval.checkpoint import load_retriever
-from models.retrieval.level_table import STARTS_FILE
-from models.retrieval.retriever import Retriever
 
 
 class Localizer:

@@ -11,10 +11,10 @@ from index.stores.faiss_store import FaissStore
 from index.stores.store import Floats, Rows, VectorStore
 from models.citymap.cells import CellTable
 from models.citymap.points import Ints
-from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
-from models.retrieval.levels import Levels
-from models.retrieval.retriever import Retriever
+from models.paper.instance_encoder import CellFeatures
+from models.paper.level_table import NO_LEVELS, LevelTable, encode_gallery
+from models.paper.levels import Levels
+from models.paper.retriever import Retriever
 
 RERANKED = 100  # cells whose other levels are looked at
 

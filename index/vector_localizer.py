@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
+from models.paper.fine.located import Located
 from scipy.special import logsumexp
 
 from index.answers import Method, ModelName
@@ -17,10 +18,9 @@ from models.citymap.gallery import Gallery, MapData
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.sentences import split_hints
-from models.localization.fine_model import FineModel
-from models.localization.located import Located
-from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.levels import Levels
+from models.paper.fine.fine_model import FineModel
+from models.paper.instance_encoder import CellFeatures
+from models.paper.levels import Levels
 
 DEPTH = 2000  # cells that a probability looks at; what is beyond is bounded, see `_probability`
 NO_CELL = "no cell's centre lies inside 'within'; widen it, move it onto the map or leave it out"

@@ -30,8 +30,8 @@ from models.citymap.points import PointTable
 from models.citymap.queries import Queries
 from models.citymap.types import CityMap
 from models.language.text_encoder import TextEncoder, load_text_encoder
-from models.retrieval.checkpoint import save_retriever
-from models.retrieval.mncl import Mncl, MnclConfig
+from models.paper.checkpoint import save_retriever
+from models.paper.mncl import Mncl, MnclConfig
 from models.sources.kitti360.job import prepare_data
 from models.sources.osm.feature_strips import Instances, Strips
 from models.sources.osm.map import features_of, frame_and_box, load_osm

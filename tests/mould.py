@@ -110,8 +110,8 @@ class _Forks:
         import app.server  # noqa: F401  # once for all that are forked
         import index.offline.build  # noqa: F401
         from models.language.text_encoder import load_text_encoder
-        from models.retrieval.checkpoint import save_retriever
-        from models.retrieval.mncl import Mncl, MnclConfig
+        from models.paper.checkpoint import save_retriever
+        from models.paper.mncl import Mncl, MnclConfig
         from tests import conftest
 
         self._map, self._weights, self._log = scratch / "town.osm", scratch / "weights", scratch / "service.log"

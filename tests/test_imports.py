@@ -13,7 +13,7 @@ FILES = [path for layer in LAYERS for path in sorted((ROOT / layer).rglob("*.py"
 CITY = ("models", "models.citymap")
 LANGUAGE = (*CITY, "models.language", "models.language.lexicon")
 GRAMMAR = "models.language.grammar"  # trains and measures alone: what is served must not change with a phrase of it
-RETRIEVAL = (*LANGUAGE, "models.retrieval")
+RETRIEVAL = (*LANGUAGE, "models.paper")
 # What is served; it knows of the data that come to it as files, too.
 SOURCES = ("models.sources.osm", "models.sources.kitti360", "models.sources.kitti360pose", "models.sources.store")
 NAMES = ("models.citymap.gazetteer", "models.citymap.kinds")
@@ -24,7 +24,7 @@ SERVED = (
     *SOURCES,
     *PLACES,
     "models.citymap.scenery",
-    "models.localization",
+    "models.paper.fine",
     "models.posterior",
     "models.posterior.surroundings",
 )
@@ -59,13 +59,13 @@ MAY_IMPORT = {
     "models.language.lexicon": LANGUAGE,
     "models.language.places": (*LANGUAGE, *NAMES),
     "models.language.grammar": LANGUAGE,
-    "models.retrieval": LANGUAGE,
-    "models.localization": RETRIEVAL,
+    "models.paper": LANGUAGE,
+    "models.paper.fine": RETRIEVAL,
     "models.posterior": (
         *LANGUAGE,
         *SOURCES,
         "models.citymap.geometry",
-        "models.localization",
+        "models.paper.fine",
         "models.posterior.places",
         "models.posterior.surroundings",
         "models.language.places",
@@ -104,7 +104,7 @@ ONLY = {
         "models.spool",
         "models.strings",
     },
-    ("models.posterior", "models.localization"): {"models.localization.located"},
+    ("models.posterior", "models.paper.fine"): {"models.paper.fine.located"},
     ("index.remote", "index"): {"index.artifact", "index.manifest"},
     ("index.remote", "models.citymap"): {"models.citymap.types"},
     ("index.stores", "index"): {"index.manifest", "index.query"},  # where they are, and the box of a filter

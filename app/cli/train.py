@@ -54,7 +54,7 @@ def train(
     For several processes or GPUs: torchrun --nproc-per-node 2 -m app.cli.main train ...
     """
     from models.errors import TrainingError
-    from models.localization.checkpoint import FINE_METHODS
+    from models.paper.fine.checkpoint import FINE_METHODS
     from models.training.engine import distributed
     from models.training.settings import load_settings
 
@@ -116,7 +116,7 @@ def _train_retriever(
     data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any
 ) -> str:
     """Train a retriever; its figures in words."""
-    from models.retrieval.checkpoint import METHODS
+    from models.paper.checkpoint import METHODS
     from models.training.fit_retriever import train_retriever
 
     out, *rest = where

@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # torch takes seconds, and the service itself does without Sc
     from index.ranking import Ranker
     from index.vector_localizer import VectorLocalizer
     from models.citymap.queries import Queries
-    from models.retrieval.retriever import Retriever
+    from models.paper.retriever import Retriever
     from models.sources.source import Source
 
 MAP_SUFFIXES = (".osm.pbf", ".osm")
@@ -98,9 +98,9 @@ class Evaluation(BaseModel):
     def _posterior(self, source: "Source", progress: Progress) -> "PosteriorLocalizer":
         """The hint posterior of a data set."""
         from index.posterior.localizer import PosteriorLocalizer  # noqa: PLC0415
+        from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.posterior.surroundings.surroundings import surroundings_of  # noqa: PLC0415
-        from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
 
         ranker = self._ranker(source, load_retriever(self.weights_dir).global_alone(), progress)
         surroundings = surroundings_of(source.bodies(), source.data.cells, progress)
@@ -110,8 +110,8 @@ class Evaluation(BaseModel):
     def _vectors(self, source: "Source", progress: Progress) -> "VectorLocalizer":
         """Vector search of a data set: raw text, all levels."""
         from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
-        from models.localization.checkpoint import load_refiner  # noqa: PLC0415
-        from models.retrieval.checkpoint import load_retriever  # noqa: PLC0415
+        from models.paper.checkpoint import load_retriever  # noqa: PLC0415
+        from models.paper.fine.checkpoint import load_refiner  # noqa: PLC0415
 
         refiner = None
         if self.refine == "matching" or self.refine == "regressor":  # noqa: PLR1714, which mypy does not see through

@@ -5,6 +5,7 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
+from models.paper.fine.located import Located, heaviest
 
 from index.answers import Question
 from index.asking.asked import LISTED, UNKNOWN, Asked
@@ -18,7 +19,6 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.asked import load_asked
-from models.localization.located import Located, heaviest
 from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors

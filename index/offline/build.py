@@ -17,13 +17,13 @@ from index.offline.shard import Shard
 from models.citymap.cells import BLOCK
 from models.citymap.types import Progress
 from models.errors import IndexUnusable
+from models.paper.checkpoint import load_retriever
+from models.paper.level_table import STARTS_FILE
+from models.paper.retriever import Retriever
 from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 from models.posterior.surroundings.surroundings import surroundings_of
 from models.processes import forked
-from models.retrieval.checkpoint import load_retriever
-from models.retrieval.level_table import STARTS_FILE
-from models.retrieval.retriever import Retriever
 from models.sources.osm.extract import Region, extracted
 from models.sources.source import open_source
 from models.spool import scratch, spooling_in

@@ -14,8 +14,8 @@ from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats
 from models.citymap.points import Ints
 from models.errors import IndexBroken
-from models.retrieval.level_table import NO_LEVELS, STARTS_FILE, LevelTable
-from models.retrieval.levels import Level
+from models.paper.level_table import NO_LEVELS, STARTS_FILE, LevelTable
+from models.paper.levels import Level
 
 FILE: Final = "encoded.npy"
 BYTES: Final = 5  # of a digest that are kept: a cell that changed is taken for one of a million once in a million times

@@ -20,6 +20,10 @@ from models.citymap.points import Ints
 from models.citymap.types import Progress
 from models.errors import DataError, IndexBroken
 from models.files import mapped
+from models.paper.instance_encoder import CellFeatures
+from models.paper.level_table import NO_LEVELS, LevelTable, encode_gallery
+from models.paper.levels import Level
+from models.paper.retriever import Retriever
 from models.posterior.likelihood import Likelihood
 from models.posterior.statements import StatementRows, statement_rows
 from models.posterior.surroundings.piece_surroundings import PieceSurroundings
@@ -27,10 +31,6 @@ from models.posterior.surroundings.scan_surroundings import FILE as SURROUNDINGS
 from models.posterior.surroundings.scan_surroundings import ScanSurroundings
 from models.posterior.surroundings.surroundings import Surroundings
 from models.processes import give_back, map_forked
-from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.level_table import NO_LEVELS, LevelTable, encode_gallery
-from models.retrieval.levels import Level
-from models.retrieval.retriever import Retriever
 from models.sources.source import MapSource, Source
 from models.spool import forget, spooled
 

@@ -20,7 +20,7 @@ from index.offline.shard import Shard
 from models.citymap.cells import BLOCK, CellTable
 from models.errors import IndexBroken
 from models.files import FileRecord, file_records, new_directory, sha256
-from models.retrieval.levels import Level
+from models.paper.levels import Level
 
 PARTS: Final = ".parts"
 FORMAT: Final = 2

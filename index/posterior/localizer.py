@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from models.paper.fine.located import Located
 
 from index.answers import Evidence, Method, ModelName, Question
 from index.asking.heard import Heard
@@ -31,7 +32,7 @@ from models.language.places.mentions import Mention
 from models.language.places.name_table import NameTable
 from models.language.places.reader import is_meeting, listener_wind
 from models.language.reader import COLOURS
-from models.localization.located import Located
+from models.paper.levels import Levels
 from models.posterior.binding import Binding
 from models.posterior.inside import Inside
 from models.posterior.likelihood import Reading
@@ -43,7 +44,6 @@ from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 from models.posterior.surroundings.surroundings import Surroundings
-from models.retrieval.levels import Levels
 from models.threads import beside
 
 KEPT_VECTORS = 256  # of descriptions, the latest

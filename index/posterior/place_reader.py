@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 import torch
 from cachetools import LRUCache, cachedmethod
+from models.paper.fine.located import Located
 
 from index.answers import Evidence, Heading
 from index.finding import pair
@@ -23,7 +24,6 @@ from models.language.places.name_table import NameTable
 from models.language.places.reader import find_mentions, is_meeting, listener_wind, with_goal
 from models.language.places.spans import PASSED, STOP
 from models.language.text_encoder import TextEncoder
-from models.localization.located import Located
 from models.posterior.places.explained import Explained
 from models.posterior.places.field import PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, PlaceKernels

@@ -22,10 +22,10 @@ from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
 from models.files import replace_file, sha256
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER
-from models.localization.checkpoint import FINE_METHODS, load_fine
-from models.localization.fine_model import FineModel
-from models.retrieval.checkpoint import METHODS, load_retriever
-from models.retrieval.retriever import Retriever
+from models.paper.checkpoint import METHODS, load_retriever
+from models.paper.fine.checkpoint import FINE_METHODS, load_fine
+from models.paper.fine.fine_model import FineModel
+from models.paper.retriever import Retriever
 from models.sources.source import CHOSEN_BY, open_sources
 from models.training.engine.loop import pick_device
 from models.training.engine.run_dir import METRICS_FILE

@@ -9,7 +9,7 @@ from models.citymap.cells import CellTable
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.compiled import compiled
-from models.localization.located import Located, heaviest
+from models.paper.fine.located import Located, heaviest
 from models.posterior.inside import Inside
 from models.posterior.likelihood import Reading
 from models.posterior.places.field import Told

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from models.retrieval.instance_encoder import PAPERS
+from models.paper.instance_encoder import PAPERS
 
 Changes = tuple[tuple[str, Any], ...]
 Metric = Literal["retrieval", "localization"]

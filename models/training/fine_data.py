@@ -15,8 +15,8 @@ from models.citymap.gallery import Gallery
 from models.citymap.points import Ints
 from models.citymap.queries import Queries
 from models.citymap.types import Floats
-from models.localization.fine_model import FineModel, Truth
-from models.retrieval.instance_encoder import CellBatch, CellFeatures
+from models.paper.fine.fine_model import FineModel, Truth
+from models.paper.instance_encoder import CellBatch, CellFeatures
 from models.sources.source import APART_M
 from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect
 

@@ -10,8 +10,8 @@ import torch
 from torch import Tensor
 
 from models.language.text_encoder import TextEncoder, load_text_encoder
-from models.localization.checkpoint import FINE_METHODS, save_fine
-from models.localization.fine_model import FineConfig, FineModel, Truth
+from models.paper.fine.checkpoint import FINE_METHODS, save_fine
+from models.paper.fine.fine_model import FineConfig, FineModel, Truth
 from models.training.engine import distributed
 from models.training.engine.devices import lent_to
 from models.training.engine.loop import History, Progress, pick_device, run_training

@@ -19,10 +19,10 @@ from models.checkpoint import CONFIG_FILE, WEIGHTS_FILE
 from models.citymap.colours import KITTI360_PALETTE
 from models.errors import TrainingError, WeightsError
 from models.files import replace_file
-from models.localization.fine_model import FineModel
-from models.retrieval.instance_encoder import GEOMETRY, CellFeatures
-from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
-from models.retrieval.retriever import Retriever
+from models.paper.fine.fine_model import FineModel
+from models.paper.instance_encoder import GEOMETRY, CellFeatures
+from models.paper.point_encoder import POINT_WIDTH, PointEncoder
+from models.paper.retriever import Retriever
 from models.training.engine import distributed
 from models.training.engine.loop import LoopConfig, Progress, pick_device, run_training
 from models.training.settings import TrainingConfig, load_settings

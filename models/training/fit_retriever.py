@@ -11,9 +11,9 @@ import torch
 from torch import Tensor
 
 from models.language.text_encoder import TextEncoder, load_text_encoder
-from models.retrieval.checkpoint import save_retriever
-from models.retrieval.levels import Levels
-from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.paper.checkpoint import save_retriever
+from models.paper.levels import Levels
+from models.paper.retriever import Retriever, RetrieverConfig
 from models.training.engine import distributed
 from models.training.engine.devices import lent_to
 from models.training.engine.loop import History, Progress, pick_device, run_training

@@ -7,7 +7,7 @@ height.
 
 from typing import Any
 
-from models.retrieval.instance_encoder import OURS, Input
+from models.paper.instance_encoder import OURS, Input
 from models.training.experiments import Experiment, Row, Run, made_of
 
 

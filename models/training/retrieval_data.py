@@ -15,7 +15,7 @@ from models.citymap.templates import TEMPLATES, render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DataError
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import CellBatch, CellFeatures
+from models.paper.instance_encoder import CellBatch, CellFeatures
 from models.training.engine.feature_cache import frozen_features
 
 MIN_HINTS, MAX_HINTS = 2, 8

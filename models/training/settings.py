@@ -9,9 +9,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic.fields import FieldInfo
 
 from models.errors import TrainingError
-from models.localization.checkpoint import FINE_METHODS
+from models.paper.checkpoint import METHODS
+from models.paper.fine.checkpoint import FINE_METHODS
 from models.posterior.model import PosteriorConfig, PosteriorModel
-from models.retrieval.checkpoint import METHODS
 from models.training.engine.loop import LoopConfig
 from models.training.retrieval_data import Wording
 

@@ -9,7 +9,7 @@ import numpy as np
 from models.citymap.gallery import Gallery
 from models.citymap.queries import Queries
 from models.language.text_encoder import TextEncoder
-from models.retrieval.instance_encoder import CellFeatures
+from models.paper.instance_encoder import CellFeatures
 from models.sources.source import CHOSEN_BY, Source, open_sources
 from models.training.retrieval_data import TrainingSet
 from models.training.settings import TrainingConfig

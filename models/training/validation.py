@@ -10,10 +10,10 @@ from scipy.special import logsumexp
 
 from models.citymap.gallery import Gallery
 from models.citymap.queries import Queries
-from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.level_table import encode_gallery
-from models.retrieval.levels import Level
-from models.retrieval.retriever import Retriever
+from models.paper.instance_encoder import CellFeatures
+from models.paper.level_table import encode_gallery
+from models.paper.levels import Level
+from models.paper.retriever import Retriever
 from models.training.metrics import RETRIEVAL_KS, retrieval_recall
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from index.offline.build import IndexJob
 from index.offline.shard import Shard
-from models.retrieval.checkpoint import save_retriever
+from models.paper.checkpoint import save_retriever
 from tests.conftest import tiny_osm
 
 

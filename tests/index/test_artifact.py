@@ -11,8 +11,8 @@ from index.localizer import Localizer
 from index.manifest import check_model
 from models.errors import IndexBroken, IndexMismatch
 from models.files import new_directory
-from models.retrieval.checkpoint import save_retriever
-from models.retrieval.mncl import Mncl
+from models.paper.checkpoint import save_retriever
+from models.paper.mncl import Mncl
 
 
 @pytest.fixture

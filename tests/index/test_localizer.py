@@ -9,7 +9,7 @@ from safetensors.numpy import load
 
 from index.localizer import Localizer
 from index.query import Box, Circle, Prior, Query
-from models.retrieval.checkpoint import load_retriever
+from models.paper.checkpoint import load_retriever
 
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 CORNER = Box(-154, -154, 4, 4)

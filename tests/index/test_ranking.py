@@ -4,8 +4,8 @@ import torch
 
 from index.ranking import Ranker
 from models.errors import IndexBroken
-from models.retrieval.levels import LEVELS, level_scores
-from models.retrieval.mncl import Mncl, MnclConfig
+from models.paper.levels import LEVELS, level_scores
+from models.paper.mncl import Mncl, MnclConfig
 
 TEXTS = [["I am north of a red building.", "A bench is west of me."], ["There is a tree to my east."]]
 WEIGHTS = (1.0, 0.7, 0.4)

@@ -11,9 +11,9 @@ from index.query import Circle, Query
 from index.ranking import Ranker
 from index.vector_localizer import VectorLocalizer
 from models.errors import WeightsError
-from models.localization.checkpoint import load_refiner, save_fine
-from models.localization.matching import Matching, MatchingConfig
-from models.localization.regressor import Regressor, RegressorConfig
+from models.paper.fine.checkpoint import load_refiner, save_fine
+from models.paper.fine.matching import Matching, MatchingConfig
+from models.paper.fine.regressor import Regressor, RegressorConfig
 
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 

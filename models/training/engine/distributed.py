@@ -16,7 +16,7 @@ import torch.distributed as dist
 from torch import Tensor, nn
 
 from models.errors import TrainingError
-from models.retrieval.levels import Levels
+from models.paper.levels import Levels
 
 LONGEST_WAIT = timedelta(hours=4)  # the others wait while the first validates or encodes sentences
 T = TypeVar("T")

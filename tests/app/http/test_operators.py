@@ -14,7 +14,7 @@ from fastapi.testclient import TestClient
 from app.main import create_app
 from app.settings import Settings
 from index.artifact import open_version, read_aliases
-from models.retrieval.checkpoint import save_retriever
+from models.paper.checkpoint import save_retriever
 
 pytestmark = pytest.mark.usefixtures("warm_workers")
 READ, ADMIN = "read-key-1", "admin-key-1"

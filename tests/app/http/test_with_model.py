@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
-from models.localization.checkpoint import FINE_METHODS, load_refiner
+from models.paper.fine.checkpoint import FINE_METHODS, load_refiner
 from models.posterior.model import load_posterior
 
 

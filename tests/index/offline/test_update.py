@@ -12,8 +12,8 @@ from index.offline.earlier import BYTES, FILE, Earlier, save_digests
 from index.stores.faiss_store import FaissStore
 from models.errors import DataError, IndexBroken, IndexMismatch
 from models.files import file_records
-from models.retrieval import level_table
-from models.retrieval.levels import LEVELS
+from models.paper import level_table
+from models.paper.levels import LEVELS
 from tests.told import told
 
 HOUSE = '<tag k="building" v="yes"/>'

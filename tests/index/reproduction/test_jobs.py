@@ -6,8 +6,8 @@ import torch
 from index.reproduction import jobs as module
 from index.reproduction.figure_3 import draw_figure_3
 from index.reproduction.jobs import ALL, ALONE, LISTED, Z_SCORES, Job
-from models.localization.regressor import Regressor, RegressorConfig
-from models.retrieval.mncl import Mncl, MnclConfig
+from models.paper.fine.regressor import Regressor, RegressorConfig
+from models.paper.mncl import Mncl, MnclConfig
 from models.training.experiments import Run, Scale
 
 

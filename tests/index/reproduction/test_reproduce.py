@@ -10,7 +10,7 @@ from index.reproduction import reproduce as module
 from index.reproduction.report import markdown, write_reproduction
 from index.reproduction.reproduce import chosen, in_epochs
 from models.errors import DataError
-from models.retrieval import point_encoder
+from models.paper import point_encoder
 from models.sources.source import open_source
 from models.training.experiments import POINTS, Experiment, Row, Run, Scale, made_of, pairs_of, runs_of
 from models.training.paper_tables import EXPERIMENTS, GROWTH, HEAD, MNCL, RET, TABLE_1, TABLE_2, TEXT2LOC, TEXT2POS

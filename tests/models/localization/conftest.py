@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 import torch
 
-from models.localization.checkpoint import FINE_METHODS
-from models.retrieval.instance_encoder import CellFeatures
+from models.paper.fine.checkpoint import FINE_METHODS
+from models.paper.instance_encoder import CellFeatures
 from models.training.fine_data import FineSet
 from models.training.retrieval_data import TrainingSet
 

@@ -8,10 +8,10 @@ from safetensors.torch import load_file, save_file
 
 from models.checkpoint import LARGE
 from models.errors import WeightsError
-from models.localization.checkpoint import FINE_METHODS, load_fine, save_fine
-from models.localization.fine_model import CrossAttentionRound, Truth, nearest
-from models.localization.matching import MatchingConfig, sinkhorn
-from models.retrieval.instance_encoder import OURS, columns
+from models.paper.fine.checkpoint import FINE_METHODS, load_fine, save_fine
+from models.paper.fine.fine_model import CrossAttentionRound, Truth, nearest
+from models.paper.fine.matching import MatchingConfig, sinkhorn
+from models.paper.instance_encoder import OURS, columns
 from models.training.fine_data import FineBatch
 
 TEXTS = [

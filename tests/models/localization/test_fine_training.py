@@ -5,9 +5,9 @@ import pytest
 import torch
 
 from models.citymap.queries import Queries
-from models.localization.checkpoint import FINE_METHODS, load_fine
-from models.localization.fine_model import FineConfig, FineModel
-from models.localization.regressor import Regressor, RegressorConfig
+from models.paper.fine.checkpoint import FINE_METHODS, load_fine
+from models.paper.fine.fine_model import FineConfig, FineModel
+from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.sources.source import open_source
 from models.sources.store.files import load_data
 from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, reflect_offset

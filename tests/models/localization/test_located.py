@@ -2,8 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from models.localization.located import Located
+from models.paper.fine.located import Located
 
 
 @pytest.fixture

@@ -7,8 +7,8 @@ import pytest
 import torch
 
 from models.language.text_encoder import TokenFeatures
-from models.retrieval.checkpoint import METHODS, load_retriever, save_retriever
-from models.retrieval.instance_encoder import CellFeatures
+from models.paper.checkpoint import METHODS, load_retriever, save_retriever
+from models.paper.instance_encoder import CellFeatures
 
 WIDTH = 32
 TEXTS = [

@@ -3,9 +3,9 @@ import pytest
 import torch
 
 from models.errors import IndexBroken
-from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.level_table import LevelTable, encode_gallery
-from models.retrieval.levels import LEVELS, level_scores
+from models.paper.instance_encoder import CellFeatures
+from models.paper.level_table import LevelTable, encode_gallery
+from models.paper.levels import LEVELS, level_scores
 
 TEXTS = [
     ["I am north of a red building.", "A bench is west of me.", "There is a tree to my east."],

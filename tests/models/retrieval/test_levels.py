@@ -3,9 +3,9 @@
 import pytest
 import torch
 
-from models.retrieval.levels import Levels, level_scores, set_similarity, sum_of_z_scores
-from models.retrieval.mncl import Mncl, MnclConfig
-from models.retrieval.scene_graph import CellEdges, Ends, ExternalSpaceAttention, HintEdges, SceneGraph
+from models.paper.levels import Levels, level_scores, set_similarity, sum_of_z_scores
+from models.paper.mncl import Mncl, MnclConfig
+from models.paper.scene_graph import CellEdges, Ends, ExternalSpaceAttention, HintEdges, SceneGraph
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import math
 import pytest
 import torch
 
-from models.retrieval.losses import contrastive_loss, log_improbable, negative_contrastive_loss, negative_weights
+from models.paper.losses import contrastive_loss, log_improbable, negative_contrastive_loss, negative_weights
 
 TAU = 0.3
 

@@ -6,10 +6,10 @@ import torch
 
 from models.citymap.point_sample import NUM_POINTS, sample_points
 from models.errors import WeightsError
-from models.retrieval.instance_encoder import OURS, CellFeatures
-from models.retrieval.level_table import LevelTable, encode_gallery
-from models.retrieval.mncl import Mncl, MnclConfig
-from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder, ball, farthest_points
+from models.paper.instance_encoder import OURS, CellFeatures
+from models.paper.level_table import LevelTable, encode_gallery
+from models.paper.mncl import Mncl, MnclConfig
+from models.paper.point_encoder import POINT_WIDTH, PointEncoder, ball, farthest_points
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +109,7 @@ def test_a_slice_that_begins_at_a_block_gives_the_bits_of_the_whole(
     city, cells, text_encoder, monkeypatch, tmp_path
 ) -> None:
     for module in ("instance_encoder", "level_table", "retriever"):
-        monkeypatch.setattr(f"models.retrieval.{module}.BLOCK", 16)
+        monkeypatch.setattr(f"models.paper.{module}.BLOCK", 16)
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
     torch.manual_seed(0)
     cells, labels = cells.take(np.arange(90)), np.array([i.label for i in city.instances])

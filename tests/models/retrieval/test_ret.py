@@ -5,9 +5,9 @@ import math
 import pytest
 import torch
 
-from models.retrieval.levels import Levels
-from models.retrieval.ret import NUM_HEADS, HintRelation, InstanceRelation, RelationLayer, Ret, RetConfig
-from models.retrieval.text2pos import pairwise_ranking_loss
+from models.paper.levels import Levels
+from models.paper.ret import NUM_HEADS, HintRelation, InstanceRelation, RelationLayer, Ret, RetConfig
+from models.paper.text2pos import pairwise_ranking_loss
 
 WIDTH = 8
 SIZES = [5, 2]

@@ -3,12 +3,12 @@ import pytest
 import torch
 
 from models.errors import WeightsError
-from models.retrieval.checkpoint import load_retriever, save_retriever
-from models.retrieval.instance_encoder import NUM_GEOMETRY, OURS, PAPERS, CellFeatures, InstanceEncoder, columns
-from models.retrieval.layers import masked_max
-from models.retrieval.level_table import encode_gallery
-from models.retrieval.levels import LEVELS
-from models.retrieval.mncl import Mncl, MnclConfig
+from models.paper.checkpoint import load_retriever, save_retriever
+from models.paper.instance_encoder import NUM_GEOMETRY, OURS, PAPERS, CellFeatures, InstanceEncoder, columns
+from models.paper.layers import masked_max
+from models.paper.level_table import encode_gallery
+from models.paper.levels import LEVELS
+from models.paper.mncl import Mncl, MnclConfig
 
 TEXTS = [
     ["I am north of a gray building."],

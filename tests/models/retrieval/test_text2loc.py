@@ -5,9 +5,9 @@ import math
 import pytest
 import torch
 
-from models.retrieval.layers import masked_max
-from models.retrieval.levels import Levels
-from models.retrieval.text2loc import Text2Loc, Text2LocConfig
+from models.paper.layers import masked_max
+from models.paper.levels import Levels
+from models.paper.text2loc import Text2Loc, Text2LocConfig
 
 WIDTH = 16
 

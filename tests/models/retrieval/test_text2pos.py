@@ -4,7 +4,7 @@ import pytest
 import torch
 from torch import nn
 
-from models.retrieval.text2pos import EdgeConvolution, Text2PosConfig, WordEncoder, pairwise_ranking_loss
+from models.paper.text2pos import EdgeConvolution, Text2PosConfig, WordEncoder, pairwise_ranking_loss
 
 
 def test_ranking_loss_against_a_loop() -> None:

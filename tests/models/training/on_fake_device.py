@@ -15,11 +15,11 @@ from torch import nn
 from torch.nn.utils.rnn import pack_padded_sequence
 
 from models.language.text_encoder import load_text_encoder
-from models.localization.checkpoint import FINE_METHODS, load_fine
+from models.paper import point_encoder
+from models.paper.checkpoint import METHODS, load_retriever
+from models.paper.fine.checkpoint import FINE_METHODS, load_fine
+from models.paper.instance_encoder import OURS, PAPERS, Input
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
-from models.retrieval import point_encoder
-from models.retrieval.checkpoint import METHODS, load_retriever
-from models.retrieval.instance_encoder import OURS, PAPERS, Input
 from models.sources.source import open_source
 from models.training import fit_fine, fit_points, fit_retriever, validation
 from models.training.engine import loop

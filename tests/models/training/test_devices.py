@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from torch.utils import backend_registration
 
-from models.localization.checkpoint import FINE_METHODS
-from models.retrieval.checkpoint import METHODS
-from models.retrieval.instance_encoder import OURS, PAPERS
+from models.paper.checkpoint import METHODS
+from models.paper.fine.checkpoint import FINE_METHODS
+from models.paper.instance_encoder import OURS, PAPERS
 
 pytestmark = [
     pytest.mark.slow,

@@ -10,13 +10,13 @@ from index.ranking import Ranker
 from models.citymap.hints import direction_index
 from models.citymap.types import DIRECTIONS
 from models.errors import DataError, WeightsError
-from models.localization.checkpoint import load_fine
-from models.localization.matching import MatchingConfig
-from models.retrieval import point_encoder
-from models.retrieval.checkpoint import METHODS, load_retriever
-from models.retrieval.instance_encoder import PAPERS, CellFeatures
-from models.retrieval.mncl import Mncl, MnclConfig
-from models.retrieval.text2loc import Text2Loc, Text2LocConfig
+from models.paper import point_encoder
+from models.paper.checkpoint import METHODS, load_retriever
+from models.paper.fine.checkpoint import load_fine
+from models.paper.fine.matching import MatchingConfig
+from models.paper.instance_encoder import PAPERS, CellFeatures
+from models.paper.mncl import Mncl, MnclConfig
+from models.paper.text2loc import Text2Loc, Text2LocConfig
 from models.sources.source import open_sources
 from models.training.fit_fine import train_fine
 from models.training.fit_points import train_points

@@ -1,7 +1,7 @@
 import pytest
 
 from models.errors import TrainingError
-from models.retrieval.checkpoint import METHODS
+from models.paper.checkpoint import METHODS
 from models.training.settings import TrainingConfig, load_settings
 
 

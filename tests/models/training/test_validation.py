@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 import torch
 
-from models.retrieval.checkpoint import METHODS
-from models.retrieval.retriever import Retriever
+from models.paper.checkpoint import METHODS
+from models.paper.retriever import Retriever
 from models.sources.source import CHOSEN_BY
 from models.training.validation import Encoded, Validation, calibrate, most_likely
 

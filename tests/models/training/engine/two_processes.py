@@ -11,8 +11,8 @@ from safetensors.torch import save_file
 from torch import nn
 
 from models.language.text_encoder import TokenFeatures
-from models.retrieval.instance_encoder import NUM_GEOMETRY, CellBatch
-from models.retrieval.mncl import Mncl, MnclConfig
+from models.paper.instance_encoder import NUM_GEOMETRY, CellBatch
+from models.paper.mncl import Mncl, MnclConfig
 from models.training.engine import distributed
 from models.training.engine.loop import LoopConfig, run_training
 from models.training.fit_retriever import RetrievalTask, SourceBatch

@@ -1,11 +1,11 @@
 """Saving and loading retrievers."""
 
 from models.checkpoint import SHIPPED, Checkpoints
-from models.retrieval.mncl import Mncl
-from models.retrieval.ret import Ret
-from models.retrieval.retriever import Retriever
-from models.retrieval.text2loc import Text2Loc
-from models.retrieval.text2pos import Text2Pos
+from models.paper.mncl import Mncl
+from models.paper.ret import Ret
+from models.paper.retriever import Retriever
+from models.paper.text2loc import Text2Loc
+from models.paper.text2pos import Text2Pos
 
 METHODS: dict[str, type[Retriever]] = {"text2pos": Text2Pos, "ret": Ret, "text2loc": Text2Loc, "mncl": Mncl}
 RETRIEVERS = Checkpoints(

@@ -13,7 +13,7 @@ from torch import Tensor, nn
 
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import (
+from models.paper.instance_encoder import (
     DISTANCE,
     OURS,
     CellBatch,
@@ -22,8 +22,8 @@ from models.retrieval.instance_encoder import (
     InstanceEncoder,
     columns,
 )
-from models.retrieval.layers import HintEncoder
-from models.retrieval.point_encoder import PointEncoder
+from models.paper.layers import HintEncoder
+from models.paper.point_encoder import PointEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 10 MB at D = 128
 PAIRS = 1024  # of description and cell, located at once
@@ -67,7 +67,7 @@ class Instances:
 
     Attributes:
         features: [B, I, D].
-        geometry: [B, I, 16] see `models.retrieval.instance_encoder.GEOMETRY`.
+        geometry: [B, I, 16] see `models.paper.instance_encoder.GEOMETRY`.
         mask: [B, I] bool, True where an instance is real.
         order: [B, I] int64, its column in the batch of cells.
     """

@@ -1,7 +1,7 @@
 """Matching of hints and instances in the fine stage (Text2Pos, CVPR 2022): the baselines' fine stage.
 
 RET (AAAI 2023) cascades the two: hints that have met the instances, not the hints alone, say the offsets (`refine`).
-Its relation-enhanced encoders are the retriever's (`models.retrieval.ret`), not repeated here.
+Its relation-enhanced encoders are the retriever's (`models.paper.ret`), not repeated here.
 """
 
 import math
@@ -11,8 +11,8 @@ import torch
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder
-from models.localization.fine_model import FineConfig, FineMethod, FineModel, Instances, Truth
-from models.retrieval.layers import mlp
+from models.paper.fine.fine_model import FineConfig, FineMethod, FineModel, Instances, Truth
+from models.paper.layers import mlp
 
 
 class MatchingConfig(FineConfig):

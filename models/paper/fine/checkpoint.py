@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from models.checkpoint import SHIPPED, Checkpoints
-from models.localization.fine_model import FineMethod, FineModel
-from models.localization.matching import Matching
-from models.localization.regressor import Regressor
+from models.paper.fine.fine_model import FineMethod, FineModel
+from models.paper.fine.matching import Matching
+from models.paper.fine.regressor import Regressor
 
 FINE_METHODS: dict[str, type[FineModel]] = {"regressor": Regressor, "matching": Matching}
 FINE_STAGES = Checkpoints(

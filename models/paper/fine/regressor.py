@@ -7,8 +7,8 @@ import torch
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder
-from models.localization.fine_model import FineConfig, FineMethod, FineModel, Instances, Truth
-from models.retrieval.layers import masked_max, mlp
+from models.paper.fine.fine_model import FineConfig, FineMethod, FineModel, Instances, Truth
+from models.paper.layers import masked_max, mlp
 
 
 class RegressorConfig(FineConfig):
@@ -28,7 +28,7 @@ class Regressor(FineModel):
     """Hints and instances through cascaded cross-attention, maximum over hints, MLP to a position.
 
     Differs from Text2Loc: any number of hints and instances, masked; instances are described by geometry and label, see
-    `models.retrieval.instance_encoder`. With `point`, a last attention takes the instances' plain geometry as its
+    `models.paper.instance_encoder`. With `point`, a last attention takes the instances' plain geometry as its
     values, and is told while training which instance each hint means: without, coordinates must find their way through
     all layers, which takes an order of magnitude more steps. Soft shares, no matches, when it predicts.
     """

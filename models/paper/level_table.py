@@ -12,9 +12,9 @@ import numpy.typing as npt
 from models.citymap.cells import BLOCK
 from models.citymap.points import Ints, ranges
 from models.errors import IndexBroken
-from models.retrieval.instance_encoder import CellFeatures
-from models.retrieval.levels import Level, Levels
-from models.retrieval.retriever import Retriever, Vectors
+from models.paper.instance_encoder import CellFeatures
+from models.paper.levels import Level, Levels
+from models.paper.retriever import Retriever, Vectors
 
 STARTS_FILE = "levels.starts.npy"
 TEXTS_AT_ONCE = 64
@@ -64,7 +64,7 @@ class LevelTable:
         return sum(2 * table.size for table in self.vectors.values()) / max(1, len(self.starts) - 1)
 
     def scores(self, texts: Sequence[Levels], cells: Ints) -> dict[Level, Singles]:
-        """Similarity of descriptions with some cells at each level (`models.retrieval.levels.set_similarity`).
+        """Similarity of descriptions with some cells at each level (`models.paper.levels.set_similarity`).
 
         Args:
             texts: Q descriptions, each with B = 1.

@@ -13,9 +13,9 @@ from torch.nn.utils.rnn import pad_sequence
 from models.citymap.cells import BLOCK
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import OURS, CellBatch, CellFeatures, Input
-from models.retrieval.levels import Level, Levels, sum_of_z_scores
-from models.retrieval.point_encoder import PointEncoder
+from models.paper.instance_encoder import OURS, CellBatch, CellFeatures, Input
+from models.paper.levels import Level, Levels, sum_of_z_scores
+from models.paper.point_encoder import PointEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 20 MB at D = 256
 ENCODE_BATCH = 256  # cells, or descriptions

@@ -8,10 +8,10 @@ from torch import Tensor, nn
 from torch.nn.utils.rnn import pack_padded_sequence
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
-from models.retrieval.layers import masked_max, mlp
-from models.retrieval.levels import Levels
-from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.paper.instance_encoder import CellBatch, InstanceEncoder
+from models.paper.layers import masked_max, mlp
+from models.paper.levels import Levels
+from models.paper.retriever import Retriever, RetrieverConfig
 
 
 class Text2PosConfig(RetrieverConfig):

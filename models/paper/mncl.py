@@ -8,12 +8,12 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
-from models.retrieval.layers import HintEncoder, SetTransformer, groups_by_size, masked_max, mlp
-from models.retrieval.levels import Level, Levels, level_scores
-from models.retrieval.losses import contrastive_loss, negative_contrastive_loss
-from models.retrieval.retriever import Retriever, RetrieverConfig
-from models.retrieval.scene_graph import Aggregate, Axis, CellEdges, HintEdges, Query, SceneGraph
+from models.paper.instance_encoder import CellBatch, InstanceEncoder
+from models.paper.layers import HintEncoder, SetTransformer, groups_by_size, masked_max, mlp
+from models.paper.levels import Level, Levels, level_scores
+from models.paper.losses import contrastive_loss, negative_contrastive_loss
+from models.paper.retriever import Retriever, RetrieverConfig
+from models.paper.scene_graph import Aggregate, Axis, CellEdges, HintEdges, Query, SceneGraph
 
 
 class MnclConfig(RetrieverConfig):

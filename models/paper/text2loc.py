@@ -5,11 +5,11 @@ from typing import ClassVar
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
-from models.retrieval.layers import HintEncoder, SetTransformer, masked_max
-from models.retrieval.levels import Levels
-from models.retrieval.losses import contrastive_loss
-from models.retrieval.retriever import Retriever, RetrieverConfig
+from models.paper.instance_encoder import CellBatch, InstanceEncoder
+from models.paper.layers import HintEncoder, SetTransformer, masked_max
+from models.paper.levels import Levels
+from models.paper.losses import contrastive_loss
+from models.paper.retriever import Retriever, RetrieverConfig
 
 NUM_HEADS = 4
 

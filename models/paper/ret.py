@@ -5,11 +5,11 @@ from typing import ClassVar
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
-from models.retrieval.instance_encoder import CellBatch, InstanceEncoder
-from models.retrieval.layers import masked_max, mlp
-from models.retrieval.levels import Levels
-from models.retrieval.retriever import Retriever, RetrieverConfig
-from models.retrieval.text2pos import WordEncoder, pairwise_ranking_loss
+from models.paper.instance_encoder import CellBatch, InstanceEncoder
+from models.paper.layers import masked_max, mlp
+from models.paper.levels import Levels
+from models.paper.retriever import Retriever, RetrieverConfig
+from models.paper.text2pos import WordEncoder, pairwise_ranking_loss
 
 NUM_HEADS = 4
 

@@ -18,8 +18,8 @@ from models.citymap.points import Ints, ranges
 from models.errors import WeightsError
 from models.files import cache_directory, replacing
 from models.language.text_encoder import fingerprint_of
-from models.retrieval.layers import mlp
-from models.retrieval.point_encoder import POINT_WIDTH, PointEncoder
+from models.paper.layers import mlp
+from models.paper.point_encoder import POINT_WIDTH, PointEncoder
 
 Input = Literal["position", "closest", "size", "count", "colour", "label", "points"]
 # Columns of `CellFeatures.geometry`: the centre; the closest point, how far it is and which way; the rest.
