@@ -30,7 +30,7 @@ from models.citymap.scenery.files import SceneryPart, file_name, is_scenery
 from models.citymap.types import Floats
 from models.errors import IndexBroken
 from models.files import hold
-from models.language.places.name_table import NameTable
+from models.language.mentions.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
 from models.paper.checkpoint import load_retriever
 from models.paper.fine.checkpoint import load_refiner

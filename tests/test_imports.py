@@ -17,7 +17,7 @@ RETRIEVAL = (*LANGUAGE, "models.paper")
 # What is served; it knows of the data that come to it as files, too.
 SOURCES = ("models.sources.osm", "models.sources.kitti360", "models.sources.kitti360pose", "models.sources.store")
 NAMES = ("models.citymap.gazetteer", "models.citymap.kinds")
-PLACES = (*NAMES, "models.language.places", "models.posterior.places")
+PLACES = (*NAMES, "models.language.mentions", "models.posterior.places")
 SERVED = (
     *RETRIEVAL,
     "models.citymap.geometry",
@@ -57,7 +57,7 @@ MAY_IMPORT = {
     "models.sources.synthetic": (*CITY, "models.sources.kitti360", "models.sources.kitti360pose"),
     "models.language": LANGUAGE,
     "models.language.lexicon": LANGUAGE,
-    "models.language.places": (*LANGUAGE, *NAMES),
+    "models.language.mentions": (*LANGUAGE, *NAMES),
     "models.language.grammar": LANGUAGE,
     "models.paper": LANGUAGE,
     "models.paper.fine": RETRIEVAL,
@@ -68,10 +68,10 @@ MAY_IMPORT = {
         "models.paper.fine",
         "models.posterior.places",
         "models.posterior.surroundings",
-        "models.language.places",
+        "models.language.mentions",
     ),
     "models.posterior.surroundings": (*CITY, "models.citymap.geometry"),
-    "models.posterior.places": (*LANGUAGE, "models.citymap.gazetteer", "models.language.places"),
+    "models.posterior.places": (*LANGUAGE, "models.citymap.gazetteer", "models.language.mentions"),
     "models.training": TRAINED,
     "models.training.posterior": FITTED,
     "models.training.engine": RETRIEVAL,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final, Literal, cast, get_args
 
 from index.answers import Choice, Question
-from models.language.lexicon.asked import load_asked
+from models.language.lexicon.question_classes import load_asked
 from models.posterior.sights import NEAR_M, QUARTERS
 
 Kind = Literal["near", "way", "colour", "street", "name", "corner", "address"]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from index.asking.asked import OPEN, UNKNOWN, Asked
 from index.query import Reply
 from models.citymap.gazetteer.gazetteer import Gazetteer
-from models.language.places.mentions import Mention
+from models.language.mentions.mentions import Mention
 from models.posterior.binding import LIKELY, TRUSTED
 from models.posterior.likelihood import Reading
 

@@ -18,7 +18,7 @@ from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import ReplyError
-from models.language.lexicon.asked import load_asked
+from models.language.lexicon.question_classes import load_asked
 from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors

@@ -17,7 +17,7 @@ from models.citymap.gazetteer.name_columns import STREET
 from models.citymap.map_geometry import PieceBodies
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.lexicon.asked import load_asked
+from models.language.lexicon.question_classes import load_asked
 from models.posterior.sights import QUARTERS
 
 WRONG, DO_NOT_KNOW = 0.1, 0.2  # of the answers; of those that are known, so many are wrong

@@ -19,8 +19,8 @@ from index.posterior.place_reader import PlaceReader, constructions
 from index.query import Prior, Query
 from models.citymap.types import Floats, Progress
 from models.errors import DataError
-from models.language.places.languages import language_of
-from models.language.places.reader import listener_wind
+from models.language.mentions.languages import language_of
+from models.language.mentions.reader import listener_wind
 from models.sources.place_texts import SIGMA_M, ToldText
 
 WITHIN_M: Final = (10, 30, 100, 250)

@@ -25,8 +25,8 @@ from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.scenery.files import save_scenery
 from models.citymap.types import Progress
 from models.files import file_records, new_directory
-from models.language.places.lookup import Lookup
-from models.language.places.name_table import NameTable
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
 from models.paper.level_table import LevelTable
 from models.paper.retriever import Retriever

@@ -25,12 +25,12 @@ from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery, MapData
 from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
 from models.citymap.points import Ints
+from models.language.mentions.contradictions import contradictions
+from models.language.mentions.languages import ENGLISH, NAMES, language_of
+from models.language.mentions.mentions import Mention
+from models.language.mentions.name_table import NameTable
+from models.language.mentions.reader import is_meeting, listener_wind
 from models.language.parsed_hint import RELATIONS, ParsedHint
-from models.language.places.contradictions import contradictions
-from models.language.places.languages import ENGLISH, NAMES, language_of
-from models.language.places.mentions import Mention
-from models.language.places.name_table import NameTable
-from models.language.places.reader import is_meeting, listener_wind
 from models.language.reader import COLOURS
 from models.paper.levels import Levels
 from models.posterior.binding import Binding

@@ -12,8 +12,8 @@ from torch import Tensor
 from index.stores.faiss_store import FaissStore
 from models.citymap.types import Floats
 from models.errors import IndexBroken
-from models.language.places.lookup import EMPTY
-from models.language.places.names import plain_words
+from models.language.mentions.lookup import EMPTY
+from models.language.mentions.names import plain_words
 from models.processes import map_forked
 
 LIKE: Final = 0.85  # cosine from which on words mean the same

@@ -15,14 +15,14 @@ from index.posterior.meaning import Meanings
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.types import Floats
+from models.language.mentions.cue_reader import CueReader
+from models.language.mentions.languages import ENGLISH
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.mentions import Mention
+from models.language.mentions.name_table import NameTable
+from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, with_goal
+from models.language.mentions.spans import PASSED, STOP
 from models.language.parsed_hint import WINDS, ParsedHint
-from models.language.places.cue_reader import CueReader
-from models.language.places.languages import ENGLISH
-from models.language.places.lookup import Lookup
-from models.language.places.mentions import Mention
-from models.language.places.name_table import NameTable
-from models.language.places.reader import find_mentions, is_meeting, listener_wind, with_goal
-from models.language.places.spans import PASSED, STOP
 from models.language.text_encoder import TextEncoder
 from models.posterior.places.explained import Explained
 from models.posterior.places.field import PlaceField, Told

@@ -10,8 +10,8 @@ import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
+from models.language.int8 import PackedLayer, may_pack, run_packed
 from models.language.lexicon.lexicon import load_lexicon
-from models.language.packed import PackedLayer, may_pack, run_packed
 from models.language.parsed_hint import RELATIONS, SENTENCE_END, ParsedHint, resolve
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures, run_layers
 

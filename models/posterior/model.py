@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from models.checkpoint import SHIPPED, Checkpoints
 from models.language.labels import LabelMatcher
-from models.language.places.cue_reader import CueReader
+from models.language.mentions.cue_reader import CueReader
 from models.language.reader import Reader, ReaderConfig
 from models.language.text_encoder import OnTextEncoder, TextEncoder, fingerprint_of
 from models.paper.fine.located import TOLD

@@ -9,9 +9,9 @@ import numpy as np
 
 from models.citymap.gazetteer.name_columns import Words
 from models.citymap.points import Ints
-from models.language.places.name_table import BETWEEN
-from models.language.places.names import plain_words
-from models.language.places.streets import ORDINAL
+from models.language.mentions.name_table import BETWEEN
+from models.language.mentions.names import plain_words
+from models.language.mentions.streets import ORDINAL
 from models.posterior.places.spelt import Spelt
 from models.strings import Column, Postings, Strings
 

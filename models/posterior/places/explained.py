@@ -7,7 +7,7 @@ import numpy as np
 from torch import Tensor
 
 from models.citymap.types import Floats
-from models.language.places.mentions import Mention
+from models.language.mentions.mentions import Mention
 
 
 @dataclass(frozen=True, slots=True, eq=False)

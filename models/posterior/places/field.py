@@ -18,8 +18,8 @@ from models.citymap.gazetteer.gazetteer import WALKED, Gazetteer
 from models.citymap.gazetteer.walkways import Walkways
 from models.citymap.points import Ints, corners
 from models.citymap.types import Floats
-from models.language.places.cues import Cue
-from models.language.places.mentions import Mention
+from models.language.mentions.cues import Cue
+from models.language.mentions.mentions import Mention
 from models.posterior.places.explained import NOT_EXPLAINED, Explained, Places
 from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of, with_angle
 from models.posterior.places.way_kernels import WayKernels

@@ -6,7 +6,7 @@ from typing import Final
 import torch
 from torch import Tensor, nn
 
-from models.language.places.mentions import Mention
+from models.language.mentions.mentions import Mention
 
 # What a thing, street or corner may be to the speaker; the metres over which each falls, to start from.
 SCALES: Final = {

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from models.citymap.points import Ints
-from models.language.places.names import plain_words
-from models.language.places.streets import forms_of, full_words
+from models.language.mentions.names import plain_words
+from models.language.mentions.streets import forms_of, full_words
 from models.strings import Column, Postings, Strings
 
 

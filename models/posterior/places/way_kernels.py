@@ -10,7 +10,7 @@ from models.citymap.gazetteer.closest_points import Ways
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
-from models.language.places.mentions import Mention
+from models.language.mentions.mentions import Mention
 from models.posterior.places.kernels import HEADINGS, TYPES, PlaceKernels, kernel_of, with_angle
 
 ACROSS: Final = TYPES.index("across")

@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from models.errors import TrainingError
-from models.language.places.cue_reader import ANGLES, FORMS, RELATIONS
+from models.language.mentions.cue_reader import ANGLES, FORMS, RELATIONS
 
 LABELLED: Final = Path(__file__).parents[2] / "language" / "places" / "labelled"
 PEOPLE: Final = "people"  # of them the kernels of places are fitted to some, so that they are read by halves

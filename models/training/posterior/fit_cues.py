@@ -10,7 +10,7 @@ from torch import Tensor, nn
 
 from models.citymap.points import Ints
 from models.errors import TrainingError
-from models.language.places.cue_reader import ANGLES, FLAGS, FORMS, RELATIONS, CueReader, token_span
+from models.language.mentions.cue_reader import ANGLES, FLAGS, FORMS, RELATIONS, CueReader, token_span
 from models.training.posterior.cue_texts import CueText, names_of, varied
 
 EPOCHS: Final = 12

@@ -15,9 +15,9 @@ from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import TrainingError
-from models.language.places.cue_reader import CueReader
-from models.language.places.lookup import Lookup
-from models.language.places.reader import find_mentions, is_meeting, listener_wind, with_goal
+from models.language.mentions.cue_reader import CueReader
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, with_goal
 from models.language.text_encoder import TextEncoder
 from models.posterior.locate import PLACE_HIT_M
 from models.posterior.places.explained import Places

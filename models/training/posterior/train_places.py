@@ -12,7 +12,7 @@ import numpy as np
 import torch
 
 from models.checkpoint import CONFIG_FILE, SHIPPED
-from models.language.places.cue_reader import CueReader
+from models.language.mentions.cue_reader import CueReader
 from models.posterior.model import PosteriorModel, load_posterior, save_posterior
 from models.posterior.places.kernels import PlaceKernels
 from models.sources.place_texts import load_told_texts

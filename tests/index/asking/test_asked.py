@@ -1,8 +1,8 @@
 import pytest
 
 from index.asking.asked import LISTED, OPEN, OTHER, UNKNOWN, Asked
-from models.language.lexicon.asked import load_asked
 from models.language.lexicon.lexicon import load_lexicon
+from models.language.lexicon.question_classes import load_asked
 
 ALL = [
     Asked("near", ("tree",)),

@@ -5,10 +5,10 @@ from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
 from models.citymap.gazetteer.name_columns import Words
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
-from models.language.places.cue_reader import CueReader
-from models.language.places.lookup import Lookup
-from models.language.places.meaning import TRUST
-from models.language.places.reader import find_mentions
+from models.language.mentions.cue_reader import CueReader
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.paraphrases import TRUST
+from models.language.mentions.reader import find_mentions
 from models.posterior.model import load_posterior
 from tests.models.city.gazetteer.made_town import is_common, point
 

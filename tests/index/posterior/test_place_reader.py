@@ -7,9 +7,9 @@ import pytest
 
 from index.posterior.place_reader import constructions, near_hints, without
 from index.query import Prior, Query
-from models.language.places.cues import Cue
-from models.language.places.mentions import Mention
-from models.language.places.reader import find_mentions
+from models.language.mentions.cues import Cue
+from models.language.mentions.mentions import Mention
+from models.language.mentions.reader import find_mentions
 
 BLOCK_M = 60.0
 

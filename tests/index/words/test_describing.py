@@ -19,7 +19,7 @@ from index.words.describing import (
 from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET, Words
 from models.citymap.types import Hint
-from models.language.places.cues import WIND_DEGREES
+from models.language.mentions.cues import WIND_DEGREES
 from models.posterior.surroundings.surroundings import surroundings_of
 from tests.models.city.gazetteer.made_town import line, made_gazetteer, point, ring
 

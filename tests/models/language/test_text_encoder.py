@@ -10,7 +10,7 @@ from transformers import AutoModel, AutoTokenizer, PreTrainedTokenizerFast, T5Co
 
 from models.errors import WeightsError
 from models.language import text_encoder as module
-from models.language.packed import (
+from models.language.int8 import (
     ADDS_8_BITS,
     LEAST_ROWS,
     PackedEmbeddings,
@@ -207,7 +207,7 @@ def test_layers_keep_little_of_texts_of_all_lengths(text_encoder, monkeypatch) -
         met.add(len(made := pad(*given)))
         return made
 
-    monkeypatch.setattr("models.language.packed.nn.functional.pad", padded)
+    monkeypatch.setattr("models.language.int8.nn.functional.pad", padded)
     with torch.inference_mode():
         for words in range(1, 60):
             text_encoder.read(["cafe " * words], 1)

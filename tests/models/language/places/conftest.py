@@ -2,8 +2,8 @@ import pytest
 
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
-from models.language.places.cue_reader import CueReader
-from models.language.places.lookup import Lookup
+from models.language.mentions.cue_reader import CueReader
+from models.language.mentions.lookup import Lookup
 from models.posterior.model import load_posterior
 from tests.models.city.gazetteer.made_town import is_common, made_gazetteer
 

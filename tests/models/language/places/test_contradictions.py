@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from models.language.places.contradictions import contradictions
-from models.language.places.cues import Cue
-from models.language.places.mentions import Mention
+from models.language.mentions.contradictions import contradictions
+from models.language.mentions.cues import Cue
+from models.language.mentions.mentions import Mention
 
 MUSEUM = Mention("the Museum", 0, 10, "thing", np.array([4, 5]), np.ones(2), is_exact=True)
 STREET = Mention("Mill Street", 0, 11, "street", np.array([9]), np.ones(1), is_exact=True)

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from models.language.places.mentions import Mention
-from models.language.places.reader import find_mentions
+from models.language.mentions.mentions import Mention
+from models.language.mentions.reader import find_mentions
 from tests.models.city.gazetteer.made_town import called
 
 

@@ -1,6 +1,6 @@
 import pytest
 
-from models.language.places.cue_reader import LONGEST, CueReader
+from models.language.mentions.cue_reader import LONGEST, CueReader
 from models.training.posterior.cue_texts import LABELLED, load_labelled
 from models.training.posterior.fit_cues import accuracy
 

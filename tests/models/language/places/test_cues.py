@@ -1,6 +1,6 @@
 import pytest
 
-from models.language.places.cues import distances_of, wind_of, winds_of
+from models.language.mentions.cues import distances_of, wind_of, winds_of
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,9 @@
 import pytest
 
-from models.language.places.cue_reader import CueReader
-from models.language.places.languages import language_of
-from models.language.places.lookup import Lookup
-from models.language.places.reader import find_mentions
+from models.language.mentions.cue_reader import CueReader
+from models.language.mentions.languages import language_of
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.reader import find_mentions
 
 
 @pytest.mark.parametrize(

@@ -4,8 +4,8 @@ import pytest
 from models.citymap.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET, Words
 from models.citymap.kinds.vocabulary import load_vocabulary
-from models.language.places.lookup import KEPT, Lookup
-from models.language.places.names import plain_words
+from models.language.mentions.lookup import KEPT, Lookup
+from models.language.mentions.names import plain_words
 from tests.models.city.gazetteer.made_town import NUMBERS, called, is_common, line, numbered, point
 
 

@@ -1,8 +1,8 @@
 import pytest
 
-from models.language.places.cue_reader import CueReader, ReadCue
-from models.language.places.mentions import Mention, with_cues
-from models.language.places.reader import find_mentions
+from models.language.mentions.cue_reader import CueReader, ReadCue
+from models.language.mentions.mentions import Mention, with_cues
+from models.language.mentions.reader import find_mentions
 
 
 def said(text: str, cues: CueReader, *things: str) -> list[tuple[str, float | None]]:

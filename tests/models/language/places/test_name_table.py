@@ -3,9 +3,9 @@ import pytest
 from models.citymap.gazetteer.gazetteer import NOTHING_NAMED
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
-from models.language.places.lookup import Lookup
-from models.language.places.name_table import FILE, NameTable
-from models.language.places.names import plain_words
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.name_table import FILE, NameTable
+from models.language.mentions.names import plain_words
 from tests.models.city.gazetteer.made_town import is_common
 
 SAID = (

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.language.places.names import plain_word, plain_words, words_of
+from models.language.mentions.names import plain_word, plain_words, words_of
 
 
 @pytest.mark.parametrize(

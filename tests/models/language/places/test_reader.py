@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
 from models.citymap.gazetteer.name_columns import Words
 from models.citymap.kinds.vocabulary import load_vocabulary
-from models.language.places.lookup import Lookup
-from models.language.places.reader import MOST_OBJECTS, find_mentions, is_meeting, listener_wind, with_goal
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.reader import MOST_OBJECTS, find_mentions, is_meeting, listener_wind, with_goal
 from tests.models.city.gazetteer.made_town import called, is_common, point
 
 LETTERS = st.text(st.sampled_from("25th 10ave on&W st.,/'!éßⅣ²፩ﾞ٣京\u0308\u200dI"), max_size=25)

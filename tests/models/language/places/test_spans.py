@@ -2,7 +2,7 @@ from itertools import pairwise
 
 import pytest
 
-from models.language.places.spans import find_spans, like_noun
+from models.language.mentions.spans import find_spans, like_noun
 from tests.models.city.gazetteer.made_town import called
 
 

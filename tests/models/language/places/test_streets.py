@@ -1,7 +1,7 @@
 import pytest
 
-from models.language.places.names import plain_words
-from models.language.places.streets import forms_of, full_words, ordinal
+from models.language.mentions.names import plain_words
+from models.language.mentions.streets import forms_of, full_words, ordinal
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ import torch
 from models.citymap.gazetteer.closest_points import Around
 from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, WALKED, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET, Words
-from models.language.places.cues import Cue
-from models.language.places.mentions import Mention
+from models.language.mentions.cues import Cue
+from models.language.mentions.mentions import Mention
 from models.posterior.places.field import PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, TYPES, PlaceKernels, kernel_of
 from tests.models.city.gazetteer.made_town import BENCHES, line, made_gazetteer, numbered, point

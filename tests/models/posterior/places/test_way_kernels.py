@@ -5,8 +5,8 @@ import pytest
 import torch
 
 from models.citymap.gazetteer.closest_points import Ways
-from models.language.places.cues import Cue
-from models.language.places.mentions import Mention
+from models.language.mentions.cues import Cue
+from models.language.mentions.mentions import Mention
 from models.posterior.places.field import PlaceField
 from models.posterior.places.kernels import PlaceKernels
 from models.posterior.places.way_kernels import WayKernels, _scaled_bessel

@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from models.errors import TrainingError
-from models.language.places.cue_reader import ANGLES, CueReader
+from models.language.mentions.cue_reader import ANGLES, CueReader
 from models.posterior.model import load_posterior
 from models.training.posterior.cue_texts import CueText, Item, load_labelled, mirrored, names_of, renamed, varied
 from models.training.posterior.fit_cues import accuracy, fit_cues

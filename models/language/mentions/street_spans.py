@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from typing import Final
 
-from models.language.places.lookup import Lookup, Match
-from models.language.places.names import WINDS, Word
-from models.language.places.streets import KINDS, ORDINAL, TYPES, ordinal
-from models.language.places.words import english
+from models.language.mentions.lookup import Lookup, Match
+from models.language.mentions.names import WINDS, Word
+from models.language.mentions.streets import KINDS, ORDINAL, TYPES, ordinal
+from models.language.mentions.word_lists import english
 
 STREET, TYPED, PER_WORD = 5.0, 2.0, 3.0  # what streets are worth beside names
 MEETING: Final = 3.0  # of a street beside a numbered one

@@ -14,11 +14,11 @@ from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.places.languages import ENGLISH
-from models.language.places.name_table import BETWEEN, NameTable
-from models.language.places.names import ARTICLES, plain_word, plain_words
-from models.language.places.streets import full_words
-from models.language.places.words import english
+from models.language.mentions.languages import ENGLISH
+from models.language.mentions.name_table import BETWEEN, NameTable
+from models.language.mentions.names import ARTICLES, plain_word, plain_words
+from models.language.mentions.streets import full_words
+from models.language.mentions.word_lists import english
 
 Nouns = Mapping[str, tuple[tuple[str, float], ...]]
 LIKE: Final = 84.0  # of 100, rapidfuzz.fuzz.ratio, from which on a misspelt name is meant

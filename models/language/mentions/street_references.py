@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from models.citymap.points import Ints
-from models.language.places.lookup import Lookup
-from models.language.places.mentions import Mention
-from models.language.places.names import plain_words
-from models.language.places.streets import full_words
-from models.language.places.words import english
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.mentions import Mention
+from models.language.mentions.names import plain_words
+from models.language.mentions.streets import full_words
+from models.language.mentions.word_lists import english
 
 _AGAIN = english().pattern("streets", "again")
 

@@ -9,9 +9,9 @@ import torch
 from torch import Tensor, nn
 from torch.func import functional_call
 
-from models.language.packed import PackedLayer, may_pack, run_packed, shut_of
-from models.language.places.cues import Relation
-from models.language.places.spans import Form
+from models.language.int8 import PackedLayer, may_pack, run_packed, shut_of
+from models.language.mentions.cues import Relation
+from models.language.mentions.spans import Form
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
 ANGLES: Final = (None, 0.0, 22.0, 45.0, 90.0, 135.0, 180.0, -135.0, -90.0, -45.0, -22.0)  # None: not told

@@ -16,8 +16,8 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import IndexBroken
 from models.files import mapped
-from models.language.places.names import plain_words
-from models.language.places.streets import forms_of, full_words
+from models.language.mentions.names import plain_words
+from models.language.mentions.streets import forms_of, full_words
 from models.strings import Pairs, Postings, joined
 
 FILE: Final = "names.safetensors"

@@ -6,8 +6,8 @@ from typing import Final
 from py3langid.langid import MODEL_FILE, LanguageIdentifier
 
 from models.citymap.kinds.vocabulary import load_vocabulary
-from models.language.places.names import words_of
-from models.language.places.words import english
+from models.language.mentions.names import words_of
+from models.language.mentions.word_lists import english
 
 ENGLISH: Final = "en"
 LEAST_ENGLISH: Final = 0.2  # share of everyday English words from which on nothing else is asked

@@ -10,12 +10,12 @@ import numpy as np
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
-from models.language.places.languages import ENGLISH
-from models.language.places.lookup import EMPTY, Lookup, Match
-from models.language.places.names import Word, words_of
-from models.language.places.street_spans import streets_at
-from models.language.places.streets import ORDINAL
-from models.language.places.words import english
+from models.language.mentions.languages import ENGLISH
+from models.language.mentions.lookup import EMPTY, Lookup, Match
+from models.language.mentions.names import Word, words_of
+from models.language.mentions.street_spans import streets_at
+from models.language.mentions.streets import ORDINAL
+from models.language.mentions.word_lists import english
 
 Form = Literal["thing", "street", "corner", "span", "address", "unknown"]
 MOST_WORDS: Final = 6  # of a name

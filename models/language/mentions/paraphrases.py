@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Final
 
-from models.language.places.lookup import Lookup
-from models.language.places.names import Word, plain_words
-from models.language.places.spans import Span, with_objects
-from models.language.places.words import english
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.names import Word, plain_words
+from models.language.mentions.spans import Span, with_objects
+from models.language.mentions.word_lists import english
 
 TRUST: Final = 0.8  # that words with the same meaning mean the same
 _SHOPS = english().pattern("things", "shops")

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from typing import Final
 
-from models.language.places.names import WINDS, plain_words
+from models.language.mentions.names import WINDS, plain_words
 
 # What a street's kind is written as; libpostal's English, German and Finnish short forms that people type.
 TYPES: Final = {

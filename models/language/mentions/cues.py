@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from models.language.places.names import NUMBERS
-from models.language.places.words import english
+from models.language.mentions.names import NUMBERS
+from models.language.mentions.word_lists import english
 
 Relation = Literal[
     "seen", "at", "outside", "beside", "near", "across", "inside", "past", "off", "on", "far", "block", "wind"

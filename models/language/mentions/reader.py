@@ -4,16 +4,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from models.language.places.again import resolved, with_again
-from models.language.places.crossings import with_addresses, with_corners
-from models.language.places.cue_reader import CueReader
-from models.language.places.cues import wind_of
-from models.language.places.languages import ENGLISH
-from models.language.places.lookup import Lookup
-from models.language.places.meaning import Like, with_meant
-from models.language.places.mentions import Mention, with_cues
-from models.language.places.spans import find_spans
-from models.language.places.words import english
+from models.language.mentions.crossings import with_addresses, with_corners
+from models.language.mentions.cue_reader import CueReader
+from models.language.mentions.cues import wind_of
+from models.language.mentions.languages import ENGLISH
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.mentions import Mention, with_cues
+from models.language.mentions.paraphrases import Like, with_meant
+from models.language.mentions.spans import find_spans
+from models.language.mentions.street_references import resolved, with_again
+from models.language.mentions.word_lists import english
 
 MOST_OBJECTS: Final = 2500  # what so many things may be tells nothing
 _W = english()

@@ -9,10 +9,10 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.places.cues import Cue
-from models.language.places.lookup import Lookup
-from models.language.places.mentions import Mention
-from models.language.places.words import english
+from models.language.mentions.cues import Cue
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.mentions import Mention
+from models.language.mentions.word_lists import english
 
 LONGEST_SPAN_M: Final = 600.0
 _W = english()

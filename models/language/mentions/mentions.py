@@ -9,11 +9,11 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.places.cue_reader import CueReader, ReadCue
-from models.language.places.cues import SEEN, WIND_WORD, Cue, Said, distances_of, wind_of, winds_of
-from models.language.places.names import Word
-from models.language.places.spans import Form, Span
-from models.language.places.words import english
+from models.language.mentions.cue_reader import CueReader, ReadCue
+from models.language.mentions.cues import SEEN, WIND_WORD, Cue, Said, distances_of, wind_of, winds_of
+from models.language.mentions.names import Word
+from models.language.mentions.spans import Form, Span
+from models.language.mentions.word_lists import english
 
 NO_OBJECTS: Final = np.zeros(0, np.int64)
 NO_WEIGHTS: Final = np.zeros(0)
