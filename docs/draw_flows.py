@@ -102,7 +102,7 @@ def city(axes: Axes) -> Box:
     left, right, half = x - 13.5, x + 13.5, 25.0
     encode = box(axes, (left, 62.5, half, TALL), "models", "Retriever encodes", "models/paper/",
                  "vectors of cells, features of hints")  # fmt: skip
-    around = box(axes, (right, 62.5, half, TALL), "models", "Surroundings", "models/posterior/surroundings/",
+    around = box(axes, (right, 62.5, half, TALL), "models", "Surroundings", "models/posterior/neighbours/",
                  "what is within 15 m of each node")  # fmt: skip
     write = box(axes, (x, 49.5, wide, TALL), "index", "Write a version, whole or not at all",
                 "index/offline, index/artifact.py",

@@ -11,8 +11,8 @@ from models.citymap.frame import Frame
 from models.citymap.hints import BEST_CELL_REACH_M
 from models.citymap.points import ranges
 from models.citymap.types import Floats
-from models.posterior.inside import Inside
-from models.posterior.surroundings.surroundings import Surroundings
+from models.posterior.area_filter import Inside
+from models.posterior.neighbours.neighbour_index import Surroundings
 
 BEND_M: Final = 0.5  # by which an edge of a box in degrees may bend between points
 REACH_M: Final = BEST_CELL_REACH_M + BEND_M  # of a cell's nodes from its centre

@@ -13,7 +13,7 @@ from models.citymap.gallery import Gallery
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import IndexBroken
 from models.paper.retriever import Retriever
-from models.posterior.surroundings.things import Things
+from models.posterior.neighbours.map_objects import Things
 
 FILE = "hints.safetensors"
 

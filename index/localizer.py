@@ -38,10 +38,10 @@ from models.paper.fine.fine_model import FineMethod, FineModel
 from models.paper.level_table import STARTS_FILE
 from models.paper.retriever import Retriever
 from models.posterior.model import PosteriorModel, load_posterior
+from models.posterior.neighbours.neighbour_index import Surroundings, load_surroundings
+from models.posterior.neighbours.piece_index import PieceSurroundings
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.statements import Statements
-from models.posterior.surroundings.piece_surroundings import PieceSurroundings
-from models.posterior.surroundings.surroundings import Surroundings, load_surroundings
 
 
 class Localizer:

@@ -26,7 +26,7 @@ SERVED = (
     "models.citymap.scenery",
     "models.paper.fine",
     "models.posterior",
-    "models.posterior.surroundings",
+    "models.posterior.neighbours",
 )
 TRAINED = (*SERVED, GRAMMAR, "models.sources.synthetic", "models.training", "models.training.engine")
 FITTED = (*TRAINED, "models.training.posterior")
@@ -67,10 +67,10 @@ MAY_IMPORT = {
         "models.citymap.geometry",
         "models.paper.fine",
         "models.posterior.places",
-        "models.posterior.surroundings",
+        "models.posterior.neighbours",
         "models.language.mentions",
     ),
-    "models.posterior.surroundings": (*CITY, "models.citymap.geometry"),
+    "models.posterior.neighbours": (*CITY, "models.citymap.geometry"),
     "models.posterior.places": (*LANGUAGE, "models.citymap.gazetteer", "models.language.mentions"),
     "models.training": TRAINED,
     "models.training.posterior": FITTED,

@@ -100,7 +100,7 @@ class Evaluation(BaseModel):
         from index.posterior.localizer import PosteriorLocalizer  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
-        from models.posterior.surroundings.surroundings import surroundings_of  # noqa: PLC0415
+        from models.posterior.neighbours.neighbour_index import surroundings_of  # noqa: PLC0415
 
         ranker = self._ranker(source, load_retriever(self.weights_dir).global_alone(), progress)
         surroundings = surroundings_of(source.bodies(), source.data.cells, progress)

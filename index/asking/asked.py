@@ -6,7 +6,7 @@ from typing import Final, Literal, cast, get_args
 
 from index.answers import Choice, Question
 from models.language.lexicon.question_classes import load_asked
-from models.posterior.sights import NEAR_M, QUARTERS
+from models.posterior.nearby_objects import NEAR_M, QUARTERS
 
 Kind = Literal["near", "way", "colour", "street", "name", "corner", "address"]
 OPEN: Final[Mapping[Kind, str]] = {

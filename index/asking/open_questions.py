@@ -13,7 +13,7 @@ from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.posterior.places.addresses import Addresses
 from models.posterior.places.landmarks import Landmarks, Table
-from models.posterior.places.spelt import Spelt
+from models.posterior.places.name_index import Spelt
 from models.posterior.questions import said_with_errors
 
 _NONE: Final = np.zeros(0, np.int64)

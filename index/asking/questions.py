@@ -19,10 +19,10 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.question_classes import load_asked
+from models.posterior.nearby_objects import Seen, Sights
 from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors
-from models.posterior.sights import Seen, Sights
 
 LEAST_GAIN: Final = 0.1  # bits; what narrows no more is not worth asking
 EFFORT: Final = {"address": 1.0}  # bits that it must narrow more than what a word answers, to be asked instead

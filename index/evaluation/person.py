@@ -18,7 +18,7 @@ from models.citymap.map_geometry import PieceBodies
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.lexicon.question_classes import load_asked
-from models.posterior.sights import QUARTERS
+from models.posterior.nearby_objects import QUARTERS
 
 WRONG, DO_NOT_KNOW = 0.1, 0.2  # of the answers; of those that are known, so many are wrong
 TEN_M, REACH_M, SIGN_M = 10.0, 15.0, 30.0  # what people take for near, for the nearest one, and read a sign at

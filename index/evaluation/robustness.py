@@ -24,8 +24,8 @@ from models.citymap.points import Ints, ranges
 from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
-from models.posterior.surroundings.surroundings import Surroundings
-from models.posterior.surroundings.things import Things
+from models.posterior.neighbours.map_objects import Things
+from models.posterior.neighbours.neighbour_index import Surroundings
 
 MOST_QUERIES = 300
 SEED = 0

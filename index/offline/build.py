@@ -21,8 +21,8 @@ from models.paper.checkpoint import load_retriever
 from models.paper.level_table import STARTS_FILE
 from models.paper.retriever import Retriever
 from models.posterior.model import PosteriorModel, load_posterior
-from models.posterior.surroundings.scan_surroundings import ScanSurroundings
-from models.posterior.surroundings.surroundings import surroundings_of
+from models.posterior.neighbours.neighbour_index import surroundings_of
+from models.posterior.neighbours.scan_index import ScanSurroundings
 from models.processes import forked
 from models.sources.osm.extract import Region, extracted
 from models.sources.source import open_source

@@ -25,11 +25,11 @@ from models.paper.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.paper.levels import Level
 from models.paper.retriever import Retriever
 from models.posterior.likelihood import Likelihood
+from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.piece_index import PieceSurroundings
+from models.posterior.neighbours.scan_index import FILE as SURROUNDINGS_FILE
+from models.posterior.neighbours.scan_index import ScanSurroundings
 from models.posterior.statements import StatementRows, statement_rows
-from models.posterior.surroundings.piece_surroundings import PieceSurroundings
-from models.posterior.surroundings.scan_surroundings import FILE as SURROUNDINGS_FILE
-from models.posterior.surroundings.scan_surroundings import ScanSurroundings
-from models.posterior.surroundings.surroundings import Surroundings
 from models.processes import give_back, map_forked
 from models.sources.source import MapSource, Source
 from models.spool import forget, spooled

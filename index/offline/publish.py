@@ -30,9 +30,9 @@ from models.language.mentions.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
 from models.paper.level_table import LevelTable
 from models.paper.retriever import Retriever
+from models.posterior.neighbours.neighbour_index import Surroundings
 from models.posterior.node_batch import colour_words
 from models.posterior.statements import Statements
-from models.posterior.surroundings.surroundings import Surroundings
 from models.processes import give_back
 from models.sources.source import Source, gazetteer_of
 from models.spool import forget, spooled

@@ -33,17 +33,17 @@ from models.language.mentions.reader import is_meeting, listener_wind
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.paper.levels import Levels
+from models.posterior.area_filter import Inside
 from models.posterior.binding import Binding
-from models.posterior.inside import Inside
 from models.posterior.likelihood import Reading
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
+from models.posterior.neighbours.neighbour_index import Surroundings
 from models.posterior.places.field import Told
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
-from models.posterior.surroundings.surroundings import Surroundings
 from models.threads import beside
 
 KEPT_VECTORS = 256  # of descriptions, the latest

@@ -24,7 +24,7 @@ from models.language.mentions.reader import find_mentions, is_meeting, listener_
 from models.language.mentions.spans import PASSED, STOP
 from models.language.parsed_hint import WINDS, ParsedHint
 from models.language.text_encoder import TextEncoder
-from models.posterior.places.explained import Explained
+from models.posterior.places.explanations import Explained
 from models.posterior.places.field import PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 

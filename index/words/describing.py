@@ -28,7 +28,7 @@ from models.citymap.gazetteer.name_columns import STREET
 from models.citymap.hints import BEST_CELL_REACH_M, direction_index, round_robin
 from models.citymap.points import Ints
 from models.citymap.types import DIRECTIONS, Floats, Hint
-from models.posterior.surroundings.surroundings import Surroundings
+from models.posterior.neighbours.neighbour_index import Surroundings
 
 MOST_FACTS: Final = 6
 MOST_NAMED: Final = 3

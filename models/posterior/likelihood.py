@@ -9,8 +9,8 @@ import torch
 from torch import Tensor, nn
 
 from models.citymap.colours import Palette
+from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.node_batch import OFFSET, RANKS, NodeBatch, colour_words
-from models.posterior.surroundings.around import STEP_M
 
 HABITS: Final = 3
 FAINT: Final = 5e-3  # what fits a hint less than this is left to chance

@@ -10,12 +10,12 @@ from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.compiled import compiled
 from models.paper.fine.located import Located, heaviest
-from models.posterior.inside import Inside
+from models.posterior.area_filter import Inside
 from models.posterior.likelihood import Reading
+from models.posterior.neighbours.nodes import SPACING_M
 from models.posterior.places.field import Told
 from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
 from models.posterior.questions import Answered
-from models.posterior.surroundings.nodes import SPACING_M
 
 HIT_M = 6.5  # positions are chosen to have most of the mass this near, softly
 PLACE_HIT_M = 10.0  # the same where places are named: what is far away leaves a wider peak

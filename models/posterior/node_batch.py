@@ -11,7 +11,7 @@ from models.citymap.colours import Palette
 from models.citymap.hints import ON_TOP_M
 from models.citymap.points import Ints
 from models.compiled import compiled
-from models.posterior.surroundings.around import STEP_M, Around
+from models.posterior.neighbours.neighbours import STEP_M, Around
 
 RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
 MOST: Final = tuple(size - 1 for size in RANKS)
@@ -27,7 +27,7 @@ class NodeBatch:
     Attributes:
         node: [R] node of each row, ascending.
         way: [R] number of the way from the instance's closest point, see `way_number`.
-        whole: [R] bool, see `models.posterior.surroundings.around.Around`.
+        whole: [R] bool, see `models.posterior.neighbours.neighbours.Around`.
         rank: [R, 5] how many nearer instances there are, and how many in all, see `ranks_of`.
         part: [R] row of the next three.
         parts: [P] row of each part in the gallery.

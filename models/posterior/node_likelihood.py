@@ -14,9 +14,9 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
+from models.posterior.neighbours.neighbours import Around
 from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, WAYS, colour_words, count_ranks, no_counts
 from models.posterior.node_sums import log_p_of, longest, place_of, powers_of, share_out
-from models.posterior.surroundings.around import Around
 
 _EAST_WEST: Final = np.array([0, 7, 6, 5, 4, 3, 2, 1, 8, 9, 10, 11])  # of RELATIONS and two more, which side is which
 _NORTH_SOUTH: Final = np.array([4, 3, 2, 1, 0, 7, 6, 5, 8, 9, 10, 11])

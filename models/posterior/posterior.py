@@ -13,16 +13,16 @@ from models.citymap.cells import CellTable
 from models.citymap.colours import Palette
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
-from models.posterior.inside import Inside
+from models.posterior.area_filter import Inside
 from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.nearby_objects import Sights
+from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.nodes import is_coarse
 from models.posterior.node_batch import usual_statements
 from models.posterior.node_likelihood import NodeLikelihood
 from models.posterior.places.field import Told
 from models.posterior.questions import Answered
-from models.posterior.sights import Sights
 from models.posterior.statements import Statements
-from models.posterior.surroundings.nodes import is_coarse
-from models.posterior.surroundings.surroundings import Surroundings
 from models.threads import THREADS, shared_out
 
 SHARED: Final = 512  # nodes from which on two threads look at them

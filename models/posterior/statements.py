@@ -21,9 +21,9 @@ from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
 from models.files import mapped, save_in_order
 from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.node_batch import OFFSET, NodeBatch
-from models.posterior.surroundings.around import STEP_M
-from models.posterior.surroundings.surroundings import Surroundings
 from models.processes import map_forked
 from models.spool import on_disk, spooled
 from models.threads import shared_out

@@ -12,7 +12,7 @@ from models.citymap.points import Ints
 from models.language.mentions.name_table import BETWEEN
 from models.language.mentions.names import plain_words
 from models.language.mentions.streets import ORDINAL
-from models.posterior.places.spelt import Spelt
+from models.posterior.places.name_index import Spelt
 from models.strings import Column, Postings, Strings
 
 _NUMBER: Final = re.compile(r"\d+")

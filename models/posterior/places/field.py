@@ -20,7 +20,7 @@ from models.citymap.points import Ints, corners
 from models.citymap.types import Floats
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
-from models.posterior.places.explained import NOT_EXPLAINED, Explained, Places
+from models.posterior.places.explanations import NOT_EXPLAINED, Explained, Places
 from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of, with_angle
 from models.posterior.places.way_kernels import WayKernels
 from models.threads import beside

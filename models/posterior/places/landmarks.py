@@ -19,8 +19,8 @@ from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
 from models.files import mapped
 from models.posterior.places.addresses import Addresses
-from models.posterior.places.chances import Chances, shares
-from models.posterior.places.spelt import Spelt
+from models.posterior.places.name_index import Spelt
+from models.posterior.places.name_probabilities import Chances, shares
 from models.spool import Spool, starts_of
 from models.strings import Column, joined
 

@@ -14,7 +14,7 @@ from models.citymap.points import Ints, ranges
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import NodeBatch
 from models.posterior.posterior import HintPosterior
-from models.training.posterior.places import Place
+from models.training.posterior.training_sites import Place
 
 NEAR_M = 25.0  # cells this near to the truth are always looked at
 HARD, RANDOM = 40, 40  # and so many that fit the text, and others

@@ -20,7 +20,7 @@ from models.language.mentions.lookup import Lookup
 from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, with_goal
 from models.language.text_encoder import TextEncoder
 from models.posterior.locate import PLACE_HIT_M
-from models.posterior.places.explained import Places
+from models.posterior.places.explanations import Places
 from models.posterior.places.field import PlaceField, Rough
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 from models.sources.place_texts import SIGMA_M, ToldText

@@ -22,7 +22,7 @@ from models.training.posterior.cue_texts import labelled_texts
 from models.training.posterior.fit_cues import EPOCHS, fit_cues
 from models.training.posterior.fit_likelihood import Texts, fit_likelihood
 from models.training.posterior.fit_reader import ReadingSet, ReadingTask, reading_figures
-from models.training.posterior.places import Place
+from models.training.posterior.training_sites import Place
 from models.training.settings import TrainingConfig, settings_record
 
 TEXTS, VALIDATION_TEXTS = 28_000, 500  # that the reader is trained on, and chosen by

@@ -13,7 +13,7 @@ from index.vector_localizer import VectorLocalizer
 from models.citymap.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
-from models.posterior.surroundings.surroundings import surroundings_of
+from models.posterior.neighbours.neighbour_index import surroundings_of
 
 HINTS = tuple(
     Hint(direction, label, colour)

@@ -14,7 +14,7 @@ from index.ranking import Ranker
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
-from models.posterior.surroundings.surroundings import surroundings_of
+from models.posterior.neighbours.neighbour_index import surroundings_of
 
 SENTENCE = re.compile(r"The pose is (\S+) of a ([^.]+)\.")
 

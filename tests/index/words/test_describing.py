@@ -20,7 +20,7 @@ from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET, Words
 from models.citymap.types import Hint
 from models.language.mentions.cues import WIND_DEGREES
-from models.posterior.surroundings.surroundings import surroundings_of
+from models.posterior.neighbours.neighbour_index import surroundings_of
 from tests.models.city.gazetteer.made_town import line, made_gazetteer, point, ring
 
 WIND = re.compile(r"to my (\w+)\.|(\w+) of me\.")

@@ -7,8 +7,8 @@ import torch
 from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.parsed_hint import RELATIONS
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
+from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.node_batch import WAYS, NodeBatch, colour_words, ranks_of, usual_statements, way_number
-from models.posterior.surroundings.around import STEP_M
 
 WORDS = len(colour_words(KITTI360_PALETTE))
 

@@ -6,9 +6,9 @@ import torch
 
 from models.citymap.colours import KITTI360_PALETTE
 from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.neighbours.neighbours import Around
 from models.posterior.node_batch import NodeBatch, colour_words, usual_statements
 from models.posterior.node_likelihood import NodeLikelihood
-from models.posterior.surroundings.around import Around
 
 LABELS, THINGS, NODES = 4, 30, 40
 IS_VAGUE = np.arange(THINGS) % 3 == 0

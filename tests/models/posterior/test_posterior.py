@@ -7,14 +7,14 @@ import pytest
 import torch
 
 from models.language.parsed_hint import RELATIONS
-from models.posterior.inside import Inside
+from models.posterior.area_filter import Inside
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
 from models.posterior.node_batch import colour_words
 from models.posterior.posterior import HintPosterior
 from models.sources.source import CHOSEN_BY
 from models.training.posterior.fit_likelihood import Texts, around_cells, fit_likelihood, surprise
-from models.training.posterior.places import Place
+from models.training.posterior.training_sites import Place
 
 
 @dataclass

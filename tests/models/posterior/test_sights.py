@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from models.posterior.sights import FAR_M, NEAR_M, Sights
-from models.posterior.surroundings.around import STEP_M
-from models.posterior.surroundings.scan_surroundings import ScanSurroundings
-from models.posterior.surroundings.things import Things
+from models.posterior.nearby_objects import FAR_M, NEAR_M, Sights
+from models.posterior.neighbours.map_objects import Things
+from models.posterior.neighbours.neighbours import STEP_M
+from models.posterior.neighbours.scan_index import ScanSurroundings
 
 TREE, LAMP = 0, 1
 LABEL = np.array([TREE, TREE, LAMP])

@@ -5,9 +5,9 @@ from scipy.sparse import csc_array
 
 from models.errors import IndexBroken
 from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.neighbours.neighbour_index import surroundings_of
 from models.posterior.node_batch import NodeBatch
 from models.posterior.statements import _SECTOR_OF_RELATION, FILE, FLOOR, SECTORS, Statements
-from models.posterior.surroundings.surroundings import surroundings_of
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,6 @@
 import pytest
 
-from models.posterior.places.spelt import Spelt
+from models.posterior.places.name_index import Spelt
 
 STREETS = [("East 42nd Street",), ("West 42nd Street",), ("Fabianinkatu", "Fabiansgatan"), ("Broadway",)]
 PLACES = [("Café Zoë",), ("R-Kioski",), ("R-kioski", "Ärrä"), ("The Strand", "Strand Books"), ("Ärrä",), ("!!!",)]

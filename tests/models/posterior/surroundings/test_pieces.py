@@ -8,8 +8,8 @@ import pytest
 
 from models.citymap.map_geometry import bodies_of, cut_cells
 from models.citymap.types import CityMap, CutRules, Instance
-from models.posterior.surroundings.around import STEP_M
-from models.posterior.surroundings.scan_surroundings import ScanSurroundings
+from models.posterior.neighbours.neighbours import STEP_M
+from models.posterior.neighbours.scan_index import ScanSurroundings
 from models.sources.source import MapSource
 
 LEFT, RIGHT = np.array([0.2, 0.2, 0.2]), np.array([0.8, 0.8, 0.8])

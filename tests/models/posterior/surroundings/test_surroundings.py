@@ -3,10 +3,10 @@ import pytest
 
 from models.citymap.map_geometry import bodies_of, cut_cells
 from models.errors import IndexBroken
-from models.posterior.surroundings.around import STEP_M
-from models.posterior.surroundings.nodes import SPACING_M
-from models.posterior.surroundings.scan_surroundings import ScanSurroundings
-from models.posterior.surroundings.surroundings import load_surroundings, surroundings_of
+from models.posterior.neighbours.neighbour_index import load_surroundings, surroundings_of
+from models.posterior.neighbours.neighbours import STEP_M
+from models.posterior.neighbours.nodes import SPACING_M
+from models.posterior.neighbours.scan_index import ScanSurroundings
 from models.sources.source import MapSource, open_source
 
 
@@ -27,7 +27,7 @@ def around(source, cells):
 
 def test_nodes_are_the_same_however_many_columns_are_looked_at(around, monkeypatch):
     cells, bodies, expected = around
-    monkeypatch.setattr("models.posterior.surroundings.nodes.COLUMNS", 7)
+    monkeypatch.setattr("models.posterior.neighbours.nodes.COLUMNS", 7)
     found = surroundings_of(bodies, cells)
     assert np.array_equal(found.offset, expected.offset)
     assert np.array_equal(found.cell_starts, expected.cell_starts)

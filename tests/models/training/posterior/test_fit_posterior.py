@@ -17,7 +17,7 @@ from models.language.parsed_hint import WINDS
 from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
 from models.training.posterior import fit_posterior
-from models.training.posterior.places import Place
+from models.training.posterior.training_sites import Place
 from models.training.settings import TrainingConfig
 
 
@@ -88,7 +88,7 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
 def read_texts(monkeypatch, wording, **shares) -> list[str]:
     """Twenty texts about three things, as they are given to the reader."""
     for name, value in shares.items():
-        monkeypatch.setattr(f"models.training.posterior.places.{name}", value)
+        monkeypatch.setattr(f"models.training.posterior.training_sites.{name}", value)
     shipped, texts = load_posterior(), []
 
     def read(some):

@@ -11,7 +11,7 @@ from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.posterior.places.addresses import Addresses
-from models.posterior.places.spelt import Spelt
+from models.posterior.places.name_index import Spelt
 
 ON_STREET_M: Final = 40.0  # as far as a street may be which somebody says to be on
 BETWEEN_M: Final = 8.0  # by which of two streets or houses one must be nearer to be the one

@@ -21,9 +21,9 @@ from models.citymap.types import CutRules, Floats
 from models.compiled import compiled
 from models.errors import IndexBroken
 from models.files import mapped
-from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.nodes import SPACING_M, nearest_nodes, owner_of, put_in_order, slices
-from models.posterior.surroundings.things import Things
+from models.posterior.neighbours.map_objects import Things
+from models.posterior.neighbours.neighbours import STEP_M, Around
+from models.posterior.neighbours.nodes import SPACING_M, nearest_nodes, owner_of, put_in_order, slices
 from models.spool import forget, in_turn, on_disk, spooled
 from models.strings import compact
 
@@ -33,7 +33,7 @@ THINGS: Final = ("instance", "rgb", "parts", "is_flat")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PieceSurroundings:
-    """See `models.posterior.surroundings.surroundings`.
+    """See `models.posterior.neighbours.neighbour_index`.
 
     Attributes:
         things: the map's instances.

@@ -18,8 +18,8 @@ from models.language.parsed_hint import WINDS
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
+from models.posterior.neighbours.neighbour_index import Surroundings, surroundings_of
 from models.posterior.posterior import HintPosterior
-from models.posterior.surroundings.surroundings import Surroundings, surroundings_of
 from models.sources.source import CHOSEN_BY, SPACING_M, Source
 
 READ_AT_ONCE = 16

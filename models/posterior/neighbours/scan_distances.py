@@ -11,7 +11,7 @@ from models.citymap.gallery import Clouds
 from models.citymap.hints import HINT_REACH_M
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.posterior.surroundings.scan_pieces import PieceFinder, Tiles
+from models.posterior.neighbours.scan_pieces import PieceFinder, Tiles
 
 PIECE = 0.6  # a piece has at least this share of the points that a part has; cubes of nodes and of cells differ
 LARGE_M = 8.0  # things no larger than this are counted as whole wherever they are near

@@ -15,10 +15,10 @@ from models.citymap.gallery import Clouds
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats, Progress
 from models.errors import IndexBroken
-from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.nodes import grid, nearest_nodes, owner_of
-from models.posterior.surroundings.scan_ways import ScanWays
-from models.posterior.surroundings.things import Things
+from models.posterior.neighbours.map_objects import Things
+from models.posterior.neighbours.neighbours import STEP_M, Around
+from models.posterior.neighbours.nodes import grid, nearest_nodes, owner_of
+from models.posterior.neighbours.scan_distances import ScanWays
 from models.processes import map_forked
 
 FILE: Final = "surroundings.safetensors"
@@ -29,7 +29,7 @@ CHUNK: Final = 64  # instances a task
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScanSurroundings:
-    """See `models.posterior.surroundings.surroundings`; the rows of all nodes.
+    """See `models.posterior.neighbours.neighbour_index`; the rows of all nodes.
 
     Attributes:
         things: the parts of the cells.

@@ -15,10 +15,10 @@ from models.citymap.gallery import Clouds
 from models.citymap.map_geometry import PieceBodies
 from models.citymap.points import Ints
 from models.citymap.types import Floats, Progress
-from models.posterior.surroundings.around import Around
-from models.posterior.surroundings.piece_surroundings import FILE, PieceSurroundings
-from models.posterior.surroundings.scan_surroundings import ScanSurroundings
-from models.posterior.surroundings.things import Things
+from models.posterior.neighbours.map_objects import Things
+from models.posterior.neighbours.neighbours import Around
+from models.posterior.neighbours.piece_index import FILE, PieceSurroundings
+from models.posterior.neighbours.scan_index import ScanSurroundings
 
 
 class Surroundings(Protocol):

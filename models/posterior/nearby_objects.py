@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.posterior.surroundings.around import STEP_M, Around
-from models.posterior.surroundings.surroundings import Surroundings
+from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.neighbours import STEP_M, Around
 from models.threads import THREADS, shared_out
 
 NEAR_M, NEAR_SOFT_M = 10.0, 2.0  # what counts as near, and how far people's ideas of that differ
