@@ -20,7 +20,7 @@ import httpx
 from pydantic import BaseModel
 
 from app.http.schemas.responses import DescribeResponse, InfoResponse, LocalizeResponse
-from index.query import Crs, Refine
+from index.answering.query import Crs, Refine
 
 URL: Final = "http://127.0.0.1:8000"
 TRIES: Final = 4

@@ -31,9 +31,9 @@ from app.threads import usable_cpus
 from app.workers.order import OpenOrder
 from app.workers.remote import open_workers
 from app.workers.sums import check_version
-from index.artifact import read_aliases
-from index.manifest import MANIFEST
-from index.snapshot import SNAPSHOTS
+from index.build.artifact import read_aliases
+from index.build.manifest import MANIFEST
+from index.build.snapshot import SNAPSHOTS
 from models.errors import HereaboutsError, RemoteUnavailable
 from models.files import remove_abandoned
 

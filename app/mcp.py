@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field
 from app.client import AsyncClient, ServiceError
 from app.http.formats.nominatim import apart
 from app.http.schemas.responses import LocalizeResponse
-from index.answers import Candidate, Evidence, Question
+from index.answering.answers import Candidate, Evidence, Question
 
 INSTRUCTIONS: Final = """Finds where in a city somebody is from what they say is around them.
 Call `localize` with their words. If it is not sure it gives a question: put it to them (or answer it yourself if you

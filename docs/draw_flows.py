@@ -65,13 +65,13 @@ def description(axes: Axes) -> Box:
                  "what was understood, rendered")  # fmt: skip
     encode = box(axes, (left, 51, half, TALL), "models", "Retriever encodes", "models/paper/",
                  "a unit vector a description")  # fmt: skip
-    vector = box(axes, (left, 39.5, half, TALL), "index", "Vector search", "index/stores/, index/ranking.py",
+    vector = box(axes, (left, 39.5, half, TALL), "index", "Vector search", "index/stores/, index/answering/ranking.py",
                  "FAISS: the 100 nearest cells")  # fmt: skip
     inverted = box(axes, (right, 39.5, half, TALL), "models", "Inverted list", "models/posterior/posterior.py",
                    "class, colour, sector: 100 cells")  # fmt: skip
     grid = box(axes, (x, 26.5, wide, TALL), "models", "Posterior over a grid of 1.5 m", "models/posterior/locate.py",
                "how likely the text is at each node, all hints at once")  # fmt: skip
-    answer = box(axes, (x, 14, wide, TALL), "index", "One function makes the Answer", "index/finding.py",
+    answer = box(axes, (x, 14, wide, TALL), "index", "One function makes the Answer", "index/answering/result.py",
                  "cells, position, radii, evidence, heat map; and which model it was")  # fmt: skip
     reply = box(axes, (x, 3.6, wide, 5.6), "app", "JSON or GeoJSON", "app/http/schemas, app/http/formats")
     frame = (x, (vector[1] + grid[1]) / 2, wide + 4, vector[1] - grid[1] + TALL + 1.6)
@@ -105,7 +105,7 @@ def city(axes: Axes) -> Box:
     around = box(axes, (right, 62.5, half, TALL), "models", "Surroundings", "models/posterior/neighbours/",
                  "what is within 15 m of each node")  # fmt: skip
     write = box(axes, (x, 49.5, wide, TALL), "index", "Write a version, whole or not at all",
-                "index/offline, index/artifact.py",
+                "index/build, index/build/artifact.py",
                 "fingerprints of map and model; the alias is moved last")  # fmt: skip
     files = box(axes, (x, 31.5, wide, 16), "file", "The index directory", "vectors.faiss, hints.safetensors",
                 "cells.safetensors, cells.json", "surroundings.safetensors", "manifest.json: sizes and sums",

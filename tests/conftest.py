@@ -19,8 +19,8 @@ import pytest
 import torch
 from filelock import FileLock
 
-from index.localizer import Localizer
-from index.offline.build import build_index
+from index.answering.localizer import Localizer
+from index.build.build import build_index
 from models.checkpoint import round_weights
 from models.citymap.cells import CellTable
 from models.citymap.gallery import MapData

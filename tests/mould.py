@@ -108,7 +108,7 @@ class _Forks:
 
     def __init__(self, scratch):
         import app.server  # noqa: F401  # once for all that are forked
-        import index.offline.build  # noqa: F401
+        import index.build.build  # noqa: F401
         from models.language.text_encoder import load_text_encoder
         from models.paper.checkpoint import save_retriever
         from models.paper.mncl import Mncl, MnclConfig
@@ -182,7 +182,7 @@ class _Forks:
 
 def _open_fakes(order, _count):
     """What answers from a version that is whole."""
-    from index.artifact import open_version
+    from index.build.artifact import open_version
     from tests.app.fake_localizer import FakeLocalizer
 
     fake = FakeLocalizer()

@@ -32,7 +32,7 @@ TRAINED = (*SERVED, GRAMMAR, "models.sources.synthetic", "models.training", "mod
 FITTED = (*TRAINED, "models.training.posterior")
 INDEX = (
     "index",
-    "index.offline",
+    "index.build",
     "index.asking",
     "index.posterior",
     "index.remote",
@@ -41,7 +41,7 @@ INDEX = (
 )
 ANSWERS = (*SERVED, *INDEX)
 MEASURES = (*FITTED, *INDEX, "index.evaluation")
-REPRODUCES = (*MEASURES, "index.reproduction")
+REPRODUCES = (*MEASURES, "index.evaluation.reproduction")
 # A package: whose modules it may import, beside its own. "models" stands for the modules right in models/.
 MAY_IMPORT = {
     "models": ("models.language",),
@@ -76,14 +76,14 @@ MAY_IMPORT = {
     "models.training.posterior": FITTED,
     "models.training.engine": RETRIEVAL,
     "index": ANSWERS,
-    "index.offline": ANSWERS,
+    "index.build": ANSWERS,
     "index.asking": (*SERVED, "index"),
     "index.stores": (*CITY, "index"),
     "index.remote": (*CITY, "index"),
     "index.posterior": ANSWERS,
     "index.words": (*SERVED, "index"),
     "index.evaluation": MEASURES,
-    "index.reproduction": REPRODUCES,
+    "index.evaluation.reproduction": REPRODUCES,
     "app": ("app.http", "app.http.formats", "app.http.routes", "app.http.schemas", "app.jobs", "app.workers", *ANSWERS),
     "app.workers": ("app", *ANSWERS),
     "app.http": ("app", "app.http.formats", "app.http.schemas", "app.jobs", *ANSWERS),
@@ -105,9 +105,12 @@ ONLY = {
         "models.strings",
     },
     ("models.posterior", "models.paper.fine"): {"models.paper.fine.located"},
-    ("index.remote", "index"): {"index.artifact", "index.manifest"},
+    ("index.remote", "index"): {"index.build.artifact", "index.build.manifest"},
     ("index.remote", "models.citymap"): {"models.citymap.types"},
-    ("index.stores", "index"): {"index.manifest", "index.query"},  # where they are, and the box of a filter
+    ("index.stores", "index"): {
+        "index.build.manifest",
+        "index.answering.query",
+    },  # where they are, and the box of a filter
     ("index.stores", "models.citymap"): {"models.citymap.types"},
 }
 EXCEPT = {
@@ -122,7 +125,7 @@ ONLY_IN = {
     "faiss": "index/stores",
     "pymilvus": "index/stores",
     "grpc": "index/stores",
-    "ray": "index/offline/on_ray.py",
+    "ray": "index/build/ray_shards.py",
     "fsspec": "index/remote",
     "marisa_trie": "models/strings.py",
     "fastapi": "app",
@@ -139,8 +142,8 @@ WITHOUT_TORCH = [
     ROOT / "models/training/metrics.py",
     ROOT / "app/http/schemas/requests.py",
     ROOT / "app/http/schemas/evaluate_requests.py",
-    ROOT / "index/answers.py",
-    ROOT / "index/query.py",
+    ROOT / "index/answering/answers.py",
+    ROOT / "index/answering/query.py",
 ]
 
 
@@ -200,7 +203,7 @@ def test_transformers_are_imported_when_they_are_asked_for() -> None:
 def test_the_city_model_loads_without_torch() -> None:
     city = [".".join(p.relative_to(ROOT).with_suffix("").parts) for p in FILES if ROOT / "models/citymap" in p.parents]
     code = f"""
-import sys, {", ".join(city)}, models.training.metrics, index.answers
+import sys, {", ".join(city)}, models.training.metrics, index.answering.answers
 sys.exit("torch" in sys.modules)
 """
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0

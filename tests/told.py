@@ -1,6 +1,6 @@
 """What is said of an index that is the same whoever built it."""
 
-from index.artifact import open_version
+from index.build.artifact import open_version
 
 OF_A_BUILD = {"version", "created"}
 

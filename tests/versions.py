@@ -2,8 +2,8 @@
 
 import hashlib
 
-from index.artifact import set_alias
-from index.manifest import NEEDED, FrameRecord, Manifest, write_manifest
+from index.build.artifact import set_alias
+from index.build.manifest import NEEDED, FrameRecord, Manifest, write_manifest
 from models.files import FileRecord
 
 

@@ -63,7 +63,12 @@ class Warm:
 
 def main(path: str) -> None:
     """Fork what is asked for until stdin closes."""
-    for module in ("app.workers.process", "app.jobs.worker", "index.localizer", "index.evaluation.evaluation"):
+    for module in (
+        "app.workers.process",
+        "app.jobs.worker",
+        "index.answering.localizer",
+        "index.evaluation.evaluation",
+    ):
         importlib.import_module(module)
     with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as asked, selectors.DefaultSelector() as events:
         asked.bind(path)

@@ -15,7 +15,7 @@ from models.errors import DataError, HereaboutsError
 from models.sources.osm.city_copies import Block, Extract
 
 if TYPE_CHECKING:  # so that the command line starts without torch
-    from index.localizer import Localizer
+    from index.answering.localizer import Localizer
 
 ASKED_IN = "test"  # split of the map whose places are described
 COMPARED = (

@@ -76,7 +76,7 @@ def take_questions(source: "Source") -> list[Question]:
     Returns:
         As many as `ask_all` takes, or fewer where the map has fewer.
     """
-    from index.words.place_text import nearest_street  # noqa: PLC0415 - heavy
+    from index.answering.place_text import nearest_street  # noqa: PLC0415 - heavy
 
     queries, gazetteer, rng = source.queries(), source.gazetteer(), np.random.default_rng(0)
     rows = rng.permutation(len(queries))[: WARM_UP + (1 + len(WITHIN)) * QUERIES]

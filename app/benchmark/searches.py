@@ -14,7 +14,7 @@ import numpy as np
 from models.errors import StoreUnavailable
 
 if TYPE_CHECKING:  # so that the command line starts without torch
-    from index.localizer import Localizer
+    from index.answering.localizer import Localizer
     from index.stores.store import VectorStore
 
 NOT_INSTALLED = "not installed"

@@ -15,7 +15,7 @@ from app.benchmark.processes import busy_process, measure_index, serving, timed_
 from app.settings import load_settings
 
 if TYPE_CHECKING:  # so that the command line starts without torch
-    from index.localizer import Localizer
+    from index.answering.localizer import Localizer
 
 REQUESTS = 200
 WARM_UP = 10  # requests that are not counted
@@ -99,7 +99,7 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
         Medians in milliseconds of reading a new description, of its candidates from the vector index and of the
         posterior, and, as the baseline of the same run, of encoding its sentences and of ranking by them.
     """
-    from index.vector_localizer import DEPTH  # noqa: PLC0415 - heavy
+    from index.answering.vector_localizer import DEPTH  # noqa: PLC0415 - heavy
     from models.posterior.locate import locate  # noqa: PLC0415 - heavy
 
     posterior, retriever = localizer.posterior, localizer.retriever
@@ -122,7 +122,7 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
 
 def open_index(index_dir: Path) -> "Localizer":
     """An index with the weights of the settings."""
-    from index.localizer import Localizer  # noqa: PLC0415 - heavy
+    from index.answering.localizer import Localizer  # noqa: PLC0415 - heavy
 
     settings = load_settings(index_dir=index_dir)
     return Localizer.open(index_dir, settings.weights_dir, posterior_weights_dir=settings.posterior_weights_dir)

@@ -21,16 +21,16 @@ from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split, check_local, is_url
 from app.cli.shares import check_shares, check_update, parse_shard, share_out
-from index.offline.shard import MOST_SHARDS, Shard
-from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
+from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
+from index.build.shard import MOST_SHARDS, Shard
 from models.errors import HereaboutsError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from index.answers import Answer
-    from index.localizer import Localizer
-    from index.query import Query
+    from index.answering.answers import Answer
+    from index.answering.localizer import Localizer
+    from index.answering.query import Query
 
 LINES = "-"
 
@@ -112,7 +112,7 @@ def index(
 
     from app.cli.progress import stage_bars
     from app.settings import load_settings
-    from index.offline.build import IndexJob
+    from index.build.build import IndexJob
     from models.sources.osm.extract import Region
 
     region = None if within is None else Region.parse(within)
@@ -160,8 +160,8 @@ def serve(
 @app.command()
 def verify(index_dir: IndexDir = INDEX_DIR) -> None:
     """Read every file of an index again, of each version that is registered or of the one that is named."""
-    from index.artifact import open_version, read_aliases
-    from index.artifact import verify as verify_version
+    from index.build.artifact import open_version, read_aliases
+    from index.build.artifact import verify as verify_version
 
     known = sorted(read_aliases(index_dir).versions)
     for directory in [index_dir / version for version in known] or [open_version(index_dir)[0]]:
@@ -206,14 +206,14 @@ def localize(
     """Say where the speaker of a description is."""
     from app.settings import load_settings
     from app.startup import no_collection
-    from index.query import Query
+    from index.answering.query import Query
     from models.language.sentences import split_hints
 
     if text != LINES:
         split_hints(text)  # or DescriptionError, before anything is loaded
     settings = load_settings(index_dir=index_dir)
     with no_collection():
-        from index.localizer import Localizer
+        from index.answering.localizer import Localizer
 
         localizer = Localizer.open(
             settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
@@ -223,7 +223,7 @@ def localize(
             raise typer.Exit(_answer_lines(localizer, ask))
         [answer] = localizer.localize([ask(text)])
     if picture and answer.estimate:
-        from index.picture import draw_answer
+        from index.answering.picture import draw_answer
 
         draw_answer(localizer, text, answer, picture)
     if as_json:

@@ -12,7 +12,7 @@ from rich.table import Table
 
 import models
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Seed, Split
-from index.query import Refine
+from index.answering.query import Refine
 from models.errors import DataError
 from models.sources.place_texts import SUFFIXES as TOLD_SUFFIXES
 
@@ -78,8 +78,8 @@ def evaluate(
 def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> None:
     """People's texts, asked of an index."""
     from app.cli.progress import stage_bars
-    from index.evaluation.told import evaluate_told, told_tables
-    from index.localizer import Localizer
+    from index.answering.localizer import Localizer
+    from index.evaluation.place_texts import evaluate_told, told_tables
     from models.sources.place_texts import load_told_texts
 
     texts = load_told_texts(data)
@@ -142,8 +142,8 @@ def questions(
     """How far the service's questions help made-up people who say two hints, and answer, sometimes wrongly."""
     from app.cli.progress import stage_bars
     from app.settings import load_settings
+    from index.answering.localizer import Localizer
     from index.evaluation.questions import evaluate_questions, questions_table
-    from index.localizer import Localizer
     from models.sources.source import open_source
 
     settings = load_settings(index_dir=index_dir)
@@ -166,8 +166,8 @@ def descriptions(
     """How well random positions of the map are found again by what POST /describe says of them."""
     from app.cli.progress import stage_bars
     from app.settings import load_settings
+    from index.answering.localizer import Localizer
     from index.evaluation.descriptions import descriptions_table, evaluate_descriptions
-    from index.localizer import Localizer
 
     settings = load_settings(index_dir=index_dir)
     weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir

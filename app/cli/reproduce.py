@@ -42,9 +42,9 @@ def reproduce(
 ) -> None:
     """Make the tables 1-4 and figures 3-5 of MNCL: train what is missing, measure, print beside what is published."""
     from app.cli.progress import stage_bars
-    from index.reproduction.report import write_reproduction
-    from index.reproduction.reproduce import chosen, figure_3_of, in_epochs
-    from index.reproduction.reproduce import reproduce as run
+    from index.evaluation.reproduction.report import write_reproduction
+    from index.evaluation.reproduction.reproduce import chosen, figure_3_of, in_epochs
+    from index.evaluation.reproduction.reproduce import reproduce as run
     from models.training.experiments import POINTS, SCALES, Run, runs_of
 
     if steps and epochs:
@@ -78,7 +78,7 @@ def _checked(scale: "Scale", runs: "Sequence[Run]", config: Path | None) -> int:
     import torch
 
     from app.threads import usable_cpus
-    from index.reproduction.jobs import settings_of
+    from index.evaluation.reproduction.jobs import settings_of
     from models.training.engine.loop import pick_device
 
     kinds = set()
@@ -134,7 +134,7 @@ def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path
 
 def _store(data: Path, out: Path, show: Callable[[str, int, int], None]) -> Path:
     """Data as a store, which each training opens in no time; an OpenStreetMap file and a store stay what they are."""
-    from index.manifest import fingerprint
+    from index.build.manifest import fingerprint
     from models.sources.store.files import convert
     from models.sources.store.layout import MANIFEST
 

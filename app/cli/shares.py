@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from index.offline.shard import Shard
+from index.build.shard import Shard
 
 if TYPE_CHECKING:
-    from index.offline.build import IndexJob
+    from index.build.build import IndexJob
     from models.citymap.types import Progress
 
 
@@ -63,7 +63,7 @@ def share_out(
     if shard:
         return job.make_part(shard, show)
     if engine:
-        from index.offline.on_ray import build_on_ray  # noqa: PLC0415  # heavy, as all commands are
+        from index.build.ray_shards import build_on_ray  # noqa: PLC0415  # heavy, as all commands are
 
         return build_on_ray(job, merge, address, show)
     return job.merge(merge, show) if merge else job.build(show)

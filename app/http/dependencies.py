@@ -10,8 +10,8 @@ from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
-from index.artifact import DEFAULT
-from index.manifest import NAME
+from index.build.artifact import DEFAULT
+from index.build.manifest import NAME
 
 IndexName = Annotated[str, Query(pattern=NAME, description="which of the indexes that /info names")]
 

@@ -13,7 +13,7 @@ from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue, refuse
 from app.settings import Settings
-from index.artifact import DEFAULT
+from index.build.artifact import DEFAULT
 from models.errors import HereaboutsError, IndexBroken, IndexMismatch, IndexUnusable
 
 LOOKED_AT_S: Final = 1.0  # how often aliases are read again

@@ -1,10 +1,10 @@
-"""What the service needs of a localizer; index.localizer.Localizer is one, tests bring their own."""
+"""What the service needs of a localizer; index.answering.localizer.Localizer is one, tests bring their own."""
 
 from collections.abc import Sequence
 from typing import Protocol
 
-from index.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
-from index.query import Query
+from index.answering.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
+from index.answering.query import Query
 from models.citymap.frame import Frame
 from models.citymap.scenery.files import SceneryPart
 

@@ -15,8 +15,8 @@ import structlog
 
 from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
-from index.answers import Answer
-from index.query import Query
+from index.answering.answers import Answer
+from index.answering.query import Query
 from models.errors import HereaboutsError, RemoteUnavailable
 
 REFUSED_S = 0.2  # before a refusal is said: clients that ask again at once would else take the time of those answered

@@ -12,17 +12,17 @@ from app.http.bodies import check_json
 from app.http.errors import Problem, field_name
 from app.http.schemas.evaluate_requests import EvaluateQuery, EvaluateRequest, evaluate_model
 from app.settings import Settings
-from index.artifact import open_version
-from index.query import DEFAULT_REFINE, Refine
+from index.answering.query import DEFAULT_REFINE, Refine
+from index.build.artifact import open_version
 from models.citymap.frame import Frame
 from models.citymap.types import Progress
 from models.errors import DataError
 
 if TYPE_CHECKING:  # torch takes seconds, and the service itself does without SciPy and Numba too
-    from index.finding import CellLocalizer
-    from index.posterior.localizer import PosteriorLocalizer
-    from index.ranking import Ranker
-    from index.vector_localizer import VectorLocalizer
+    from index.answering.posterior_localizer import PosteriorLocalizer
+    from index.answering.ranking import Ranker
+    from index.answering.result import CellLocalizer
+    from index.answering.vector_localizer import VectorLocalizer
     from models.citymap.queries import Queries
     from models.paper.retriever import Retriever
     from models.sources.source import Source
@@ -67,8 +67,8 @@ class Evaluation(BaseModel):
         Raises:
             HereaboutsError: the data, the index or the model cannot be used.
         """
+        from index.answering.localizer import Localizer  # noqa: PLC0415
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415  # brings torch, which takes seconds
-        from index.localizer import Localizer  # noqa: PLC0415
         from models.citymap.queries import Queries  # noqa: PLC0415
 
         if self.data is not None:
@@ -97,7 +97,7 @@ class Evaluation(BaseModel):
 
     def _posterior(self, source: "Source", progress: Progress) -> "PosteriorLocalizer":
         """The hint posterior of a data set."""
-        from index.posterior.localizer import PosteriorLocalizer  # noqa: PLC0415
+        from index.answering.posterior_localizer import PosteriorLocalizer  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.posterior.neighbours.neighbour_index import surroundings_of  # noqa: PLC0415
@@ -109,7 +109,7 @@ class Evaluation(BaseModel):
 
     def _vectors(self, source: "Source", progress: Progress) -> "VectorLocalizer":
         """Vector search of a data set: raw text, all levels."""
-        from index.vector_localizer import VectorLocalizer  # noqa: PLC0415
+        from index.answering.vector_localizer import VectorLocalizer  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.paper.fine.checkpoint import load_refiner  # noqa: PLC0415
 
@@ -121,7 +121,7 @@ class Evaluation(BaseModel):
 
     @staticmethod
     def _ranker(source: "Source", retriever: "Retriever", progress: Progress) -> "Ranker":
-        from index.ranking import Ranker  # noqa: PLC0415
+        from index.answering.ranking import Ranker  # noqa: PLC0415
 
         progress("encode cells", 0, 0)
         return Ranker.of(retriever, source.data.cells, source.data.gallery.labels)

@@ -13,7 +13,7 @@ from typing import Final
 from app.threads import THREAD_VARIABLES
 
 PROCESS: Final = (sys.executable, "-m", "app.workers.process")
-AHEAD: Final = "index.localizer"  # brings torch, which takes seconds
+AHEAD: Final = "index.answering.localizer"  # brings torch, which takes seconds
 ROOT: Final = Path(__file__).parents[2]  # where the processes find this very code
 
 

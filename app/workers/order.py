@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from index.artifact import open_version
+from index.build.artifact import open_version
 
 if TYPE_CHECKING:
-    from index.localizer import Localizer
+    from index.answering.localizer import Localizer
 
 FORK: Final = "fork"
 
@@ -26,7 +26,7 @@ class WorkerFault(Exception):
 
 @dataclass(frozen=True, slots=True)
 class OpenOrder:
-    """What to open; as `index.localizer.Localizer.open`."""
+    """What to open; as `index.answering.localizer.Localizer.open`."""
 
     index_dir: Path
     weights_dir: Path | None = None
@@ -39,7 +39,7 @@ class OpenOrder:
         Raises:
             HereaboutsError: as `Localizer.open`.
         """
-        from index.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
+        from index.answering.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
 
         dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
         try:

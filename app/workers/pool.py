@@ -13,7 +13,7 @@ from typing import Final
 
 from app.workers.launch import PROCESS, launch, take_prepared
 from app.workers.order import FORK, OpenOrder
-from index.answers import IndexFacts
+from index.answering.answers import IndexFacts
 from models.citymap.frame import Frame
 
 EXIT_S: Final = 5.0

@@ -24,7 +24,7 @@ from models.processes import forget_code, give_back, share_one_heap
 from models.threads import end_second_thread
 
 if TYPE_CHECKING:
-    from index.localizer import Localizer
+    from index.answering.localizer import Localizer
 
 IDLE_S: Final = 1.0  # without calls, and memory is given back
 MANY: Final = 100  # calls since it was the last time; the next one has to take it again

@@ -9,8 +9,8 @@ import structlog
 
 from app.workers.order import OpenOrder, WorkerFault
 from app.workers.pool import WorkerPool
-from index.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
-from index.query import Query
+from index.answering.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
+from index.answering.query import Query
 from models.citymap.frame import Frame
 from models.citymap.scenery.files import SceneryPart
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Final
 
 from app.workers.launch import ROOT
-from index.artifact import open_version
-from index.manifest import MANIFEST
+from index.build.artifact import open_version
+from index.build.manifest import MANIFEST
 from models.errors import HereaboutsError, IndexBroken
 
 PROCESS: Final = (sys.executable, "-m", "app.workers.sums")

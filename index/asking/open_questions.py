@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 from scipy.sparse import csr_array
 
-from index.asking.asked import LISTED, OPEN, UNKNOWN, Asked
-from index.query import Reply
+from index.answering.query import Reply
+from index.asking.question_spec import LISTED, OPEN, UNKNOWN, Asked
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import ReplyError

@@ -7,11 +7,11 @@ from typing import Final
 import numpy as np
 from models.paper.fine.located import Located, heaviest
 
-from index.answers import Question
-from index.asking.asked import LISTED, UNKNOWN, Asked
-from index.asking.heard import Heard
+from index.answering.answers import Question
+from index.answering.query import MOST_REPLIES, Reply
+from index.asking.known_facts import Heard
 from index.asking.open_questions import OpenQuestions
-from index.query import MOST_REPLIES, Reply
+from index.asking.question_spec import LISTED, UNKNOWN, Asked
 from models.citymap.cells import CellTable
 from models.citymap.colours import Palette
 from models.citymap.gazetteer.gazetteer import Gazetteer

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from index.answering.posterior_localizer import PosteriorLocalizer
+from index.answering.vector_localizer import raw_sentences
 from index.evaluation.report import Table
-from index.posterior.localizer import PosteriorLocalizer
-from index.vector_localizer import raw_sentences
 from models.citymap.queries import Queries
 
 SIZES = (10, 20, 50, 100, 200, 500)  # of the candidate set

@@ -7,10 +7,10 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from index.answers import Answer, Described
+from index.answering.answers import Answer, Described
+from index.answering.localizer import Localizer
+from index.answering.query import Query
 from index.evaluation.report import Table
-from index.localizer import Localizer
-from index.query import Query
 from models.citymap.types import Floats, Progress
 
 WITHIN_M: Final = (5, 10, 15, 30)

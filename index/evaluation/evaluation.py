@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from index.answering.query import Query
+from index.answering.result import CellLocalizer
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
-from index.finding import CellLocalizer
-from index.query import Query
 from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
 from models.citymap.types import Floats, Progress

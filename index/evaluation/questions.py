@@ -7,11 +7,11 @@ from typing import Any, Final
 import numpy as np
 from models.citymap.templates import render_hint
 
-from index.answers import Answer
-from index.evaluation.person import Person, Truth
+from index.answering.answers import Answer
+from index.answering.localizer import Localizer
+from index.answering.query import Query
 from index.evaluation.report import Table
-from index.localizer import Localizer
-from index.query import Query
+from index.evaluation.simulated_person import Person, Truth
 from models.citymap.queries import Queries
 from models.citymap.types import Floats, Progress
 from models.errors import DataError

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from index.answering.posterior_localizer import PosteriorLocalizer
+from index.answering.ranking import Ranker
+from index.answering.result import CellLocalizer
+from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.candidates import candidate_recall, candidate_table
 from index.evaluation.evaluation import predict
 from index.evaluation.report import Table
 from index.evaluation.scoring import score
 from index.evaluation.trials import CANDIDATES_OF, Trial, all_trials
-from index.finding import CellLocalizer
-from index.posterior.localizer import PosteriorLocalizer
-from index.ranking import Ranker
-from index.vector_localizer import VectorLocalizer
 from models.citymap.cells import CellTable, Parts
 from models.citymap.gallery import Gallery, MapData
 from models.citymap.hints import direction_index

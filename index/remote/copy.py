@@ -8,8 +8,8 @@ from typing import Final
 
 from filelock import FileLock, Timeout
 
-from index.artifact import DEFAULT, Aliases, read_aliases, write_aliases
-from index.manifest import MANIFEST, check_files, check_sums, read_manifest
+from index.build.artifact import DEFAULT, Aliases, read_aliases, write_aliases
+from index.build.manifest import MANIFEST, check_files, check_sums, read_manifest
 from index.remote.place import Place
 from models.errors import IndexBroken, RemoteUnavailable
 from models.files import new_directory, remove_unheld

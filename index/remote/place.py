@@ -10,7 +10,7 @@ import fsspec
 from fsspec.registry import known_implementations
 from fsspec.utils import get_protocol
 
-from index.artifact import ALIASES, Aliases, parse_aliases
+from index.build.artifact import ALIASES, Aliases, parse_aliases
 from models.errors import RemoteUnavailable
 
 OWN: Final = "fsspec"  # where protocols lie that need another library at most

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from index.artifact import Aliases, find_version, open_version, read_aliases
-from index.manifest import ADVICE, MANIFEST
+from index.build.artifact import Aliases, find_version, open_version, read_aliases
+from index.build.manifest import ADVICE, MANIFEST
 from index.remote.place import Place
 from models.citymap.types import Progress
 from models.errors import IndexBroken

@@ -9,7 +9,7 @@ import faiss
 import numpy as np
 import numpy.typing as npt
 
-from index.query import Box
+from index.answering.query import Box
 from index.stores.store import Floats, Rows, best_first
 from models.errors import IndexBroken
 from models.spool import forget

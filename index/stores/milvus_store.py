@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from index.query import Box
+from index.answering.query import Box
 from index.stores.milvus_connection import MilvusConnection
 from index.stores.store import Floats, Rows, best_first
 from models.errors import IndexBroken, StoreUnavailable

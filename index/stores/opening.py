@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Final
 
-from index.manifest import Manifest
+from index.build.manifest import Manifest
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_store import MilvusStore
 from index.stores.store import VectorStore

@@ -5,7 +5,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from index.query import Box
+from index.answering.query import Box
 
 Floats = npt.NDArray[np.float32]
 Rows = npt.NDArray[np.int64]

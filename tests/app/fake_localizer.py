@@ -2,7 +2,7 @@
 
 import threading
 
-from index.answers import (
+from index.answering.answers import (
     Answer,
     Candidate,
     CellDetail,

@@ -2,7 +2,7 @@
 
 from html import escape
 
-from index.offline.build import build_index
+from index.build.build import build_index
 from tests.conftest import LAT, LAT_M, LON, LON_M, tiny_osm
 
 SCRIPT = "<script>window.hacked=1</script>"

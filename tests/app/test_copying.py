@@ -13,7 +13,7 @@ from app.cli.main import app as commands
 from app.copying import Copying
 from app.main import create_app
 from app.settings import Settings
-from index.artifact import open_version, set_alias
+from index.build.artifact import open_version, set_alias
 from index.remote.place import Place
 from index.remote.push import push
 from models.errors import RemoteUnavailable

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import httpx
 import pytest
 
-from index.artifact import open_version, read_aliases, register
+from index.build.artifact import open_version, read_aliases, register
 from models.files import BUILDING
 from tests.mould import Mould
 

@@ -15,7 +15,7 @@ from app.client import AsyncClient
 from app.main import create_app
 from app.mcp import build_server
 from app.settings import Settings
-from index.answers import Choice, Question
+from index.answering.answers import Choice, Question
 
 TEXT = "I am north of a gray building. A black pole is to my west."
 QUESTION = Question("q-bank", "Do you see a bank?", (Choice("yes", "yes"), Choice("no", "no")), False)

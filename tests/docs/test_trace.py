@@ -47,7 +47,7 @@ def test_a_description_begins_at_its_route_and_goes_on_where_the_model_is(descri
     files = [row[0] for row in rows]
     order = [
         "app/http/queue.py",
-        "index/posterior/localizer.py",
+        "index/answering/posterior_localizer.py",
         "models/language/reader.py",
         "models/posterior/locate.py",
     ]
@@ -77,7 +77,7 @@ def test_a_map_begins_at_its_command_and_ends_with_files(strip_file, weights_dir
     order = [
         "models/sources/osm/map.py",
         "models/citymap/geometry/cutting.py",
-        "index/offline/publish.py",
+        "index/build/publish.py",
         "models/sources/osm/gazetteer.py",
     ]
     assert [name for name in files if name in order] == order

@@ -2,8 +2,8 @@
 
 import pytest
 
-from index.offline.build import IndexJob
-from index.offline.shard import Shard
+from index.build.build import IndexJob
+from index.build.shard import Shard
 from models.paper.checkpoint import save_retriever
 from tests.conftest import tiny_osm
 

@@ -6,9 +6,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from index.artifact import find_version, open_version, read_aliases, register, set_alias
-from index.localizer import Localizer
-from index.manifest import check_model
+from index.answering.localizer import Localizer
+from index.build.artifact import find_version, open_version, read_aliases, register, set_alias
+from index.build.manifest import check_model
 from models.errors import IndexBroken, IndexMismatch
 from models.files import new_directory
 from models.paper.checkpoint import save_retriever
@@ -169,7 +169,7 @@ def test_a_file_that_the_disk_does_not_give_is_named(copy, monkeypatch) -> None:
     def fails(_path):
         raise OSError(errno.EIO, os.strerror(errno.EIO))
 
-    monkeypatch.setattr("index.manifest.sha256", fails)
+    monkeypatch.setattr("index.build.manifest.sha256", fails)
     with pytest.raises(IndexBroken, match=r"cannot be read \(Input/output error\); see to its disk"):
         open_version(copy)
 

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
-from index.artifact import open_version, read_aliases
+from index.build.artifact import open_version, read_aliases
 from index.stores.faiss_store import FaissStore
 from models.errors import IndexBroken
 

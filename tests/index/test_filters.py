@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from index.filters import inside, where_inside
-from index.query import Box, Circle, Query
+from index.answering.filters import inside, where_inside
+from index.answering.query import Box, Circle, Query
 
 WORLD = Box(-180.0, -90.0, 180.0, 90.0)
 

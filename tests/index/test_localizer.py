@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from safetensors.numpy import load
 
-from index.localizer import Localizer
-from index.query import Box, Circle, Prior, Query
+from index.answering.localizer import Localizer
+from index.answering.query import Box, Circle, Prior, Query
 from models.paper.checkpoint import load_retriever
 
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."

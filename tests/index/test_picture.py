@@ -2,8 +2,8 @@ from dataclasses import replace
 
 import pytest
 
-from index import picture
-from index.query import Query
+from index.answering import picture
+from index.answering.query import Query
 
 
 @pytest.mark.parametrize(("p90_m", "is_whole"), [(5000.0, True), (30.0, False)])

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import torch
 
-from index.ranking import Ranker
+from index.answering.ranking import Ranker
 from models.errors import IndexBroken
 from models.paper.levels import LEVELS, level_scores
 from models.paper.mncl import Mncl, MnclConfig

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import torch
 
+from index.answering.localizer import Localizer
+from index.answering.query import Circle, Query
+from index.answering.ranking import Ranker
+from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.evaluation import evaluate
 from index.evaluation.predictions import FILE, Predictions
-from index.localizer import Localizer
-from index.query import Circle, Query
-from index.ranking import Ranker
-from index.vector_localizer import VectorLocalizer
 from models.errors import WeightsError
 from models.paper.fine.checkpoint import load_refiner, save_fine
 from models.paper.fine.matching import Matching, MatchingConfig

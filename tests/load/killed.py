@@ -16,9 +16,9 @@ import httpx
 
 from app.jobs.job import JobState
 from app.jobs.order import Evaluation
-from index.artifact import ALIASES, Aliases, open_version, read_aliases, register
-from index.manifest import MANIFEST
-from index.snapshot import SNAPSHOTS
+from index.build.artifact import ALIASES, Aliases, open_version, read_aliases, register
+from index.build.manifest import MANIFEST
+from index.build.snapshot import SNAPSHOTS
 from models.files import BUILDING, replace_file, sha256
 
 SHORTER, LONGER = 0.95, 1.05

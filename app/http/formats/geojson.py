@@ -9,7 +9,7 @@ from geojson_pydantic import Feature, FeatureCollection, Point, Polygon
 from geojson_pydantic.types import Position2D
 
 from app.http.schemas.responses import CellResponse, CellsResponse, LocalizeResponse, Provenance
-from index.answers import Status
+from index.answering.answers import Status
 from models.citymap.frame import Frame
 
 AnyFeature = Feature[Point | Polygon, dict[str, Any]]

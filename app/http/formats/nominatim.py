@@ -7,7 +7,7 @@ import numpy as np
 
 from app.http.protocol import LocalizerLike
 from app.http.schemas.responses import LocalizeResponse
-from index.answers import Described, LatLon
+from index.answering.answers import Described, LatLon
 from models.citymap.frame import Frame
 
 Format = Literal["json", "jsonv2", "geojson"]

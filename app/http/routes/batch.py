@@ -17,7 +17,7 @@ from app.http.routes.localize import check_reach, found_for
 from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest, request_model
 from app.http.schemas.responses import LocalizeResponse
 from app.settings import Settings
-from index.artifact import DEFAULT
+from index.build.artifact import DEFAULT
 from models.errors import HereaboutsError
 
 PATH = "/localize/batch"

@@ -11,7 +11,7 @@ from app.http.formats.geojson import cell_collection, cells_collection
 from app.http.formats.negotiation import GEOJSON, etag, has_already, negotiate, respond
 from app.http.openapi import geojson_content, problems
 from app.http.schemas.responses import CellResponse, CellsResponse, CrsOut, Provenance
-from index.artifact import DEFAULT
+from index.build.artifact import DEFAULT
 
 MOST_CELLS, LONGEST_PAGE = 1_000_000_000, 1000
 router = APIRouter(tags=["map"])

@@ -18,7 +18,7 @@ from app.http.queue import UNAVAILABLE, InferenceQueue
 from app.http.routes.localize import check_reach, found_for
 from app.http.schemas.requests import request_model
 from app.settings import Settings
-from index.artifact import DEFAULT
+from index.build.artifact import DEFAULT
 from models.citymap.frame import Frame
 
 MOST = 40  # results, as of Nominatim

@@ -17,10 +17,10 @@ from app.http.errors import Code, Problem
 from app.http.openapi import problems
 from app.http.schemas.requests import Body
 from app.settings import Settings
-from index.artifact import read_aliases, register, set_alias
-from index.artifact import verify as verify_version
-from index.manifest import MANIFEST, NAME, Name
-from index.snapshot import SNAPSHOTS, snapshot
+from index.build.artifact import read_aliases, register, set_alias
+from index.build.artifact import verify as verify_version
+from index.build.manifest import MANIFEST, NAME, Name
+from index.build.snapshot import SNAPSHOTS, snapshot
 from models.errors import IndexBroken
 
 ERRORS = (

@@ -7,8 +7,8 @@ from pydantic import ConfigDict, Field, JsonValue, Strict, StringConstraints, cr
 from app.http.schemas.fields import IndexName, Length, Point, either, wrong
 from app.http.schemas.requests import REFINE, Body, Told, told_fields
 from app.settings import Settings
-from index.artifact import DEFAULT
-from index.query import Crs, Refine
+from index.answering.query import Crs, Refine
+from index.build.artifact import DEFAULT
 
 EXAMPLE: JsonValue = {
     "queries": [

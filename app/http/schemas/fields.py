@@ -7,8 +7,8 @@ from typing import Annotated
 from pydantic import Field, JsonValue, Strict, StringConstraints
 from pydantic_core import PydanticCustomError
 
-from index.manifest import NAME
-from index.query import Crs
+from index.answering.query import Crs
+from index.build.manifest import NAME
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's Cc, but for tab and line ends
 # No map is wider than the Earth or finer than a millimetre, and the squares of these stay numbers.

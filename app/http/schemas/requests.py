@@ -28,8 +28,19 @@ from app.http.schemas.fields import (
     wrong,
 )
 from app.settings import Settings
-from index.artifact import DEFAULT
-from index.query import DEFAULT_REFINE, DEFAULT_TOP_K, MOST_REPLIES, Box, Circle, Crs, Prior, Query, Refine, Reply
+from index.answering.query import (
+    DEFAULT_REFINE,
+    DEFAULT_TOP_K,
+    MOST_REPLIES,
+    Box,
+    Circle,
+    Crs,
+    Prior,
+    Query,
+    Refine,
+    Reply,
+)
+from index.build.artifact import DEFAULT
 from models.errors import DescriptionError
 from models.language.sentences import split_hints
 

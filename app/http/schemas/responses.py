@@ -7,7 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.http.protocol import LocalizerLike
 from app.http.schemas.examples import ANSWERED, DESCRIBED
 from app.http.schemas.ros import PoseWithCovarianceStamped
-from index.answers import (
+from index.answering.answers import (
     Answer,
     Candidate,
     CellDetail,
@@ -23,7 +23,7 @@ from index.answers import (
     Question,
     Status,
 )
-from index.artifact import DEFAULT
+from index.build.artifact import DEFAULT
 from models.citymap.frame import Frame
 
 

@@ -6,7 +6,7 @@ from typing import Final
 
 from pydantic import BaseModel, Field
 
-from index.answers import Estimate
+from index.answering.answers import Estimate
 
 UNKNOWN_M2: Final = 1e4  # variance of a height that nobody told
 UNKNOWN_RAD2: Final = math.pi**2 / 3  # of an angle that could be any

@@ -35,7 +35,9 @@ def opened(monkeypatch):
                 raise localizer
             return localizer
 
-        monkeypatch.setitem(sys.modules, "index.localizer", SimpleNamespace(Localizer=SimpleNamespace(open=open_)))
+        monkeypatch.setitem(
+            sys.modules, "index.answering.localizer", SimpleNamespace(Localizer=SimpleNamespace(open=open_))
+        )
         return calls
 
     return put
@@ -108,7 +110,7 @@ def test_index_builds_and_says_what_next(monkeypatch):
 
         return SimpleNamespace(build=build)
 
-    monkeypatch.setitem(sys.modules, "index.offline.build", SimpleNamespace(IndexJob=job))
+    monkeypatch.setitem(sys.modules, "index.build.build", SimpleNamespace(IndexJob=job))
     result = run("index", "--map", "a.osm", "--out", "o")
     assert (result.exit_code, calls) == (0, [(Path("a.osm"), Path("o"), None)])
     assert result.stdout == "index v1 is in o/v1; serve it with: hereabouts serve --index o\n"

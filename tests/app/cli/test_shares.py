@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from app.cli.main import app
 from app.threads import THREAD_VARIABLES
-from index.offline.shard import Shard
+from index.build.shard import Shard
 
 OPTIONS = ("index", "--map", "a.osm", "--out", "o")
 
@@ -37,8 +37,8 @@ def calls(monkeypatch):
         asked.append((*job.given, count, address))
         return Path("o/v2")
 
-    monkeypatch.setitem(sys.modules, "index.offline.build", SimpleNamespace(IndexJob=Job))
-    monkeypatch.setitem(sys.modules, "index.offline.on_ray", SimpleNamespace(build_on_ray=build_on_ray))
+    monkeypatch.setitem(sys.modules, "index.build.build", SimpleNamespace(IndexJob=Job))
+    monkeypatch.setitem(sys.modules, "index.build.ray_shards", SimpleNamespace(build_on_ray=build_on_ray))
     return asked
 
 

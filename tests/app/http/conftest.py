@@ -1,6 +1,6 @@
 import pytest
 
-from index.artifact import register
+from index.build.artifact import register
 from tests.versions import write_version
 
 

@@ -11,7 +11,7 @@ from fake_localizer import FakeLocalizer
 from app.http.errors import Code, Problem
 from app.http.indexes import Indexes
 from app.settings import Settings
-from index.query import Query
+from index.answering.query import Query
 from models.errors import HereaboutsError, IndexBroken
 
 

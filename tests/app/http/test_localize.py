@@ -7,8 +7,8 @@ from itertools import pairwise
 import pytest
 from fake_localizer import FakeLocalizer
 
-from index.answers import Choice, Question
-from index.query import Box, Circle, Prior, Query, Reply
+from index.answering.answers import Choice, Question
+from index.answering.query import Box, Circle, Prior, Query, Reply
 from models.citymap.frame import Frame
 from models.errors import ReplyError, WeightsError
 

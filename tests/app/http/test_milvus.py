@@ -11,9 +11,9 @@ from typer.testing import CliRunner
 from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
-from index.artifact import open_version, read_aliases, set_alias
-from index.manifest import write_manifest
-from index.offline.build import build_index
+from index.build.artifact import open_version, read_aliases, set_alias
+from index.build.build import build_index
+from index.build.manifest import write_manifest
 from index.stores.milvus_connection import URI
 from index.stores.milvus_store import MilvusStore
 from models.errors import StoreUnavailable

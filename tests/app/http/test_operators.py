@@ -13,7 +13,7 @@ from fastapi.testclient import TestClient
 
 from app.main import create_app
 from app.settings import Settings
-from index.artifact import open_version, read_aliases
+from index.build.artifact import open_version, read_aliases
 from models.paper.checkpoint import save_retriever
 
 pytestmark = pytest.mark.usefixtures("warm_workers")
@@ -115,8 +115,8 @@ def test_a_directory_that_cannot_be_written_is_said_and_nothing_changes(root, fa
     def fails(*_arguments, **_more):
         raise OSError(error, os.strerror(error), str(root))
 
-    monkeypatch.setattr("index.artifact.replace_file", fails)
-    monkeypatch.setattr("index.snapshot.replacing", fails)
+    monkeypatch.setattr("index.build.artifact.replace_file", fails)
+    monkeypatch.setattr("index.build.snapshot.replacing", fails)
     with start(Settings(index_dir=root), fake) as api:
         (root / "copied").mkdir()
         for item in (root / default).iterdir():

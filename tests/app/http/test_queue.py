@@ -6,7 +6,7 @@ import pytest
 
 from app.http.errors import Code, Problem
 from app.http.queue import InferenceQueue
-from index.query import Query
+from index.answering.query import Query
 
 
 def ask(name):

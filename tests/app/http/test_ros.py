@@ -6,7 +6,7 @@ import pytest
 from fake_localizer import FakeLocalizer
 
 from app.http.schemas.ros import UNKNOWN_RAD2, pose_of
-from index.answers import Estimate, Heading, Radius
+from index.answering.answers import Estimate, Heading, Radius
 
 ESTIMATE = Estimate((3.0, -4.0), "posterior", ((9.0, 2.0), (2.0, 4.0)), Radius(2.0, 4.0), 0.5, None)
 

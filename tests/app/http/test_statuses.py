@@ -174,7 +174,7 @@ def changed_file(services, operation, patch):
 
 @provokes(409, "not_writable", REGISTER, ALIAS, SNAPSHOT)
 def full_disk(services, operation, patch):
-    for writer in ("index.artifact.replace_file", "index.snapshot.replacing"):
+    for writer in ("index.build.artifact.replace_file", "index.build.snapshot.replacing"):
         patch.setattr(writer, raises(OSError(errno.ENOSPC, "full")))
     return of_version(services(), operation, "copied" if operation == REGISTER else "v1")
 
@@ -270,7 +270,7 @@ def vectors_that_cannot_be_asked(services, operation, patch):
 
 @provokes(503, "store_unavailable", *CHANGING)
 def rows_that_cannot_be_counted(services, operation, patch):
-    patch.setattr("index.artifact.check_store", raises(StoreUnavailable("Milvus is down")))
+    patch.setattr("index.build.artifact.check_store", raises(StoreUnavailable("Milvus is down")))
     return of_version(services(), operation, "copied" if operation == REGISTER else "v1")
 
 
@@ -332,6 +332,6 @@ def test_with_an_admin_key_alone_what_changes_indexes_asks_for_it():
 
 
 def test_a_file_that_cannot_be_read_is_a_broken_index(services, monkeypatch, problem):
-    monkeypatch.setattr("index.manifest.sha256", raises(OSError(errno.EIO, "bad disk")))
+    monkeypatch.setattr("index.build.manifest.sha256", raises(OSError(errno.EIO, "bad disk")))
     for operation in (ALIAS, VERIFY, SNAPSHOT):
         problem(ask(services(), operation), 409, "index_broken")

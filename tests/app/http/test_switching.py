@@ -11,7 +11,7 @@ from fake_localizer import FakeLocalizer
 
 from app.main import create_app
 from app.settings import Settings
-from index.artifact import open_version, read_aliases, register, set_alias
+from index.build.artifact import open_version, read_aliases, register, set_alias
 
 CLIENTS, SWITCHES, VERSIONS = 64, 200, ("v1", "v2", "v3")
 COMPUTING_S = 0.03  # so that requests wait, are computed, and are answered while an alias moves; 64 take two seconds

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from app.jobs.order import Evaluation
+from index.answering.localizer import Localizer
+from index.build.build import build_index
 from index.evaluation.predictions import FILE, Predictions
-from index.localizer import Localizer
-from index.offline.build import build_index
 from models.sources.source import CHOSEN_BY, open_source
 from models.training.settings import TrainingConfig
 from models.training.training_data import load_training

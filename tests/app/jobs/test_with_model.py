@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
-from index.ranking import Ranker
-from index.vector_localizer import VectorLocalizer
+from index.answering.ranking import Ranker
+from index.answering.vector_localizer import VectorLocalizer
 from models.citymap.queries import Queries
 from models.sources.source import open_source
 

@@ -14,7 +14,7 @@ from playwright.sync_api import sync_playwright
 
 from app.main import create_app
 from app.settings import Settings
-from index.offline.build import build_index
+from index.build.build import build_index
 from tests.app.conftest import forked_from, wait_until
 from tests.conftest import LAT, LAT_M, LON, LON_M, tiny_osm
 

@@ -7,7 +7,7 @@ import time
 
 from fake_localizer import FakeLocalizer
 
-from index.answers import Answer
+from index.answering.answers import Answer
 from models.errors import IndexBroken, ReplyError
 
 

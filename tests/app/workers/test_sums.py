@@ -14,7 +14,7 @@ from app.main import create_app
 from app.settings import Settings
 from app.workers import sums
 from app.workers.order import OpenOrder
-from index.artifact import read_aliases, set_alias
+from index.build.artifact import read_aliases, set_alias
 from models.errors import HereaboutsError, IndexBroken
 
 

@@ -22,7 +22,7 @@ from app.workers import launch
 from app.workers.order import WorkerFault
 from app.workers.process import _answer
 from app.workers.remote import open_workers
-from index.query import Query
+from index.answering.query import Query
 from models.errors import IndexBroken, ReplyError
 from models.processes import give_back
 

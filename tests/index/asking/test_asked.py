@@ -1,6 +1,6 @@
 import pytest
 
-from index.asking.asked import LISTED, OPEN, OTHER, UNKNOWN, Asked
+from index.asking.question_spec import LISTED, OPEN, OTHER, UNKNOWN, Asked
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.lexicon.question_classes import load_asked
 

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from index.asking.asked import OPEN, Asked
+from index.answering.query import Reply
 from index.asking.open_questions import OpenQuestions
-from index.query import Reply
+from index.asking.question_spec import OPEN, Asked
 from models.errors import ReplyError
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import WRONG

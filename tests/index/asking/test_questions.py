@@ -3,11 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.asking.asked import Asked
-from index.asking.heard import Heard
+from index.answering.posterior_localizer import GOOD_M
+from index.answering.query import MOST_REPLIES, Box, Circle, Prior, Query, Reply
+from index.asking.known_facts import Heard
+from index.asking.question_spec import Asked
 from index.asking.questions import Questions
-from index.posterior.localizer import GOOD_M
-from index.query import MOST_REPLIES, Box, Circle, Prior, Query, Reply
 from models.citymap.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED
 from models.citymap.gazetteer.name_columns import Words, WordTable
 from models.errors import ReplyError
@@ -262,7 +262,7 @@ def test_a_refused_text_has_a_question_and_its_reply_is_an_answer(localizer, ref
 
 def test_replies_alone_look_along_a_whole_street(posterior, monkeypatch):
     """However few cells a text would be looked at in."""
-    monkeypatch.setattr("index.posterior.localizer.CANDIDATES", 2)
+    monkeypatch.setattr("index.answering.posterior_localizer.CANDIDATES", 2)
     y_m = posterior.gallery.cells.center_m[:, 1]
     on_third = posterior.frame.from_wgs84(LAT + 180 * LAT_M, LON)[1]
     [finding] = posterior.find([replace(SAYS_NOTHING, replies=(Reply("street", "East Street 3"),))])

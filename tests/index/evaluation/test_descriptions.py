@@ -2,7 +2,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from index.answers import Answer, Candidate, Estimate, ModelName, Radius
+from index.answering.answers import Answer, Candidate, Estimate, ModelName, Radius
 from index.evaluation.descriptions import descriptions_table, draw_positions, evaluate_descriptions, find_again
 
 

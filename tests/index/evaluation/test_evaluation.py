@@ -4,12 +4,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from index.answering.ranking import Ranker
+from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate, grow, rescore
 from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.scoring import score
-from index.ranking import Ranker
-from index.vector_localizer import VectorLocalizer
 from models.citymap.hints import hint_table
 from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS

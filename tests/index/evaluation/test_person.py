@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 import shapely
 
-from index.asking.asked import OPEN, Asked
+from index.answering.query import Reply
+from index.asking.question_spec import OPEN, Asked
 from index.evaluation import person as measured
-from index.evaluation.person import Person, Truth
-from index.query import Reply
+from index.evaluation.simulated_person import Person, Truth
 from tests.models.city.gazetteer.made_town import made_gazetteer
 
 LABELS = ("tree", "bench", "bollard", "building")

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import torch
 
+from index.answering.posterior_localizer import PosteriorLocalizer
+from index.answering.ranking import Ranker
+from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.candidates import SIZES, SOURCES, candidate_recall
 from index.evaluation.robustness import _damage, nearest_hints, robustness, robustness_tables
 from index.evaluation.trials import Trial, all_trials
-from index.posterior.localizer import PosteriorLocalizer
-from index.ranking import Ranker
-from index.vector_localizer import VectorLocalizer
 from models.citymap.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior

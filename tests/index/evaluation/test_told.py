@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from index.evaluation.told import evaluate_told, told_tables
+from index.evaluation.place_texts import evaluate_told, told_tables
 from models.sources.place_texts import ToldText
 
 

@@ -9,8 +9,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from index.offline.build import IndexJob
-from index.offline.on_ray import build_on_ray
+from index.build.build import IndexJob
+from index.build.ray_shards import build_on_ray
 from models.errors import ClusterUnavailable, DataError, MapError
 from tests.told import told
 

@@ -9,11 +9,11 @@ from dataclasses import replace
 import pytest
 from safetensors.numpy import load_file
 
-from index.artifact import open_version
-from index.offline.build import IndexJob
-from index.offline.part import FILE, Part
-from index.offline.parts import PARTS
-from index.offline.shard import Shard
+from index.build.artifact import open_version
+from index.build.build import IndexJob
+from index.build.shard import Shard
+from index.build.shard_data import FILE, Part
+from index.build.shard_store import PARTS
 from models.citymap.cells import BLOCK
 from models.errors import DataError, IndexBroken
 from models.files import BUILDING
@@ -33,7 +33,7 @@ def job(deep_parts, deep_file, rich_dir, tmp_path):
 @pytest.fixture
 def unread(monkeypatch):
     """No map is opened."""
-    monkeypatch.setattr("index.offline.build.open_source", lambda *_: pytest.fail("the map was opened"))
+    monkeypatch.setattr("index.build.build.open_source", lambda *_: pytest.fail("the map was opened"))
 
 
 @pytest.fixture
@@ -79,7 +79,7 @@ def test_a_shard_without_cells_is_a_part_too(job) -> None:
 @pytest.mark.slow
 def test_shards_of_a_scan_give_the_bytes_of_the_whole(streets, weights_dir, tmp_path, monkeypatch) -> None:
     of_models = ("retrieval.retriever", "retrieval.instance_encoder", "retrieval.level_table", "posterior.statements")
-    for module in (*(f"models.{name}" for name in of_models), "index.offline.build", "index.offline.parts"):
+    for module in (*(f"models.{name}" for name in of_models), "index.build.build", "index.build.shard_store"):
         monkeypatch.setattr(f"{module}.BLOCK", 8)
     whole, shared = (IndexJob(streets, tmp_path / name, weights_dir) for name in ("whole", "shared"))
     whole.build()

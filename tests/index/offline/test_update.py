@@ -5,10 +5,10 @@ import shutil
 import numpy as np
 import pytest
 
-from index.artifact import open_version
-from index.manifest import write_manifest
-from index.offline.build import IndexJob
-from index.offline.earlier import BYTES, FILE, Earlier, save_digests
+from index.build.artifact import open_version
+from index.build.build import IndexJob
+from index.build.manifest import write_manifest
+from index.build.previous_version import BYTES, FILE, Earlier, save_digests
 from index.stores.faiss_store import FaissStore
 from models.errors import DataError, IndexBroken, IndexMismatch
 from models.files import file_records
@@ -39,7 +39,7 @@ def encoded(monkeypatch):
     counts = []
     encode = level_table.encode_gallery
     monkeypatch.setattr(
-        "index.offline.part.encode_gallery",
+        "index.build.shard_data.encode_gallery",
         lambda model, cells, *rest: counts.append(len(cells)) or encode(model, cells, *rest),
     )
     return counts
@@ -145,7 +145,7 @@ def of_another_model(_directory, _manifest):
 def test_an_index_of_which_nothing_can_be_kept_is_refused(
     out, osm_file, weights_dir, change, error, said, monkeypatch
 ) -> None:
-    monkeypatch.setattr("index.offline.build.open_source", lambda *_: pytest.fail("the map was opened"))
+    monkeypatch.setattr("index.build.build.open_source", lambda *_: pytest.fail("the map was opened"))
     directory, manifest = open_version(out)
     (out / "aliases.json").write_text(f'{{"default": "{directory.name}"}}')  # of which nothing was registered
     write_manifest(directory, manifest.model_copy(update=change(directory, manifest)))

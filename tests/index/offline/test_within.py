@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import models
-from index.artifact import open_version
-from index.localizer import Localizer
-from index.offline.build import build_index
+from index.answering.localizer import Localizer
+from index.build.artifact import open_version
+from index.build.build import build_index
 from models.sources.osm.extract import Region
 
 SHIPPED_PATH = Path(models.__file__).parent / "maps" / "helsinki.osm.pbf"

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 import torch
 
+from index.answering.localizer import Localizer
+from index.answering.posterior_localizer import PosteriorLocalizer
+from index.answering.query import Box, Circle, Prior, Query
+from index.answering.ranking import Ranker
+from index.answering.result import to_answer
 from index.evaluation.evaluation import evaluate
-from index.finding import to_answer
-from index.localizer import Localizer
-from index.posterior.localizer import PosteriorLocalizer
-from index.query import Box, Circle, Prior, Query
-from index.ranking import Ranker
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior

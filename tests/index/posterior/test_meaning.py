@@ -1,6 +1,6 @@
 import pytest
 
-from index.posterior.meaning import PHRASES_FILE, VECTORS_FILE, Meanings, meanings_of
+from index.answering.meanings import PHRASES_FILE, VECTORS_FILE, Meanings, meanings_of
 from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
 from models.citymap.gazetteer.name_columns import Words
 from models.citymap.kinds.vocabulary import load_vocabulary

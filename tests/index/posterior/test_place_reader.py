@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.posterior.place_reader import constructions, near_hints, without
-from index.query import Prior, Query
+from index.answering.place_reader import constructions, near_hints, without
+from index.answering.query import Prior, Query
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.language.mentions.reader import find_mentions
@@ -60,7 +60,7 @@ def test_a_heading_is_told_by_left_and_ahead(localizer) -> None:
 def test_a_text_that_comes_again_is_not_read_again(localizer, monkeypatch) -> None:
     text = "I'm on East Street 2 where North Path 1 begins, and it rains"
     first = answer(localizer, text)
-    monkeypatch.setattr("index.posterior.place_reader.find_mentions", None)
+    monkeypatch.setattr("index.answering.place_reader.find_mentions", None)
     again = answer(localizer, text)
     assert first.estimate is not None
     assert again.estimate is not None

@@ -3,8 +3,8 @@ import json
 
 import pytest
 
-from index.artifact import open_version, read_aliases, set_alias
-from index.localizer import Localizer
+from index.answering.localizer import Localizer
+from index.build.artifact import open_version, read_aliases, set_alias
 from index.remote.copy import LocalCopy, copy_directory
 from index.remote.place import Place
 from index.remote.push import push

@@ -1,6 +1,6 @@
 import pytest
 
-from index.artifact import open_version, read_aliases, set_alias
+from index.build.artifact import open_version, read_aliases, set_alias
 from index.remote.place import Place
 from index.remote.push import push
 from models.errors import IndexBroken, RemoteUnavailable

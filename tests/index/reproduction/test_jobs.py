@@ -3,9 +3,9 @@
 import pytest
 import torch
 
-from index.reproduction import jobs as module
-from index.reproduction.figure_3 import draw_figure_3
-from index.reproduction.jobs import ALL, ALONE, LISTED, Z_SCORES, Job
+from index.evaluation.reproduction import jobs
+from index.evaluation.reproduction.figure_3 import draw_figure_3
+from index.evaluation.reproduction.jobs import ALL, ALONE, LISTED, Z_SCORES, Job
 from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.paper.mncl import Mncl, MnclConfig
 from models.training.experiments import Run, Scale

@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 import torch
 
-from index.reproduction import reproduce as module
-from index.reproduction.report import markdown, write_reproduction
-from index.reproduction.reproduce import chosen, in_epochs
+from index.evaluation.reproduction import reproduce
+from index.evaluation.reproduction.report import markdown, write_reproduction
+from index.evaluation.reproduction.reproduce import chosen, in_epochs
 from models.errors import DataError
 from models.paper import point_encoder
 from models.sources.source import open_source

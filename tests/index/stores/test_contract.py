@@ -6,7 +6,7 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
-from index.query import Box
+from index.answering.query import Box
 from index.stores import milvus_store
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_connection import URI

@@ -4,7 +4,7 @@ import faiss
 import numpy as np
 import pytest
 
-from index.query import Box
+from index.answering.query import Box
 from index.stores.faiss_store import FaissStore
 from models.errors import IndexBroken
 from models.spool import spooled

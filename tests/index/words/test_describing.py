@@ -4,8 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.query import Query
-from index.words.describing import (
+from index.answering.describing import (
     MOST_FACTS,
     OPEN_M,
     SEEN_M,
@@ -16,6 +15,7 @@ from index.words.describing import (
     named_text,
     street_facts,
 )
+from index.answering.query import Query
 from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET, Words
 from models.citymap.types import Hint

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from index.words.place_text import place_text
+from index.answering.place_text import place_text
 from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET, Words
 from tests.models.city.gazetteer.made_town import line, made_gazetteer, point

@@ -6,7 +6,7 @@ import pytest
 import torch
 from safetensors.torch import load_file
 
-from index.ranking import Ranker
+from index.answering.ranking import Ranker
 from models.citymap.hints import direction_index
 from models.citymap.types import DIRECTIONS
 from models.errors import DataError, WeightsError

@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from index.answering.query import Query
+from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.report import DPI
-from index.query import Query
-from index.vector_localizer import VectorLocalizer
 from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
 

@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 from models.paper.fine.located import Located
 
-from index.answers import (
+from index.answering.answers import (
     Answer,
     Candidate,
     Estimate,
@@ -20,7 +20,7 @@ from index.answers import (
     Question,
     Radius,
 )
-from index.query import Query
+from index.answering.query import Query
 from models.citymap.cells import CellTable
 from models.citymap.frame import Frame
 from models.citymap.points import Ints

@@ -11,12 +11,12 @@ import numpy.typing as npt
 from pyproj import Geod
 from scipy.stats import binomtest
 
-from index.answers import Answer
+from index.answering.answers import Answer
+from index.answering.localizer import Localizer
+from index.answering.place_reader import PlaceReader, constructions
+from index.answering.query import Prior, Query
 from index.evaluation.report import Table, as_markdown
 from index.evaluation.scoring import calibration
-from index.localizer import Localizer
-from index.posterior.place_reader import PlaceReader, constructions
-from index.query import Prior, Query
 from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.language.mentions.languages import language_of

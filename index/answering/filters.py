@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from index.query import Box, Circle, Query
+from index.answering.query import Box, Circle, Query
 from models.citymap.frame import Frame
 from models.citymap.hints import BEST_CELL_REACH_M
 from models.citymap.points import ranges

@@ -5,8 +5,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from index.offline.build import IndexJob, silent
-from index.offline.shard import Shard
+from index.build.build import IndexJob, silent
+from index.build.shard import Shard
 from models.citymap.types import Progress
 from models.errors import ClusterUnavailable, DataError, HereaboutsError
 from models.processes import one_process

@@ -12,7 +12,7 @@ import torch
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
-from index.offline.earlier import Earlier
+from index.build.previous_version import Earlier
 from index.stores.store import Floats
 from models.citymap.cells import BLOCK, CellTable
 from models.citymap.gallery import MapData

@@ -6,9 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from index.answers import Question
-from index.asking.asked import OTHER, UNKNOWN, Asked
-from index.query import Reply
+from index.answering.answers import Question
+from index.answering.query import Reply
+from index.asking.question_spec import OTHER, UNKNOWN, Asked
 from models.citymap.colours import Palette
 from models.citymap.gallery import Clouds, Finder, Gallery
 from models.citymap.gazetteer.closest_points import Around, Ways, cut, ways_to

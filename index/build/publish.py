@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from index.artifact import set_alias
+from index.answering.hint_features import save_hint_features, template_hints
+from index.answering.meanings import Meanings, meanings_of
 from index.asking.questions import landmarks_of
-from index.hint_features import save_hint_features, template_hints
-from index.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
-from index.offline.earlier import Earlier, save_digests
-from index.offline.part import Part, writing
-from index.posterior.meaning import Meanings, meanings_of
+from index.build.artifact import set_alias
+from index.build.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
+from index.build.previous_version import Earlier, save_digests
+from index.build.shard_data import Part, writing
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_store import MilvusStore
 from index.stores.opening import VECTORS_FILE

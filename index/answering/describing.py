@@ -17,9 +17,9 @@ import numpy.typing as npt
 from models.citymap.templates import OPPOSITE
 from scipy.spatial import cKDTree
 
-from index.answers import Described, Fact, LatLon
-from index.finding import pair
-from index.words.place_text import AT_CORNER_M, nearest_street, place_text, street_text, ways_from, wind_of
+from index.answering.answers import Described, Fact, LatLon
+from index.answering.place_text import AT_CORNER_M, nearest_street, place_text, street_text, ways_from, wind_of
+from index.answering.result import pair
 from models.citymap.colours import Palette
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery

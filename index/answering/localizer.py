@@ -7,19 +7,28 @@ from typing import Any
 
 import numpy as np
 
-from index.answers import Answer, CellDetail, CellInstance, CellSummary, Described, IndexFacts, LatLon, ModelName
-from index.artifact import find_version, open_version
-from index.finding import CellLocalizer, to_answer
-from index.hint_features import load_hint_features
-from index.manifest import ADVICE, Manifest, check_model
-from index.posterior.localizer import PosteriorLocalizer
-from index.posterior.meaning import Meanings
-from index.query import Query, Refine
-from index.ranking import Ranker
+from index.answering.answers import (
+    Answer,
+    CellDetail,
+    CellInstance,
+    CellSummary,
+    Described,
+    IndexFacts,
+    LatLon,
+    ModelName,
+)
+from index.answering.describing import Describer
+from index.answering.hint_features import load_hint_features
+from index.answering.meanings import Meanings
+from index.answering.posterior_localizer import PosteriorLocalizer
+from index.answering.query import Query, Refine
+from index.answering.ranking import Ranker
+from index.answering.result import CellLocalizer, to_answer
+from index.answering.vector_localizer import VectorLocalizer, raw_sentences
+from index.build.artifact import find_version, open_version
+from index.build.manifest import ADVICE, Manifest, check_model
 from index.stores.faiss_store import FaissStore
 from index.stores.opening import open_store
-from index.vector_localizer import VectorLocalizer, raw_sentences
-from index.words.describing import Describer
 from models.citymap.cells import Parts
 from models.citymap.colours import PALETTES
 from models.citymap.frame import Frame

@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 from models.paper.fine.located import Located
 
-from index.answers import Evidence, Method, ModelName, Question
-from index.asking.heard import Heard
+from index.answering.answers import Evidence, Method, ModelName, Question
+from index.answering.filters import log_prior, where_inside
+from index.answering.meanings import Meanings
+from index.answering.place_reader import PlaceReader, may_be_near, near_hints
+from index.answering.place_text import place_text
+from index.answering.query import Query
+from index.answering.ranking import Ranker
+from index.answering.result import Finding, is_ambiguous, pair
+from index.answering.text_chunks import Texts, as_read, in_the_text
+from index.asking.known_facts import Heard
 from index.asking.questions import Questions
-from index.filters import log_prior, where_inside
-from index.finding import Finding, is_ambiguous, pair
-from index.posterior.meaning import Meanings
-from index.posterior.place_reader import PlaceReader, may_be_near, near_hints
-from index.posterior.texts import Texts, as_read, in_the_text
-from index.query import Query
-from index.ranking import Ranker
-from index.words.place_text import place_text
 from models.citymap.colours import Palette
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery, MapData

@@ -14,9 +14,9 @@ from typing import Final
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from index.manifest import MANIFEST, Name, Sha256
-from index.offline.part import Part
-from index.offline.shard import Shard
+from index.build.manifest import MANIFEST, Name, Sha256
+from index.build.shard import Shard
+from index.build.shard_data import Part
 from models.citymap.cells import BLOCK, CellTable
 from models.errors import IndexBroken
 from models.files import FileRecord, file_records, new_directory, sha256
@@ -32,7 +32,7 @@ class Origin(BaseModel):
     Attributes:
         format: of the part.
         software: version of hereabouts.
-        map_sha256: as `index.manifest.fingerprint`.
+        map_sha256: as `index.build.manifest.fingerprint`.
         model_fingerprint, posterior_fingerprint: sha256 of all weights of the retriever and of the hint posterior.
         levels: whether it has the retriever's other levels.
     """

@@ -7,13 +7,13 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from index.artifact import check_store, open_version
-from index.manifest import StoreName, check_model, fingerprint
-from index.offline.earlier import Earlier
-from index.offline.part import Part, writing
-from index.offline.parts import Origin, Parts
-from index.offline.publish import Publisher, save_names
-from index.offline.shard import Shard
+from index.build.artifact import check_store, open_version
+from index.build.manifest import StoreName, check_model, fingerprint
+from index.build.previous_version import Earlier
+from index.build.publish import Publisher, save_names
+from index.build.shard import Shard
+from index.build.shard_data import Part, writing
+from index.build.shard_store import Origin, Parts
 from models.citymap.cells import BLOCK
 from models.citymap.types import Progress
 from models.errors import IndexUnusable

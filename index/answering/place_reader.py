@@ -9,9 +9,9 @@ import torch
 from cachetools import LRUCache, cachedmethod
 from models.paper.fine.located import Located
 
-from index.answers import Evidence, Heading
-from index.finding import pair
-from index.posterior.meaning import Meanings
+from index.answering.answers import Evidence, Heading
+from index.answering.meanings import Meanings
+from index.answering.result import pair
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.types import Floats

@@ -10,7 +10,7 @@ from typing import Any
 import torch
 
 from index.evaluation.ambiguity import ambiguity
-from index.reproduction.jobs import FIGURE_3, TEST, Job, localize, localized, train_and_measure
+from index.evaluation.reproduction.jobs import FIGURE_3, TEST, Job, localize, localized, train_and_measure
 from models.citymap.types import Progress
 from models.errors import DataError
 from models.sources.source import open_source

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal, cast, get_args
 
-from index.answers import Choice, Question
+from index.answering.answers import Choice, Question
 from models.language.lexicon.question_classes import load_asked
 from models.posterior.nearby_objects import NEAR_M, QUARTERS
 

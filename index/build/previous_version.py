@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from index.artifact import open_version
-from index.manifest import check_model
+from index.build.artifact import open_version
+from index.build.manifest import check_model
 from index.stores.faiss_store import FaissStore
 from index.stores.opening import VECTORS_FILE
 from index.stores.store import Floats

@@ -4,7 +4,7 @@ from collections import OrderedDict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from index.answers import Evidence
+from index.answering.answers import Evidence
 from models.language.parsed_hint import ParsedHint
 from models.language.reader import Reader
 from models.language.sentences import reader_texts, spans_in

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 import torch
 
+from index.answering.ranking import RERANKED, Ranker
+from index.answering.vector_localizer import VectorLocalizer
+from index.build.manifest import fingerprint
 from index.evaluation.evaluation import evaluate
-from index.manifest import fingerprint
-from index.ranking import RERANKED, Ranker
-from index.reproduction.figure_3 import draw_figure_3
-from index.vector_localizer import VectorLocalizer
+from index.evaluation.reproduction.figure_3 import draw_figure_3
 from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
 from models.files import replace_file, sha256

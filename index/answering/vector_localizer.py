@@ -8,11 +8,11 @@ import numpy as np
 from models.paper.fine.located import Located
 from scipy.special import logsumexp
 
-from index.answers import Method, ModelName
-from index.filters import inside, log_prior
-from index.finding import Finding
-from index.query import Query
-from index.ranking import Ranker
+from index.answering.answers import Method, ModelName
+from index.answering.filters import inside, log_prior
+from index.answering.query import Query
+from index.answering.ranking import Ranker
+from index.answering.result import Finding
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery, MapData
 from models.citymap.points import Ints

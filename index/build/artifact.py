@@ -23,7 +23,7 @@ from typing import Final
 from filelock import FileLock
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 
-from index.manifest import ADVICE, MANIFEST, Manifest, Name, Sha256, check_files, check_sums, read_manifest
+from index.build.manifest import ADVICE, MANIFEST, Manifest, Name, Sha256, check_files, check_sums, read_manifest
 from index.stores.milvus_store import MilvusStore
 from models.errors import IndexBroken, StoreUnavailable
 from models.files import replace_file, sha256

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from index.asking.asked import OPEN, UNKNOWN, Asked
-from index.query import Reply
+from index.answering.query import Reply
+from index.asking.question_spec import OPEN, UNKNOWN, Asked
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.language.mentions.mentions import Mention
 from models.posterior.binding import LIKELY, TRUSTED

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from index.evaluation.report import Table, as_markdown
-from index.reproduction.plots import draw_figure_4, draw_figure_5
+from index.evaluation.reproduction.plots import draw_figure_4, draw_figure_5
 from models.training.experiments import VARIANTS, Experiment, Row, made_of
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 from models.training.paper_tables import EXPERIMENTS, GROWTH, MNCL
@@ -30,7 +30,7 @@ def write_reproduction(directory: Path, found: Found, name: str, figure_3: Path 
 
     Args:
         directory: made if it is missing.
-        found: what `index.reproduction.reproduce.reproduce` gave.
+        found: what `index.evaluation.reproduction.reproduce.reproduce` gave.
         name: of the data.
         figure_3: the picture that a job made, if there is one.
     """

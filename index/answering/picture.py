@@ -13,8 +13,8 @@ from matplotlib.patches import Circle, PathPatch, Rectangle
 from matplotlib.path import Path as Line
 from matplotlib.patheffects import withStroke
 
-from index.answers import Answer, Estimate
-from index.localizer import Localizer
+from index.answering.answers import Answer, Estimate
+from index.answering.localizer import Localizer
 from models.citymap.scenery.reading import AREA, LINE, POINT, Drawn, Outline, look, read_scenery
 
 SIZE_IN: Final = (11.0, 6.2)

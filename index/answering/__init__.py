@@ -1,0 +1,1 @@
+"""From a query to an answer: localizers, results, evidence and place text."""
