@@ -5,7 +5,7 @@ import sys
 
 import structlog
 
-from app.faults import where
+from app.fault_logging import where
 
 
 def configure_logging(level: str, with_words: bool = False) -> None:

@@ -28,9 +28,9 @@ from app.http.routes import indexes as index_routes
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings, is_local
 from app.threads import usable_cpus
+from app.workers.checksums import check_version
 from app.workers.order import OpenOrder
 from app.workers.remote import open_workers
-from app.workers.sums import check_version
 from index.build.artifact import read_aliases
 from index.build.manifest import MANIFEST
 from index.build.snapshot import SNAPSHOTS

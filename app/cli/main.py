@@ -19,8 +19,8 @@ from app.cli import measure as cli_measure
 from app.cli import push as cli_push
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
+from app.cli.index_options import check_shares, check_update, parse_shard, share_out
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split, check_local, is_url
-from app.cli.shares import check_shares, check_update, parse_shard, share_out
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from index.build.shard import MOST_SHARDS, Shard
 from models.errors import HereaboutsError

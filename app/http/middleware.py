@@ -10,7 +10,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
 from app.http.metrics import OTHER, Metrics, known
-from app.http.notes import notes_of
+from app.http.request_notes import notes_of
 
 _SANE_ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 

@@ -20,7 +20,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from structlog.contextvars import bound_contextvars
 
 from app.http.metrics import known
-from app.http.notes import Timed, notes_of
+from app.http.request_notes import Timed, notes_of
 from models.errors import HereaboutsError
 
 LAST_S: Final = 3.0  # to send what is left when the service ends, though nobody may listen

@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 from typing import TextIO
 
-from app.faults import where
+from app.fault_logging import where
 from app.jobs.order import Evaluation
 from app.settings import load_settings
 from app.threads import set_thread_env

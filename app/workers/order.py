@@ -34,7 +34,7 @@ class OpenOrder:
     posterior_weights_dir: Path | None = None
 
     def open(self) -> "Localizer":
-        """The localizer, with everything read that its usual queries need; `app.workers.sums` checks the files.
+        """The localizer, with everything read that its usual queries need; `app.workers.checksums` checks the files.
 
         Raises:
             HereaboutsError: as `Localizer.open`.

@@ -16,7 +16,7 @@ from multiprocessing.reduction import recv_handle
 from threading import Thread
 from typing import TYPE_CHECKING, Final
 
-from app.faults import where
+from app.fault_logging import where
 from app.startup import no_collection
 from app.workers.order import FORK, WorkerFault
 from models.errors import HereaboutsError

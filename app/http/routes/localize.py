@@ -16,9 +16,9 @@ from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.formats.geojson import localize_collection
 from app.http.formats.negotiation import GEOJSON, negotiate, respond
-from app.http.notes import notes_of
 from app.http.openapi import geojson_content, problems
 from app.http.queue import UNAVAILABLE, InferenceQueue, Served
+from app.http.request_notes import notes_of
 from app.http.schemas.requests import DescribeRequest, LocalizeRequest, request_model
 from app.http.schemas.responses import LocalizeResponse
 from app.http.schemas.ros import pose_of

@@ -12,7 +12,7 @@ from fastapi.testclient import TestClient
 
 from app.main import create_app
 from app.settings import Settings
-from app.workers import sums
+from app.workers import checksums as sums
 from app.workers.order import OpenOrder
 from index.build.artifact import read_aliases, set_alias
 from models.errors import HereaboutsError, IndexBroken

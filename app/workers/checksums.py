@@ -1,4 +1,4 @@
-"""Reading the files of a version again while it answers: `python -m app.workers.sums DIRECTORY`.
+"""Reading the files of a version again while it answers: `python -m app.workers.checksums DIRECTORY`.
 
 A process of its own, which gives way to all others: a gigabyte takes a second of a CPU that has nothing else to do. A
 thread of the service would make requests wait whenever it is put off while it holds the interpreter.
@@ -17,7 +17,7 @@ from index.build.artifact import open_version
 from index.build.manifest import MANIFEST
 from models.errors import HereaboutsError, IndexBroken
 
-PROCESS: Final = (sys.executable, "-m", "app.workers.sums")
+PROCESS: Final = (sys.executable, "-m", "app.workers.checksums")
 NICENESS: Final = 19  # the last of all
 SHOWN_BYTES: Final = 1000  # of a crashed process's last words
 
