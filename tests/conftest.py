@@ -37,7 +37,7 @@ from models.sources.osm.feature_strips import Instances, Strips
 from models.sources.osm.map import features_of, frame_and_box, load_osm
 from models.sources.source import MapSource
 from tests.milvus_server import SKIPPED, MilvusServer
-from tests.models.city.raw_scenes import TEST_STREET, TRAIN_STREETS, VAL_STREET, write_towns
+from tests.models.sources.raw_scenes import TEST_STREET, TRAIN_STREETS, VAL_STREET, write_towns
 
 MadeOnce = Callable[[str, Callable[[Path], object]], Path]
 SIZE_M = 300

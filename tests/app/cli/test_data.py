@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.main import app
-from tests.models.city.raw_scenes import VAL_STREET
+from tests.models.sources.raw_scenes import VAL_STREET
 
 
 @pytest.fixture

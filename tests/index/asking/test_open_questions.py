@@ -7,7 +7,7 @@ from index.asking.question_spec import OPEN, Asked
 from models.errors import ReplyError
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import WRONG
-from tests.models.city.gazetteer.made_town import made_gazetteer
+from tests.models.citymap.gazetteer.made_town import made_gazetteer
 
 CENTERS = np.array(
     [(100.0, 78.0), (190.0, 75.0), (200.0, 80.0), (120.0, 92.0), (215.0, 300.0), (100.0, 300.0), (250.0, 88.0)]

@@ -24,7 +24,7 @@ from models.training.fit_retriever import RetrievalTask, train_retriever
 from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect
 from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingCells, TrainingData, load_training
-from tests.models.city.raw_scenes import TRAIN_STREETS, VAL_STREET
+from tests.models.sources.raw_scenes import TRAIN_STREETS, VAL_STREET
 
 
 @pytest.fixture(scope="module")

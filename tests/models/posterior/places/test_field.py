@@ -9,7 +9,7 @@ from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.posterior.places.field import PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, TYPES, PlaceKernels, kernel_of
-from tests.models.city.gazetteer.made_town import BENCHES, line, made_gazetteer, numbered, point
+from tests.models.citymap.gazetteer.made_town import BENCHES, line, made_gazetteer, numbered, point
 
 GRID_M = 10.0
 CENTERS = np.stack(np.meshgrid(np.arange(-45, 446, GRID_M), np.arange(-45, 206, GRID_M)), axis=-1).reshape(-1, 2)

@@ -6,7 +6,7 @@ from models.citymap.gazetteer.name_columns import Words
 from models.errors import IndexBroken
 from models.posterior.places.landmarks import FILE, Landmarks
 from models.posterior.places.name_probabilities import ON_STREET_M
-from tests.models.city.gazetteer.made_town import made_gazetteer, point
+from tests.models.citymap.gazetteer.made_town import made_gazetteer, point
 
 CENTERS = np.array([(100.0, 78.0), (190.0, 75.0), (200.0, 80.0), (120.0, 92.0), (215.0, 300.0), (100.0, 300.0)])
 

@@ -8,7 +8,7 @@ from models.posterior.model import load_posterior
 from models.posterior.places.kernels import PlaceKernels
 from models.sources.place_texts import ToldText
 from models.training.posterior.fit_places import Case, ToldPlace, calibrate_places, fit_places, read_cases
-from tests.models.city.gazetteer.made_town import is_common, made_gazetteer
+from tests.models.citymap.gazetteer.made_town import is_common, made_gazetteer
 
 FRAME = Frame("map", 40.75, -74.0)
 GRID_M = 15.0

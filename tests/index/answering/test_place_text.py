@@ -1,0 +1,81 @@
+import numpy as np
+import pytest
+
+from index.answering.place_text import place_text
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET, Words
+from tests.models.citymap.gazetteer.made_town import line, made_gazetteer, point
+
+
+@pytest.fixture(scope="module")
+def town():
+    return made_gazetteer()
+
+
+@pytest.mark.parametrize(
+    ("at", "street"),
+    [
+        (
+            (200, 80),
+            {"at the corner of West 25th Street and 10th Avenue", "at the corner of 10th Avenue and West 25th Street"},
+        ),
+        ((205, 5), {"at the corner of West 24th Street and 10th Avenue"}),
+        ((320, 82), {"on West 25th Street, between 9th Avenue and 10th Avenue"}),
+        ((201, 125), {"on 10th Avenue, between West 26th Street and West 25th Street"}),
+        ((440, 80), {"on West 25th Street, 40 m from 9th Avenue"}),
+        ((200, 425), {"on Harlem Road"}),
+    ],
+)
+def test_the_street(town, at, street) -> None:
+    text = place_text(town, np.array(at, dtype=float))
+    assert any(text == one or text.startswith(f"{one}, ") for one in street)
+
+
+@pytest.mark.parametrize(
+    ("at", "beside"),
+    [
+        ((215, 102), "10 m north of Bottino"),
+        ((195, 92), "20 m west of Bottino"),
+        ((130, 158), "14 m northeast of Elmo"),
+        ((388.5, 92), "at Café Zoë"),
+        ((320, 110), "at Whole Foods Market"),
+        ((285, 40), "at Chelsea Park"),
+    ],
+)
+def test_beside_a_named_thing(town, at, beside) -> None:
+    text = place_text(town, np.array(at, dtype=float))
+    assert text == beside or text.endswith(f", {beside}")
+
+
+def test_a_thing_without_a_street(town) -> None:
+    text = place_text(
+        build_gazetteer([Words(("amenity/cafe",), ("Café Zoë",))], [point(0, 0)], [False]), np.array([0.0, 30.0])
+    )
+    assert text == "30 m north of Café Zoë"
+
+
+def test_what_is_large_is_beside_its_edge() -> None:
+    corners = [(0.0, 0.0), (600.0, 0.0), (600.0, 600.0), (0.0, 600.0), (0.0, 0.0)]
+    park = build_gazetteer([Words(("leisure/park",), ("Great Park",))], [line(*corners)], [True])
+    assert place_text(park, np.array([300.0, -20.0])) == "20 m south of Great Park"
+    assert place_text(park, np.array([300.0, -80.0])) is None
+
+
+def test_nothing_is_named_far_out_and_on_an_empty_map(town) -> None:
+    assert place_text(town, np.array([9000.0, 9000.0])) is None
+    assert place_text(NOTHING_NAMED, np.zeros(2)) is None
+
+
+def test_things_without_names_are_not_told(town) -> None:
+    nameless = build_gazetteer(
+        [Words(("amenity/bench",)), Words(("building",), (), "5", "Main")], [point(0, 0)] * 2, [False] * 2
+    )
+    assert place_text(nameless, np.zeros(2)) is None
+
+
+def test_the_nearest_street_is_told() -> None:
+    streets = [Words((STREET,), (name,)) for name in ("Main Street", "Side Road")]
+    town = build_gazetteer(streets, [line((0, 0), (90, 0)), line((0, 20), (90, 20))], [False] * 2)
+    assert place_text(town, np.array([40.0, 6.0])) == "on Main Street"
+    assert place_text(town, np.array([40.0, 16.0])) == "on Side Road"
+    assert place_text(town, np.array([40.0, 70.0])) is None

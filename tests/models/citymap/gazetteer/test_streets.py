@@ -1,0 +1,112 @@
+import numpy as np
+import pytest
+
+from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.streets import ONE_CORNER_M, Pieces, Streets, Ways, join_streets
+from tests.models.citymap.gazetteer.made_town import line
+
+FIRST = 10
+
+
+def piece(name: str | tuple[str, ...], nodes: tuple[int, ...], *xy: tuple[float, float], number: int = 1) -> Ways:
+    names = (name,) if isinstance(name, str) else name
+    return Ways(
+        Words((STREET,), names, source_id=f"way/{number}"), np.array(nodes), line(*xy), np.array(xy, dtype=float)
+    )
+
+
+def joined_of(ways: list[Ways]) -> Streets:
+    pieces = Pieces()
+    for some in (ways[:1], ways[1:]):
+        pieces.add(some)
+    return join_streets(pieces, FIRST)
+
+
+def corners(pieces: list[Ways]) -> list[tuple[set[str], list[float]]]:
+    joined = joined_of(pieces)
+    return [
+        ({joined.words[n - FIRST].names[0] for n in pair}, at.tolist())
+        for pair, at in zip(joined.corner_streets, joined.corners_m, strict=True)
+    ]
+
+
+def test_pieces_of_one_name_are_one_street() -> None:
+    joined = joined_of(
+        [
+            piece(("Main Street", "Hauptstrasse"), (1, 2), (0, 0), (50, 0), number=4),
+            piece("Side Road", (7, 8), (0, 90), (9, 90), number=5),
+            piece(("MAIN STREET", "Main St"), (2, 3), (50, 0), (90, 0), number=6),
+        ]
+    )
+    main, side = joined.words
+    assert main.kinds == (STREET,)
+    assert main.names == ("Main Street", "Hauptstrasse", "MAIN STREET", "Main St")
+    assert main.source_id == "way/4"
+    assert joined.segments_m[0].tolist() == [[0, 0, 50, 0], [50, 0, 90, 0]]
+    assert side.names == ("Side Road",)
+    assert not len(joined.corner_streets), "a street is no corner with itself"
+
+
+def test_streets_meet_at_a_shared_node() -> None:
+    pieces = [
+        piece("Main Street", (1, 2, 3), (0, 0), (50, 0), (90, 0)),
+        piece("Side Road", (4, 2), (50, 60), (50, 0)),
+    ]
+    assert corners(pieces) == [({"Main Street", "Side Road"}, [50, 0])]
+
+
+def test_streets_that_cross_without_a_node_have_a_corner_where_they_cross() -> None:
+    pieces = [piece("Main Street", (1, 3), (0, 0), (90, 0)), piece("High Bridge", (4, 5), (30, -40), (30, 40))]
+    assert corners(pieces) == [({"Main Street", "High Bridge"}, [30, 0])]
+
+
+def test_streets_side_by_side_have_no_corner() -> None:
+    assert corners([piece("Main Street", (1, 2), (0, 0), (90, 0)), piece("Side Road", (3, 4), (0, 9), (90, 9))]) == []
+
+
+def test_carriageways_make_one_corner() -> None:
+    far = ONE_CORNER_M - 10
+    pieces = [
+        piece("Main Street", (1, 2), (0, 0), (90, 0)),
+        piece("Main Street", (3, 4), (0, far), (90, far)),
+        piece("Avenue", (5, 6), (40, -90), (40, 90)),
+    ]
+    assert corners(pieces) == [({"Main Street", "Avenue"}, [40, far / 2])]
+
+
+def test_streets_that_meet_twice_have_two_corners() -> None:
+    pieces = [
+        piece("Main Street", (1, 2, 3), (0, 0), (10, 0), (200, 0)),
+        piece("Crescent", (1, 4, 3), (0, 0), (100, 80), (200, 0)),
+    ]
+    assert [at for _, at in corners(pieces)] == [[0, 0], [200, 0]], "along the first"
+
+
+def test_three_streets_at_a_node_meet_in_pairs() -> None:
+    pieces = [piece(name, (n, 9), (n * 10, 50), (0, 0)) for n, name in enumerate(("A Street", "B Street", "C Street"))]
+    found = corners(pieces)
+    assert [names for names, _ in found] == [
+        {"A Street", "B Street"},
+        {"A Street", "C Street"},
+        {"B Street", "C Street"},
+    ]
+    assert all(at == [0, 0] for _, at in found)
+
+
+def test_the_lower_street_of_a_corner_is_first() -> None:
+    pieces = [piece(f"Street {n}", (n, 99), (n * 10, 50), (0, 0)) for n in range(12)]
+    pairs = joined_of(pieces).corner_streets
+    assert len(pairs) == 12 * 11 / 2
+    assert (pairs[:, 0] < pairs[:, 1]).all()
+    assert pairs.min() == FIRST
+
+
+def test_streets_on_top_of_each_other_have_a_finite_corner() -> None:
+    ((_, at),) = corners([piece("Main Street", (1, 2), (0, 0), (30, 0)), piece("Route 66", (3, 4), (10, 0), (20, 0))])
+    assert at == pytest.approx([15, 0])
+
+
+def test_a_town_without_streets() -> None:
+    joined = joined_of([])
+    assert joined.words == []
+    assert joined.corner_streets.shape == joined.corners_m.shape == (0, 2)

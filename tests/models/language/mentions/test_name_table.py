@@ -1,0 +1,63 @@
+import pytest
+
+from models.citymap.gazetteer.gazetteer import NOTHING_NAMED
+from models.citymap.kinds.vocabulary import load_vocabulary
+from models.errors import IndexBroken
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.name_table import FILE, NameTable
+from models.language.mentions.names import plain_words
+from tests.models.citymap.gazetteer.made_town import is_common
+
+SAID = (
+    "Cafe Zoe", "london terrace", "whole foods", "10th avenue", "w 25th st", "25th", "tenth ave", "harlem", "nobody",
+    "Пушкин", "botino", "",
+)  # fmt: skip
+
+
+@pytest.fixture
+def opened(town, tmp_path) -> Lookup:
+    NameTable.of(town, load_vocabulary(), is_common).save(tmp_path)
+    return Lookup(town, load_vocabulary(), is_common, NameTable.load(tmp_path))
+
+
+def found(match):
+    return match and (match.objects.tolist(), match.weights.tolist(), match.trust, match.is_exact)
+
+
+@pytest.mark.parametrize("said", SAID)
+def test_an_opened_table_finds_what_a_made_one_finds(lookup, opened, said) -> None:
+    words = plain_words(said)
+    for ask in ("named", "street", "is_name"):
+        was, now = getattr(lookup, ask)(words), getattr(opened, ask)(words)
+        assert was == now if ask == "is_name" else found(was) == found(now)
+    if words:
+        assert found(lookup.misspelt(words)) == found(opened.misspelt(words))
+        assert [lookup.worth(word) for word in words] == [opened.worth(word) for word in words]
+        assert [lookup.is_strange(word) for word in words] == [opened.is_strange(word) for word in words]
+
+
+def test_house_numbers_are_found_of_an_opened_table(lookup, opened) -> None:
+    streets = lookup.street(plain_words("West 25th Street")).objects
+    for number in ("402", "406", "9999"):
+        was, now = lookup.address(number, streets), opened.address(number, streets)
+        assert [some.tolist() for some in was] == [some.tolist() for some in now]
+    assert len(opened.address("402", streets)[0])
+
+
+def test_the_phrases_are_the_same(lookup, opened) -> None:
+    assert lookup.phrases() == opened.phrases() != []
+
+
+def test_a_table_of_nothing(tmp_path) -> None:
+    NameTable.of(NOTHING_NAMED, load_vocabulary(), is_common).save(tmp_path)
+    nothing = Lookup(NOTHING_NAMED, load_vocabulary(), is_common, NameTable.load(tmp_path))
+    assert nothing.named(("a",)) is None
+    assert nothing.street(("a",)) is None
+
+
+@pytest.mark.parametrize("content", [None, b"", b"{}"])
+def test_a_missing_or_broken_file_is_refused(tmp_path, content) -> None:
+    if content is not None:
+        (tmp_path / FILE).write_bytes(content)
+    with pytest.raises(IndexBroken, match="hereabouts index"):
+        NameTable.load(tmp_path)
