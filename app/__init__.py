@@ -1,6 +1,4 @@
-"""Delivery: the HTTP service and the command line. No arithmetic and no model code here.
+"""Delivery: the HTTP service, its workers and jobs, the command line and the page.
 
-`main` puts the service together, `server` runs and drains it, `settings` are what an operator can set, `logs` and
-`threads` prepare a process; benchmark/ measures seconds and memory, http/, jobs/, cli/, and web/ with the page. May
-import index and models; nothing imports app. FastAPI, uvicorn and typer are at home here alone.
+`main.create_app` and the command line put everything together. FastAPI, uvicorn and typer are imported only here.
 """

@@ -95,7 +95,7 @@ def city(axes: Axes) -> Box:
     x, wide = 103.0, 52.0
     axes.text(x, 109.5, "A map becomes an index", ha="center", fontsize=11, weight="bold", color=INK)
     command = box(axes, (x, 101, wide, TALL), "app", "hereabouts index", "app/cli/main.py", "map, directory, split")
-    door = box(axes, (x, 88.5, wide, TALL), "models", "One door to data", "models/sources/source.py and a folder a source",
+    door = box(axes, (x, 88.5, wide, TALL), "models", "One door to data", "models/sources/: source.py, one folder each",
                "OpenStreetMap, KITTI360Pose, a converted store")  # fmt: skip
     cells = box(axes, (x, 76, wide, TALL), "models", "Cells", "models/citymap/geometry/ and cells.py",
                 "cubes of 30 m each 10 m; things whole, stuff clipped")  # fmt: skip

@@ -75,9 +75,8 @@ def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
         localizer: of the map.
         count: descriptions; fewer where there is little to tell.
     """
-    from models.citymap.templates import render_hint  # noqa: PLC0415
-
     from index.evaluation.robustness import nearest_hints  # noqa: PLC0415 - heavy
+    from models.citymap.templates import render_hint  # noqa: PLC0415
 
     cells, rng = localizer.gallery.cells, np.random.default_rng(0)
     around, data = localizer.posterior.surroundings, localizer.map_data()

@@ -14,7 +14,6 @@ from typing import Final
 
 import numpy as np
 import numpy.typing as npt
-from models.citymap.templates import OPPOSITE
 from scipy.spatial import cKDTree
 
 from index.answering.answers import Described, Fact, LatLon
@@ -27,6 +26,7 @@ from models.citymap.gazetteer.gazetteer import ADDRESS, Gazetteer
 from models.citymap.gazetteer.name_columns import STREET
 from models.citymap.hints import BEST_CELL_REACH_M, direction_index, round_robin
 from models.citymap.points import Ints
+from models.citymap.templates import OPPOSITE
 from models.citymap.types import DIRECTIONS, Floats, Hint
 from models.posterior.neighbours.neighbour_index import Surroundings
 

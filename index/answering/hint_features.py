@@ -4,12 +4,12 @@ import json
 from pathlib import Path
 
 import numpy as np
-from models.citymap.templates import render_hint
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 
 from models.citymap.colours import Palette
 from models.citymap.gallery import Gallery
+from models.citymap.templates import render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import IndexBroken
 from models.paper.retriever import Retriever

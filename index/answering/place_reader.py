@@ -7,7 +7,6 @@ from typing import Any, Final
 import numpy as np
 import torch
 from cachetools import LRUCache, cachedmethod
-from models.paper.fine.located import Located
 
 from index.answering.answers import Evidence, Heading
 from index.answering.meanings import Meanings
@@ -24,6 +23,7 @@ from models.language.mentions.reader import find_mentions, is_meeting, listener_
 from models.language.mentions.spans import PASSED, STOP
 from models.language.parsed_hint import WINDS, ParsedHint
 from models.language.text_encoder import TextEncoder
+from models.posterior.distribution import Located
 from models.posterior.places.explanations import Explained
 from models.posterior.places.field import PlaceField, Told
 from models.posterior.places.kernels import HEADINGS, PlaceKernels

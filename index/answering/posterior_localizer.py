@@ -7,7 +7,6 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from models.paper.fine.located import Located
 
 from index.answering.answers import Evidence, Method, ModelName, Question
 from index.answering.filters import log_prior, where_inside
@@ -35,6 +34,7 @@ from models.language.reader import COLOURS
 from models.paper.levels import Levels
 from models.posterior.area_filter import Inside
 from models.posterior.binding import Binding
+from models.posterior.distribution import Located
 from models.posterior.likelihood import Reading
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel

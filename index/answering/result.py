@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from models.paper.fine.located import Located
 
 from index.answering.answers import (
     Answer,
@@ -25,6 +24,7 @@ from models.citymap.cells import CellTable
 from models.citymap.frame import Frame
 from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.posterior.distribution import Located
 
 HEAT_POINTS, HEAT_HELD = 500, 0.95  # squares of a heat map, and what they hold of the distribution at least
 

@@ -5,7 +5,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from models.paper.fine.located import Located
 from scipy.special import logsumexp
 
 from index.answering.answers import Method, ModelName
@@ -21,6 +20,7 @@ from models.language.sentences import split_hints
 from models.paper.fine.fine_model import FineModel
 from models.paper.instance_encoder import CellFeatures
 from models.paper.levels import Levels
+from models.posterior.distribution import Located
 
 DEPTH = 2000  # cells that a probability looks at; what is beyond is bounded, see `_probability`
 NO_CELL = "no cell's centre lies inside 'within'; widen it, move it onto the map or leave it out"

@@ -5,7 +5,6 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
-from models.paper.fine.located import Located, heaviest
 
 from index.answering.answers import Question
 from index.answering.query import MOST_REPLIES, Reply
@@ -19,6 +18,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.question_classes import load_asked
+from models.posterior.distribution import Located, heaviest
 from models.posterior.nearby_objects import Seen, Sights
 from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks

@@ -1,5 +1,1 @@
-"""Measuring: predictions of a model are saved, then scored (`scoring`) and drawn (`report`).
-
-`robustness`, `candidates` and `ambiguity` ask other questions, `questions` and `descriptions` measure what else the
-service says. May import index and all of models; nothing that answers imports it.
-"""
+"""Measuring: predictions, scores, reports, simulated people, and the reproduction of the paper's tables."""

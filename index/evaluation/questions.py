@@ -5,7 +5,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
-from models.citymap.templates import render_hint
 
 from index.answering.answers import Answer
 from index.answering.localizer import Localizer
@@ -13,6 +12,7 @@ from index.answering.query import Query
 from index.evaluation.report import Table
 from index.evaluation.simulated_person import Person, Truth
 from models.citymap.queries import Queries
+from models.citymap.templates import render_hint
 from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.sources.source import Source

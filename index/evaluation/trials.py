@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from models.citymap.templates import TEMPLATES, render_hint
 
 from models.citymap.gallery import MapData
+from models.citymap.templates import TEMPLATES, render_hint
 from models.citymap.types import DIRECTIONS, Direction, Hint
 from models.language.grammar.labelled_text import Fact, LabelledText
 from models.language.grammar.typos import typos

@@ -1,6 +1,4 @@
-"""Where the vectors of cells live: `store` is what all of them can do, and a file a backend.
+"""Stores of cell vectors: `store` is the contract, `faiss_store` and `milvus_store` implement it.
 
-`faiss_store` looks into a file of the index; `milvus_store` asks a Milvus server, over `milvus_connection`, and
-takes the extra `milvus`; `opening` picks the one that a manifest names. May import index.answering.query and index.build.artifact's
-manifest, and the errors of models. FAISS and pymilvus are at home here.
+Only this package imports faiss and pymilvus.
 """

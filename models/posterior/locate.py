@@ -9,8 +9,8 @@ from models.citymap.cells import CellTable
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.compiled import compiled
-from models.paper.fine.located import Located, heaviest
 from models.posterior.area_filter import Inside
+from models.posterior.distribution import Located, heaviest
 from models.posterior.likelihood import Reading
 from models.posterior.neighbours.nodes import SPACING_M
 from models.posterior.places.field import Told

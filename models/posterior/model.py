@@ -8,7 +8,7 @@ from models.language.labels import LabelMatcher
 from models.language.mentions.cue_reader import CueReader
 from models.language.reader import Reader, ReaderConfig
 from models.language.text_encoder import OnTextEncoder, TextEncoder, fingerprint_of
-from models.paper.fine.located import TOLD
+from models.posterior.distribution import TOLD
 from models.posterior.likelihood import Likelihood
 from models.posterior.places.kernels import PlaceKernels
 

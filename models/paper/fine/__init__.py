@@ -1,5 +1,1 @@
-"""The fine stages: from a description and a candidate cell to a position inside it (docs/method.md, fine stage).
-
-`fine_model` is what all are, `regressor` and `matching` are the methods, `checkpoint` keeps them. May import
-models.citymap, language and retrieval, whose encoders they share.
-"""
+"""Fine stages, from hints and a candidate cell to a position in it: Text2Pos's matching and Text2Loc's regressor."""

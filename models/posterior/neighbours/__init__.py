@@ -1,4 +1,1 @@
-"""What lies around every position of a map: of a scan a table, of a map of pieces found when it is asked for.
-
-`surroundings` is what the others use. May import models.citymap (of its folders tiled alone).
-"""
+"""What lies around every node of a map: class, colour, distance and bearing of the nearest objects."""

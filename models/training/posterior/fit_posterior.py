@@ -11,7 +11,7 @@ import torch
 from models.checkpoint import CONFIG_FILE, round_weights
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
-from models.paper.fine.located import TOLD
+from models.posterior.distribution import TOLD
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior

@@ -4,7 +4,7 @@ import shapely
 
 from index.answering.query import Reply
 from index.asking.question_spec import OPEN, Asked
-from index.evaluation import person as measured
+from index.evaluation import simulated_person as measured
 from index.evaluation.simulated_person import Person, Truth
 from tests.models.citymap.gazetteer.made_town import made_gazetteer
 

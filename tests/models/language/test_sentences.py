@@ -1,8 +1,8 @@
 import re
 
 import pytest
-from models.citymap.templates import ON_TOP_TEMPLATES, TEMPLATES, render_hint
 
+from models.citymap.templates import ON_TOP_TEMPLATES, TEMPLATES, render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DescriptionError
 from models.language.sentences import reader_texts, spans_in, split_hints

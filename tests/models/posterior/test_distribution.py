@@ -2,7 +2,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from models.paper.fine.located import Located
+
+from models.posterior.distribution import Located
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from models.citymap.types import DIRECTIONS
-from models.sources.kitti360 import job
+from models.sources.kitti360 import job as kitti360_job
 from models.sources.kitti360.job import prepare_data
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.kitti360pose.files import Scene, save_scene

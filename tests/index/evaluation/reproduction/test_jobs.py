@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from index.evaluation.reproduction import jobs
+from index.evaluation.reproduction import jobs as module
 from index.evaluation.reproduction.figure_3 import draw_figure_3
 from index.evaluation.reproduction.jobs import ALL, ALONE, LISTED, Z_SCORES, Job
 from models.paper.fine.regressor import Regressor, RegressorConfig

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 import torch
 
-from index.evaluation.reproduction import reproduce
+from index.evaluation.reproduction import reproduce as module
 from index.evaluation.reproduction.report import markdown, write_reproduction
 from index.evaluation.reproduction.reproduce import chosen, in_epochs
 from models.errors import DataError

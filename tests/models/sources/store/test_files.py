@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from models.citymap.templates import render_hint
 
+from models.citymap.templates import render_hint
 from models.errors import DataError
 from models.sources.kitti360pose.files import Scene, load_scene, save_scene
 from models.sources.store.files import convert, load_data, open_store, verify_store

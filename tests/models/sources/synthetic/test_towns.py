@@ -11,7 +11,7 @@ from models.sources.kitti360.prepare import prepare_scene
 from models.sources.kitti360.raw import list_raw_scenes, load_raw_scene
 from models.sources.kitti360.rules import CLASSES, GROUND, PrepareConfig
 from models.sources.kitti360pose.files import STANDARD_SPLITS, short_name
-from models.sources.synthetic import towns
+from models.sources.synthetic import towns as synthetic
 from models.sources.synthetic.drive import count_cells, draw_drive, spaced
 from models.sources.synthetic.layout import draw_land, draw_plan
 from models.sources.synthetic.objects import FURNITURE
