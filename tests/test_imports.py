@@ -34,6 +34,7 @@ MAY_IMPORT = {
     "index.remote": ("models", "models.citymap", "index.build"),
     "index.evaluation": ("models", "models.*", "models.training", "index.*"),
     "app": ("models", "models.*", "index.*", "app.http", "app.jobs", "app.workers"),
+    "app.public": ("app", "index.answering"),
     "app.http": ("models", "models.*", "index.*", "app", "app.jobs"),
     "app.jobs": ("models", "models.*", "index.*", "index.evaluation", "app", "app.http"),
     "app.workers": ("models", "models.*", "index.*", "app"),

@@ -1,24 +1,48 @@
 """What `pip install .` takes along: everything that runs."""
 
+import os
+import subprocess
+import sys
 import tomllib
-from fnmatch import fnmatch
 from pathlib import Path
+
+from setuptools import find_packages
 
 from app.http.routes.page import PAGE_DIR
 
 ROOT = Path(__file__).parent.parent
 SETUPTOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
 TOP = ("app", "index", "models")
+ENV = os.environ | {"PYTHONPATH": str(ROOT)}
 MOST_BYTES = 20_000_000  # of weights that ship
 
 
-def test_every_package_is_named() -> None:
-    named = SETUPTOOLS["packages"]["find"]["include"]
-    for folder in {path.parent for top in TOP for path in ROOT.glob(f"{top}/**/*.py")}:
-        package = folder.relative_to(ROOT)
-        assert any(fnmatch(".".join(package.parts), pattern) for pattern in named), package
-        for part in (package, *package.parents[:-1]):
-            assert (ROOT / part / "__init__.py").is_file(), "or setuptools does not find it"
+def test_every_package_is_found() -> None:
+    found = {p for where in SETUPTOOLS["packages"]["find"]["where"] for p in _packages(where)}
+    ours = {".".join(p.parent.relative_to(ROOT).parts) for top in TOP for p in ROOT.glob(f"{top}/**/*.py")}
+    assert found == ours - {"app.public.hereabouts"} | {"hereabouts"}
+
+
+def _packages(where: str) -> list[str]:
+    find = SETUPTOOLS["packages"]["find"]
+    assert find["namespaces"] is False
+    return list(find_packages(str(ROOT / where), include=find["include"]))
+
+
+def test_the_public_package_offers_a_client_without_torch() -> None:
+    assert _printed("import sys, hereabouts; hereabouts.AsyncClient; print('torch' in sys.modules)") == "False"
+
+
+def test_the_public_localizer_is_that_of_the_service() -> None:
+    code = "import hereabouts, index.answering.localizer as ours; print(hereabouts.Localizer is ours.Localizer)"
+    assert _printed(code) == "True"
+
+
+def _printed(code: str) -> str:
+    """What Python prints where the public package is on the path, as after an installation."""
+    place = ROOT / "app" / "public"
+    run = subprocess.run([sys.executable, "-c", code], cwd=place, env=ENV, capture_output=True, check=True, text=True)
+    return run.stdout.strip()
 
 
 def test_every_file_that_is_read_is_taken_along() -> None:
