@@ -1,4 +1,4 @@
-"""How likely a description is at a position (docs/method.md, the hint posterior)."""
+"""The likelihood of hints about what is near a position (docs/method.md, near hints)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields

@@ -47,3 +47,13 @@ def test_pages_and_rules_that_the_code_cites_are_there():
                 cited += 1
             assert not name.endswith(("method.md", "kitti360pose.md")) or name == "docs/method.md", f"{path}: {name}"
     assert cited > 20
+
+
+def test_equations_are_where_the_index_says():
+    index = (ROOT / "docs/method.md").read_text().partition("## Equation index")[2].partition("\n## ")[0]
+    rows = re.findall(r"^\| ([\d, to]+) \| .+ \| `([\w/]+\.py)`: (.+) \|$", index, re.M)
+    assert len(rows) > 15
+    for numbers, path, names in rows:
+        source = (ROOT / path).read_text()
+        for name in re.findall(r"`(\w+)`", names):
+            assert re.search(rf"^\s*(?:def|class) {name}\b", source, re.M), f"equation {numbers}: {path} has no {name}"

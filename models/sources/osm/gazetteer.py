@@ -1,4 +1,4 @@
-"""Reader: OpenStreetMap -> Gazetteer (docs/formats.md, gazetteer)."""
+"""Reader: OpenStreetMap -> Gazetteer (docs/formats.md, index directory)."""
 
 import re
 from collections.abc import Iterator, Sequence

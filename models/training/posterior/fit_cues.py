@@ -1,4 +1,4 @@
-"""Training the reader of cues on labelled texts (docs/method.md, how texts about places are read)."""
+"""Train the cue reader on labelled texts (docs/method.md, fitting)."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial

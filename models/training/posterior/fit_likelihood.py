@@ -1,4 +1,4 @@
-"""Fitting the hint posterior's weights by maximum likelihood (docs/method.md, how the likelihood was fitted)."""
+"""Fit the weights of the near factor by maximum likelihood (docs/method.md, fitting)."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Fitting the kernels of places to texts that people wrote (docs/method.md, how the kernels were fitted)."""
+"""Fit the place kernels to texts about real places (docs/method.md, fitting)."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
