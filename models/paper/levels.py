@@ -56,7 +56,7 @@ class Levels:
 
 
 def set_similarity(hints: Tensor, hint_mask: Tensor, instances: Tensor, instance_mask: Tensor) -> Tensor:
-    """[Q, N] mean over real hints of the maximum over real instances of the cosine (MNCL, similarity of a level).
+    """[Q, N] mean over real hints of the maximum over real instances of the cosine (MNCL, equations 6 and 12).
 
     Args:
         hints: [Q, H, D] unit vectors.

@@ -8,7 +8,7 @@ NOTHING = -1e9  # logit of what has no part; finite, so that no gradient is lost
 
 
 def contrastive_loss(scores: Tensor, same_cell: Tensor, temperature: float) -> Tensor:
-    """InfoNCE in both directions; the ablation a = 0 of MNCL's negative contrastive loss.
+    """Return InfoNCE in both directions; the ablation a = 0 of MNCL's negative contrastive loss.
 
     Args:
         scores: [B, B] similarity of description i with cell j; their own are on the diagonal.
@@ -33,7 +33,7 @@ def negative_contrastive_loss(
     exponent: float,
     least_weight: float,
 ) -> Tensor:
-    """MNCL's negative contrastive loss: what is not the answer is made improbable, the more the nearer it lies.
+    """Return MNCL's negative contrastive loss (equation 5): negatives become improbable, near ones most of all.
 
     p is the softmax over a row of scores / tau, q over a column;
     L = mean over i of the sum over j != i of w_ij * (-log(1 - p_ij)), and the same with q. Differs from the paper, as
