@@ -8,8 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import islice
+from math import cos, radians
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
 import numpy as np
 import osmium
@@ -18,6 +19,7 @@ import shapely
 from models.citymap.colours import BASIC_PALETTE
 from models.citymap.frame import Frame
 from models.citymap.geometry.tiling import Geometries
+from models.citymap.points import Ints
 from models.citymap.types import CityMap, CutRules, Floats
 from models.errors import MapError
 from models.sources.osm.classes import OsmClass, class_of, load_classes
@@ -32,6 +34,9 @@ ATTRIBUTION = "© OpenStreetMap contributors, ODbL 1.0"
 MIN_PART_POINTS = 24  # 6 m2 of ground
 AT_ONCE = 20_000  # elements
 LOCATIONS_M = 2.0  # between places to stand, about
+KM_PER_DEGREE: Final = 111.2  # of latitude
+MOST_KM2: Final = 100_000.0  # of a map: its table of tiles takes 13 GB then
+MOST_KM: Final = 1000.0  # from side to side: in a frame, metres are 0.3 % too long 500 km from the middle
 Element = TypeVar("Element")
 LINEAR_KEYS = ("highway", "railway", "barrier", "tunnel", "bridge")  # closed ways of these are loops, not areas
 
@@ -45,7 +50,7 @@ class _Element:
     source_id: str
 
 
-Box = tuple[float, float, float, float]  # west, south, east, north in degrees
+Box = tuple[float, float, float, float]  # west, south, east, north in degrees; across 180 degrees east is beyond 180
 Batch = tuple[list[_Element], Geometries]  # with the geometry of each, in degrees
 
 
@@ -57,7 +62,7 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
         name: name of the map; the file's name up to the first dot by default.
 
     Raises:
-        MapError: the file is missing, empty, cut short, no OpenStreetMap, or nothing in it is usable.
+        MapError: the file is missing, empty, cut short, no OpenStreetMap, too large, or nothing in it is usable.
     """
     frame, box = frame_and_box(path)
     with scratch() as directory:
@@ -70,9 +75,17 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
 
 
 def frame_and_box(path: Path) -> tuple[Frame, Box | None]:
-    """The frame of a file's map, for which a file that says its box is not read, and that box."""
+    """Return the frame of a file's map, and the box that the file says, if it says one that a map can have.
+
+    A file with such a box is not read.
+    """
     box = _box(path)
-    return _middle(box or _bounds(_read_elements(path))), box
+    if box is not None and _is_possible(box):
+        return _middle(box), box
+    bounds = _bounds(_read_elements(path))
+    if not _is_possible(bounds):
+        raise _too_large(path, bounds)
+    return _middle(bounds), None
 
 
 def features_of(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Feature]]:
@@ -98,20 +111,63 @@ def frame_of(path: Path) -> Frame:
     return frame_and_box(path)[0]
 
 
-def _bounds(batches: Iterable[Batch]) -> Floats:
-    """[4] the box (west, south, east, north) round some geometry."""
-    bounds = np.array([shapely.total_bounds(geometry) for _, geometry in batches])
-    return np.concatenate([bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)])
+def _bounds(batches: Iterable[Batch]) -> Box:
+    """Return the box round some geometry."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)  # longitude from -180, longitude from 0, latitude
+    for _, geometry in batches:
+        longitude, latitude = shapely.get_coordinates(geometry).T
+        ends = np.stack([longitude, longitude % 360, latitude])
+        low, high = np.minimum(low, ends.min(axis=1)), np.maximum(high, ends.max(axis=1))
+    across_180 = int(high[0] - low[0] > 180 > high[1] - low[1])
+    return float(low[across_180]), float(low[2]), float(high[across_180]), float(high[2])
 
 
-def _middle(box: Box | Floats) -> Frame:
-    """The frame at the middle of a box (west, south, east, north)."""
+def _size_km(box: Box) -> tuple[float, float]:
+    """Return the width and height of a box."""
     west, south, east, north = box
-    return Frame(origin_lat=round((south + north) / 2, 7), origin_lon=round((west + east) / 2, 7))
+    return (east - west) * KM_PER_DEGREE * cos(radians((south + north) / 2)), (north - south) * KM_PER_DEGREE
+
+
+def _is_possible(box: Box) -> bool:
+    width_km, height_km = _size_km(box)
+    return max(width_km, height_km) <= MOST_KM and width_km * height_km <= MOST_KM2
+
+
+def _too_large(path: Path, box: Box) -> MapError:
+    """Return the error for a file that spans too much, which names the element farthest from the others."""
+    names, points, element = list[str](), list[Floats](), list[Ints]()
+    for elements, lon_lat in _read_elements(path):
+        vertices, of = shapely.get_coordinates(lon_lat, return_index=True)
+        points.append(vertices)
+        element.append(len(names) + of)
+        names += [each.source_id for each in elements]
+    lon_lat_deg = np.concatenate(points)
+    if box[2] > 180:
+        lon_lat_deg[:, 0] %= 360
+    farthest = int(np.abs(lon_lat_deg - np.median(lon_lat_deg, axis=0)).max(axis=1).argmax())
+    name, (longitude, latitude) = names[int(np.concatenate(element)[farthest])], lon_lat_deg[farthest].tolist()
+    width_km, height_km = _size_km(box)
+    return MapError(
+        f"{path}: it spans {width_km:,.0f} x {height_km:,.0f} km, but a map can be at most {MOST_KM:,.0f} km wide and "
+        f"{MOST_KM2:,.0f} square km; farthest from the rest is {name} "
+        f"at latitude {latitude:.7g}, longitude {_longitude(longitude):.7g}: "
+        "remove it from the file if it is a mistake, or index a part with --within west,south,east,north"
+    )
+
+
+def _middle(box: Box) -> Frame:
+    """Return the frame at the middle of a box."""
+    west, south, east, north = box
+    return Frame(origin_lat=round((south + north) / 2, 7), origin_lon=round(_longitude((west + east) / 2), 7))
+
+
+def _longitude(degrees: float) -> float:
+    """Return a longitude from -180 to 180 degrees."""
+    return degrees - 360 if degrees > 180 else degrees
 
 
 def _box(path: Path) -> Box | None:
-    """The box of an extract (west, south, east, north), if it says so."""
+    """Return the box that an extract says, if it says one."""
     if not path.is_file():
         raise MapError(f"{path}: no such file; give the path of an .osm.pbf or .osm file")
     if not path.name.lower().endswith(SUFFIXES):
@@ -122,7 +178,10 @@ def _box(path: Path) -> Box | None:
         box = osmium.io.Reader(str(path)).header().box()
     if not box.valid():
         return None
-    return box.bottom_left.lon, box.bottom_left.lat, box.top_right.lon, box.top_right.lat
+    west, east = box.bottom_left.lon, box.top_right.lon
+    if east - west > 180:
+        west, east = east, west + 360  # it crosses 180 degrees, and osmium has exchanged its sides
+    return (west, box.bottom_left.lat, east, box.top_right.lat) if west < east else None
 
 
 def _read_elements(path: Path) -> Iterator[Batch]:

@@ -1,3 +1,4 @@
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -72,6 +73,73 @@ def test_a_map_beside_its_box_is_refused(tmp_path) -> None:
     path.write_text(HEADER + '<bounds minlat="50" minlon="24" maxlat="51" maxlon="25"/>' + STREET + "</osm>")
     with pytest.raises(MapError, match="nothing of it lies in the box"):
         load_osm(path)
+
+
+@pytest.mark.parametrize(("lat", "lon"), [("0", "0"), ("0", "25"), ("60", "100")])
+def test_an_element_far_from_the_rest_is_named(tmp_path, lat, lon) -> None:
+    stray = f'<node id="555" lat="{lat}" lon="{lon}"><tag k="amenity" v="bench"/></node>'
+    with pytest.raises(MapError, match=rf"node/555 at latitude {lat}, longitude {lon}: remove it .* --within"):
+        load_osm(write(tmp_path, stray))
+
+
+STRAY = '<node id="555" lat="0" lon="0"><tag k="amenity" v="bench"/></node>'
+ALL_OF_IT = '<bounds minlat="0" minlon="0" maxlat="60.01" maxlon="25.01"/>'
+
+
+def test_an_element_far_from_the_rest_is_named_although_the_box_has_it(tmp_path) -> None:
+    path = tmp_path / "map.osm"
+    path.write_text(HEADER + ALL_OF_IT + STREET + STRAY + "</osm>")
+    with pytest.raises(MapError, match="node/555"):
+        load_osm(path)
+
+
+def test_of_a_way_with_one_node_far_away_that_node_is_named(tmp_path) -> None:
+    body = (
+        '<node id="9" lat="-33.5" lon="151.25"/><way id="5"><nd ref="1"/><nd ref="9"/><tag k="barrier" v="wall"/></way>'
+    )
+    with pytest.raises(MapError, match=r"way/5 at latitude -33\.5, longitude 151\.25"):
+        load_osm(write(tmp_path, body))
+
+
+def test_an_element_far_away_is_left_out_by_a_box(tmp_path) -> None:
+    path = tmp_path / "map.osm"
+    path.write_text(HEADER + BOX + STREET + STRAY + "</osm>")
+    assert {i.label for i in load_osm(path).instances} == {"road"}
+
+
+def shifted(body: str, east_deg: float) -> str:
+    """A map's elements moved east, across 180 degrees."""
+    return re.sub(r'lon="([\d.]+)"', lambda lon: f'lon="{(float(lon[1]) + east_deg + 180) % 360 - 180:.7f}"', body)
+
+
+ACROSS_180 = '<bounds minlat="59.999" minlon="179.9985" maxlat="60.005" maxlon="-179.9975"/>'
+
+
+@pytest.mark.parametrize(("box", "across"), [(BOX, ACROSS_180), ("", "")])
+def test_a_map_across_180_degrees_is_as_it_would_be_elsewhere(tmp_path, box, across) -> None:
+    tree = '<node id="9" lat="60.001" lon="25.0015"><tag k="natural" v="tree"/></node>'
+    here, there = tmp_path / "here.osm", tmp_path / "there.osm"
+    here.write_text(HEADER + box + STREET + tree + "</osm>")
+    there.write_text(HEADER + across + shifted(STREET + tree, 154.9995) + "</osm>")
+    cities = [load_osm(path) for path in (here, there)]
+    one, other = ([(i.label, i.name, shapely.bounds(geometry_of(city, i))) for i in city.instances] for city in cities)
+    assert [each[:2] for each in one] == [each[:2] for each in other]
+    np.testing.assert_allclose([each[2] for each in one], [each[2] for each in other], atol=0.02)
+    lat, lon = cities[1].frame.to_wgs84(cities[1].locations_m)
+    assert (np.abs(lat - 60) < 1e-3).all()
+    assert lon.min() < -179.9 < 179.9 < lon.max()
+
+
+@pytest.mark.parametrize(("name", "message"), [("stray", "node/555"), ("anti", None)])
+def test_hard_maps(name, message) -> None:
+    path = Path(__file__).parents[5] / "shared/data/maps-hard" / f"{name}.osm"
+    if not path.is_file():
+        pytest.skip(f"{path} is not there")
+    if message:
+        with pytest.raises(MapError, match=message):
+            load_osm(path)
+    else:
+        assert {"Mill Street", "Oak Avenue"} <= {i.name for i in load_osm(path).instances}
 
 
 def geometry_of(city, instance):
