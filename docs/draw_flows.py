@@ -1,4 +1,4 @@
-"""Draws docs/flows.svg: how a description becomes an answer, and a map an index.
+"""Draw docs/flows.svg: how a description becomes an answer, and a map becomes an index.
 
 python docs/draw_flows.py
 """
@@ -14,14 +14,18 @@ from matplotlib.patches import FancyArrowPatch, FancyBboxPatch, Rectangle
 OUT = Path(__file__).parent / "flows.svg"
 WIDTH, HEIGHT = 132.0, 112.0  # of the drawing, in its own units; 10 of them are an inch
 FILL = {"app": "#dbe9f6", "index": "#e3f1dd", "models": "#fbe9d3", "file": "#f1f1f1"}
-LAYERS = {"app": "app: delivery", "index": "index: from models to answers", "models": "models: world, learned"}
+LAYERS = {
+    "app": "app: HTTP, command line, page",
+    "index": "index: building and answering",
+    "models": "models: map, language, learned parts",
+}
 INK, SOFT = "#222222", "#5a5a5a"
 TALL = 8.0
 Box = tuple[float, float, float, float]  # middle x, middle y, width, height
 
 
 def box(axes: Axes, place: Box, layer: str, title: str, *notes: str) -> Box:
-    """A box with a title and smaller lines below it."""
+    """Draw a box with a title and smaller lines below it."""
     x, y, width, height = place
     corner = (x - width / 2, y - height / 2)
     shape = "square,pad=0" if layer == "file" else "round,pad=0,rounding_size=1.2"
@@ -35,7 +39,7 @@ def box(axes: Axes, place: Box, layer: str, title: str, *notes: str) -> Box:
 
 
 def arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], label: str = "") -> None:
-    """An arrow; its label stands at the right of its middle."""
+    """Draw an arrow with a label right of its middle."""
     axes.add_patch(
         FancyArrowPatch(start, end, arrowstyle="-|>", mutation_scale=9, lw=1, color=SOFT, shrinkA=0, shrinkB=0)
     )
@@ -45,73 +49,72 @@ def arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], labe
 
 
 def down(axes: Axes, upper: Box, lower: Box, label: str = "", at: float | None = None) -> None:
-    """An arrow from the foot of a box straight down to the top of another."""
+    """Draw an arrow straight down from one box to another."""
     x = lower[0] if at is None else at
     arrow(axes, (x, upper[1] - upper[3] / 2), (x, lower[1] + lower[3] / 2), label)
 
 
 def description(axes: Axes) -> Box:
-    """The left half; the frame round the boxes that read the index."""
+    """Draw the left half and return the frame around the boxes that read the index."""
     x, wide = 37.0, 58.0
     axes.text(x, 109.5, "A description becomes an answer", ha="center", fontsize=11, weight="bold", color=INK)
     route = box(axes, (x, 101, wide, TALL), "app", "POST /localize", "app/http/routes/localize.py, app/http/queue.py",
-                "checks, a bounded queue, one thread that owns the model")  # fmt: skip
-    reader = box(axes, (x, 88.5, wide, TALL), "models", "Reader", "models/language/reader.py",
-                 "what is named, with direction, colour, distance, absence")  # fmt: skip
-    bound = box(axes, (x, 76, wide, TALL), "models", "In the map's own words", "models/posterior/binding.py",
-                "labels, colours and names, each a distribution")  # fmt: skip
+                "validation, a bounded queue, worker processes")  # fmt: skip
+    reader = box(axes, (x, 88.5, wide, TALL), "models", "Readers", "models/language/",
+                 "hints and mentions: class, name, street, colour, direction, distance")  # fmt: skip
+    bound = box(axes, (x, 76, wide, TALL), "models", "Binding to the map's vocabulary", "models/posterior/binding.py",
+                "labels, colours and names of this map, each with a probability")  # fmt: skip
     left, right, half = x - 15.5, x + 15.5, 27.0
     render = box(axes, (left, 62.5, half, TALL), "models", "Template hints", "models/citymap/templates.py",
-                 "what was understood, rendered")  # fmt: skip
+                 "the bound hints as sentences")  # fmt: skip
     encode = box(axes, (left, 51, half, TALL), "models", "Retriever encodes", "models/paper/",
-                 "a unit vector a description")  # fmt: skip
+                 "MNCL: one vector a description")  # fmt: skip
     vector = box(axes, (left, 39.5, half, TALL), "index", "Vector search", "index/stores/, index/answering/ranking.py",
                  "FAISS: the 100 nearest cells")  # fmt: skip
     inverted = box(axes, (right, 39.5, half, TALL), "models", "Inverted list", "models/posterior/posterior.py",
-                   "class, colour, sector: 100 cells")  # fmt: skip
-    grid = box(axes, (x, 26.5, wide, TALL), "models", "Posterior over a grid of 1.5 m", "models/posterior/locate.py",
-               "how likely the text is at each node, all hints at once")  # fmt: skip
-    answer = box(axes, (x, 14, wide, TALL), "index", "One function makes the Answer", "index/answering/result.py",
-                 "cells, position, radii, evidence, heat map; and which model it was")  # fmt: skip
+                   "class, colour, direction: 100 cells")  # fmt: skip
+    grid = box(axes, (x, 26.5, wide, TALL), "models", "Posterior on a grid of 1.5 m", "models/posterior/",
+               "the likelihood of all hints and mentions at every node")  # fmt: skip
+    answer = box(axes, (x, 14, wide, TALL), "index", "Answer", "index/answering/, index/asking/",
+                 "position, radii, candidates, evidence, question")  # fmt: skip
     reply = box(axes, (x, 3.6, wide, 5.6), "app", "JSON or GeoJSON", "app/http/schemas, app/http/formats")
     frame = (x, (vector[1] + grid[1]) / 2, wide + 4, vector[1] - grid[1] + TALL + 1.6)
     corner = (frame[0] - frame[2] / 2, frame[1] - frame[3] / 2)
     axes.add_patch(Rectangle(corner, frame[2], frame[3], fc="none", ec=SOFT, lw=0.8, ls="--", zorder=0))
     down(axes, route, reader, "text")
-    down(axes, reader, bound, "parsed hints")
+    down(axes, reader, bound, "hints, mentions")
     down(axes, bound, render, at=left)
-    down(axes, bound, inverted, "reading", at=right)
+    down(axes, bound, inverted, "bound hints", at=right)
     down(axes, render, encode, "sentences")
     down(axes, encode, vector, "vector")
-    down(axes, vector, grid, "cells, joined", at=left)
+    down(axes, vector, grid, "cells of both", at=left)
     down(axes, inverted, grid, at=right)
-    down(axes, grid, answer, "Located: one distribution")
-    down(axes, answer, reply, "Answer")
+    down(axes, grid, answer, "position distribution")
+    down(axes, answer, reply, "")
     return frame
 
 
 def city(axes: Axes) -> Box:
-    """The right half; the box of the files."""
+    """Draw the right half and return the box of the files."""
     x, wide = 103.0, 52.0
     axes.text(x, 109.5, "A map becomes an index", ha="center", fontsize=11, weight="bold", color=INK)
-    command = box(axes, (x, 101, wide, TALL), "app", "hereabouts index", "app/cli/main.py", "map, directory, split")
-    door = box(axes, (x, 88.5, wide, TALL), "models", "One door to data", "models/sources/: source.py, one folder each",
+    command = box(axes, (x, 101, wide, TALL), "app", "hereabouts index", "app/cli/main.py", "a map and a directory")
+    door = box(axes, (x, 88.5, wide, TALL), "models", "Sources", "models/sources/",
                "OpenStreetMap, KITTI360Pose, a converted store")  # fmt: skip
-    cells = box(axes, (x, 76, wide, TALL), "models", "Cells", "models/citymap/geometry/ and cells.py",
-                "cubes of 30 m each 10 m; things whole, stuff clipped")  # fmt: skip
+    cells = box(axes, (x, 76, wide, TALL), "models", "Cells", "models/citymap/",
+                "cubes of 30 m, every 10 m, with the objects in them")  # fmt: skip
     left, right, half = x - 13.5, x + 13.5, 25.0
     encode = box(axes, (left, 62.5, half, TALL), "models", "Retriever encodes", "models/paper/",
-                 "vectors of cells, features of hints")  # fmt: skip
-    around = box(axes, (right, 62.5, half, TALL), "models", "Surroundings", "models/posterior/neighbours/",
-                 "what is within 15 m of each node")  # fmt: skip
-    write = box(axes, (x, 49.5, wide, TALL), "index", "Write a version, whole or not at all",
-                "index/build, index/build/artifact.py",
-                "fingerprints of map and model; the alias is moved last")  # fmt: skip
-    files = box(axes, (x, 31.5, wide, 16), "file", "The index directory", "vectors.faiss, hints.safetensors",
-                "cells.safetensors, cells.json", "surroundings.safetensors", "manifest.json: sizes and sums",
-                "aliases.json")  # fmt: skip
-    down(axes, command, door, "path and split")
-    down(axes, door, cells, "instances as points")
+                 "MNCL: one vector a cell")  # fmt: skip
+    around = box(axes, (right, 62.5, half, TALL), "models", "Neighbours, gazetteer", "models/posterior/",
+                 "objects near a node, names, streets")  # fmt: skip
+    write = box(axes, (x, 49.5, wide, TALL), "index", "A new version", "index/build/",
+                "written completely or not at all; the alias moves last")  # fmt: skip
+    files = box(axes, (x, 31.5, wide, 16), "file", "Index directory", "vectors, hints, cells",
+                "geometry, statements, gazetteer", "manifest.json: sizes and checksums",
+                "aliases.json: names of versions")  # fmt: skip
+    down(axes, command, door, "path")
+    down(axes, door, cells, "objects")
     down(axes, cells, encode, at=left)
     down(axes, cells, around, at=right)
     down(axes, encode, write, at=left)
@@ -121,7 +124,7 @@ def city(axes: Axes) -> Box:
 
 
 def draw() -> Figure:
-    """The picture."""
+    """Return the picture."""
     figure = Figure(figsize=(WIDTH / 10, HEIGHT / 10))
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set(xlim=(0, WIDTH), ylim=(0, HEIGHT))
@@ -142,7 +145,7 @@ def draw() -> Figure:
 
 
 def main() -> None:
-    """Write the picture; the same bytes at every run."""
+    """Write the picture, with the same bytes in every run."""
     with mpl.rc_context(
         {
             "svg.hashsalt": "hereabouts",

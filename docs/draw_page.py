@@ -57,10 +57,10 @@ def ask(page: Page, text: str) -> None:
     page.wait_for_timeout(1200)
 
 
-def sure(page: Page) -> None:
-    """An answer, one of its mentions lit up."""
-    ask(page, SURE)
-    page.hover(".mention >> nth=1")
+def answer(page: Page) -> None:
+    """Show README's answer with its last mention highlighted."""
+    ask(page, STREET)
+    page.hover(".mention >> nth=2")
 
 
 def ambiguous(page: Page) -> None:
@@ -90,10 +90,10 @@ def report(page: Page) -> None:
 
 STATES: dict[str, tuple[ViewportSize, Scheme, Callable[[Page], None]]] = {
     "start": (WIDE, "light", lambda page: None),
-    "answer": (WIDE, "light", sure),
+    "answer": (WIDE, "light", answer),
     "which": (WIDE, "light", ambiguous),
     "heat": (WIDE, "dark", heat),
-    "phone": (PHONE, "light", lambda page: ask(page, STREET)),
+    "phone": (PHONE, "light", lambda page: ask(page, SURE)),
     "report": (WIDE, "light", report),
 }
 
