@@ -13,7 +13,6 @@ from asgi_correlation_id import CorrelationIdMiddleware
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
-from app.copying import Copying
 from app.http.bodies import StrictBody
 from app.http.errors import add_error_handlers
 from app.http.indexes import Indexes
@@ -34,7 +33,7 @@ from app.workers.remote import open_workers
 from index.build.artifact import read_aliases
 from index.build.manifest import MANIFEST
 from index.build.snapshot import SNAPSHOTS
-from models.errors import HereaboutsError, RemoteUnavailable
+from models.errors import HereaboutsError
 from models.files import remove_abandoned
 
 if TYPE_CHECKING:
@@ -57,14 +56,7 @@ def create_app(
         settings: limits, and where the index is.
         open_localizer: run when the service starts, in a thread of it; None opens settings.index_dir in workers.
         page_dir: what the page's build wrote.
-
-    Raises:
-        RemoteUnavailable: settings.index is no URL that can be read here.
     """
-    copying = None
-    if settings.index is not None:
-        copying = Copying.of(settings.index)
-        settings = settings.model_copy(update={"index_dir": copying.directory})
     indexes = _indexes(settings, open_localizer)
     jobs = EvaluationJobs(settings.max_jobs, settings.jobs_dir)
     traces = _open_traces(os.environ)
@@ -73,8 +65,6 @@ def create_app(
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
         for directory in (settings.index_dir, settings.index_dir / SNAPSHOTS):
             remove_abandoned(directory)
-        if copying is not None:
-            copying.start()
         await indexes.start()
         jobs.start()
         try:
@@ -82,8 +72,6 @@ def create_app(
         finally:
             await jobs.close()
             await indexes.close()
-            if copying is not None:
-                await asyncio.to_thread(copying.close)
             if traces is not None:
                 await asyncio.to_thread(traces.close)
 
@@ -170,15 +158,7 @@ def _open_traces(environ: Mapping[str, str]) -> "Traces | None":
 
 
 def _open_workers(settings: Settings, alias: str, version: str | None) -> Sequence[LocalizerLike]:
-    """The workers of an index: of the version that an alias names, or of a directory that is a version itself.
-
-    Raises:
-        RemoteUnavailable: no version was fetched yet.
-    """
-    if settings.index is not None and version is None:
-        raise RemoteUnavailable(
-            "the index is still being fetched; if it does not come, its operator finds in the log why"
-        )
+    """The workers of an index: of the version that an alias names, or of a directory that is a version itself."""
     return open_workers(open_order(settings, version), settings.workers or usable_cpus())
 
 

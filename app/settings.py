@@ -19,9 +19,6 @@ class Settings(BaseSettings):
     model_config = SettingsConfigDict(env_prefix="HEREABOUTS_", hide_input_in_errors=True)  # one is a secret
 
     index_dir: Path = Field(Path("data/index"), description="directory that `hereabouts index` wrote")
-    index: str | None = Field(
-        None, description="URL of an index elsewhere, of which a copy is served; None: index_dir is served"
-    )
     weights_dir: Path | None = Field(None, description="model weights; None: the ones shipped in the package")
     fine_weights_dir: Path | None = Field(
         None, description="weights of a fine stage, for its own refine; None: the ones in the package"

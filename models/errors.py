@@ -7,7 +7,6 @@ HereaboutsError
 ├── ReplyError           an answer to a question that the service did not ask
 ├── WeightsError         weights that are missing, broken or of another model
 ├── StoreUnavailable     a store of vectors elsewhere that does not answer, or cannot be asked
-├── RemoteUnavailable    an index elsewhere that does not answer, cannot be asked, or has not come yet
 ├── ClusterUnavailable   a cluster of machines that does not answer, or cannot be asked
 ├── TrainingError        settings that cannot be trained with, or a run directory of another run
 └── IndexUnusable         an index directory that cannot be served
@@ -56,10 +55,6 @@ class WeightsError(HereaboutsError):
 
 class StoreUnavailable(HereaboutsError):
     """A store of vectors outside the index directory that does not answer; it may the next time."""
-
-
-class RemoteUnavailable(HereaboutsError):
-    """An index behind a URL that does not answer, cannot be asked, or has not been fetched yet; it may be next time."""
 
 
 class ClusterUnavailable(HereaboutsError):

@@ -8,7 +8,6 @@ import os
 import secrets
 import shutil
 import tempfile
-import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -122,29 +121,16 @@ def _begin_directory(parent: Path) -> tuple[int, Path]:
 def remove_abandoned(parent: Path) -> None:
     """Remove from a directory what was being filled when its process was killed."""
     for left in parent.glob(f"{BUILDING}*"):
-        remove_unheld(left)
-
-
-def remove_unheld(path: Path) -> None:
-    """Remove a file or directory, unless a process holds it or it cannot be removed."""
-    with suppress(OSError):  # of somebody else, or somebody else removes it too
-        held = os.open(path, os.O_RDONLY)
-        try:
-            fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if path.is_dir():
-                shutil.rmtree(path, ignore_errors=True)
-            else:
-                path.unlink()
-        finally:
-            os.close(held)
-
-
-def hold(directory: Path, holder: object) -> None:
-    """Keep a directory from `remove_unheld` while an object lives, here or in a process forked from this one."""
-    held = os.open(directory, os.O_RDONLY)
-    weakref.finalize(holder, os.close, held)
-    with suppress(OSError):  # a file system without locks, on which nothing is removed
-        fcntl.flock(held, fcntl.LOCK_SH)
+        with suppress(OSError):  # another user owns it, or another process removes it at the same time
+            descriptor = os.open(left, os.O_RDONLY)
+            try:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                if left.is_dir():
+                    shutil.rmtree(left, ignore_errors=True)
+                else:
+                    left.unlink()
+            finally:
+                os.close(descriptor)
 
 
 def sync(path: Path) -> None:

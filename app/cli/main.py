@@ -16,11 +16,10 @@ from typer.core import TyperGroup
 
 from app.cli import data as cli_data
 from app.cli import measure as cli_measure
-from app.cli import push as cli_push
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.index_options import check_shares, check_update, parse_shard, share_out
-from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split, check_local, is_url
+from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from index.build.shard import MOST_SHARDS, Shard
 from models.errors import HereaboutsError
@@ -70,9 +69,7 @@ def index(
         Path | None,
         typer.Option(help="in place of --map, a newer file of the map that is indexed: what changed is encoded anew"),
     ] = None,
-    out: Annotated[
-        Path, typer.Option(envvar="HEREABOUTS_INDEX_DIR", callback=check_local, help="directory of the index")
-    ] = INDEX_DIR,
+    out: Annotated[Path, typer.Option(envvar="HEREABOUTS_INDEX_DIR", help="directory of the index")] = INDEX_DIR,
     split: Split = None,
     keep_current: Annotated[
         bool, typer.Option("--keep-current", help="build nothing if the index is of this map and this model")
@@ -128,14 +125,7 @@ def index(
 
 @app.command()
 def serve(
-    index_at: Annotated[
-        str,
-        typer.Option(
-            "--index",
-            envvar=["HEREABOUTS_INDEX", "HEREABOUTS_INDEX_DIR"],
-            help="directory of the index, or the URL of one elsewhere (s3://bucket/town), of which a copy is served",
-        ),
-    ] = str(INDEX_DIR),
+    index_dir: IndexDir = INDEX_DIR,
     host: Annotated[str, typer.Option(envvar="HEREABOUTS_HOST", help="address to listen on")] = "127.0.0.1",
     port: Annotated[int, typer.Option(envvar="HEREABOUTS_PORT", help="0 takes a free one")] = 8000,
     jobs: Annotated[
@@ -151,8 +141,7 @@ def serve(
         from app.server import serve as serve_app
         from app.settings import load_settings
 
-        place = {"index": index_at} if is_url(index_at) else {"index": None, "index_dir": index_at}
-        settings = load_settings(**place, host=host, port=port, jobs_dir=jobs)
+        settings = load_settings(index_dir=index_dir, host=host, port=port, jobs_dir=jobs)
         configure_logging(settings.log_level, settings.log_descriptions)
         serve_app(create_app(settings), settings)
 
@@ -295,7 +284,6 @@ for command in (
     cli_measure.questions,
     cli_measure.descriptions,
     cli_measure.benchmark,
-    cli_push.push,
     cli_reproduce.reproduce,
 ):
     app.command()(command)

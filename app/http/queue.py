@@ -17,7 +17,7 @@ from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
 from index.answering.answers import Answer
 from index.answering.query import Query
-from models.errors import HereaboutsError, RemoteUnavailable
+from models.errors import HereaboutsError
 
 REFUSED_S = 0.2  # before a refusal is said: clients that ask again at once would else take the time of those answered
 FIRST_S = 0.05  # that a query is thought to take before one was answered
@@ -91,7 +91,7 @@ class InferenceQueue:
         self._computing = 0
         self._query_s = FIRST_S  # that a worker takes for a query, a moving average
         self._localizers: Sequence[LocalizerLike] = ()
-        self._failure: tuple[Code, str] | None = None  # why nothing is answered, as clients are told
+        self._failure: str | None = None  # why nothing is answered, in words for clients
         self._error: Exception | None = None
         self._is_draining = False
         self._is_closed = False
@@ -106,7 +106,7 @@ class InferenceQueue:
             Problem: not ready, or it could not be loaded.
         """
         if self._failure is not None:
-            raise Problem(*self._failure)
+            raise Problem(Code.LOAD_FAILED, self._failure)
         if not self._localizers:
             raise Problem(Code.NOT_READY)
         return self._localizers[0]
@@ -169,7 +169,7 @@ class InferenceQueue:
             reason: what is wrong and what to do, for clients.
         """
         with self._lock:
-            self._failure = Code.LOAD_FAILED, reason
+            self._failure = reason
             waiting = [self._jobs.popleft() for _ in range(len(self._jobs))]
         for job in waiting:
             if job.begins():
@@ -246,18 +246,14 @@ class InferenceQueue:
         """The localizers; none if they cannot be opened."""
         try:
             localizers = self._open_localizers()
-        except RemoteUnavailable as error:  # whoever fetches it logs why
-            self._error, self._failure = error, (Code.NOT_READY, str(error))
-            return ()
         except HereaboutsError as error:
             log.error("load failed", reason=str(error))
-            said = "the index or the model cannot be used; the operator finds in the log why"
-            self._error, self._failure = error, (Code.LOAD_FAILED, said)
+            self._error = error
+            self._failure = "the index or the model cannot be used; the operator finds in the log why"
             return ()
         except Exception as error:
             log.exception("load failed", reason=str(error))  # nobody has said anything yet
-            said = "a fault in the service while loading; the operator finds it in the log"
-            self._failure = Code.LOAD_FAILED, said
+            self._failure = "a fault in the service while loading; the operator finds it in the log"
             return ()
         facts = localizers[0].facts
         log.info("ready", index_version=facts.version, cells=facts.num_cells, workers=len(localizers))

@@ -38,7 +38,6 @@ from models.citymap.points import Ints
 from models.citymap.scenery.files import SceneryPart, file_name, is_scenery
 from models.citymap.types import Floats
 from models.errors import IndexBroken
-from models.files import hold
 from models.language.mentions.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
 from models.paper.checkpoint import load_retriever
@@ -74,7 +73,6 @@ class Localizer:
         load_refiner: Callable[[FineMethod], FineModel] = load_refiner,
         load_model: Callable[[], PosteriorModel] = load_posterior,
     ) -> None:
-        hold(directory, self)  # some files are read when they are first needed
         self.manifest, self.retriever = manifest, retriever
         self._directory, self._load_refiner, self._load_model = directory, load_refiner, load_model
         self._refined: dict[str, VectorLocalizer] = {}

@@ -48,10 +48,6 @@ class Aliases(BaseModel):
     aliases: dict[Name, Name] = {}
     versions: dict[Name, Sha256] = {}
 
-    def as_file(self) -> bytes:
-        """The content of aliases.json."""
-        return (self.model_dump_json(indent=2) + "\n").encode()
-
 
 EARLIER: Final = TypeAdapter(dict[Name, Name])
 
@@ -104,13 +100,7 @@ def _change(root: Path, aliases: dict[str, str], versions: dict[str, str]) -> No
     with FileLock(root / LOCK):
         known = read_aliases(root)
         changed = Aliases(aliases=known.aliases | aliases, versions=known.versions | versions)
-        replace_file(root / ALIASES, changed.as_file())
-
-
-def write_aliases(root: Path, aliases: Aliases) -> None:
-    """Let an index directory have these aliases and versions and no others."""
-    with FileLock(root / LOCK):
-        replace_file(root / ALIASES, aliases.as_file())
+        replace_file(root / ALIASES, (changed.model_dump_json(indent=2) + "\n").encode())
 
 
 def read_aliases(root: Path) -> Aliases:
@@ -120,34 +110,15 @@ def read_aliases(root: Path) -> Aliases:
         IndexBroken: the file is broken, or cannot be read.
     """
     try:
-        return parse_aliases((root / ALIASES).read_bytes(), root)
+        content = (root / ALIASES).read_bytes()
+        with suppress(ValidationError):  # up to format 6, an object of aliases alone; their versions are built anew
+            return Aliases(aliases=EARLIER.validate_json(content))
+        return Aliases.model_validate_json(content)
     except FileNotFoundError:
         return Aliases()
-    except OSError as error:
-        raise _broken(root) from error
-
-
-def parse_aliases(content: bytes, root: Path | str) -> Aliases:
-    """The aliases and versions that aliases.json names.
-
-    Args:
-        content: of the file.
-        root: the index directory that it is of, for messages.
-
-    Raises:
-        IndexBroken: it is broken.
-    """
-    with suppress(ValidationError):  # up to format 6, an object of aliases alone; their versions are built anew
-        return Aliases(aliases=EARLIER.validate_json(content))
-    try:
-        return Aliases.model_validate_json(content)
-    except ValidationError as error:
-        raise _broken(root) from error
-
-
-def _broken(root: Path | str) -> IndexBroken:
-    advice = f"delete {root} and {ADVICE}"
-    return IndexBroken(f"{root}/{ALIASES} is broken or of another version of hereabouts; {advice}")
+    except (OSError, ValidationError) as error:
+        advice = f"delete {root} and {ADVICE}"
+        raise IndexBroken(f"{root / ALIASES} is broken or of another version of hereabouts; {advice}") from error
 
 
 def find_version(path: Path, alias: str = DEFAULT) -> tuple[Path, Manifest]:

@@ -135,13 +135,12 @@ def write_manifest(directory: Path, manifest: Manifest) -> None:
     (directory / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
 
 
-def read_manifest(directory: Path, expected: str | None = None, version: str | None = None) -> Manifest:
-    """A version's manifest.
+def read_manifest(directory: Path, expected: str | None = None) -> Manifest:
+    """Read the manifest of a version.
 
     Args:
         directory: of the version.
         expected: the manifest's sha256, if the version is registered.
-        version: its name; None: as its directory.
 
     Raises:
         IndexBroken: it is missing, not what was registered, or says what no manifest says.
@@ -164,7 +163,7 @@ def read_manifest(directory: Path, expected: str | None = None, version: str | N
         wrong = error.errors()[0]
         field = ".".join(map(str, wrong["loc"])) or "manifest"
         raise IndexBroken(f"{path} is broken: {field}: {wrong['msg']}; {ADVICE}") from error
-    if manifest.version != (version or directory.name):
+    if manifest.version != directory.name:
         raise IndexBroken(f"{path} is of version {manifest.version}; give its directory that name, or {ADVICE}")
     needed = NEEDED - {"vectors.faiss"} if manifest.store == "milvus" else NEEDED
     if missing := needed - set(manifest.files):

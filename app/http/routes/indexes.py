@@ -180,10 +180,8 @@ def _writing(settings: Settings) -> Iterator[None]:
     """Say so where the directory cannot be written.
 
     Raises:
-        Problem: it is read-only, the disk is full, or it is a copy of another, which is what has to be changed.
+        Problem: it is read-only, or the disk is full.
     """
-    if settings.index is not None:
-        raise Problem(Code.NOT_WRITABLE, "This is a copy of an index elsewhere; change that one (hereabouts push).")
     try:
         yield
     except OSError as error:
