@@ -24,7 +24,10 @@ TOLD_OF := $(if $(MIDTOWN),--data $(MIDTOWN) --texts $(PEOPLE)/manhattan_dev.jso
 	$(HELSINKI) --texts $(PEOPLE)/helsinki_west.jsonl \
 	--data models/maps/alexanderplatz.osm.pbf --texts $(PEOPLE)/alexanderplatz_dev.jsonl
 
-.PHONY: help install run test test-fast fuzz load soak chaos check format sbom audit towns train refit index serve evaluate benchmark web page wheels image clean
+# Set in some containers; every process would then compile torch's sources anew, four seconds each.
+unexport PYTHONDONTWRITEBYTECODE
+
+.PHONY: help install run test test-fast fuzz load soak chaos check check-page format sbom audit towns train refit index serve evaluate benchmark web page wheels image clean
 
 help:  ## what can be made
 	@sed -n 's/^\([a-z-]*\):.*##/\1\t/p' $(MAKEFILE_LIST)
@@ -117,6 +120,11 @@ page: install  ## build the page (app/web/page) from its sources, which takes No
 		print(json.dumps(create_app(Settings()).openapi()))" > app/web/source/schema.json
 	cd app/web/source && npm ci --silent --no-audit --no-fund && npm run --silent types && npm run --silent check \
 		&& npm run --silent build
+
+check-page: install  ## whether the page that is committed is what its sources make
+	committed=$$(mktemp -d) && cp -r app/web/page app/web/source/src $$committed && $(MAKE) page \
+		&& diff -r $$committed/page app/web/page && diff -r $$committed/src app/web/source/src \
+		|| { echo "the page is not what its sources make: run make page and commit it"; exit 1; }
 
 wheels: install  ## put this machine's build of torch where the image build finds it
 	$(BIN)/pip download --quiet --no-deps --dest docker/wheels $(TORCH)
