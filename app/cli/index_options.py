@@ -1,4 +1,4 @@
-"""What `hereabouts index` is told of shards and updates."""
+"""The options of `hereabouts index` that share the work out."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -38,18 +38,6 @@ def check_shares(
         raise typer.BadParameter("--keep-current is about an index, not a share: leave it out with --shard")
     if address is not None and not engine:
         raise typer.BadParameter("--address is of a Ray cluster: give --engine ray with it, or leave it out")
-
-
-def check_update(map_path: Path | None, update: Path | None, shared: bool) -> None:
-    """Refuse what does not go together; `shared`: the work is shared out.
-
-    Raises:
-        BadParameter: it does not.
-    """
-    if (map_path is None) == (update is None):
-        raise typer.BadParameter("give --map, or --update and a newer file of the map that is indexed, and not both")
-    if update is not None and shared:
-        raise typer.BadParameter("--update works in one go: give --map with --shard, --merge and --engine")
 
 
 def share_out(

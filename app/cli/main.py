@@ -18,7 +18,7 @@ from app.cli import data as cli_data
 from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
-from app.cli.index_options import check_shares, check_update, parse_shard, share_out
+from app.cli.index_options import check_shares, parse_shard, share_out
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from index.build.shard import MOST_SHARDS, Shard
@@ -64,11 +64,7 @@ def before(context: typer.Context) -> None:
 
 @app.command()
 def index(
-    map_path: Annotated[Path | None, typer.Option("--map", help=DATA_HELP)] = None,
-    update: Annotated[
-        Path | None,
-        typer.Option(help="in place of --map, a newer file of the map that is indexed: what changed is encoded anew"),
-    ] = None,
+    map_path: Annotated[Path, typer.Option("--map", help=DATA_HELP)],
     out: Annotated[Path, typer.Option(envvar="HEREABOUTS_INDEX_DIR", help="directory of the index")] = INDEX_DIR,
     split: Split = None,
     keep_current: Annotated[
@@ -103,9 +99,6 @@ def index(
 ) -> None:
     """Build an index of a map."""
     check_shares(shard, merge, engine, address, keep_current)
-    check_update(map_path, update, bool(shard or merge or engine))
-    path = map_path or update
-    assert path is not None
 
     from app.cli.progress import stage_bars
     from app.settings import load_settings
@@ -113,9 +106,9 @@ def index(
     from models.sources.osm.extract import Region
 
     region = None if within is None else Region.parse(within)
-    given = path, out, load_settings().weights_dir, split, keep_current, levels
+    given = map_path, out, load_settings().weights_dir, split, keep_current, levels
     with stage_bars() as show:
-        path = share_out(IndexJob(*given, store, region, update is not None), shard, merge, engine, address, show)
+        path = share_out(IndexJob(*given, store, region), shard, merge, engine, address, show)
     if shard:
         rest = f"once all {shard.count} are there, give --merge {shard.count} in the place of --shard {shard}"
         typer.echo(f"shard {shard} is in {path}; {rest}")

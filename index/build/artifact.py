@@ -3,7 +3,6 @@
 <root>/aliases.json            {"aliases": {"default": "<version>"}, "versions": {"<version>": "<manifest's sha256>"}}
 <root>/<version>/manifest.json written last; names every other file with its sha256
 <root>/<version>/vectors.faiss                 a vector a cell; none if they are in Milvus
-<root>/<version>/encoded.npy                   what each of them was made of, for `hereabouts index --update`
 <root>/<version>/hints.safetensors             what the retriever makes of every template hint about the map
 <root>/<version>/levels.starts.npy, levels.<level>.npy   the retriever's other levels, if they were asked for
 <root>/<version>/cells.safetensors, cells.json where the cells are and what is in them

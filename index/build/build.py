@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 from index.build.artifact import check_store, open_version
 from index.build.manifest import StoreName, check_model, fingerprint
-from index.build.previous_version import Earlier
 from index.build.publish import Publisher, save_names
 from index.build.shard import Shard
 from index.build.shard_data import Part, writing
@@ -72,7 +71,6 @@ class IndexJob:
         levels: keep the retriever's other levels too: any `refine` but the default ranks by them.
         store: where the vectors go: a file of the version, or the Milvus that HEREABOUTS_MILVUS_URI names.
         within: the part of an OpenStreetMap file that is wanted; None for all of it.
-        update: of cells that have not changed since the default version, `build` takes the vectors from there.
     """
 
     map_path: Path
@@ -83,7 +81,6 @@ class IndexJob:
     levels: bool = False
     store: StoreName = "faiss"
     within: Region | None = None
-    update: bool = False
 
     def build(self, report: Progress = silent) -> Path:
         """Build a version in this process.
@@ -98,13 +95,10 @@ class IndexJob:
             MapError, DataError: the map cannot be read or cut, or the index cannot be written; what is there stays.
             WeightsError: a model cannot be loaded.
             StoreUnavailable: Milvus does not take the vectors; nothing is left there.
-            IndexUnusable: there is nothing that could be updated.
         """
         ready = self._ready(report)
         if current := self._current(ready):
             return current
-        wanted = ready.retriever.fingerprint, self._encoder(ready).levels
-        earlier = Earlier.open(self.out_dir, *wanted) if self.update else None
         with (
             self._room(),
             scratch() as named,
@@ -115,8 +109,8 @@ class IndexJob:
             surroundings = surroundings_of(source.bodies(), source.data.cells, report)
             rows = range(len(source.data.cells))
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source, surroundings, rows, report, earlier)
-            return self._publisher(ready, earlier).publish(source, [part], surroundings, names, report)
+            part = Part.of(encoder, likelihood, source, surroundings, rows, report)
+            return self._publisher(ready).publish(source, [part], surroundings, names, report)
 
     def make_part(self, shard: Shard, report: Progress = silent) -> Path:
         """Make the part of a shard, if it is not there; arguments and errors as `build`.
@@ -190,9 +184,9 @@ class IndexJob:
         )
         return Parts(self.out_dir, origin)
 
-    def _publisher(self, ready: _Ready, earlier: Earlier | None = None) -> Publisher:
+    def _publisher(self, ready: _Ready) -> Publisher:
         of_models = ready.retriever, ready.posterior.fingerprint
-        return Publisher(self.out_dir, *of_models, ready.map_sha256, self.store, earlier)
+        return Publisher(self.out_dir, *of_models, ready.map_sha256, self.store)
 
     @contextmanager
     def _room(self) -> Iterator[None]:

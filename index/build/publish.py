@@ -6,14 +6,11 @@ from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from index.answering.hint_features import save_hint_features, template_hints
 from index.answering.meanings import Meanings, meanings_of
 from index.asking.questions import landmarks_of
 from index.build.artifact import set_alias
 from index.build.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
-from index.build.previous_version import Earlier, save_digests
 from index.build.shard_data import Part, writing
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_store import MilvusStore
@@ -48,7 +45,6 @@ class Publisher:
         posterior_fingerprint: of the model that made their statements.
         map_sha256: of the map.
         store: where the vectors go.
-        earlier: that some of them are from; None for none.
     """
 
     out_dir: Path
@@ -56,7 +52,6 @@ class Publisher:
     posterior_fingerprint: str
     map_sha256: str
     store: StoreName
-    earlier: Earlier | None = None
 
     def publish(
         self,
@@ -96,8 +91,7 @@ class Publisher:
             new_directory(self.out_dir / origin["version"]) as directory,
         ):
             if collection is None:
-                like = None if self.earlier is None else self.earlier.store
-                FaissStore.of(vectors, like=like).save(directory / VECTORS_FILE)
+                FaissStore.of(vectors).save(directory / VECTORS_FILE)
             forget([vectors])
             self._save_parts(directory, parts, data, surroundings)
             give_back()
@@ -126,7 +120,6 @@ class Publisher:
 
     def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData, surroundings: Surroundings) -> None:
         """Write what the parts are joined to, but for the vectors, and what is said of them."""
-        save_digests(directory, np.concatenate([part.digests for part in parts]))
         levels = LevelTable.joined([part.levels for part in parts])
         if not levels.is_empty:
             levels.save(directory)

@@ -12,11 +12,9 @@ import torch
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
-from index.build.previous_version import Earlier
 from index.stores.store import Floats
 from models.citymap.cells import BLOCK, CellTable
 from models.citymap.gallery import MapData
-from models.citymap.points import Ints
 from models.citymap.types import Progress
 from models.errors import DataError, IndexBroken
 from models.files import mapped
@@ -35,7 +33,7 @@ from models.sources.source import MapSource, Source
 from models.spool import forget, spooled
 
 FILE: Final = "part.safetensors"
-COLUMNS: Final = ("starts", "statement", "holds", "vectors", "digests")
+COLUMNS: Final = ("starts", "statement", "holds", "vectors")
 AT_ONCE: Final = 32 * BLOCK  # cells
 
 
@@ -45,14 +43,12 @@ class Part:
 
     Attributes:
         vectors: [C, D] float32, the global level.
-        digests: [C] of what they were made of, `CellFeatures.digests`.
         levels: the others, if there are any.
         rows: of `statement_rows`.
         scanned: what lies around them, of a scan; None of a map of pieces, which finds that when it is asked for.
     """
 
     vectors: Floats
-    digests: Ints
     levels: LevelTable
     rows: StatementRows
     scanned: ScanSurroundings | None
@@ -66,7 +62,6 @@ class Part:
         surroundings: Surroundings,
         rows: range,
         report: Progress,
-        earlier: Earlier | None = None,
     ) -> "Part":
         """Make the part of some cells; what no index is made of, and what surroundings can cut again, is let go of.
 
@@ -77,13 +72,12 @@ class Part:
             surroundings: of these cells.
             rows: which they are.
             report: called as the work goes on.
-            earlier: has the vectors of some of these cells, perhaps.
         """
         if isinstance(source, MapSource):
             source.lighten()
             give_back()
         surroundings.forget()
-        vectors, digests, levels = _encoded(retriever, source.data, rows, report, earlier)
+        vectors, levels = _encoded(retriever, source.data, rows, report)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceSurroundings):
             source.cut_anew(surroundings.cut)
             give_back()
@@ -94,13 +88,12 @@ class Part:
             words = likelihood.words(rgb, data.palette)
         told = statement_rows(likelihood, surroundings, label, rgb, words)
         scanned = surroundings if isinstance(surroundings, ScanSurroundings) else None
-        return cls(vectors, digests, levels, told, scanned)
+        return cls(vectors, levels, told, scanned)
 
     def save(self, directory: Path) -> None:
         """Write some files, which `load` reads."""
         columns: dict[str, npt.NDArray[Any]] = {
             "vectors": self.vectors,
-            "digests": self.digests,
             "holds": self.rows.holds,
             "statement": self.rows.statement,
             "starts": self.rows.starts,
@@ -113,7 +106,7 @@ class Part:
 
     def forget(self) -> None:
         """Have what lies on disk take no memory until it is looked at."""
-        forget([self.vectors, self.digests, *self.levels.vectors.values(), self.rows.statement, self.rows.holds])
+        forget([self.vectors, *self.levels.vectors.values(), self.rows.statement, self.rows.holds])
 
     @classmethod
     def load(cls, directory: Path, levels: Sequence[Level], cells: CellTable) -> "Part":
@@ -129,7 +122,7 @@ class Part:
         """
         try:
             columns, facts = mapped(directory / FILE)
-            starts, statement, holds, vectors, digests = (columns[name] for name in COLUMNS)
+            starts, statement, holds, vectors = (columns[name] for name in COLUMNS)
             rows = StatementRows(starts, statement, holds, int(facts["statements"]))
             if (len(rows.starts) - 1, rows.starts[-1]) != (len(vectors), len(rows.holds)):
                 raise ValueError("its columns are of different lengths")
@@ -138,7 +131,7 @@ class Part:
         table = NO_LEVELS if tuple(levels) == ("global",) else LevelTable.load(directory, levels)
         is_scan = (directory / SURROUNDINGS_FILE).exists()
         scanned = ScanSurroundings.load(directory, cells) if is_scan else None
-        return cls(vectors, digests, table, rows, scanned)
+        return cls(vectors, table, rows, scanned)
 
 
 @contextmanager
@@ -150,47 +143,25 @@ def writing(out_dir: Path) -> Iterator[None]:
         raise DataError(f"{out_dir} cannot be written: {error}; make room, or give another directory") from error
 
 
-def _encoded(
-    retriever: Retriever, data: MapData, rows: range, report: Progress, earlier: Earlier | None
-) -> tuple[Floats, Ints, LevelTable]:
-    """Vectors [C, D], what they were made of, and the other levels of some cells, some at a time."""
-    labels, kept = np.array(data.gallery.labels), 0
+def _encoded(retriever: Retriever, data: MapData, rows: range, report: Progress) -> tuple[Floats, LevelTable]:
+    """Encode some cells, a span at a time: vectors [C, D] and the other levels."""
+    labels = np.array(data.gallery.labels)
     levels = [level for level in retriever.levels if level != "global"]
     names = ["vectors", *levels]
 
     def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
-        nonlocal kept
         none = np.empty((0, retriever.config.width), np.float32)
-        yield {"digests": np.empty(0, np.uint64), "sizes": np.empty(0, np.int64)} | dict.fromkeys(names, none)
+        yield {"sizes": np.empty(0, np.int64)} | dict.fromkeys(names, none)
         report("encode cells", 0, len(rows))
         spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
         for span, features in zip(spans, CellFeatures.in_turn(data.cells, labels, spans), strict=True):
             seen = retriever.seen(features)
             data.cells.parts.forget()
-            digests = seen.digests()
-            known = np.full(len(seen), -1) if earlier is None else earlier.known(digests)
-            vectors, table = _vectors_of(retriever, seen, known, earlier)
-            kept += int((known >= 0).sum())
+            vectors, table = encode_gallery(retriever, seen, map_forked)
             made = [vectors, *(table.vectors[level] for level in levels)]
-            yield {"digests": digests, "sizes": np.diff(table.starts)} | dict(zip(names, made, strict=True))
+            yield {"sizes": np.diff(table.starts)} | dict(zip(names, made, strict=True))
             report("encode cells", span.stop - rows.start, len(rows))
 
     found = spooled(columns())
-    if earlier is not None:
-        report(f"{kept} cells kept", 1, 1)
     table = LevelTable(np.concatenate([[0], np.cumsum(found["sizes"])]), {level: found[level] for level in levels})
-    return found["vectors"], found["digests"], table if levels else NO_LEVELS
-
-
-def _vectors_of(
-    retriever: Retriever, cells: CellFeatures, known: Ints, earlier: Earlier | None
-) -> tuple[Floats, LevelTable]:
-    """Vectors [C, D] of some cells, some known [C] to an earlier version, and the other levels."""
-    if earlier is None:
-        return encode_gallery(retriever, cells, map_forked)
-    kept, new = np.flatnonzero(known >= 0), np.flatnonzero(known < 0)
-    vectors = np.empty((len(cells), retriever.config.width), np.float32)
-    vectors[kept] = earlier.vectors(known[kept])
-    vectors[new], table = encode_gallery(retriever, cells.take(new), map_forked)
-    both = LevelTable.joined([earlier.levels.take(known[kept]), table])
-    return vectors, both.take(np.argsort(np.concatenate([kept, new])))
+    return found["vectors"], table if levels else NO_LEVELS

@@ -47,7 +47,6 @@ class FaissStore:
         vectors: Floats,
         positions_m: npt.NDArray[np.floating[Any]] | None = None,
         bits: int | None = None,
-        like: "FaissStore | None" = None,
     ) -> "FaissStore":
         """A store of vectors [N, D]; see the class.
 
@@ -55,19 +54,12 @@ class FaissStore:
             vectors: float32.
             positions_m: see the class.
             bits: of each number, 32, 16 or 8; None by how many vectors there are.
-            like: a store that some of them are from: if it has 8 bits, so has this, in the same steps, and what is from
-                there stays as it is; but for numbers of which some lie beyond the steps, which become longer.
         """
-        steps = None if like is None else like._steps_for(vectors)
-        dim, bits = vectors.shape[1], bits or (8 if len(vectors) > EXACT or steps is not None else 32)
+        dim, bits = vectors.shape[1], bits or (8 if len(vectors) > EXACT else 32)
         index: Any = faiss.IndexFlatIP(dim)
         if bits in QUANTIZED:
             index = faiss.IndexScalarQuantizer(dim, QUANTIZED[bits], faiss.METRIC_INNER_PRODUCT)
-            if bits == 8 and steps is not None:
-                faiss.copy_array_to_vector(steps, index.sq.trained)
-                index.is_trained = True
-            else:
-                index.train(np.stack(_reach(vectors)))  # which is all that the steps are made by
+            index.train(np.stack(_reach(vectors)))  # the extremes alone set the steps
         if bits == 8 and len(vectors) > MANY:
             return cls(_listed(vectors, index), positions_m)
         for some in _in_turn(vectors):
@@ -117,19 +109,6 @@ class FaissStore:
         if self._in_lists:
             return kinds.SearchParametersIVF(nprobe=lists, **of_rows)
         return kinds.SearchParameters(**of_rows) if of_rows else None
-
-    def _steps_for(self, vectors: Floats) -> Floats | None:
-        """[2 D] where the 8 bits of each number begin and how far they reach, for these too; None without 8 bits."""
-        if getattr(self._index, "sq", None) is None or self._index.sq.qtype != QUANTIZED[8]:
-            return None
-        least, span = faiss.vector_to_array(self._index.sq.trained).reshape(2, -1)
-        half = span / 255 * np.float32(0.51)  # a step: what was rounded to the last one lies so far beyond it
-        low, high = _reach(vectors)
-        begin = np.where(low < least - half, low, least)
-        end = np.where(high > least + span + half, high, least + span)
-        is_same = (begin == least) & (end == least + span)
-        steps: Floats = np.concatenate([begin, np.where(is_same, span, end - begin)]).astype(np.float32)
-        return steps
 
     def _inside(self, within: Box) -> npt.NDArray[np.bool_]:
         """[N] which cells are in a box."""

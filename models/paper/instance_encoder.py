@@ -4,7 +4,7 @@ import hashlib
 import logging
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, pairwise
+from itertools import accumulate
 from typing import Any, Literal
 
 import numpy as np
@@ -159,21 +159,6 @@ class CellFeatures:
 
     def __len__(self) -> int:
         return len(self.starts) - 1
-
-    def take(self, cells: Ints) -> "CellFeatures":
-        """Some cells, in the given order, without their points."""
-        begin, end = self.starts[cells], self.starts[cells + 1]
-        rows, starts = ranges(begin, end), np.concatenate([[0], np.cumsum(end - begin)])
-        return CellFeatures(starts, self.geometry[rows], self.label[rows], self.labels, None, self.shape[rows])
-
-    def digests(self) -> Ints:
-        """[N] uint64, the first bytes of a sum of all that an encoder is told of each cell, labels by name."""
-        named = b"".join(hashlib.sha256(label.encode()).digest()[:8] for label in self.labels)
-        label = np.frombuffer(named, np.uint64)[self.label]
-        columns = self.geometry, label[:, None], self.shape
-        rows = np.concatenate([np.ascontiguousarray(column).view(np.uint8) for column in columns], axis=1)
-        sums = (hashlib.sha256(rows[a:b].data).digest()[:8] for a, b in pairwise(self.starts.tolist()))
-        return np.frombuffer(b"".join(sums), np.uint64)
 
     def batch(self, cells: npt.NDArray[Any]) -> "CellBatch":
         """Some cells, padded to the largest of them."""

@@ -96,12 +96,11 @@ def test_fault_is_not_taken_for_wrong_input(opened):
 
 
 def test_index_builds_and_says_what_next(monkeypatch):
-    calls, regions, updates = [], [], []
+    calls, regions = [], []
 
     def job(map_path, out_dir, weights_dir, *rest):
         calls.append((map_path, out_dir, weights_dir))
-        regions.append(rest[-2])
-        updates.append(rest[-1])
+        regions.append(rest[-1])
 
         def build(_show):
             if map_path.name == "bad":
@@ -120,8 +119,6 @@ def test_index_builds_and_says_what_next(monkeypatch):
     assert regions[-1].shape.bounds == (1, 2, 3, 4)
     result = run("index", "--map", "a.osm", "--within", "here")
     assert (result.exit_code, len(calls)) == (1, 3)
-    assert run("index", "--update", "b.osm", "--out", "o").exit_code == 0
-    assert (calls[-1][0], updates) == (Path("b.osm"), [False, False, False, True])
     assert "west,south,east,north" in result.stderr
 
 

@@ -22,7 +22,7 @@ def calls(monkeypatch):
     asked = []
 
     class Job:
-        def __init__(self, map_path, out_dir, _weights_dir, _split, keep_current, levels, store, _region, _update):
+        def __init__(self, map_path, out_dir, _weights_dir, _split, keep_current, levels, store, _region):
             self.given = map_path, out_dir, keep_current, levels, store
 
         def make_part(self, shard, _show):
@@ -78,27 +78,10 @@ def test_shards_are_merged_here_or_made_in_a_cluster(calls) -> None:
         (("--shard", "1/2", "--engine", "ray"), "give one of them"),
         (("--shard", "1/2", "--keep-current"), "leave it out with --shard"),
         (("--address", "head:6379"), "give --engine ray with it"),
-        (("--update", "b.osm"), "and not both"),
     ],
 )
 def test_what_cannot_be_meant_is_a_usage_error(calls, arguments, said) -> None:
     result = run(*arguments)
-    assert result.exit_code == 2
-    assert said in " ".join(result.stderr.split())
-    assert not calls
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        ((), "give --map, or --update"),
-        (("--update", "b.osm", "--shard", "1/2"), "give --map with --shard, --merge and --engine"),
-        (("--update", "b.osm", "--merge", "2"), "give --map with --shard"),
-        (("--update", "b.osm", "--engine", "ray"), "give --map with --shard"),
-    ],
-)
-def test_an_update_is_of_a_map_in_one_go(calls, arguments, said) -> None:
-    result = CliRunner().invoke(app, ["index", *arguments], env={"COLUMNS": "200", "TERM": "dumb", "NO_COLOR": "1"})
     assert result.exit_code == 2
     assert said in " ".join(result.stderr.split())
     assert not calls

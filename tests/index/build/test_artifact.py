@@ -28,7 +28,7 @@ def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
     assert manifest.instances == len(city.instances)
     assert manifest.model_fingerprint == model.fingerprint
     assert set(manifest.files) == {
-        *("encoded.npy", "vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json"),
+        *("vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json"),
         *("pieces.safetensors", "statements.safetensors"),
         *(
             "gazetteer.safetensors",

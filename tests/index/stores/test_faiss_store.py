@@ -43,10 +43,9 @@ def in_lists(monkeypatch):
 def test_very_many_vectors_are_found_in_lists_of_like_ones(vectors, tmp_path, in_lists) -> None:
     alike = vectors[:100].repeat(30, axis=0) + 0.3 * vectors
     alike /= np.linalg.norm(alike, axis=1, keepdims=True)
-    flat = FaissStore.of(alike[:2000], bits=8)
     FaissStore.of(alike).save(tmp_path / "lists")
     positions_m = np.stack([np.arange(3000), np.zeros(3000)], axis=1)
-    store, whole = FaissStore.load(tmp_path / "lists", positions_m), FaissStore.of(alike, like=flat)
+    store = FaissStore.load(tmp_path / "lists", positions_m)
     assert (len(store), store.dim) == (3000, 64)
     assert store.vectors(np.arange(3000)) == pytest.approx(alike, abs=0.01)
     assert store.score(alike[5], np.array([5, 6])) == pytest.approx(alike[[5, 6]] @ alike[5], abs=0.02)
@@ -59,8 +58,6 @@ def test_very_many_vectors_are_found_in_lists_of_like_ones(vectors, tmp_path, in
     assert box[0] == pytest.approx(inside[:, :20], abs=1e-5), "within a box all are looked at"
     assert box[1].min() >= 100
     assert box[1].max() < 400
-    rows = np.arange(2000)
-    assert np.abs(whole.vectors(rows) - flat.vectors(rows)).max() < 0.02, "of the other's steps"
 
 
 def test_lists_that_hold_too_few_are_not_all_that_is_looked_at(vectors, in_lists, monkeypatch) -> None:
@@ -85,12 +82,10 @@ def test_however_many_vectors_are_looked_at_together_the_file_is_the_same(
     vectors, tmp_path, in_lists, monkeypatch, bits, many
 ) -> None:
     monkeypatch.setattr("index.stores.faiss_store.MANY", many)
-    like = FaissStore.of(0.5 * vectors[:300], bits=8)  # its steps have to become longer
 
-    def written() -> list[bytes]:
-        FaissStore.of(vectors, bits=bits).save(tmp_path / "one")
-        FaissStore.of(vectors, bits=bits, like=like).save(tmp_path / "other")
-        return [(tmp_path / name).read_bytes() for name in ("one", "other")]
+    def written():
+        FaissStore.of(vectors, bits=bits).save(tmp_path / "vectors")
+        return (tmp_path / "vectors").read_bytes()
 
     at_once = written()
     monkeypatch.setattr("index.stores.faiss_store.AT_ONCE", 700)
@@ -151,21 +146,3 @@ def test_another_kind_of_index_is_refused(vectors, tmp_path) -> None:
     faiss.write_index(graph, str(tmp_path / "graph"))
     with pytest.raises(IndexBroken, match="hereabouts index"):
         FaissStore.load(tmp_path / "graph")
-
-
-def test_8_bits_are_those_of_another_store_while_its_steps_reach(vectors) -> None:
-    first = FaissStore.of(vectors, bits=8)
-    rounded = first.vectors(np.arange(len(vectors)))
-    again = FaissStore.of(rounded[::-1], bits=8, like=first)
-    np.testing.assert_array_equal(again.vectors(np.arange(len(vectors))), rounded[::-1])
-    beyond = np.concatenate([rounded, 2 * rounded[:1]])
-    wider = FaissStore.of(beyond, bits=8, like=first)
-    np.testing.assert_allclose(wider.vectors(np.arange(len(beyond))), beyond, atol=np.ptp(beyond, axis=0).max() / 255)
-    for _ in range(20):  # each a little beyond the last, in one number
-        wider = FaissStore.of(beyond, like=wider)
-        beyond = np.concatenate([wider.vectors(np.arange(len(rounded))), [1.01 * wider.vectors(np.arange(1))[0]]])
-    step = np.ptp(beyond, axis=0) / 255
-    assert (np.abs(beyond[: len(rounded)] - rounded) <= 2.5 * step).all()
-    assert np.abs(np.mean((beyond[: len(rounded)] - rounded) / step)) < 0.1, "no drift to one side"
-    assert FaissStore.of(rounded, bits=32, like=first).vectors(np.array([0])).tolist() == rounded[:1].tolist()
-    assert len(FaissStore.of(rounded, bits=8, like=FaissStore.of(vectors))) == len(rounded)
