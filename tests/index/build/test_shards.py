@@ -78,7 +78,7 @@ def test_a_shard_without_cells_is_a_part_too(job) -> None:
 
 @pytest.mark.slow
 def test_shards_of_a_scan_give_the_bytes_of_the_whole(streets, weights_dir, tmp_path, monkeypatch) -> None:
-    of_models = ("retrieval.retriever", "retrieval.instance_encoder", "retrieval.level_table", "posterior.statements")
+    of_models = ("paper.retriever", "paper.instance_encoder", "paper.level_table", "posterior.statements")
     for module in (*(f"models.{name}" for name in of_models), "index.build.build", "index.build.shard_store"):
         monkeypatch.setattr(f"{module}.BLOCK", 8)
     whole, shared = (IndexJob(streets, tmp_path / name, weights_dir) for name in ("whole", "shared"))
