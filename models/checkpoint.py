@@ -1,4 +1,4 @@
-"""Models on disk: weights as safetensors, the configuration as JSON beside them."""
+"""Saving and loading of models: weights in model.safetensors, the configuration in config.json."""
 
 import json
 from collections.abc import Mapping
@@ -16,17 +16,18 @@ from models.errors import WeightsError
 from models.files import replace_file
 from models.language.text_encoder import TextEncoder, load_text_encoder
 
-SHIPPED = Path(__file__).parent / "weights"
+SHIPPED_WEIGHTS_DIR = Path(__file__).parent / "weights"
 WEIGHTS_FILE = "model.safetensors"
 CONFIG_FILE = "config.json"
-LARGE = 4096  # values; a tensor of more is kept in half precision, or in eight bits
-SCALE = ".scale"  # after the name of a tensor in eight bits: what a step is worth in each of its rows
-STEPS = 127  # to either side of 0
-SMALLEST = 2.0**-24  # above 0, of half precision
+# Tensors with more values are stored in float16 or int8; smaller ones, such as norms and temperatures, save little.
+MAX_UNROUNDED_VALUES = 4096
+SCALE_SUFFIX = ".scale"  # of the float16 tensor with the scale of each row of an int8 tensor
+INT8_MAX = 127
+MIN_FLOAT16 = 2.0**-24  # smallest positive value of float16; keeps the scale of an all-zero row above 0
 
 
 class Model(Protocol):
-    """What is kept: a module on a frozen text encoder, which is named and not saved."""
+    """A module on a frozen text encoder; the encoder is stored by name, not by weights."""
 
     method: ClassVar[Any]
     config_type: ClassVar[type[Any]]
@@ -36,7 +37,7 @@ class Model(Protocol):
 
     @property
     def fingerprint(self) -> str:
-        """sha256 of all weights, the text encoder's included."""
+        """The sha256 of all weights, including the text encoder's."""
 
     def state_dict(self) -> dict[str, Tensor]: ...  # noqa: D102
 
@@ -50,33 +51,33 @@ M = TypeVar("M", bound=Model)
 
 @dataclass(frozen=True, slots=True)
 class Checkpoints(Generic[M]):
-    """One kind of models on disk.
+    """The on-disk format of one kind of model.
 
     Attributes:
         kind: key of the configuration in config.json.
-        methods: the models of this kind by name.
+        methods: model classes by method name.
         default: directory of the weights that ship with the package.
-        advice: what to do where there are no good weights.
-        eight_bits: whether large tensors are kept in eight bits and all others in half precision, so that more models
-            fit into what ships; else large ones in half precision and all others as they are.
+        advice: what to do if the weights cannot be used; part of error messages.
+        is_int8: whether large tensors are stored in int8 and all others in float16 (smaller files); if not, large
+            tensors are stored in float16 and all others unchanged.
     """
 
     kind: str
     methods: Mapping[str, type[M]]
     default: Path
     advice: str
-    eight_bits: bool = False
+    is_int8: bool = False
 
     def save(self, model: M, directory: Path, training: dict[str, Any]) -> None:
-        """Write a model; its weights are rounded as they are kept, in the model too: it then is as it will be read.
+        """Write a model, and round the model's own weights to the stored precision, as `load` will return them.
 
         Args:
             model: on the CPU.
-            directory: made if it is missing.
-            training: how it came about, for the record.
+            directory: created if it is missing.
+            training: how the model was trained, for config.json.
         """
-        kept = round_weights(model, self.eight_bits)
-        replace_file(directory / WEIGHTS_FILE, save({name: tensor.contiguous() for name, tensor in kept.items()}))
+        stored = round_weights(model, self.is_int8)
+        replace_file(directory / WEIGHTS_FILE, save({name: tensor.contiguous() for name, tensor in stored.items()}))
         record = {
             "method": model.method,
             self.kind: model.config.model_dump(),
@@ -86,13 +87,13 @@ class Checkpoints(Generic[M]):
         replace_file(directory / CONFIG_FILE, (json.dumps(record, indent=2) + "\n").encode())
 
     def load(self, directory: Path | None = None) -> M:
-        """Read a model, ready to answer.
+        """Load a model in evaluation mode.
 
         Args:
             directory: with model.safetensors and config.json; None for the weights that ship with the package.
 
         Raises:
-            WeightsError: a file is missing or broken, or the weights do not fit the configuration.
+            WeightsError: a file is missing or broken, or the weights do not match the configuration.
         """
         directory = directory or self.default
         for name in (CONFIG_FILE, WEIGHTS_FILE):
@@ -108,52 +109,52 @@ class Checkpoints(Generic[M]):
             raise WeightsError(f"the weights in {directory} {problem}; {self.advice}") from error
         model = method(load_text_encoder(config.text_encoder), config)
         try:
-            model.load_state_dict(_read(weights))
+            model.load_state_dict(_to_float32(weights))
         except (RuntimeError, KeyError) as error:
-            problem = f"are not of the model its {CONFIG_FILE} names"
+            problem = f"do not match its {CONFIG_FILE}"
             raise WeightsError(f"the weights in {directory} {problem}; {self.advice}") from error
         model.eval()
         return model
 
 
-def round_weights(model: Model, eight_bits: bool = False) -> dict[str, Tensor]:
-    """Round the weights of a model as they are kept (see `Checkpoints`); what is stored of it."""
-    kept = _in_eight_bits(model.state_dict()) if eight_bits else _in_half(model.state_dict())
-    model.load_state_dict(_read(kept))
-    model.eval()  # forgets what it computed with the weights unrounded
-    return kept
+def round_weights(model: Model, is_int8: bool = False) -> dict[str, Tensor]:
+    """Round the weights of a model to the precision of `Checkpoints`, in place, and return the tensors to store."""
+    stored = _to_int8(model.state_dict()) if is_int8 else _to_float16(model.state_dict())
+    model.load_state_dict(_to_float32(stored))
+    model.eval()  # drops features cached from the unrounded weights
+    return stored
 
 
-def _in_half(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
+def _to_float16(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
     return {name: tensor.half() if _is_large(tensor) else tensor for name, tensor in state.items()}
 
 
-def _in_eight_bits(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
-    """Whole steps of each row's own size (absmax quantisation, LLM.int8(), NeurIPS 2022), and that size."""
-    kept: dict[str, Tensor] = {}
+def _to_int8(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Quantize large tensors to int8 with one scale per row (absmax quantisation, LLM.int8(), NeurIPS 2022)."""
+    stored: dict[str, Tensor] = {}
     for name, tensor in state.items():
         if _is_large(tensor) and tensor.dim() > 1:
-            scale = (tensor.abs().flatten(1).amax(dim=1) / STEPS).clamp(min=SMALLEST).half()
+            scale = (tensor.abs().flatten(1).amax(dim=1) / INT8_MAX).clamp(min=MIN_FLOAT16).half()
             steps = tensor / _along_rows(scale, tensor)
-            kept |= {name: steps.round().clamp(-STEPS, STEPS).to(torch.int8), name + SCALE: scale}
+            stored |= {name: steps.round().clamp(-INT8_MAX, INT8_MAX).to(torch.int8), name + SCALE_SUFFIX: scale}
         else:
-            kept[name] = tensor.half() if tensor.dtype is torch.float32 else tensor
-    return kept
+            stored[name] = tensor.half() if tensor.dtype is torch.float32 else tensor
+    return stored
 
 
-def _read(kept: Mapping[str, Tensor]) -> dict[str, Tensor]:
-    """The weights as a model takes them."""
-    state = {name: tensor.float() if tensor.dtype is torch.float16 else tensor for name, tensor in kept.items()}
-    for name, tensor in kept.items():
+def _to_float32(stored: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Return the state dict that a model loads."""
+    state = {name: tensor.float() if tensor.dtype is torch.float16 else tensor for name, tensor in stored.items()}
+    for name, tensor in stored.items():
         if tensor.dtype is torch.int8:
-            state[name] = tensor * _along_rows(state.pop(name + SCALE), tensor)
+            state[name] = tensor * _along_rows(state.pop(name + SCALE_SUFFIX), tensor)
     return state
 
 
 def _along_rows(scale: Tensor, tensor: Tensor) -> Tensor:
-    """[R] in float32, so that it multiplies the rows of a tensor [R, ...]."""
+    """Reshape a scale [R] so that it multiplies the rows of a tensor [R, ...]."""
     return scale.float().view(-1, *[1] * (tensor.dim() - 1))
 
 
 def _is_large(tensor: Tensor) -> bool:
-    return tensor.dtype is torch.float32 and tensor.numel() > LARGE
+    return tensor.dtype is torch.float32 and tensor.numel() > MAX_UNROUNDED_VALUES

@@ -1,26 +1,26 @@
-"""The errors a user can meet; each message says what is wrong and what to do next.
+"""The errors that a user can cause; each message says what is wrong and what to do next.
 
 HereaboutsError
-├── MapError             a map that cannot be read or holds nothing usable
+├── MapError             a map that cannot be read or has nothing to index
 ├── DataError            data set files that cannot be read; the message names file and field
 ├── DescriptionError     a text that cannot be used as a description
 ├── ReplyError           an answer to a question that the service did not ask
 ├── WeightsError         weights that are missing, broken or of another model
-├── StoreUnavailable     a store of vectors elsewhere that does not answer, or cannot be asked
-├── ClusterUnavailable   a cluster of machines that does not answer, or cannot be asked
-├── TrainingError        settings that cannot be trained with, or a run directory of another run
-└── IndexUnusable         an index directory that cannot be served
-    ├── IndexBroken      missing, cut short or changed after it was written
-    └── IndexMismatch    built by another model
+├── StoreUnavailable     an external vector store that cannot be reached
+├── ClusterUnavailable   a Ray cluster that cannot be reached or has lost a job
+├── TrainingError        invalid training settings, a diverging run, or a run directory of another run
+└── IndexUnusable         an index directory that cannot be used
+    ├── IndexBroken      missing, truncated or changed after it was written
+    └── IndexMismatch    built with another model
 """
 
 
 class HereaboutsError(Exception):
-    """Anything that goes wrong because of the input, not because of a bug."""
+    """Base of all errors that are caused by the input, not by a bug."""
 
 
 class MapError(HereaboutsError):
-    """A map that cannot be read or holds nothing usable."""
+    """A map that cannot be read or has nothing to index."""
 
 
 class DataError(HereaboutsError):
@@ -32,12 +32,12 @@ class DescriptionError(HereaboutsError):
 
 
 class ReplyError(HereaboutsError):
-    """An answer to a question that cannot have been asked about this map.
+    """An answer to a question that the service cannot have asked about this map.
 
     Attributes:
-        number: of the answer, among those of its query, from 0.
-        field: what of it is wrong, "question" or "choice".
-        advice: what to do.
+        number: index of the answer within its query, from 0.
+        field: the invalid field, "question" or "choice".
+        advice: what to do instead.
     """
 
     def __init__(self, number: int, field: str, advice: str) -> None:
@@ -45,7 +45,7 @@ class ReplyError(HereaboutsError):
         self.number, self.field, self.advice = number, field, advice
 
     def __reduce__(self) -> tuple[type["ReplyError"], tuple[int, str, str]]:
-        """What another process makes it of again."""
+        """Pickle with the constructor's arguments, not with the message."""
         return type(self), (self.number, self.field, self.advice)
 
 
@@ -54,24 +54,24 @@ class WeightsError(HereaboutsError):
 
 
 class StoreUnavailable(HereaboutsError):
-    """A store of vectors outside the index directory that does not answer; it may the next time."""
+    """An external vector store that cannot be reached; a retry may succeed."""
 
 
 class ClusterUnavailable(HereaboutsError):
-    """A cluster that does not answer, cannot be asked, or lost what it was asked for; it may have it the next time."""
+    """A Ray cluster that cannot be reached or has lost a job; a retry may succeed."""
 
 
 class TrainingError(HereaboutsError):
-    """Settings that cannot be trained with, a run that went astray, or a run directory of another run."""
+    """Invalid training settings, a diverging run, or a run directory of another run."""
 
 
 class IndexUnusable(HereaboutsError):
-    """An index directory that cannot be served."""
+    """An index directory that cannot be used."""
 
 
 class IndexBroken(IndexUnusable):
-    """An index directory that is missing, cut short, or changed after it was written."""
+    """An index directory that is missing, truncated or changed after it was written."""
 
 
 class IndexMismatch(IndexUnusable):
-    """An index built by a model other than the one that is loaded."""
+    """An index that was built with another model than the loaded one."""

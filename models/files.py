@@ -1,4 +1,4 @@
-"""Files and directories that are there whole or not at all, whatever happens while they are written."""
+"""Atomic writing of files and directories, file checksums, and memory-mapped safetensors files."""
 
 import fcntl
 import hashlib
@@ -19,15 +19,15 @@ from pydantic import BaseModel, ConfigDict
 from safetensors import safe_open
 from safetensors.numpy import save_file
 
-BUILDING: Final = ".building-"  # begins the name of a file or directory that is being filled
+TEMP_PREFIX: Final = ".building-"  # of the name of a file or directory that is still being written
 
 
 class FileRecord(BaseModel):
-    """A file, as a manifest knows it.
+    """The checksum and size of a file in a manifest.
 
     Attributes:
-        sha256: of its contents, in hex.
-        bytes: its size.
+        sha256: of the contents, in hex.
+        bytes: size of the file.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -37,98 +37,98 @@ class FileRecord(BaseModel):
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[BinaryIO]:
-    """A file to write, which takes its place only when all is written; if that fails, nothing is left or changed."""
-    path = path.resolve()  # of a link, what it leads to
+def open_atomic(path: Path) -> Iterator[BinaryIO]:
+    """Open a temporary file that replaces `path` when the block ends; on an error, nothing changes or is left over."""
+    path = path.resolve()  # replace the target of a link, not the link
     path.parent.mkdir(parents=True, exist_ok=True)
     remove_abandoned(path.parent)
-    file, beside = _begin_file(path.parent)
+    file, temporary = _create_locked_file(path.parent)
     try:
         with file:
             yield file
             file.flush()
             os.fsync(file.fileno())
             if path.exists():
-                shutil.copymode(path, beside)
-            beside.replace(path)
+                shutil.copymode(path, temporary)
+            temporary.replace(path)
             sync(path.parent)
     finally:
-        beside.unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
 
 
-def _begin_file(parent: Path) -> tuple[BinaryIO, Path]:
-    """A new file in a directory, locked until it is closed or its process ends, however that may be."""
+def _create_locked_file(parent: Path) -> tuple[BinaryIO, Path]:
+    """Create a temporary file that stays locked until it is closed or its process ends."""
     while True:
-        beside = parent / f"{BUILDING}{secrets.token_hex(8)}"
-        file = beside.open("xb")  # and not by mkstemp, whose files only their owner can read
+        path = parent / f"{TEMP_PREFIX}{secrets.token_hex(8)}"
+        file = path.open("xb")  # mkstemp would make it readable for its owner alone
         fcntl.flock(file, fcntl.LOCK_EX)
-        if beside.exists():  # else somebody took it for abandoned before it was locked
-            return file, beside
+        if path.exists():  # otherwise another process removed it as abandoned before it was locked
+            return file, path
         file.close()
 
 
 def replace_file(path: Path, content: bytes) -> None:
-    """Write a file so that a reader, or a restart after a crash, finds the old one or the new one, never a part."""
-    with replacing(path) as file:
+    """Write a file atomically: a reader, or a restart after a crash, sees the old or the new content, never a part."""
+    with open_atomic(path) as file:
         file.write(content)
 
 
 @contextmanager
 def new_directory(path: Path) -> Iterator[Path]:
-    """A directory to fill, which appears under its name only when the block is done; if that fails, nothing is left.
+    """Yield a temporary directory that becomes `path` when the block ends; on an error, it is removed.
 
-    Whoever may reach it can read what is in it: some libraries write files that only their owner can.
+    All its files become readable for everyone: some libraries write files that only their owner can read.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     remove_abandoned(path.parent)
-    held, beside = _begin_directory(path.parent)
+    lock, temporary = _create_locked_directory(path.parent)
     try:
-        yield beside
-        for item in (*beside.rglob("*"), beside):
+        yield temporary
+        for item in (*temporary.rglob("*"), temporary):
             item.chmod(0o755 if item.is_dir() else 0o644)
             sync(item)
-        beside.rename(path)
+        temporary.rename(path)
         sync(path.parent)
     finally:
-        os.close(held)
-        shutil.rmtree(beside, ignore_errors=True)
+        os.close(lock)
+        shutil.rmtree(temporary, ignore_errors=True)
 
 
 @contextmanager
-def new_scratch(parent: Path) -> Iterator[Path]:
-    """A directory in another that is removed when the block ends, or later if its process was killed."""
+def scratch_directory(parent: Path) -> Iterator[Path]:
+    """Yield a new directory that is removed when the block ends, or by a later call if the process is killed."""
     remove_abandoned(parent)
-    held, directory = _begin_directory(parent)
+    lock, directory = _create_locked_directory(parent)
     try:
         yield directory
     finally:
-        os.close(held)
+        os.close(lock)
         shutil.rmtree(directory, ignore_errors=True)
 
 
-def _begin_directory(parent: Path) -> tuple[int, Path]:
-    """As `_begin_file`, for a directory; with the descriptor that holds it."""
+def _create_locked_directory(parent: Path) -> tuple[int, Path]:
+    """Create a temporary directory; return the descriptor that locks it, and its path."""
     while True:
-        beside = Path(tempfile.mkdtemp(prefix=BUILDING, dir=parent))
+        path = Path(tempfile.mkdtemp(prefix=TEMP_PREFIX, dir=parent))
         with suppress(FileNotFoundError):
-            held = os.open(beside, os.O_RDONLY)
-            fcntl.flock(held, fcntl.LOCK_EX)
-            if beside.exists():
-                return held, beside
-            os.close(held)
+            lock = os.open(path, os.O_RDONLY)
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if path.exists():
+                return lock, path
+            os.close(lock)
 
 
 def remove_abandoned(parent: Path) -> None:
-    """Remove from a directory what was being filled when its process was killed."""
-    for left in parent.glob(f"{BUILDING}*"):
+    """Remove temporary files and directories in `parent` whose processes were killed."""
+    for path in parent.glob(f"{TEMP_PREFIX}*"):
         with suppress(OSError):  # another user owns it, or another process removes it at the same time
-            descriptor = os.open(left, os.O_RDONLY)
+            descriptor = os.open(path, os.O_RDONLY)
             try:
                 fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                if left.is_dir():
-                    shutil.rmtree(left, ignore_errors=True)
+                if path.is_dir():
+                    shutil.rmtree(path, ignore_errors=True)
                 else:
-                    left.unlink()
+                    path.unlink()
             finally:
                 os.close(descriptor)
 
@@ -143,38 +143,38 @@ def sync(path: Path) -> None:
 
 
 def sha256(path: Path) -> str:
-    """sha256 of a file, in hex."""
+    """Return the sha256 of a file, in hex."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def file_records(directory: Path) -> dict[str, FileRecord]:
-    """Sizes and sums of the files of a directory, by name in order."""
+    """Return the records of the files in a directory, sorted by name."""
     return {p.name: FileRecord(sha256=sha256(p), bytes=p.stat().st_size) for p in sorted(directory.iterdir())}
 
 
-def save_in_order(columns: dict[str, npt.NDArray[Any]], facts: dict[str, str], path: Path) -> None:
-    """Write a safetensors file with its metadata in order of their names: else it is another in each process."""
+def save_safetensors(columns: dict[str, npt.NDArray[Any]], facts: dict[str, str], path: Path) -> None:
+    """Write a safetensors file with sorted metadata, so that equal content gives equal bytes in every process."""
     save_file(columns, path, facts)
     with path.open("r+b") as file:
         size = int.from_bytes(file.read(8), "little")
         header = json.loads(file.read(size))
         header["__metadata__"] = dict(sorted(header["__metadata__"].items()))
         text = json.dumps(header, ensure_ascii=False, separators=(",", ":")).encode()
-        assert size - 8 < len(text) <= size, "the same, in another order"
+        assert size - 8 < len(text) <= size, "the reordered header has the same length"
         file.seek(8)
-        file.write(text.ljust(size))  # so that tensors stay aligned
+        file.write(text.ljust(size))  # padding keeps the tensors aligned
 
 
-def mapped(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]:
-    """The arrays of a safetensors file and its metadata, without reading it: pages come when they are looked at.
+def map_arrays(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]:
+    """Map the arrays of a safetensors file into memory (copy-on-write), and return them with the metadata.
 
-    Processes share these pages; who writes into an array has its own copy of one, and the file stays.
+    Processes share the pages of the file; a write changes a private copy, never the file.
 
     Raises:
-        OSError, SafetensorError: the file is missing, or none of these.
+        OSError, SafetensorError: the file is missing or not a valid safetensors file.
     """
-    with safe_open(path, framework="numpy") as file:  # which refuses arrays that are not wholly in the file
+    with safe_open(path, framework="numpy") as file:  # checks that all arrays lie within the file
         facts = file.metadata() or {}
     content = np.memmap(path, np.uint8, mode="c").view(np.ndarray)
     begin = 8 + int.from_bytes(content[:8].tobytes(), "little")
@@ -200,12 +200,12 @@ def let_go(array: npt.NDArray[Any]) -> None:
 
 
 def _dtype(name: str) -> np.dtype[Any]:
-    """The type of what safetensors calls F32, I8 or BOOL."""
+    """Return the NumPy type of a safetensors type name such as F32, I8 or BOOL."""
     return np.dtype(np.bool_ if name == "BOOL" else f"{name[0].lower()}{int(name[1:]) // 8}")
 
 
 def cache_directory() -> Path:
-    """Where computed things are kept: HEREABOUTS_CACHE_DIR, else hereabouts in XDG_CACHE_HOME, else in ~/.cache."""
-    if own := os.environ.get("HEREABOUTS_CACHE_DIR"):
-        return Path(own)
+    """Return the cache directory: HEREABOUTS_CACHE_DIR, else `hereabouts` in XDG_CACHE_HOME or ~/.cache."""
+    if directory := os.environ.get("HEREABOUTS_CACHE_DIR"):
+        return Path(directory)
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "hereabouts"

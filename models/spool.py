@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from models.errors import DataError
-from models.files import let_go, new_scratch
+from models.files import let_go, scratch_directory
 
 Column = npt.NDArray[Any]
 HELD: Final = 2**20  # bytes of a column, up to which it stays in memory
@@ -41,7 +41,7 @@ def scratch() -> Iterator[Path]:
             if _room is None:
                 directory = Path(made.enter_context(TemporaryDirectory()))
             else:
-                directory = made.enter_context(new_scratch(_room))
+                directory = made.enter_context(scratch_directory(_room))
         yield directory
 
 

@@ -17,7 +17,7 @@ from models.citymap.cells import BLOCK, CellTable
 from models.citymap.gallery import MapData
 from models.citymap.types import Progress
 from models.errors import DataError, IndexBroken
-from models.files import mapped
+from models.files import map_arrays
 from models.paper.instance_encoder import CellFeatures
 from models.paper.level_table import NO_LEVELS, LevelTable, encode_gallery
 from models.paper.levels import Level
@@ -121,7 +121,7 @@ class Part:
             IndexBroken: the files do not hold a part of it.
         """
         try:
-            columns, facts = mapped(directory / FILE)
+            columns, facts = map_arrays(directory / FILE)
             starts, statement, holds, vectors = (columns[name] for name in COLUMNS)
             rows = StatementRows(starts, statement, holds, int(facts["statements"]))
             if (len(rows.starts) - 1, rows.starts[-1]) != (len(vectors), len(rows.holds)):

@@ -4,7 +4,7 @@ import tarfile
 from pathlib import Path
 from typing import Final
 
-from models.files import replacing, sha256
+from models.files import open_atomic, sha256
 
 SNAPSHOTS: Final = "snapshots"
 
@@ -20,7 +20,7 @@ def snapshot(root: Path, version: str) -> tuple[Path, str]:
         The file, and its sha256.
     """
     path = root / SNAPSHOTS / f"{version}.tar"
-    with replacing(path) as file, tarfile.open(fileobj=file, mode="w", format=tarfile.PAX_FORMAT) as archive:
+    with open_atomic(path) as file, tarfile.open(fileobj=file, mode="w", format=tarfile.PAX_FORMAT) as archive:
         for item in sorted((root / version).iterdir()):
             member = archive.gettarinfo(item, arcname=f"{version}/{item.name}")
             member.uid = member.gid = member.mtime = 0

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from models.citymap.types import Floats
 from models.errors import DataError
-from models.files import replacing
+from models.files import open_atomic
 
 FILE = "predictions.npz"
 FACTS = "facts"
@@ -54,7 +54,7 @@ class Predictions:
     def save(self, path: Path) -> None:
         """Write one .npz file, whole or not at all."""
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != FACTS}
-        with replacing(path) as file:
+        with open_atomic(path) as file:
             np.savez_compressed(file, facts=np.array(json.dumps(self.facts)), **arrays)
 
     @classmethod

@@ -20,8 +20,8 @@ from models.citymap.instances import InstanceTable
 from models.citymap.points import Ints
 from models.citymap.types import CityMap, Floats
 from models.errors import IndexBroken
-from models.files import mapped
-from models.strings import Categorical, joined
+from models.files import map_arrays
+from models.strings import Categorical, merge_columns
 
 Finder = Callable[[Floats], tuple[Floats, int]]  # position [2] -> way [2] to the nearest instance, and which it is
 CELLS_FILE = "cells.safetensors"
@@ -64,8 +64,8 @@ class Gallery:
         arrays = {"center_m": cells.center_m}
         if with_parts:
             arrays |= {name: getattr(cells.parts, name) for name in PARTS}
-        said = (Categorical.of(getattr(self, name)).columns(name) for name in SAID)
-        save_file(joined([arrays, *said]), directory / CELLS_FILE)
+        said = (Categorical.from_strings(getattr(self, name)).columns(name) for name in SAID)
+        save_file(merge_columns([arrays, *said]), directory / CELLS_FILE)
         scene = cells.scenes[0] if cells.ids == Numbered(cells.scenes[0], len(cells)) else None
         names: dict[str, Any] = {
             "scene": scene,
@@ -87,7 +87,7 @@ class Gallery:
             IndexBroken: the files do not hold a gallery.
         """
         try:
-            arrays = mapped(directory / CELLS_FILE)[0]
+            arrays = map_arrays(directory / CELLS_FILE)[0]
             names = json.loads((directory / NAMES_FILE).read_text())
             center_m, scene = arrays.pop("center_m"), names["scene"]
             ids = Numbered(scene, len(center_m)) if scene else tuple(names["ids"])
@@ -95,7 +95,7 @@ class Gallery:
             parts = {name: column for name, column in arrays.items() if name in PARTS}
             content = Parts(**parts) if parts or cut is None else cut
             cells = CellTable(ids, scenes, center_m, names["size_m"], content)
-            return cls(cells, *(Categorical.of_columns(arrays, name) for name in SAID))
+            return cls(cells, *(Categorical.from_columns(arrays, name) for name in SAID))
         except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
             raise IndexBroken(f"the cells in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
 

@@ -13,7 +13,7 @@ import torch
 from pydantic import BaseModel
 from torch import Tensor, nn
 
-from models.files import let_go, mapped
+from models.files import let_go, map_arrays
 
 
 class BertConfig(BaseModel):
@@ -48,7 +48,7 @@ class Bert(nn.Module):
             OSError, ValueError: they are missing, or of another kind of model.
         """
         model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
-        weights, wanted = mapped(directory / "model.safetensors")[0], model.state_dict()
+        weights, wanted = map_arrays(directory / "model.safetensors")[0], model.state_dict()
         if missing := set(wanted) - set(weights):
             raise ValueError(f"{directory / 'model.safetensors'} has no {min(missing)}")
         model.load_state_dict({name: torch.from_numpy(weights[name]) for name in wanted}, assign=True)

@@ -1,6 +1,6 @@
 """Saving and loading retrievers."""
 
-from models.checkpoint import SHIPPED, Checkpoints
+from models.checkpoint import SHIPPED_WEIGHTS_DIR, Checkpoints
 from models.paper.mncl import Mncl
 from models.paper.ret import Ret
 from models.paper.retriever import Retriever
@@ -9,6 +9,6 @@ from models.paper.text2pos import Text2Pos
 
 METHODS: dict[str, type[Retriever]] = {"text2pos": Text2Pos, "ret": Ret, "text2loc": Text2Loc, "mncl": Mncl}
 RETRIEVERS = Checkpoints(
-    "retriever", METHODS, SHIPPED / "retriever", "train some with 'hereabouts train', or take a fresh copy"
+    "retriever", METHODS, SHIPPED_WEIGHTS_DIR / "retriever", "train some with 'hereabouts train', or take a fresh copy"
 )
 save_retriever, load_retriever = RETRIEVERS.save, RETRIEVERS.load

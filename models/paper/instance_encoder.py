@@ -16,7 +16,7 @@ from models.citymap.cells import BLOCK, CellTable
 from models.citymap.point_sample import Sampler
 from models.citymap.points import Ints, ranges
 from models.errors import WeightsError
-from models.files import cache_directory, replacing
+from models.files import cache_directory, open_atomic
 from models.language.text_encoder import fingerprint_of
 from models.paper.layers import mlp
 from models.paper.point_encoder import POINT_WIDTH, PointEncoder
@@ -114,7 +114,7 @@ class CellFeatures:
         except (OSError, ValueError, EOFError):
             shape = self._look(encoder)
             try:
-                with replacing(path) as file:
+                with open_atomic(path) as file:
                     np.save(file, shape)
             except OSError as error:
                 _log.warning("no cache in %s (%s)", path.parent, error)

@@ -3,7 +3,7 @@
 import hashlib
 from typing import ClassVar
 
-from models.checkpoint import SHIPPED, Checkpoints
+from models.checkpoint import SHIPPED_WEIGHTS_DIR, Checkpoints
 from models.language.labels import LabelMatcher
 from models.language.mentions.cue_reader import CueReader
 from models.language.reader import Reader, ReaderConfig
@@ -54,7 +54,7 @@ class PosteriorModel(OnTextEncoder):
 POSTERIORS = Checkpoints(
     "posterior",
     {PosteriorModel.method: PosteriorModel},
-    SHIPPED / "posterior",
+    SHIPPED_WEIGHTS_DIR / "posterior",
     "train some with 'hereabouts train --method posterior', or leave the setting out for those that ship",
 )
 save_posterior, load_posterior = POSTERIORS.save, POSTERIORS.load

@@ -19,7 +19,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
-from models.files import mapped, save_in_order
+from models.files import map_arrays, save_safetensors
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.neighbours.neighbour_index import Surroundings
 from models.posterior.neighbours.neighbours import STEP_M
@@ -122,7 +122,7 @@ class Statements:
             "number": self.number,
         }
         facts = {"cells": str(self.cells), "words": str(self.words), "model": fingerprint}
-        save_in_order(columns, facts, directory / FILE)
+        save_safetensors(columns, facts, directory / FILE)
 
     @classmethod
     def load(cls, directory: Path, fingerprint: str) -> "Statements | None":
@@ -132,7 +132,7 @@ class Statements:
             IndexBroken: the file is missing or holds something else.
         """
         try:
-            columns, facts = mapped(directory / FILE)
+            columns, facts = map_arrays(directory / FILE)
             if facts["model"] != fingerprint:
                 return None
             starts, cell, share, number = (columns[name] for name in ("starts", "cell", "holds", "number"))

@@ -9,7 +9,7 @@ import httpx
 import pytest
 
 from index.build.artifact import open_version, read_aliases, register
-from models.files import BUILDING
+from models.files import TEMP_PREFIX
 from tests.mould import Mould
 
 pytestmark = pytest.mark.slow
@@ -85,7 +85,7 @@ def test_an_index_that_cannot_be_written_is_said_and_what_is_there_stays(mould, 
     assert f"{root} cannot be written" in " ".join(said.split())
     assert "Traceback" not in said
     assert (listing(root), open_version(root)) == before
-    assert not list(root.glob(f"{BUILDING}*"))
+    assert not list(root.glob(f"{TEMP_PREFIX}*"))
 
 
 @pytest.mark.parametrize("limits", [{"file_bytes": 0}, READ_ONLY])

@@ -19,7 +19,7 @@ from app.jobs.order import Evaluation
 from index.build.artifact import ALIASES, Aliases, open_version, read_aliases, register
 from index.build.manifest import MANIFEST
 from index.build.snapshot import SNAPSHOTS
-from models.files import BUILDING, replace_file, sha256
+from models.files import TEMP_PREFIX, replace_file, sha256
 
 SHORTER, LONGER = 0.95, 1.05
 VERSIONS, JOBS = 6, 3  # that are there at once, or checking would take longer and longer
@@ -60,7 +60,7 @@ class Place:
     def start(self):
         """Start the service, which has to answer from the version that its alias names, and to find all whole."""
         self.pid, self.url = self.mould.serve(self.root)
-        left = [path.name for top in (self.root, self.jobs) for path in top.rglob(f"{BUILDING}*")]
+        left = [path.name for top in (self.root, self.jobs) for path in top.rglob(f"{TEMP_PREFIX}*")]
         assert not left, f"left behind: {left}"
         known = read_aliases(self.root)
         whole = {open_version(self.root / version)[0].name for version in self.versions()}
@@ -168,7 +168,7 @@ class Build(Operation):
 
     def _wait_until_it_writes(self, pid):
         with killing(pid, None) as ended:
-            while not any(self.place.root.glob(f"{BUILDING}*")) and not select.select([ended], [], [], 0.001)[0]:
+            while not any(self.place.root.glob(f"{TEMP_PREFIX}*")) and not select.select([ended], [], [], 0.001)[0]:
                 continue
 
     def check(self, acknowledged):

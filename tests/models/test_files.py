@@ -11,14 +11,14 @@ from safetensors import SafetensorError
 from safetensors.numpy import load, save
 
 from models.files import (
-    BUILDING,
+    TEMP_PREFIX,
     file_records,
-    mapped,
+    map_arrays,
     new_directory,
+    open_atomic,
     remove_abandoned,
     replace_file,
-    replacing,
-    save_in_order,
+    save_safetensors,
 )
 
 
@@ -29,7 +29,7 @@ def mode(path):
 def test_a_file_is_replaced_only_when_all_is_written(tmp_path) -> None:
     path = tmp_path / "deep" / "a"
     replace_file(path, b"old")
-    with replacing(path) as file:
+    with open_atomic(path) as file:
         file.write(b"new")
         file.flush()
         assert path.read_bytes() == b"old"
@@ -57,7 +57,7 @@ def test_threads_may_write_one_file_at_once(tmp_path) -> None:
 def test_a_failure_leaves_the_old_file_and_no_scrap(tmp_path) -> None:
     replace_file(tmp_path / "a", b"old")
     for name in ("a", "b"):
-        with pytest.raises(ZeroDivisionError), replacing(tmp_path / name) as file:
+        with pytest.raises(ZeroDivisionError), open_atomic(tmp_path / name) as file:
             file.write(b"half" * (file.write(b"half") // 0))
     assert [path.name for path in tmp_path.iterdir()] == ["a"]
     assert (tmp_path / "a").read_bytes() == b"old"
@@ -101,9 +101,9 @@ def test_records_are_sizes_and_sums(tmp_path) -> None:
     assert (records["b"].bytes, records["b"].sha256) == (5, hashlib.sha256(b"bytes").hexdigest())
 
 
-@pytest.mark.parametrize("write", ["new_directory(path)", "replacing(path)"])
+@pytest.mark.parametrize("write", ["new_directory(path)", "open_atomic(path)"])
 def test_what_a_killed_process_left_is_removed_and_what_another_fills_is_not(tmp_path, write) -> None:
-    script = "import sys, time; from pathlib import Path; from models.files import new_directory, replacing\n"
+    script = "import sys, time; from pathlib import Path; from models.files import new_directory, open_atomic\n"
     script += f"path = Path(sys.argv[1])\nwith {write}:\n    print(flush=True); time.sleep(60)"
     running = []
     for name in ("killed", "alive"):
@@ -115,7 +115,7 @@ def test_what_a_killed_process_left_is_removed_and_what_another_fills_is_not(tmp
     running[0].communicate()
     replace_file(tmp_path / "own", b"")
     [_, alive] = sorted(path.name for path in tmp_path.iterdir())[::-1]
-    assert alive.startswith(BUILDING)
+    assert alive.startswith(TEMP_PREFIX)
     running[1].kill()
     running[1].communicate()
     with new_directory(tmp_path / "new"):
@@ -123,7 +123,7 @@ def test_what_a_killed_process_left_is_removed_and_what_another_fills_is_not(tmp
     assert {path.name for path in tmp_path.iterdir()} == {"own", "new"}
 
 
-@pytest.mark.parametrize("write", [new_directory, replacing])
+@pytest.mark.parametrize("write", [new_directory, open_atomic])
 def test_what_is_taken_for_abandoned_before_it_was_locked_is_begun_again(tmp_path, monkeypatch, write) -> None:
     lock, calls = fcntl.flock, []
 
@@ -146,10 +146,10 @@ def test_metadata_of_a_safetensors_file_is_in_order_and_the_rest_as_it_was(tmp_p
     told = {"ä": "1", "z": "Ōmiya\u2028 大宮 🚉", "b": '"3" \\ \x01\x1f\x7f\b\f\n\r\t/'}
     blobs = set()
     for items in (told.items(), reversed(told.items()), told.items()):
-        save_in_order(tensors, dict(items), tmp_path / "a")
+        save_safetensors(tensors, dict(items), tmp_path / "a")
         blobs.add((tmp_path / "a").read_bytes())
     [blob] = blobs
-    assert mapped(tmp_path / "a")[1] == told
+    assert map_arrays(tmp_path / "a")[1] == told
     size = int.from_bytes(blob[:8], "little")
     assert list(json.loads(blob[8 : 8 + size])["__metadata__"]) == ["b", "z", "ä"]
     assert size % 8 == 0
@@ -170,8 +170,8 @@ ARRAYS = {
 
 
 def test_mapped_arrays_are_those_that_were_saved(tmp_path) -> None:
-    save_in_order(ARRAYS, {"model": "x"}, tmp_path / "a")
-    arrays, facts = mapped(tmp_path / "a")
+    save_safetensors(ARRAYS, {"model": "x"}, tmp_path / "a")
+    arrays, facts = map_arrays(tmp_path / "a")
     assert facts == {"model": "x"}
     assert set(arrays) == set(ARRAYS)
     for name, array in ARRAYS.items():
@@ -183,7 +183,7 @@ def test_mapped_arrays_are_those_that_were_saved(tmp_path) -> None:
 
 def test_what_is_written_into_a_mapped_array_does_not_reach_the_file(tmp_path) -> None:
     (tmp_path / "a").write_bytes(before := save(ARRAYS))
-    arrays, facts = mapped(tmp_path / "a")
+    arrays, facts = map_arrays(tmp_path / "a")
     assert facts == {}
     arrays["wide"][:] = 7
     assert (arrays["wide"] == 7).all()
@@ -194,6 +194,6 @@ def test_what_is_written_into_a_mapped_array_does_not_reach_the_file(tmp_path) -
 def test_a_file_cut_short_is_not_mapped(tmp_path, length) -> None:
     (tmp_path / "a").write_bytes(save(ARRAYS)[:length])
     with pytest.raises(SafetensorError):
-        mapped(tmp_path / "a")
+        map_arrays(tmp_path / "a")
     with pytest.raises(OSError, match="a"):
-        mapped(tmp_path / "nothing")
+        map_arrays(tmp_path / "nothing")

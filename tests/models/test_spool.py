@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from models.errors import DataError
-from models.files import BUILDING
+from models.files import TEMP_PREFIX
 from models.spool import forget, in_turn, on_disk, scratch, spooled, spooling_in, starts_of
 
 
@@ -92,7 +92,7 @@ def test_a_full_index_directory_is_said_and_scratch_is_removed(tmp_path) -> None
         assert directory.parent == tmp_path
         (directory / "strip").write_text("some")
     assert not list(tmp_path.iterdir())
-    (tmp_path / f"{BUILDING}0").mkdir()
+    (tmp_path / f"{TEMP_PREFIX}0").mkdir()
     with spooling_in(tmp_path), scratch() as directory:
         assert list(tmp_path.iterdir()) == [directory], "what a killed process left is gone"
     with (

@@ -3,23 +3,23 @@ import pickle
 import numpy as np
 import pytest
 
-from models.strings import Categorical, Postings, Strings, joined
+from models.strings import Categorical, Postings, StringArray, merge_columns
 
 SOME = ["", "Café Zoë", "Кафе", "", "北京", "a"]
 
 
 def test_strings_come_back_as_they_were() -> None:
-    strings = Strings.of(SOME)
+    strings = StringArray.from_strings(SOME)
     assert list(strings) == SOME
     assert strings[-1] == "a"
     assert strings[1:4] == SOME[1:4]
-    assert list(Strings.of_columns(strings.columns("x"), "x")) == SOME
+    assert list(StringArray.from_columns(strings.columns("x"), "x")) == SOME
     with pytest.raises(IndexError):
         strings[6]
 
 
 def test_no_strings() -> None:
-    assert list(Strings.of(())) == []
+    assert list(StringArray.from_strings(())) == []
 
 
 PAIRS = [("b", 5), ("a b", 3), ("b", 2), ("a b", 3), ("", 9), ("a c", 1)]
@@ -27,10 +27,10 @@ PAIRS = [("b", 5), ("a b", 3), ("b", 2), ("a b", 3), ("", 9), ("a c", 1)]
 
 @pytest.fixture(params=["made", "opened", "pickled"])
 def postings(request) -> Postings:
-    made = Postings.of(PAIRS)
+    made = Postings.from_pairs(PAIRS)
     if request.param == "made":
         return made
-    return Postings.of_columns(joined([made.columns("x")]), "x") if request.param == "opened" else again(made)
+    return Postings.from_columns(merge_columns([made.columns("x")]), "x") if request.param == "opened" else again(made)
 
 
 def again(postings: Postings) -> Postings:
@@ -53,34 +53,34 @@ def test_rows_have_keys_and_numbers(postings) -> None:
     assert set(postings.all_keys) == {"", "b", "a b", "a c"}
     for row, key in enumerate(postings.all_keys):
         assert postings.key(row) == key
-        assert postings.of_row(row).tolist() == postings.find(key).tolist()
+        assert postings.row_numbers(row).tolist() == postings.find(key).tolist()
 
 
 def test_what_is_below_a_prefix(postings) -> None:
-    assert {rest: numbers.tolist() for rest, numbers in postings.below("a ")} == {"b": [3], "c": [1]}
-    assert list(postings.below("z")) == []
+    assert {rest: numbers.tolist() for rest, numbers in postings.with_prefix("a ")} == {"b": [3], "c": [1]}
+    assert list(postings.with_prefix("z")) == []
 
 
 def test_the_same_pairs_are_the_same_bytes() -> None:
-    one, other = (Postings.of(pairs).columns("x") for pairs in (PAIRS, sorted(PAIRS)))
+    one, other = (Postings.from_pairs(pairs).columns("x") for pairs in (PAIRS, sorted(PAIRS)))
     assert one["x.keys"].tobytes() == other["x.keys"].tobytes()
 
 
 def test_no_postings() -> None:
-    none = Postings.of(())
+    none = Postings.from_pairs(())
     assert not len(none)
     assert not len(none.find("a"))
-    assert not len(Postings.of_columns(joined([none.columns("x")]), "x").find("a"))
+    assert not len(Postings.from_columns(merge_columns([none.columns("x")]), "x").find("a"))
     assert np.diff(none.starts).tolist() == []
 
 
 @pytest.mark.parametrize("strings", [("b", None, "ä", "b", ""), ("x",) * 300, (), (None,)])
 def test_categories_come_back(strings) -> None:
-    found = Categorical.of(strings)
-    again = Categorical.of_columns(joined([found.columns("x")]), "x")
+    found = Categorical.from_strings(strings)
+    again = Categorical.from_columns(merge_columns([found.columns("x")]), "x")
     for one in (found, again):
         assert one == strings
-        assert Categorical.of(one) is one
+        assert Categorical.from_strings(one) is one
         assert one[1:] == strings[1:]
         assert np.array(one).tolist() == list(strings)
     assert list(again.categories) == sorted({*strings} - {None})
@@ -91,15 +91,15 @@ def test_categories_come_back(strings) -> None:
 @pytest.mark.parametrize("at_once", [1, 2, 3, 1000])
 @pytest.mark.parametrize("strings", [("b", "a", "b", "ab", "", "b", "a"), ("x",) * 7, ("one",), ()])
 def test_categories_of_bytes_are_those_of_strings_however_many_are_looked_at(at_once, strings, monkeypatch) -> None:
-    monkeypatch.setattr("models.strings.AT_ONCE", at_once)
-    found, expected = Categorical.of_ascii(np.array(strings, "S8")), Categorical.of(strings)
-    for name, column in joined([expected.columns("x")]).items():
+    monkeypatch.setattr("models.strings.STRINGS_PER_BLOCK", at_once)
+    found, expected = Categorical.from_bytes(np.array(strings, "S8")), Categorical.from_strings(strings)
+    for name, column in merge_columns([expected.columns("x")]).items():
         assert np.array_equal(found.columns("x")[name], column)
         assert found.columns("x")[name].dtype == column.dtype
 
 
 def test_many_categories_take_more_bytes() -> None:
     strings = [str(n) for n in range(200)]
-    assert Categorical.of(strings).codes.dtype == np.int16
-    assert Categorical.of(strings) == strings
-    assert np.array(Categorical.of(strings[:3])).dtype.kind == "U"
+    assert Categorical.from_strings(strings).codes.dtype == np.int16
+    assert Categorical.from_strings(strings) == strings
+    assert np.array(Categorical.from_strings(strings[:3])).dtype.kind == "U"

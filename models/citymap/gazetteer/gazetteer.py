@@ -15,9 +15,9 @@ from models.citymap.gazetteer.name_columns import STREET, Words, WordSpool, Word
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import IndexBroken
-from models.files import mapped
+from models.files import map_arrays
 from models.spool import Spool, starts_of
-from models.strings import joined
+from models.strings import merge_columns
 
 ADDRESS: Final = "address"  # the kind of what has a house number alone
 WALKED: Final = "walked"  # the kind of the one object that is all lines people walk on
@@ -102,7 +102,7 @@ class Gazetteer:
     def save(self, directory: Path) -> None:
         """Write one file."""
         shapes = {name: getattr(self, name) for name in _ARRAYS}
-        save_file(joined([shapes, self.words.columns()]), directory / FILE)
+        save_file(merge_columns([shapes, self.words.columns()]), directory / FILE)
 
     @classmethod
     def load(cls, directory: Path) -> "Gazetteer":
@@ -112,8 +112,8 @@ class Gazetteer:
             IndexBroken: the files do not hold a gazetteer.
         """
         try:
-            columns = mapped(directory / FILE)[0]
-            words = WordTable.of_columns(columns)
+            columns = map_arrays(directory / FILE)[0]
+            words = WordTable.from_columns(columns)
             shapes = {name: columns[name] for name in _ARRAYS}
             if len(shapes["starts"]) != len(words) + 1 or shapes["starts"][-1] != len(shapes["segments_m"]):
                 raise ValueError("names and shapes are of different gazetteers")

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from models.citymap.points import Ints
 from models.spool import Spool, starts_of
-from models.strings import Column, Strings, joined
+from models.strings import Column, StringArray, merge_columns
 
 STREET: Final = "street"  # the kind of a street with all its pieces
 _SEVERAL: Final = re.compile("[;,&]")
@@ -55,7 +55,7 @@ class WordTable(Sequence[Words]):
     """
 
     def __init__(
-        self, known: Sequence[str], kind_starts: Ints, kinds: Ints, starts: Ints, written: Mask, strings: Strings
+        self, known: Sequence[str], kind_starts: Ints, kinds: Ints, starts: Ints, written: Mask, strings: StringArray
     ) -> None:
         self._known, self._kind_starts, self._kinds = tuple(known), kind_starts, kinds
         self._string_starts, self._written, self._strings = starts, written, strings
@@ -114,14 +114,16 @@ class WordTable(Sequence[Words]):
         return mask
 
     def columns(self) -> dict[str, Column]:
-        """Arrays from which `of_columns` makes it."""
+        """Arrays from which `from_columns` makes it."""
         plain = {name: getattr(self, f"_{name}") for name in _COLUMNS}
-        return joined([plain, self._strings.columns("strings"), Strings.of(self._known).columns("known")])
+        return merge_columns(
+            [plain, self._strings.columns("strings"), StringArray.from_strings(self._known).columns("known")]
+        )
 
     @classmethod
-    def of_columns(cls, columns: Mapping[str, Column]) -> "WordTable":
+    def from_columns(cls, columns: Mapping[str, Column]) -> "WordTable":
         """What `columns` gave."""
-        strings, known = (Strings.of_columns(columns, name) for name in ("strings", "known"))
+        strings, known = (StringArray.from_columns(columns, name) for name in ("strings", "known"))
         kind_starts, kinds, starts, written = (columns[name] for name in _COLUMNS)
         return cls(known, kind_starts, kinds, starts, written, strings)
 
@@ -158,7 +160,7 @@ class WordSpool:
         number = np.empty(len(known), np.int32)
         number[[self._kinds[kind] for kind in known]] = np.arange(len(known))
         kind_starts, starts = starts_of(columns["kinds_of"]), starts_of(columns["strings_of"])
-        strings = Strings(columns["text"], starts_of(columns["bytes_of"])[1:])
+        strings = StringArray(columns["text"], starts_of(columns["bytes_of"])[1:])
         return WordTable(known, kind_starts, number[columns["kinds"]], starts, columns["written"], strings)
 
 

@@ -88,7 +88,7 @@ class PieceTable:
         return table
 
     @classmethod
-    def of_columns(cls, columns: Mapping[str, npt.NDArray[Any]]) -> "PieceTable":
+    def from_columns(cls, columns: Mapping[str, npt.NDArray[Any]]) -> "PieceTable":
         """What `columns` gave."""
         return cls(**columns)
 

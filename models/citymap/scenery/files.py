@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy.typing as npt
 
-from models.files import save_in_order
+from models.files import save_safetensors
 
 LEVEL = 9
 
@@ -43,7 +43,7 @@ def save_scenery(directory: Path, parts: Iterable[Encoded]) -> None:
     """Write the parts, scenery.0.safetensors.gz and on; no copy of one is in memory."""
     plain = directory / "scenery"
     for number, part in enumerate(parts):
-        save_in_order(part.tensors, part.facts, plain)
+        save_safetensors(part.tensors, part.facts, plain)
         with (
             plain.open("rb") as read,
             (directory / file_name(number)).open("wb") as written,

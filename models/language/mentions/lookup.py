@@ -115,7 +115,7 @@ class Lookup:
         """
         of_streets = (name for s in streets for name in self.gazetteer.words[s].names)
         names = dict.fromkeys(" ".join(full_words(plain_words(name))) for name in of_streets)
-        known = {n: rows for name in names for n, rows in self._table.numbers.below(name + BETWEEN)}
+        known = {n: rows for name in names for n, rows in self._table.numbers.with_prefix(name + BETWEEN)}
         if not known:
             return np.zeros(0, np.int64), np.zeros((0, 4))
         same = [rows for n, rows in known.items() if n == number.lower()]
@@ -147,7 +147,7 @@ class Lookup:
         for row in rows.tolist():
             share = said / sum(self.worth(word) for word in table.names.key(row).split())
             if share >= LEAST_SHARE:
-                for number in table.names.of_row(row).tolist():
+                for number in table.names.row_numbers(row).tolist():
                     found[number] = max(found.get(number, 0.0), share**0.5)
         if exact:
             return _match({n: PART * weight for n, weight in found.items()} | exact, 1.0, is_exact=True)
@@ -160,7 +160,7 @@ class Lookup:
             return None
         names = self._table.names
         like = process.extract(joined, names.all_keys, scorer=fuzz.ratio, score_cutoff=LIKE, limit=3)
-        found = {n: (score / 100) ** 4 for _, score, row in like for n in names.of_row(row).tolist()}
+        found = {n: (score / 100) ** 4 for _, score, row in like for n in names.row_numbers(row).tolist()}
         return _match(found, 0.8, is_exact=False)
 
     def is_strange(self, word: str) -> bool:

@@ -15,10 +15,10 @@ from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import IndexBroken
-from models.files import mapped
+from models.files import map_arrays
 from models.language.mentions.names import plain_words
 from models.language.mentions.streets import forms_of, full_words
-from models.strings import Pairs, Postings, joined
+from models.strings import Postings, PostingsBuilder, merge_columns
 
 FILE: Final = "names.safetensors"
 BETWEEN: Final = "\t"  # a street and a house number
@@ -52,7 +52,7 @@ class NameTable:
     @classmethod
     def of(cls, gazetteer: Gazetteer, vocabulary: Vocabulary, is_common: Callable[[str], bool]) -> "NameTable":
         """That of a gazetteer; arguments as of Lookup."""
-        names, numbers, others = Pairs(), Pairs(), list[tuple[str, int]]()
+        names, numbers, others = PostingsBuilder(), PostingsBuilder(), list[tuple[str, int]]()
         forms = dict[tuple[str, int], float]()
         for number, words in enumerate(gazetteer.words):
             for address in _addresses(words):
@@ -67,7 +67,7 @@ class NameTable:
                     names.add(plain, number)
             if words.kinds:
                 others += ((other, number) for name in words.names for other in vocabulary.spellings(name))
-        of_names = names.postings()
+        of_names = names.build()
         nouns = {" ".join(plain_words(noun)) for noun in vocabulary.nouns("en")}
 
         def is_new(plain: tuple[str, ...]) -> bool:
@@ -78,11 +78,13 @@ class NameTable:
         spelt = [(plain_words(other), number) for other, number in others]
         return cls(
             of_names,
-            Postings.of((word, row) for row, name in enumerate(of_names.all_keys) for word in set(name.split())),
-            Postings.of((" ".join(plain), number) for plain, number in spelt if is_new(plain)),
-            numbers.postings(),
-            Postings.of((form, row) for row, (form, _) in enumerate(forms)),
-            Postings.of((word, 0) for form, _ in forms for word in form.split()),
+            Postings.from_pairs(
+                (word, row) for row, name in enumerate(of_names.all_keys) for word in set(name.split())
+            ),
+            Postings.from_pairs((" ".join(plain), number) for plain, number in spelt if is_new(plain)),
+            numbers.build(),
+            Postings.from_pairs((form, row) for row, (form, _) in enumerate(forms)),
+            Postings.from_pairs((word, 0) for form, _ in forms for word in form.split()),
             np.array([number for _, number in forms], np.int64),
             np.array(list(forms.values()), np.float64),
         )
@@ -90,7 +92,7 @@ class NameTable:
     def save(self, directory: Path) -> None:
         """Write one file."""
         postings = [getattr(self, name).columns(name) for name in _POSTINGS]
-        save_file(joined([*postings, {"street": self.street, "weight": self.weight}]), directory / FILE)
+        save_file(merge_columns([*postings, {"street": self.street, "weight": self.weight}]), directory / FILE)
 
     @classmethod
     def load(cls, directory: Path) -> "NameTable":
@@ -100,8 +102,8 @@ class NameTable:
             IndexBroken: the file does not hold it.
         """
         try:
-            columns = mapped(directory / FILE)[0]
-            postings = {name: Postings.of_columns(columns, name) for name in _POSTINGS}
+            columns = map_arrays(directory / FILE)[0]
+            postings = {name: Postings.from_columns(columns, name) for name in _POSTINGS}
             return cls(**postings, street=columns["street"], weight=columns["weight"])
         except (OSError, SafetensorError, ValueError, KeyError, TypeError, RuntimeError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error

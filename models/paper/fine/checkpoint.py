@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from models.checkpoint import SHIPPED, Checkpoints
+from models.checkpoint import SHIPPED_WEIGHTS_DIR, Checkpoints
 from models.paper.fine.fine_model import FineMethod, FineModel
 from models.paper.fine.matching import Matching
 from models.paper.fine.regressor import Regressor
@@ -11,10 +11,10 @@ FINE_METHODS: dict[str, type[FineModel]] = {"regressor": Regressor, "matching": 
 FINE_STAGES = Checkpoints(
     "fine",
     FINE_METHODS,
-    SHIPPED / "regressor",
+    SHIPPED_WEIGHTS_DIR / "regressor",
     "train some with 'hereabouts train --method regressor' (or matching) and name their directory in "
     "HEREABOUTS_FINE_WEIGHTS_DIR, or leave the position at the cell's centre",
-    eight_bits=True,
+    is_int8=True,
 )
 save_fine, load_fine = FINE_STAGES.save, FINE_STAGES.load
 
@@ -26,4 +26,4 @@ def load_refiner(method: FineMethod, directory: Path | None = None) -> FineModel
         WeightsError: the directory or the weights in it cannot be read.
     """
     given = load_fine(directory) if directory else None
-    return given if given and given.method == method else load_fine(SHIPPED / method)
+    return given if given and given.method == method else load_fine(SHIPPED_WEIGHTS_DIR / method)

@@ -71,5 +71,5 @@ class Things:
 
     def labels(self, gallery: Gallery) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
         """The gallery's labels, each once, and which of them each thing has [P]."""
-        labels = Categorical.of(gallery.labels)
+        labels = Categorical.from_strings(gallery.labels)
         return tuple(labels.categories), labels.codes[self.instance].astype(np.int64)

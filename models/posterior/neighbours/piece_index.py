@@ -20,7 +20,7 @@ from models.citymap.points import Ints, ranges
 from models.citymap.types import CutRules, Floats
 from models.compiled import compiled
 from models.errors import IndexBroken
-from models.files import mapped
+from models.files import map_arrays
 from models.posterior.neighbours.map_objects import Things
 from models.posterior.neighbours.neighbours import STEP_M, Around
 from models.posterior.neighbours.nodes import SPACING_M, nearest_nodes, owner_of, put_in_order, slices
@@ -150,10 +150,10 @@ class PieceSurroundings:
             IndexBroken: the file holds something else.
         """
         try:
-            columns = mapped(directory / FILE)[0]
+            columns = map_arrays(directory / FILE)[0]
             instance, rgb, parts, is_flat = (columns[f"things.{name}"] for name in THINGS)
             things = Things(instance, rgb, parts, is_flat)
-            pieces = PieceTable.of_columns({name[7:]: c for name, c in columns.items() if name.startswith("pieces.")})
+            pieces = PieceTable.from_columns({name[7:]: c for name, c in columns.items() if name.startswith("pieces.")})
             rules = CutRules(*columns["rules"].tolist())
             starts, offset = columns["cell_starts"], columns["offset"]
             if len(starts) != len(cells) + 1 or starts[-1] != len(offset):

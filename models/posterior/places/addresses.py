@@ -13,7 +13,7 @@ from models.language.mentions.name_table import BETWEEN
 from models.language.mentions.names import plain_words
 from models.language.mentions.streets import ORDINAL
 from models.posterior.places.name_index import Spelt
-from models.strings import Column, Postings, Strings
+from models.strings import Column, Postings, StringArray
 
 _NUMBER: Final = re.compile(r"\d+")
 _NONE: Final = np.zeros(0, np.int64)
@@ -32,7 +32,7 @@ class Addresses:
         by_number: from a number to columns.
     """
 
-    shown: Strings
+    shown: StringArray
     objects: Ints
     column: Ints
     streets: Spelt
@@ -55,27 +55,27 @@ class Addresses:
             column.append(columns.setdefault((of, number), len(columns)))
             if column[-1] == len(shown):
                 shown.append(f"{number} {street}")
-        by_street = Postings.of((f"{of}{BETWEEN}{number}", n) for (of, number), n in columns.items())
-        by_number = Postings.of((number, n) for (_, number), n in columns.items())
+        by_street = Postings.from_pairs((f"{of}{BETWEEN}{number}", n) for (of, number), n in columns.items())
+        by_number = Postings.from_pairs((number, n) for (_, number), n in columns.items())
         objects = np.array([n for n, _, _ in rows], np.int32)
-        return cls(Strings.of(shown), objects, np.array(column, np.int32), streets, by_street, by_number)
+        return cls(StringArray.from_strings(shown), objects, np.array(column, np.int32), streets, by_street, by_number)
 
     def __len__(self) -> int:
         return len(self.shown)
 
     def columns(self, name: str) -> dict[str, Column]:
-        """Arrays from which `of_columns` makes it."""
+        """Arrays from which `from_columns` makes it."""
         found = {f"{name}.objects": self.objects, f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
         found |= self.by_street.columns(f"{name}.by_street") | self.by_number.columns(f"{name}.by_number")
         return found | self.streets.columns(f"{name}.streets")
 
     @classmethod
-    def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Addresses":
+    def from_columns(cls, columns: Mapping[str, Column], name: str) -> "Addresses":
         """What `columns` gave of a name."""
-        by_street, by_number = (Postings.of_columns(columns, f"{name}.{kind}") for kind in ("by_street", "by_number"))
-        streets = Spelt.of_columns(columns, f"{name}.streets", are_streets=True)
+        by_street, by_number = (Postings.from_columns(columns, f"{name}.{kind}") for kind in ("by_street", "by_number"))
+        streets = Spelt.from_columns(columns, f"{name}.streets", are_streets=True)
         objects, column = columns[f"{name}.objects"], columns[f"{name}.column"]
-        return cls(Strings.of_columns(columns, f"{name}.shown"), objects, column, streets, by_street, by_number)
+        return cls(StringArray.from_columns(columns, f"{name}.shown"), objects, column, streets, by_street, by_number)
 
     def find(self, said: str) -> Ints:
         """[k] the columns that somebody may mean: of a number without a street, in all streets.
@@ -94,7 +94,7 @@ class Addresses:
             if not before and not behind:
                 return self.by_number.find(number)
             for street in streets or self._street(before):
-                there = {known: int(of[0]) for known, of in self.by_street.below(f"{street}{BETWEEN}")}
+                there = {known: int(of[0]) for known, of in self.by_street.with_prefix(f"{street}{BETWEEN}")}
                 found.extend([there[number]] if number in there else _beside(number, there))
             if found:
                 return np.array(found)

@@ -17,12 +17,12 @@ from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
-from models.files import mapped
+from models.files import map_arrays
 from models.posterior.places.addresses import Addresses
 from models.posterior.places.name_index import Spelt
 from models.posterior.places.name_probabilities import Chances, shares
 from models.spool import Spool, starts_of
-from models.strings import Column, joined
+from models.strings import Column, merge_columns
 
 FILE: Final = "landmarks.safetensors"
 FAINT: Final = 0.01  # what is said more seldom is not kept
@@ -65,12 +65,12 @@ class Table:
         return chance
 
     def columns(self, name: str) -> dict[str, Column]:
-        """Arrays from which `of_columns` makes it."""
+        """Arrays from which `from_columns` makes it."""
         arrays = {kind: getattr(self, kind) for kind in _ENTRIES} | {"names": np.array([self.names])}
         return {f"{name}.{kind}": array for kind, array in arrays.items()}
 
     @classmethod
-    def of_columns(cls, columns: Mapping[str, Column], name: str) -> "Table":
+    def from_columns(cls, columns: Mapping[str, Column], name: str) -> "Table":
         """What `columns` gave of a name."""
         starts, names, chance = (columns[f"{name}.{kind}"] for kind in _ENTRIES)
         return cls(int(columns[f"{name}.names"][0]), starts, names, chance)
@@ -201,7 +201,9 @@ class Landmarks:
         tables = [getattr(self, name).columns(name) for name in _TABLES]
         crossings = {"crossings.on": self.crossings.on, "crossings.other": self.crossings.other}
         names = [self.streets.columns("streets"), self.names.columns("names"), self.addresses.columns("addresses")]
-        save_file(joined([*tables, *names, self.crossings.pairs.columns("crossings"), crossings]), directory / FILE)
+        save_file(
+            merge_columns([*tables, *names, self.crossings.pairs.columns("crossings"), crossings]), directory / FILE
+        )
 
     @classmethod
     def load(cls, directory: Path) -> "Landmarks":
@@ -211,14 +213,14 @@ class Landmarks:
             IndexBroken: the file does not hold it.
         """
         try:
-            columns = mapped(directory / FILE)[0]
+            columns = map_arrays(directory / FILE)[0]
             streets, names = (
-                Spelt.of_columns(columns, name, are_streets=name == "streets") for name in ("streets", "names")
+                Spelt.from_columns(columns, name, are_streets=name == "streets") for name in ("streets", "names")
             )
-            on_street, said, numbered, pairs = (Table.of_columns(columns, name) for name in (*_TABLES, "crossings"))
+            on_street, said, numbered, pairs = (Table.from_columns(columns, name) for name in (*_TABLES, "crossings"))
             on, other = columns["crossings.on"], columns["crossings.other"]
             crossings = Crossings(pairs, on, other, max(1, len(streets)))
-            addresses = Addresses.of_columns(columns, "addresses")
+            addresses = Addresses.from_columns(columns, "addresses")
             return cls(streets, names, addresses, on_street, said, numbered, crossings)
         except (OSError, SafetensorError, ValueError, KeyError, TypeError, RuntimeError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error

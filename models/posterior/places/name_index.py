@@ -8,7 +8,7 @@ import numpy as np
 from models.citymap.points import Ints
 from models.language.mentions.names import plain_words
 from models.language.mentions.streets import forms_of, full_words
-from models.strings import Column, Postings, Strings
+from models.strings import Column, Postings, StringArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,7 +24,7 @@ class Spelt:
     """
 
     are_streets: bool
-    shown: Strings
+    shown: StringArray
     column: Ints
     whole: Postings
     part: Postings
@@ -43,9 +43,9 @@ class Spelt:
             if number == len(shown):
                 shown.append(some[0])
         named = [(name, number) for some, number in zip(names, column, strict=True) for name in some]
-        whole = Postings.of((_plain(name, are_streets), number) for name, number in named)
-        part = Postings.of(_forms(named) if are_streets else ())
-        return cls(are_streets, Strings.of(shown), np.array(column, np.int32), whole, part)
+        whole = Postings.from_pairs((_plain(name, are_streets), number) for name, number in named)
+        part = Postings.from_pairs(_forms(named) if are_streets else ())
+        return cls(are_streets, StringArray.from_strings(shown), np.array(column, np.int32), whole, part)
 
     def __len__(self) -> int:
         return len(self.shown)
@@ -56,15 +56,15 @@ class Spelt:
         return self.whole.find(plain) if plain in self.whole else self.part.find(plain)
 
     def columns(self, name: str) -> dict[str, Column]:
-        """Arrays from which `of_columns` makes it."""
+        """Arrays from which `from_columns` makes it."""
         found = {f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
         return found | self.whole.columns(f"{name}.whole") | self.part.columns(f"{name}.part")
 
     @classmethod
-    def of_columns(cls, columns: Mapping[str, Column], name: str, *, are_streets: bool) -> "Spelt":
+    def from_columns(cls, columns: Mapping[str, Column], name: str, *, are_streets: bool) -> "Spelt":
         """What `columns` gave of a name."""
-        whole, part = (Postings.of_columns(columns, f"{name}.{kind}") for kind in ("whole", "part"))
-        shown = Strings.of_columns(columns, f"{name}.shown")
+        whole, part = (Postings.from_columns(columns, f"{name}.{kind}") for kind in ("whole", "part"))
+        shown = StringArray.from_columns(columns, f"{name}.shown")
         return cls(are_streets, shown, columns[f"{name}.column"], whole, part)
 
 

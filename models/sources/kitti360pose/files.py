@@ -10,7 +10,7 @@ import numpy as np
 
 from models.citymap.types import Floats
 from models.errors import DataError
-from models.files import replacing
+from models.files import open_atomic
 from models.sources.kitti360pose.fields import Fields, Source, read_cell, read_pose
 from models.sources.kitti360pose.pickle_reader import read_pickle
 from models.sources.kitti360pose.pickle_writer import cell_record, pose_record, write_records
@@ -232,11 +232,11 @@ def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Se
             yield cell
 
     # The inner file first: if the poses are refused, the cells are not put in place either.
-    with replacing(cells_path) as cells_file:
+    with open_atomic(cells_path) as cells_file:
         write_records(cells_file, map(cell_record, written()))
         check_poses(poses_path, poses, keys)
         if poses:
-            with replacing(poses_path) as poses_file:
+            with open_atomic(poses_path) as poses_file:
                 write_records(poses_file, map(pose_record, poses))
         else:
             poses_path.unlink(missing_ok=True)

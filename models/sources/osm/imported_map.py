@@ -96,10 +96,10 @@ class Taken:
         pieces = pieces.of_instances(there)
         order = strips.order[instances.first[there]]
         table = InstanceTable(
-            Categorical.of([classes[n].label for n in order]),
-            Categorical.of([found.names.get(n) for n in there.tolist()]),
-            Categorical.of_ascii(found.sources[there]),
-            Categorical.of([classes[n].shape for n in order]),
+            Categorical.from_strings([classes[n].label for n in order]),
+            Categorical.from_strings([found.names.get(n) for n in there.tolist()]),
+            Categorical.from_bytes(found.sources[there]),
+            Categorical.from_strings([classes[n].shape for n in order]),
             found.rgb[there],
         )
         is_walkable = np.array([row.walkable for row in classes])[order]

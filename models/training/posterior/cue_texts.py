@@ -12,7 +12,7 @@ import numpy as np
 from models.errors import TrainingError
 from models.language.mentions.cue_reader import ANGLES, FORMS, RELATIONS
 
-LABELLED: Final = Path(__file__).parents[2] / "language" / "places" / "labelled"
+LABELLED: Final = Path(__file__).parents[2] / "language" / "mentions" / "labelled"
 PEOPLE: Final = "people"  # of them the kernels of places are fitted to some, so that they are read by halves
 OTHERS: Final = ("invented", "meeting")
 TRAINED_ON: Final = (PEOPLE, *OTHERS)

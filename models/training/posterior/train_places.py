@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from models.checkpoint import CONFIG_FILE, SHIPPED
+from models.checkpoint import CONFIG_FILE, SHIPPED_WEIGHTS_DIR
 from models.language.mentions.cue_reader import CueReader
 from models.posterior.model import PosteriorModel, load_posterior, save_posterior
 from models.posterior.places.kernels import PlaceKernels
@@ -51,7 +51,7 @@ def train_places(
         TrainingError: no text names anything of its map.
     """
     model = load_posterior(weights)
-    record = json.loads(((weights or SHIPPED / "posterior") / CONFIG_FILE).read_text())["training"]
+    record = json.loads(((weights or SHIPPED_WEIGHTS_DIR / "posterior") / CONFIG_FILE).read_text())["training"]
     torch.manual_seed(seed)
     rng, kernels = np.random.default_rng(seed), PlaceKernels()
     cues_for, figures = _train_readers(model, weights, seed, rng, progress)

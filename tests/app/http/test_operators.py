@@ -116,7 +116,7 @@ def test_a_directory_that_cannot_be_written_is_said_and_nothing_changes(root, fa
         raise OSError(error, os.strerror(error), str(root))
 
     monkeypatch.setattr("index.build.artifact.replace_file", fails)
-    monkeypatch.setattr("index.build.snapshot.replacing", fails)
+    monkeypatch.setattr("index.build.snapshot.open_atomic", fails)
     with start(Settings(index_dir=root), fake) as api:
         (root / "copied").mkdir()
         for item in (root / default).iterdir():

@@ -174,7 +174,7 @@ def changed_file(services, operation, patch):
 
 @provokes(409, "not_writable", REGISTER, ALIAS, SNAPSHOT)
 def full_disk(services, operation, patch):
-    for writer in ("index.build.artifact.replace_file", "index.build.snapshot.replacing"):
+    for writer in ("index.build.artifact.replace_file", "index.build.snapshot.open_atomic"):
         patch.setattr(writer, raises(OSError(errno.ENOSPC, "full")))
     return of_version(services(), operation, "copied" if operation == REGISTER else "v1")
 

@@ -20,7 +20,7 @@ from structlog.testing import capture_logs
 from app.jobs.runner import EvaluationJobs
 from app.main import create_app
 from app.settings import Settings
-from models.files import BUILDING
+from models.files import TEMP_PREFIX
 
 WORKER = "tests.app.jobs.fake_worker"
 SERVE = Path(__file__).parents[1] / "serve_fake.py"
@@ -97,12 +97,12 @@ def test_what_a_kill_left_in_part_is_removed(service, until, tmp_path):
         (jobs / name).mkdir()
         for file in files:
             (jobs / name / file).write_text("{")
-    (jobs / done / f"{BUILDING}0").write_text("{")
+    (jobs / done / f"{TEMP_PREFIX}0").write_text("{")
     with service() as api:
         assert api.get(f"/evaluate/{'a' * 32}").status_code == 404
         assert status(api, done) == "done"
     assert [path.name for path in jobs.iterdir()] == [done]
-    assert not (jobs / done / f"{BUILDING}0").exists()
+    assert not (jobs / done / f"{TEMP_PREFIX}0").exists()
 
 
 def test_a_job_is_promised_once_its_directory_is_on_disk(service, monkeypatch, tmp_path):

@@ -16,7 +16,7 @@ from index.build.shard_data import FILE, Part
 from index.build.shard_store import PARTS
 from models.citymap.cells import BLOCK
 from models.errors import DataError, IndexBroken
-from models.files import BUILDING
+from models.files import TEMP_PREFIX
 from tests.index_facts import told
 
 FIRST, SECOND = Shard.all(2)
@@ -73,7 +73,7 @@ def test_a_shard_without_cells_is_a_part_too(job) -> None:
     assert rows_of(job, none) == [0, 0]
     columns = load_file(path / FILE)
     assert len(columns["vectors"]) == 0
-    assert not list(job.out_dir.glob(f"{BUILDING}*"))
+    assert not list(job.out_dir.glob(f"{TEMP_PREFIX}*"))
 
 
 @pytest.mark.slow
@@ -157,7 +157,7 @@ def test_who_is_killed_leaves_nothing_that_is_taken_for_a_part(job, given, monke
             os._exit(1)
     assert os.waitpid(pid, 0)[1] == signal.SIGKILL
     directory = part_of(job, FIRST).parent
-    assert len(list(directory.glob(f"{BUILDING}*"))) == 1
+    assert len(list(directory.glob(f"{TEMP_PREFIX}*"))) == 1
     with pytest.raises(IndexBroken, match="parts: 2-of-2 is missing;"):
         job.merge(2)
     job.make_part(SECOND)

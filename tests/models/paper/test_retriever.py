@@ -120,7 +120,7 @@ def test_another_model_of_the_same_shape_has_another_fingerprint(model, text_enc
         (lambda d: (d / "config.json").write_text("{"), "cannot be read"),
         (
             lambda d: (d / "config.json").write_text('{"method": "mncl", "retriever": {"width": 64}}'),
-            "not of the model",
+            "do not match its config.json",
         ),
         (lambda d: (d / "config.json").write_text('{"method": "mncl", "retriever": {"depth": 64}}'), "cannot be read"),
     ],

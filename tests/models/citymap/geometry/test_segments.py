@@ -26,7 +26,7 @@ def test_pieces_are_put_together_again_from_their_segments(city) -> None:
 
 def test_a_table_of_a_file_finds_the_same_tiles(city) -> None:
     """Whoever makes a table knows the tiles of its pieces, whoever opens one finds them when they are asked for."""
-    opened = PieceTable.of_columns(city.pieces.columns())
+    opened = PieceTable.from_columns(city.pieces.columns())
     assert "tile" not in vars(opened)
     assert np.array_equal(opened.tile, city.pieces.tile)
     assert opened.tile.dtype == city.pieces.tile.dtype

@@ -6,7 +6,7 @@ import pytest
 import torch
 from safetensors.torch import load_file, save_file
 
-from models.checkpoint import LARGE
+from models.checkpoint import MAX_UNROUNDED_VALUES
 from models.errors import WeightsError
 from models.paper.fine.checkpoint import FINE_METHODS, load_fine, save_fine
 from models.paper.fine.fine_model import CrossAttentionRound, Truth, nearest
@@ -182,7 +182,7 @@ def test_weights_are_saved_to_half_a_step_of_their_row(fine_model, tmp_path) -> 
     save_fine(model, tmp_path, {})
     found = load_fine(tmp_path).state_dict()
     for name, tensor in given.items():
-        if tensor.dim() > 1 and tensor.numel() > LARGE:
+        if tensor.dim() > 1 and tensor.numel() > MAX_UNROUNDED_VALUES:
             step = tensor.abs().amax(dim=1, keepdim=True) / 127
             assert ((found[name] - tensor).abs() <= 0.57 * step).all(), (
                 "a half, and what a step in half precision is off"
@@ -202,10 +202,13 @@ def test_weights_are_saved_to_half_a_step_of_their_row(fine_model, tmp_path) -> 
         (lambda d: (d / "config.json").write_text('{"method": "guess", "fine": {}}'), "cannot be read"),
         (
             lambda d: (d / "config.json").write_text('{"method": "regressor", "fine": {"width": 64}}'),
-            "not of the model",
+            "do not match its config.json",
         ),
         (lambda d: (d / "config.json").write_text('{"method": "regressor", "fine": {"depth": 2}}'), "cannot be read"),
-        (lambda d: leave_out(d / "model.safetensors", "hint_encoder.project.weight.scale"), "not of the model"),
+        (
+            lambda d: leave_out(d / "model.safetensors", "hint_encoder.project.weight.scale"),
+            "do not match its config.json",
+        ),
     ],
 )
 def test_broken_weights_are_refused(fine_model, tmp_path, spoil, message) -> None:
