@@ -76,6 +76,7 @@ def serve(app: FastAPI, settings: Settings) -> None:
         access_log=False,
         log_config=None,
         server_header=False,
+        proxy_headers=False,  # the client is whoever connects: app/http/keys.py decides by it
         http=Connection,
         timeout_graceful_shutdown=settings.max_deadline_ms // 1000 + CLOSING_S,
     )

@@ -86,8 +86,10 @@ def load_settings(**given: object) -> Settings:
 
 
 def is_local(host: str) -> bool:
-    """Whether only this machine reaches what listens there."""
+    """Return whether a host, a name or an address, is this machine's loopback interface."""
     address = address_of(host)
+    if isinstance(address, IPv6Address) and address.ipv4_mapped is not None:
+        address = address.ipv4_mapped  # a client over IPv4 of a socket that listens on both
     return host == "localhost" if address is None else address.is_loopback
 
 

@@ -49,6 +49,13 @@ class Code(Enum):
         "ask its operator.",
         None,
     )
+    KEY_NOT_SET = (
+        403,
+        "No key is set, so only programs on the service's own machine may evaluate",
+        "Set HEREABOUTS_READ_KEY, restart the service, and send that key. Without a key, send the request from the "
+        "service's machine, to localhost and not through a proxy.",
+        None,
+    )
     ADMIN_OFF = (
         403,
         "Nobody may change this service from outside",

@@ -1,6 +1,7 @@
 """Who may ask and who may change: the read key, the admin key. What is new is closed, unless it says it is open."""
 
 import hmac
+import re
 from collections.abc import Collection, Iterable, Sequence
 from typing import Any, Final
 
@@ -10,6 +11,7 @@ from pydantic import SecretStr
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
+from app.settings import is_local
 
 OPEN: Final[dict[str, Any]] = {"security": []}  # `openapi_extra=` of a route that needs no key; OpenAPI's own words
 DOCS: Final = frozenset({("GET", "/docs"), ("GET", "/docs/oauth2-redirect"), ("GET", "/openapi.json")})
@@ -19,6 +21,25 @@ SCHEMES: Final[dict[str, Any]] = {
     "bearer": {"type": "http", "scheme": "bearer"},
     "api_key": {"type": "apiKey", "in": "header", "name": "X-API-Key"},
 }
+SAFE_METHODS: Final = frozenset({"GET", "HEAD", "OPTIONS"})  # RFC 9110, 9.2.1
+READING_POSTS: Final = frozenset({"/localize", "/localize/batch", "/describe"})  # have a body, and change nothing
+FORWARDED_PREFIX: Final = b"x-forwarded"
+FORWARDED_HEADERS: Final = frozenset(  # a reverse proxy, a tunnel or a content delivery network sends one of them
+    {
+        b"forwarded",
+        b"via",
+        b"x-real-ip",
+        b"x-client-ip",
+        b"x-cluster-client-ip",
+        b"x-original-host",
+        b"x-original-forwarded-for",
+        b"x-envoy-external-address",
+        b"true-client-ip",
+        b"cf-connecting-ip",
+        b"fastly-client-ip",
+    }
+)
+_HOST: Final = re.compile(r"(\[(?P<address>[^\[\]]+)\]|(?P<name>[^\[\]:]+))(:\d*)?")
 CHALLENGE: Final = 'Bearer realm="hereabouts"'  # RFC 6750, 3: without an error where no key was sent
 
 Headers = Iterable[tuple[bytes, bytes]]
@@ -65,9 +86,11 @@ class KeyCheck:
         if self._read_key is not None or (changes and self._admin_key is not None):
             check_key(headers, [key for key in (self._read_key, self._admin_key) if key is not None])
         if not changes:
+            if self._read_key is None and changes_state(scope) and not is_direct(scope):
+                raise _refusal(headers, Code.KEY_NOT_SET, CHALLENGE)
             return
         if self._admin_key is None:
-            if self._read_key is not None or not self._is_local:
+            if self._read_key is not None or not self._is_local or not is_direct(scope):
                 raise _refusal(headers, Code.ADMIN_OFF, CHALLENGE)
         elif not all(hmac.compare_digest(each, self._admin_key) for each in sent_keys(headers)):
             raise _refusal(headers, Code.ADMIN_KEY_REQUIRED, CHALLENGE)
@@ -78,6 +101,34 @@ class KeyCheck:
         method = "GET" if scope["method"] == "HEAD" else scope["method"]
         is_asset = method == "GET" and scope["path"].startswith(DOCS_ASSETS)
         return is_asset or (method, scope["path"]) in self._open_routes
+
+
+def changes_state(scope: Scope) -> bool:
+    """Return whether a request may change what the service keeps, or start work that outlives the request."""
+    return scope.get("method") not in SAFE_METHODS and scope["path"] not in READING_POSTS
+
+
+def is_direct(scope: Scope) -> bool:
+    """Return whether a request comes from this machine, addressed to this machine, and not through a proxy.
+
+    The address that the service listens on does not tell: a proxy on this machine connects over loopback too. A page
+    that reaches the service by a name of its own (DNS rebinding) is recognized by its Host header.
+    """
+    client = scope.get("client")
+    hosts = [value for name, value in scope["headers"] if name == b"host"]
+    return (
+        client is not None
+        and is_local(client[0])
+        and len(hosts) == 1
+        and is_local(_host_name(hosts[0]))
+        and not any(name in FORWARDED_HEADERS or name.startswith(FORWARDED_PREFIX) for name, _ in scope["headers"])
+    )
+
+
+def _host_name(value: bytes) -> str:
+    """Return the host of a Host header without its port and without the brackets of an IPv6 address."""
+    found = _HOST.fullmatch(value.decode("latin-1").strip())
+    return (found["address"] or found["name"]).removesuffix(".").lower() if found else ""
 
 
 def is_admin(scope: Scope) -> bool:

@@ -10,12 +10,12 @@ import httpx
 import pytest
 import structlog
 import uvicorn
-from fastapi.testclient import TestClient
 from pydantic import ValidationError
 
 sys.path.append(str(Path(__file__).parent))  # importlib mode does not; see also serve_fake.py
 
 from fake_localizer import FakeLocalizer
+from local_client import local_client
 
 from app.http.connection import Connection
 from app.http.errors import Code, Problem, field_name
@@ -38,7 +38,7 @@ def wait_until(condition, timeout_s=20):
 
 @contextmanager
 def started(settings, localizer):
-    with TestClient(create_app(settings, lambda: localizer)) as api:
+    with local_client(create_app(settings, lambda: localizer)) as api:
         wait_until(lambda: api.get("/readyz").status_code == 200)
         yield api
         localizer.gate.set()

@@ -3,7 +3,7 @@
 import threading
 
 from fake_localizer import FakeLocalizer
-from fastapi.testclient import TestClient
+from local_client import local_client
 
 from app.main import create_app
 from app.settings import Settings
@@ -25,7 +25,7 @@ class Services:
         key = name, *sorted(settings.items())
         if key not in self._started:
             app = create_app(Settings(**{"index_dir": self.root, **settings}), opens or self._opened)
-            api = self._started[key] = self._stack.enter_context(TestClient(app))
+            api = self._started[key] = self._stack.enter_context(local_client(app))
             self._stack.callback(self._ends.set)  # before it is closed, which waits for what is being opened
             if is_ready:
                 self._until(lambda: api.get("/readyz").status_code == 200)

@@ -24,6 +24,7 @@ PING_S = 15  # between two signs of life on a stream without news
 POST_ERRORS = (
     *REFUSALS,
     Code.INVALID_REQUEST,
+    Code.KEY_NOT_SET,
     Code.INDEX_NOT_FOUND,
     Code.JOBS_FULL,
     Code.NOT_WRITABLE,
@@ -81,7 +82,7 @@ def build_router(settings: Settings) -> APIRouter:
         """How far an evaluation is, and its report once it is done."""
         return jobs.get(job).state()
 
-    @router.delete(PATH + "/{job}", responses=problems(Code.JOB_NOT_FOUND))
+    @router.delete(PATH + "/{job}", responses=problems(Code.KEY_NOT_SET, Code.JOB_NOT_FOUND))
     async def cancel(job: str, jobs: Jobs) -> JobState:
         """Cancel an evaluation; one that is finished is forgotten."""
         return (await jobs.delete(job)).state()

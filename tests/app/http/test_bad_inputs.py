@@ -10,8 +10,8 @@ from urllib.parse import quote
 import bad_values as values
 import pytest
 from fake_localizer import FakeLocalizer
-from fastapi.testclient import TestClient
 from good_requests import GOOD, IN_PATH, JSON, WITH_BODY, ask
+from local_client import local_client
 
 from app.jobs.job import Job
 from app.main import create_app
@@ -139,7 +139,7 @@ def api(fake, until, versions_dir):
     settings = Settings(index_dir=versions_dir, admin_key=ADMIN, max_evaluate_bytes=MOST_BYTES, max_queries=100)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
-        with TestClient(create_app(settings, lambda: fake), headers={"X-API-Key": ADMIN}) as api:
+        with local_client(create_app(settings, lambda: fake), headers={"X-API-Key": ADMIN}) as api:
             until(lambda: api.get("/readyz").status_code == 200)
             yield api
 

@@ -1,15 +1,19 @@
 """The read key: what is open without it, what counts as sending it, and what is said of it."""
 
 import asyncio
+from pathlib import Path
 
+import httpx
 import pytest
 from fake_localizer import FakeLocalizer
 from fastapi import APIRouter
 from fastapi.routing import iter_route_contexts
 from fastapi.testclient import TestClient
+from local_client import local_client
 from structlog.testing import capture_logs
 
 from app.http.keys import OPEN, KeyCheck, open_routes
+from app.jobs.job import Job
 from app.main import create_app
 from app.settings import Settings
 
@@ -167,6 +171,105 @@ def test_refused_before_the_body_is_read(problem):
     assert (b"connection", b"close") in start["headers"], "or the server reads what nobody wants"
     start, _ = asyncio.run(ask({"type": "websocket", "path": "/info", "headers": []}))
     assert (start["type"], start["status"]) == ("websocket.http.response.start", 401)
+
+
+EVALUATION = {"queries": [{"description": "a tree", "position": [0, 0]}]}
+CHANGES = (("POST", "/evaluate", EVALUATION), ("DELETE", "/evaluate/x", None))
+
+
+@pytest.fixture
+def evaluates_nothing(monkeypatch):
+    async def submit(_jobs, _evaluation):
+        return Job(Path("nowhere"))
+
+    monkeypatch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
+
+
+def statuses_of_changes(api, headers):
+    return [api.request(method, path, json=body, headers=headers).status_code for method, path, body in CHANGES]
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Forwarded": "for=127.0.0.1"},
+        {"X-Forwarded-For": "127.0.0.1"},
+        {"X-Forwarded-Host": "localhost"},
+        {"X-Forwarded-Proto": "https"},
+        {"X-Real-IP": "127.0.0.1"},
+        {"Via": "1.1 proxy"},
+        {"CF-Connecting-IP": "127.0.0.1"},
+        *(
+            {"Host": host}
+            for host in ("town.example", "town.example:8000", "192.0.2.1", "localhost.example", "[::2]", "")
+        ),
+        *(
+            {"Host": host}
+            for host in ("127.0.0.1.example", "127.0.0.1@town.example", "[127.0.0.1", "::1]", "local host")
+        ),
+    ],
+    ids=str,
+)
+@pytest.mark.usefixtures("evaluates_nothing")
+def test_without_a_key_a_forwarded_request_changes_nothing(api, fake, problem, headers):
+    for method, path, body in CHANGES:
+        said = problem(api.request(method, path, json=body, headers=headers), 403, "key_not_set")
+        assert "HEREABOUTS_READ_KEY" in said["detail"]
+    assert api.post("/localize", json={"description": "a tree"}, headers=headers).status_code == 200
+    assert api.get("/evaluate/x", headers=headers).status_code == 404
+
+
+@pytest.mark.parametrize(
+    "host", ["127.0.0.1", "127.0.0.1:8000", "localhost", "LocalHost.:80", "[::1]:8000", "127.9.9.9"]
+)
+@pytest.mark.usefixtures("evaluates_nothing")
+def test_without_a_key_a_program_on_this_machine_may_evaluate(api, host):
+    assert statuses_of_changes(api, {"Host": host}) == [202, 404]
+
+
+@pytest.mark.parametrize(
+    ("address", "statuses"),
+    [
+        (("192.0.2.1", 50_000), [403, 403]),
+        (("::ffff:192.0.2.1", 50_000), [403, 403]),
+        (None, [403, 403]),
+        (("::1", 50_000), [202, 404]),
+        (("::ffff:127.0.0.1", 50_000), [202, 404]),
+    ],
+)
+@pytest.mark.usefixtures("evaluates_nothing")
+def test_without_a_key_another_machine_changes_nothing_whatever_host_it_names(api, address, statuses):
+    other = TestClient(api.app, base_url="http://localhost", client=address)
+    assert statuses_of_changes(other, {}) == statuses
+
+
+@pytest.mark.usefixtures("evaluates_nothing")
+def test_with_the_key_a_forwarded_request_may_evaluate_and_without_it_nobody(closed, problem):
+    forwarded = {"X-Forwarded-For": "192.0.2.1", "Host": "town.example"}
+    assert statuses_of_changes(closed, BEARER | forwarded) == [202, 404]
+    assert statuses_of_changes(closed, forwarded) == [401, 401]
+    assert statuses_of_changes(local_client(closed.app), {}) == [401, 401]
+
+
+def test_a_new_route_counts_as_one_that_changes_something_unless_its_method_says_otherwise(problem):
+    app = create_app(Settings(), FakeLocalizer)
+    for method in ("POST", "PUT", "PATCH", "DELETE"):
+        app.add_api_route("/new", lambda: 1, methods=[method])
+    app.add_api_route("/new", lambda: 2)
+    local, other = local_client(app), TestClient(app)
+    for method in ("POST", "PUT", "PATCH", "DELETE"):
+        assert local.request(method, "/new").json() == 1
+        problem(other.request(method, "/new"), 403, "key_not_set")
+    assert other.get("/new").json() == 2
+
+
+def test_behind_a_proxy_on_this_machine_the_served_application_is_closed_too(in_a_thread, problem):
+    """As nginx sends it: from 127.0.0.1, with the Host of the public site."""
+    with in_a_thread(create_app(Settings(), FakeLocalizer)) as port:
+        url = f"http://127.0.0.1:{port}/evaluate"
+        for headers in ({"Host": "town.example"}, {"X-Forwarded-For": "127.0.0.1"}):
+            problem(httpx.post(url, json=EVALUATION, headers=headers), 403, "key_not_set")
+        problem(httpx.delete(f"{url}/x"), 404, "job_not_found")
 
 
 def test_events_of_an_evaluation_need_it_too(closed, problem):

@@ -9,7 +9,7 @@ import threading
 
 import pytest
 from fake_localizer import FakeLocalizer
-from fastapi.testclient import TestClient
+from local_client import local_client
 
 from app.main import create_app
 from app.settings import Settings
@@ -33,7 +33,7 @@ def root(index_dir, tmp_path):
 def served(root, tmp_path, model, until, **settings):
     if not (tmp_path / "weights").exists():
         save_retriever(model, tmp_path / "weights", {})
-    return TestClient(create_app(Settings(index_dir=root, weights_dir=tmp_path / "weights", workers=2, **settings)))
+    return local_client(create_app(Settings(index_dir=root, weights_dir=tmp_path / "weights", workers=2, **settings)))
 
 
 @pytest.mark.slow
@@ -101,7 +101,7 @@ def test_a_version_that_cannot_be_served_is_refused_and_the_old_one_answers(root
 def test_an_index_of_another_model_is_409_with_a_way_out(root, tmp_path, model, until, problem):
     default = read_aliases(root).aliases["default"]
     settings = Settings(index_dir=root, workers=1)  # the weights that ship
-    with TestClient(create_app(settings)) as api:
+    with local_client(create_app(settings)) as api:
         until(lambda: api.get("/readyz").json()["code"] == "load_failed", 60)
         response = api.post("/indexes/aliases", json={"alias": "default", "version": default})
         assert "hereabouts index" in problem(response, 409, "index_mismatch")["detail"]
@@ -155,7 +155,7 @@ MATRIX = [
 @pytest.mark.parametrize(("read", "admin", "host", "sent", "asking", "changing"), MATRIX)
 def test_who_may_ask_and_who_may_change(tmp_path, until, read, admin, host, sent, asking, changing):
     settings = Settings(read_key=read, admin_key=admin, host=host, index_dir=tmp_path)
-    with TestClient(create_app(settings, FakeLocalizer)) as api:
+    with local_client(create_app(settings, FakeLocalizer)) as api:
         until(lambda: api.get("/readyz").status_code == 200)
         headers = {"X-API-Key": sent} if sent else {}
         assert api.post("/localize", json={"description": TEXT}, headers=headers).status_code == asking
@@ -170,7 +170,7 @@ def test_who_may_ask_and_who_may_change(tmp_path, until, read, admin, host, sent
 
 
 def test_a_page_of_another_site_changes_nothing_unasked(tmp_path, problem):
-    with TestClient(create_app(Settings(index_dir=tmp_path), FakeLocalizer)) as api:
+    with local_client(create_app(Settings(index_dir=tmp_path), FakeLocalizer)) as api:
         for path in ("/indexes", "/indexes/aliases", "/indexes/v1/verify", "/indexes/v1/snapshot"):
             for content_type in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"):
                 response = api.post(path, content="{}", headers={"Content-Type": content_type})
@@ -180,7 +180,7 @@ def test_a_page_of_another_site_changes_nothing_unasked(tmp_path, problem):
 
 def test_both_keys_at_once_are_not_more_than_the_lesser(tmp_path):
     settings = Settings(read_key=READ, admin_key=ADMIN, index_dir=tmp_path)
-    with TestClient(create_app(settings, FakeLocalizer)) as api:
+    with local_client(create_app(settings, FakeLocalizer)) as api:
         headers = {"X-API-Key": READ, "Authorization": f"Bearer {ADMIN}"}
         assert api.post("/indexes", json={"version": "none"}, headers=headers).status_code == 403
 

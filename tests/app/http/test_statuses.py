@@ -107,6 +107,11 @@ def another_key(services, operation, patch):
     return ask(services(read_key=READ), operation, headers={"X-API-Key": "another-key"})
 
 
+@provokes(403, "key_not_set", "POST /evaluate", "DELETE /evaluate/{job}")
+def forwarded_request(services, operation, patch):
+    return ask(services(), operation, headers={"X-Forwarded-For": "192.0.2.1"})
+
+
 @provokes(403, "admin_off", *CHANGING)
 def service_that_others_reach(services, operation, patch):
     return ask(services(host="0.0.0.0"), operation)
@@ -153,7 +158,7 @@ def body_that_does_not_come(services, operation, patch):
         yield b""
 
     async def send(app):
-        async with httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://testserver") as client:
+        async with httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://127.0.0.1") as client:
             return await ask(client, operation, content=late(), headers=JSON)
 
     return asyncio.run(send(services().app))

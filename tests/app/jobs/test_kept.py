@@ -14,7 +14,7 @@ from pathlib import Path
 import httpx
 import pytest
 from fake_localizer import FakeLocalizer
-from fastapi.testclient import TestClient
+from local_client import local_client
 from structlog.testing import capture_logs
 
 from app.jobs.runner import EvaluationJobs
@@ -39,7 +39,7 @@ def service(tmp_path, monkeypatch, until, warm):
 
     @contextmanager
     def run():
-        with TestClient(create_app(Settings(jobs_dir=tmp_path / "jobs"), FakeLocalizer)) as api:
+        with local_client(create_app(Settings(jobs_dir=tmp_path / "jobs"), FakeLocalizer)) as api:
             until(lambda: api.get("/readyz").status_code == 200)
             yield api
 

@@ -4,7 +4,7 @@ import json
 import time
 
 import pytest
-from fastapi.testclient import TestClient
+from local_client import local_client
 from typer.testing import CliRunner
 
 from app.cli import main as cli
@@ -21,7 +21,7 @@ TIMEOUT_S = 120
 @pytest.fixture(scope="module")
 def served(strip_file, index_dir, weights_dir, until, warm_workers):
     settings = Settings(index_dir=index_dir, weights_dir=weights_dir, data_dir=strip_file.parent)
-    with TestClient(create_app(settings)) as served:
+    with local_client(create_app(settings)) as served:
         until(lambda: served.get("/readyz").status_code == 200, 60)
         yield served
 
