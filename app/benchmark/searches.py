@@ -35,7 +35,7 @@ def measure_searches(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -
     """
     from models.posterior.posterior import CANDIDATES  # noqa: PLC0415 - heavy
 
-    vectors = np.concatenate([text.whole.cpu().numpy() for text in localizer.retriever.encode_texts(texts)])
+    vectors = np.concatenate([text.global_vectors.cpu().numpy() for text in localizer.retriever.encode_texts(texts)])
     return {
         "candidates": CANDIDATES,
         "faiss_ms": _median_ms(localizer.ranker.store, vectors, CANDIDATES),

@@ -115,7 +115,7 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
     return {f"{name}_ms": round(1000 * float(np.median(seconds)), 1) for name, seconds in steps.items()} | {
         "cells": cells,
         "surroundings_bytes_a_cell": round(surroundings.num_bytes / cells),
-        "vectors_bytes_a_cell": round(4 * localizer.facts.dim + ranker.table.bytes_a_cell),
+        "vectors_bytes_a_cell": round(4 * localizer.facts.dim + ranker.table.bytes_per_cell),
     }
 
 

@@ -102,7 +102,7 @@ class Evaluation(BaseModel):
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.posterior.neighbours.neighbour_index import surroundings_of  # noqa: PLC0415
 
-        ranker = self._ranker(source, load_retriever(self.weights_dir).global_alone(), progress)
+        ranker = self._ranker(source, load_retriever(self.weights_dir).global_only(), progress)
         surroundings = surroundings_of(source.bodies(), source.data.cells, progress)
         model = load_posterior(self.posterior_weights_dir)
         return PosteriorLocalizer.of_map(model, source.data, ranker, surroundings, source.gazetteer())

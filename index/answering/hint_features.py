@@ -47,7 +47,7 @@ def load_hint_features(directory: Path, retriever: Retriever) -> frozenset[str]:
     try:
         with safe_open(directory / FILE, framework="numpy") as file:
             sentences = json.loads(file.metadata()["sentences"])
-            retriever.remember(sentences, file.get_tensor("features"))
+            retriever.cache_features(sentences, file.get_tensor("features"))
     except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
         raise IndexBroken(f"the hints in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
     return frozenset(sentences)

@@ -78,7 +78,7 @@ class Localizer:
         self._refined: dict[str, VectorLocalizer] = {}
         self.gallery = Gallery.load(directory, self._cut)
         store = open_store(directory, manifest, self.gallery.cells.center_m)
-        self.ranker = Ranker.load(retriever.global_alone(), directory, store)
+        self.ranker = Ranker.load(retriever.global_only(), directory, store)
         self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
         said = {"dim": manifest.dim, "cells": manifest.cells, "instances": manifest.instances}
         held = {

@@ -12,7 +12,7 @@ from index.stores.store import Floats, Rows, VectorStore
 from models.citymap.cells import CellTable
 from models.citymap.points import Ints
 from models.paper.instance_encoder import CellFeatures
-from models.paper.level_table import NO_LEVELS, LevelTable, encode_gallery
+from models.paper.level_table import EMPTY_LEVEL_TABLE, LevelTable, encode_gallery
 from models.paper.levels import Levels
 from models.paper.retriever import Retriever
 
@@ -49,7 +49,7 @@ class Ranker:
             labels: of each instance that its parts name.
             depth: see Ranker.
         """
-        features = retriever.seen(CellFeatures.of(cells, np.array(labels)))
+        features = retriever.with_point_features(CellFeatures.from_cells(cells, np.array(labels)))
         vectors, table = encode_gallery(retriever, features)
         return cls(retriever, FaissStore.of(vectors), table, depth)
 
@@ -65,7 +65,7 @@ class Ranker:
         Raises:
             IndexBroken: it is not an index of this model.
         """
-        table = NO_LEVELS if retriever.levels == ("global",) else LevelTable.load(directory, retriever.levels)
+        table = EMPTY_LEVEL_TABLE if retriever.levels == ("global",) else LevelTable.load(directory, retriever.levels)
         return cls(retriever, store, table)
 
     def take(self, rows: Ints) -> "Ranker":
@@ -74,7 +74,7 @@ class Ranker:
 
     def search(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
         """The k best cells of each description by the global level alone; arguments and return as `rank`."""
-        return self.store.search(np.concatenate([text.whole.cpu().numpy() for text in texts]), k)
+        return self.store.search(np.concatenate([text.global_vectors.cpu().numpy() for text in texts]), k)
 
     def rank(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
         """The k best cells of each description.
@@ -95,7 +95,7 @@ class Ranker:
 
     def score(self, text: Levels, rows: npt.NDArray[np.int64]) -> Floats:
         """[len(rows)] scores of some cells, comparable with those of `rank`."""
-        whole = self.store.score(text.whole[0].cpu().numpy(), rows)
+        whole = self.store.score(text.global_vectors[0].cpu().numpy(), rows)
         if self._is_global or not len(rows):
             return whole
         order = np.argsort(-whole, kind="stable")

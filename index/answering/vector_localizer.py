@@ -60,7 +60,11 @@ class VectorLocalizer:
         model = refiner or ranker.retriever
         self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
         self._centers, self._extent_m = gallery.cells.center_m[:, :2].astype(np.float64), gallery.cells.extent_m
-        self._features = refiner.seen(CellFeatures.of(gallery.cells, np.array(gallery.labels))) if refiner else None
+        self._features = (
+            refiner.with_point_features(CellFeatures.from_cells(gallery.cells, np.array(gallery.labels)))
+            if refiner
+            else None
+        )
 
     @classmethod
     def of_map(cls, data: MapData, ranker: Ranker, refiner: FineModel | None = None) -> "VectorLocalizer":

@@ -173,7 +173,7 @@ class IndexJob:
 
     def _encoder(self, ready: _Ready) -> Retriever:
         """The model that makes the levels that are wanted."""
-        return ready.retriever if self.levels else ready.retriever.global_alone()
+        return ready.retriever if self.levels else ready.retriever.global_only()
 
     def _parts(self, ready: _Ready) -> Parts:
         origin = Origin(

@@ -120,7 +120,7 @@ class Publisher:
 
     def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData, surroundings: Surroundings) -> None:
         """Write what the parts are joined to, but for the vectors, and what is said of them."""
-        levels = LevelTable.joined([part.levels for part in parts])
+        levels = LevelTable.concatenate([part.levels for part in parts])
         if not levels.is_empty:
             levels.save(directory)
         save_hint_features(directory, self.retriever, template_hints(data.gallery, surroundings.things, data.palette))

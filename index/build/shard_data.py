@@ -19,7 +19,7 @@ from models.citymap.types import Progress
 from models.errors import DataError, IndexBroken
 from models.files import map_arrays
 from models.paper.instance_encoder import CellFeatures
-from models.paper.level_table import NO_LEVELS, LevelTable, encode_gallery
+from models.paper.level_table import EMPTY_LEVEL_TABLE, LevelTable, encode_gallery
 from models.paper.levels import Level
 from models.paper.retriever import Retriever
 from models.posterior.likelihood import Likelihood
@@ -128,7 +128,7 @@ class Part:
                 raise ValueError("its columns are of different lengths")
         except (OSError, SafetensorError, KeyError, TypeError, ValueError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; make this shard again") from error
-        table = NO_LEVELS if tuple(levels) == ("global",) else LevelTable.load(directory, levels)
+        table = EMPTY_LEVEL_TABLE if tuple(levels) == ("global",) else LevelTable.load(directory, levels)
         is_scan = (directory / SURROUNDINGS_FILE).exists()
         scanned = ScanSurroundings.load(directory, cells) if is_scan else None
         return cls(vectors, table, rows, scanned)
@@ -154,8 +154,8 @@ def _encoded(retriever: Retriever, data: MapData, rows: range, report: Progress)
         yield {"sizes": np.empty(0, np.int64)} | dict.fromkeys(names, none)
         report("encode cells", 0, len(rows))
         spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
-        for span, features in zip(spans, CellFeatures.in_turn(data.cells, labels, spans), strict=True):
-            seen = retriever.seen(features)
+        for span, features in zip(spans, CellFeatures.iterate_spans(data.cells, labels, spans), strict=True):
+            seen = retriever.with_point_features(features)
             data.cells.parts.forget()
             vectors, table = encode_gallery(retriever, seen, map_forked)
             made = [vectors, *(table.vectors[level] for level in levels)]
@@ -164,4 +164,4 @@ def _encoded(retriever: Retriever, data: MapData, rows: range, report: Progress)
 
     found = spooled(columns())
     table = LevelTable(np.concatenate([[0], np.cumsum(found["sizes"])]), {level: found[level] for level in levels})
-    return found["vectors"], table if levels else NO_LEVELS
+    return found["vectors"], table if levels else EMPTY_LEVEL_TABLE

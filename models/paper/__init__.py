@@ -1,1 +1,1 @@
-"""MNCL and the methods it compares with: encoders, scene graph and losses, one file for each method; `fine/` stages."""
+"""MNCL and the methods it compares with: encoders, scene graph, losses, one file per method, and fine stages."""

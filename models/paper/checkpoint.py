@@ -1,4 +1,4 @@
-"""Saving and loading retrievers."""
+"""Saving and loading of retrievers."""
 
 from models.checkpoint import SHIPPED_WEIGHTS_DIR, Checkpoints
 from models.paper.mncl import Mncl
@@ -9,6 +9,9 @@ from models.paper.text2pos import Text2Pos
 
 METHODS: dict[str, type[Retriever]] = {"text2pos": Text2Pos, "ret": Ret, "text2loc": Text2Loc, "mncl": Mncl}
 RETRIEVERS = Checkpoints(
-    "retriever", METHODS, SHIPPED_WEIGHTS_DIR / "retriever", "train some with 'hereabouts train', or take a fresh copy"
+    "retriever",
+    METHODS,
+    SHIPPED_WEIGHTS_DIR / "retriever",
+    "train weights with 'hereabouts train', or reinstall the package",
 )
 save_retriever, load_retriever = RETRIEVERS.save, RETRIEVERS.load

@@ -1,4 +1,4 @@
-"""Instances of cells as features: what an instance is, how it looks, how large it is and where it lies."""
+"""Features of the instances of cells: class, colour, size, position and points."""
 
 import hashlib
 import logging
@@ -22,33 +22,34 @@ from models.paper.layers import mlp
 from models.paper.point_encoder import POINT_WIDTH, PointEncoder
 
 Input = Literal["position", "closest", "size", "count", "colour", "label", "points"]
-# Columns of `CellFeatures.geometry`: the centre; the closest point, how far it is and which way; the rest.
-GEOMETRY: dict[Input, int] = {"position": 3, "closest": 5, "size": 3, "count": 1, "colour": 4}
-NUM_GEOMETRY = sum(GEOMETRY.values())
-DISTANCE = 5  # the column that says how far the closest point lies from the cell's centre
-# Inputs that pass an MLP together.
-BRANCHES: dict[str, tuple[Input, ...]] = {
+# Columns of `CellFeatures.geometry` per input. "position" is the centre; "closest" is the closest point (2 columns),
+# its distance and the direction to it (2 columns), all relative to the centre of the cell.
+GEOMETRY_WIDTHS: dict[Input, int] = {"position": 3, "closest": 5, "size": 3, "count": 1, "colour": 4}
+GEOMETRY_WIDTH = sum(GEOMETRY_WIDTHS.values())
+CLOSEST_DISTANCE_COLUMN = 5  # of `CellFeatures.geometry`
+# Inputs that share an MLP.
+INPUT_BRANCHES: dict[str, tuple[Input, ...]] = {
     "position": ("position", "closest"), "size": ("size",), "count": ("count",), "colour": ("colour",),
 }  # fmt: skip
-OURS: tuple[Input, ...] = ("position", "closest", "size", "count", "colour", "label")
-PAPERS: tuple[Input, ...] = ("points", "colour", "position", "count")
+DEFAULT_INPUTS: tuple[Input, ...] = ("position", "closest", "size", "count", "colour", "label")
+PAPER_INPUTS: tuple[Input, ...] = ("points", "colour", "position", "count")
 _log = logging.getLogger(__name__)
-_FORMAT = 2  # of what is kept of points; counted up when samples or what is made of them change
-KEYED_BY = 8  # cells whose points name what is kept
-SEEN_AT_ONCE = 512  # instances whose points are looked at together, about
+_CACHE_FORMAT = 2  # increase when the point samples or the point encoder change
+CACHE_KEY_CELLS = 8  # cells whose points are part of the key of the cache
+INSTANCES_PER_POINT_BATCH = 512  # approximate batch size of the point encoder
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CellFeatures:
-    """The instances of all cells of a gallery as numbers, one row an instance and cell; the encoder's input.
+    """The instances of all cells of a gallery as numbers, the input of an encoder; one row per instance and cell.
 
     Attributes:
         starts: [N + 1] int64, cell n has the rows starts[n] to starts[n + 1].
-        geometry: [R, 16] float32: see GEOMETRY.
+        geometry: [R, 16] float32, see GEOMETRY_WIDTHS.
         label: [R] int32, index into `labels`.
         labels: L class names.
-        sample: gives points of the instances, None where they are not at hand.
-        shape: [R, S] what a point encoder makes of them, see `seen`; S = 0 without one.
+        sample: returns points of the instances; None if they are not available.
+        point_features: [R, S] output of a point encoder, see `with_point_features`; S = 0 without one.
     """
 
     starts: npt.NDArray[Any]
@@ -56,37 +57,41 @@ class CellFeatures:
     label: npt.NDArray[Any]
     labels: tuple[str, ...]
     sample: Sampler | None
-    shape: npt.NDArray[Any]
+    point_features: npt.NDArray[Any]
 
     @classmethod
-    def of(cls, cells: CellTable, instance_labels: npt.NDArray[Any], rows: range | None = None) -> "CellFeatures":
-        """Features of a cell table.
+    def from_cells(
+        cls, cells: CellTable, instance_labels: npt.NDArray[Any], rows: range | None = None
+    ) -> "CellFeatures":
+        """Return the features of a cell table.
 
         Args:
             cells: the gallery.
             instance_labels: [I] label of each instance of the map.
-            rows: those of some cells, one after the other, with the labels of all; None for all.
+            rows: a span of cells, with the labels of all; None for all cells.
         """
-        return next(cls.in_turn(cells, instance_labels, [range(len(cells)) if rows is None else rows]))
+        return next(cls.iterate_spans(cells, instance_labels, [range(len(cells)) if rows is None else rows]))
 
     @classmethod
-    def in_turn(
+    def iterate_spans(
         cls, cells: CellTable, instance_labels: npt.NDArray[Any], spans: Iterable[range]
     ) -> Iterator["CellFeatures"]:
-        """Features of some cells, then of others: those of a city take more room than all else of it; as `of`."""
-        known, number = np.unique(instance_labels, return_inverse=True)
-        used = np.unique(number[np.bincount(cells.parts.instance, minlength=len(number)) > 0])
-        known, number = known[used], np.searchsorted(used, number).astype(np.int32)
+        """Yield the features of one span of cells after the other: all at once would not fit in memory for a city."""
+        labels, code = np.unique(instance_labels, return_inverse=True)
+        used = np.unique(code[np.bincount(cells.parts.instance, minlength=len(code)) > 0])
+        labels, code = labels[used], np.searchsorted(used, code).astype(np.int32)
         for span in spans:
-            some = cells if len(span) == len(cells) else cells.take(np.arange(span.start, span.stop))
-            yield cls._of(some, tuple(known.tolist()), number)
+            cells_in_span = cells if len(span) == len(cells) else cells.take(np.arange(span.start, span.stop))
+            yield cls._build(cells_in_span, tuple(labels.tolist()), code)
 
     @classmethod
-    def _of(cls, cells: CellTable, labels: tuple[str, ...], number: npt.NDArray[Any]) -> "CellFeatures":
-        """Features of all of some cells; `number` [I] the label of each instance of the map."""
+    def _build(cls, cells: CellTable, labels: tuple[str, ...], code: npt.NDArray[Any]) -> "CellFeatures":
+        """Return the features of all cells; `code` [I] indexes `labels` for each instance of the map."""
         parts, half = cells.parts, cells.size_m / 2
-        geometry = np.empty((len(parts.instance), NUM_GEOMETRY), dtype=np.float32)  # filled without another of its size
-        position, closest, size, count, colour = np.split(geometry, np.cumsum(list(GEOMETRY.values()))[:-1], axis=1)
+        geometry = np.empty((len(parts.instance), GEOMETRY_WIDTH), dtype=np.float32)  # filled in place to save memory
+        position, closest, size, count, colour = np.split(
+            geometry, np.cumsum(list(GEOMETRY_WIDTHS.values()))[:-1], axis=1
+        )
         center = cells.center_m.astype(np.float32)[parts.cube]
         position[:] = (parts.center_m - center) / half
         closest[:, :2] = (parts.closest_m - center)[:, :2] / half
@@ -96,64 +101,66 @@ class CellFeatures:
         count[:, 0] = np.log1p(parts.count) / 10
         colour[:, 3] = ~np.isnan(parts.rgb).any(axis=1)
         colour[:, :3] = np.where(colour[:, 3:] > 0, parts.rgb, 0.0)
-        label = number[parts.instance]
-        shape = np.zeros((len(label), 0), dtype=np.float32)
-        return cls(parts.starts, geometry, label, labels, cells.sample, shape)
+        label = code[parts.instance]
+        point_features = np.zeros((len(label), 0), dtype=np.float32)
+        return cls(parts.starts, geometry, label, labels, cells.sample, point_features)
 
-    def seen(self, encoder: PointEncoder | None) -> "CellFeatures":
-        """The same with `shape`, computed a few cells at a time, or read where an earlier process left it.
+    def with_point_features(self, encoder: PointEncoder | None) -> "CellFeatures":
+        """Return a copy with `point_features` of an encoder, computed or read from the cache; itself without one.
 
         Raises:
-            WeightsError: there is an encoder, and the instances' points are not at hand.
+            WeightsError: there is an encoder, but the points of the instances are not available.
         """
         if encoder is None or not len(self):
             return self
-        path = cache_directory() / "points" / f"{self._key(encoder)}.npy"
+        path = cache_directory() / "points" / f"{self._cache_key(encoder)}.npy"
         try:
-            shape = np.load(path)
+            point_features = np.load(path)
         except (OSError, ValueError, EOFError):
-            shape = self._look(encoder)
+            point_features = self._encode_points(encoder)
             try:
                 with open_atomic(path) as file:
-                    np.save(file, shape)
+                    np.save(file, point_features)
             except OSError as error:
-                _log.warning("no cache in %s (%s)", path.parent, error)
-        return replace(self, shape=shape)
+                _log.warning("cannot write the cache in %s (%s)", path.parent, error)
+        return replace(self, point_features=point_features)
 
-    def _look(self, encoder: PointEncoder) -> npt.NDArray[Any]:
-        """[R, S] what an encoder makes of all instances."""
+    def _encode_points(self, encoder: PointEncoder) -> npt.NDArray[Any]:
+        """Return the point features [R, S] of all instances."""
         device = next(encoder.parameters()).device
         with torch.inference_mode():
-            parts = [encoder(self.points(cells).to(device)).cpu().numpy() for cells in self._groups()]
+            parts = [encoder(self.points(cells).to(device)).cpu().numpy() for cells in self._point_batches()]
         return np.concatenate(parts)
 
-    def _groups(self) -> Iterator[Ints]:
-        """Cells that are looked at together; none has cells of two blocks (see `Retriever.encode_cells`)."""
+    def _point_batches(self) -> Iterator[Ints]:
+        """Yield the cells of each batch; no batch spans two blocks (see `Retriever.encode_cells`)."""
         for first in range(0, len(self), BLOCK):
             rows = np.arange(first, min(first + BLOCK, len(self)))
             begin, end = self.starts[rows[0]], self.starts[rows[-1] + 1]
-            ends = np.searchsorted(self.starts[rows], np.arange(begin + SEEN_AT_ONCE, end, SEEN_AT_ONCE))
-            yield from (group for group in np.split(rows, np.unique(ends)) if len(group))
+            ends = np.searchsorted(
+                self.starts[rows], np.arange(begin + INSTANCES_PER_POINT_BATCH, end, INSTANCES_PER_POINT_BATCH)
+            )
+            yield from (batch for batch in np.split(rows, np.unique(ends)) if len(batch))
 
-    def _key(self, encoder: PointEncoder) -> str:
-        """sha256 of the encoder, of points of some cells, and of what is known of all instances beside their points."""
+    def _cache_key(self, encoder: PointEncoder) -> str:
+        """Return a sha256 of the encoder, the points of a few cells, and all other features."""
         shape = [(level.count, level.radius, level.neighbours) for level in encoder.levels]
-        digest = hashlib.sha256(f"{_FORMAT} {shape} {fingerprint_of(encoder.state_dict())}".encode())
-        some = self.points(np.linspace(0, len(self) - 1, KEYED_BY).astype(np.int64)).numpy()
-        for column in (self.starts, self.geometry, self.label, some):
+        digest = hashlib.sha256(f"{_CACHE_FORMAT} {shape} {fingerprint_of(encoder.state_dict())}".encode())
+        points = self.points(np.linspace(0, len(self) - 1, CACHE_KEY_CELLS).astype(np.int64)).numpy()
+        for column in (self.starts, self.geometry, self.label, points):
             digest.update(np.ascontiguousarray(column).tobytes())
         return digest.hexdigest()
 
     def points(self, cells: Ints) -> Tensor:
-        """[R, 256, 6] points of the instances of some cells.
+        """Return points [R, 256, 6] of the instances of some cells.
 
         Raises:
-            WeightsError: they are not at hand.
+            WeightsError: the points are not available.
         """
         if self.sample is None:
             raise WeightsError(
-                "these weights look at points (model.inputs), and these cells come without; "
-                "take a map or a data set, or other weights"
+                "these weights need the points of the instances (model.inputs), which an index does not store; "
+                "use a map or a data set, or other weights"
             )
         return torch.from_numpy(self.sample(cells))
 
@@ -161,15 +168,19 @@ class CellFeatures:
         return len(self.starts) - 1
 
     def batch(self, cells: npt.NDArray[Any]) -> "CellBatch":
-        """Some cells, padded to the largest of them."""
+        """Return some cells as tensors, padded to the largest of them."""
         sizes = np.diff(self.starts)[cells]
         mask = np.arange(max(1, sizes.max())) < sizes[:, None]
         rows = ranges(self.starts[cells], self.starts[cells + 1])
-        geometry = np.zeros((*mask.shape, NUM_GEOMETRY), dtype=np.float32)
+        geometry = np.zeros((*mask.shape, GEOMETRY_WIDTH), dtype=np.float32)
         label = np.zeros(mask.shape, dtype=np.int64)
-        shape = np.zeros((*mask.shape, self.shape.shape[1]), dtype=np.float32)
-        geometry[mask], label[mask], shape[mask] = self.geometry[rows], self.label[rows], self.shape[rows]
-        return CellBatch(*(torch.from_numpy(column) for column in (geometry, label, mask, shape)))
+        point_features = np.zeros((*mask.shape, self.point_features.shape[1]), dtype=np.float32)
+        geometry[mask], label[mask], point_features[mask] = (
+            self.geometry[rows],
+            self.label[rows],
+            self.point_features[rows],
+        )
+        return CellBatch(*(torch.from_numpy(column) for column in (geometry, label, mask, point_features)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -180,71 +191,73 @@ class CellBatch:
         geometry: [B, I, 16] float32.
         label: [B, I] int64.
         mask: [B, I] bool, True where an instance is real.
-        shape: [B, I, S] float32, S = 0 without a point encoder.
+        point_features: [B, I, S] float32, S = 0 without a point encoder.
     """
 
     geometry: Tensor
     label: Tensor
     mask: Tensor
-    shape: Tensor
+    point_features: Tensor
 
     def to(self, device: torch.device) -> "CellBatch":
-        """The same on a device."""
-        return CellBatch(*(x.to(device) for x in (self.geometry, self.label, self.mask, self.shape)))
+        """Return a copy on a device."""
+        return CellBatch(*(x.to(device) for x in (self.geometry, self.label, self.mask, self.point_features)))
 
 
-def columns(inputs: Sequence[Input]) -> list[int]:
-    """Which columns of `CellFeatures.geometry` some inputs are."""
-    start = dict(zip(GEOMETRY, accumulate(GEOMETRY.values(), initial=0), strict=False))
-    return [start[name] + k for name, width in GEOMETRY.items() if name in inputs for k in range(width)]
+def geometry_columns(inputs: Sequence[Input]) -> list[int]:
+    """Return the columns of `CellFeatures.geometry` that belong to some inputs."""
+    start = dict(zip(GEOMETRY_WIDTHS, accumulate(GEOMETRY_WIDTHS.values(), initial=0), strict=False))
+    return [start[name] + k for name, width in GEOMETRY_WIDTHS.items() if name in inputs for k in range(width)]
 
 
 class InstanceEncoder(nn.Module):
-    """Instance features F^C of what is known of an instance, each input through layers of its own.
+    """The instance features F^C, from several inputs with an MLP each (MNCL's point backbone).
 
-    MNCL's point backbone. The paper's inputs are PAPERS: points through PointNet++, mean colour, centre, number of
-    points. Ours leave the points out and add the label, as text, so that any word can be one, the point closest to the
-    cell's centre, because hints speak of closest points, and the size. Differs: the number of points enters as its
-    logarithm, and a column says whether a colour is known.
+    The paper's inputs are PAPER_INPUTS: points through PointNet++, mean colour, centre, number of points. The default
+    leaves the points out and adds the size, the label as a text embedding, so that any word can be a label, and the
+    point closest to the cell's centre, because hints refer to closest points. Differs: the number of points enters as
+    its logarithm, and a column says whether the colour is known.
 
     Args:
         label_width: W, of the text embeddings.
         width: D, of the features.
-        inputs: what is looked at.
+        inputs: which inputs to use.
     """
 
-    def __init__(self, label_width: int, width: int, inputs: Sequence[Input] = OURS) -> None:
+    def __init__(self, label_width: int, width: int, inputs: Sequence[Input] = DEFAULT_INPUTS) -> None:
         super().__init__()
-        looked_at = {name: columns([part for part in parts if part in inputs]) for name, parts in BRANCHES.items()}
-        self.columns = {name: found for name, found in looked_at.items() if found}
-        self.branches = nn.ModuleDict({name: mlp(len(found), 64, width) for name, found in self.columns.items()})
+        of_branch = {
+            name: geometry_columns([part for part in parts if part in inputs]) for name, parts in INPUT_BRANCHES.items()
+        }
+        self.columns = {name: columns for name, columns in of_branch.items() if columns}
+        self.branches = nn.ModuleDict({name: mlp(len(columns), 64, width) for name, columns in self.columns.items()})
         self.label = mlp(label_width, width) if "label" in inputs else None
         self.shape = mlp(POINT_WIDTH, width) if "points" in inputs else None
         parts = len(self.columns) + sum(part is not None for part in (self.label, self.shape))
         self.merge = mlp(parts * width, width, width)
 
-    def padded(self, batch: CellBatch, label_embeddings: Tensor) -> Tensor:
-        """[B, I, D] features of cells, 0 at padding; `label_embeddings` [L, W] of each label."""
+    def encode_padded(self, batch: CellBatch, label_embeddings: Tensor) -> Tensor:
+        """Return features [B, I, D] of cells, 0 at padding; `label_embeddings` [L, W] has one row per label."""
         mask = batch.mask
-        found = self(batch.geometry[mask], label_embeddings[batch.label[mask]], batch.shape[mask])
-        features: Tensor = found.new_zeros(*mask.shape, found.shape[-1])
-        features[mask] = found
+        encoded = self(batch.geometry[mask], label_embeddings[batch.label[mask]], batch.point_features[mask])
+        features: Tensor = encoded.new_zeros(*mask.shape, encoded.shape[-1])
+        features[mask] = encoded
         return features
 
-    def forward(self, geometry: Tensor, label_embedding: Tensor, shape: Tensor | None = None) -> Tensor:
-        """Features [R, D].
+    def forward(self, geometry: Tensor, label_embedding: Tensor, point_features: Tensor | None = None) -> Tensor:
+        """Return features [R, D].
 
         Args:
-            geometry: [R, 16] columns of GEOMETRY.
-            label_embedding: [R, W] text embedding of each instance's label.
-            shape: [R, S] of the point encoder.
+            geometry: [R, 16], see GEOMETRY_WIDTHS.
+            label_embedding: [R, W] text embedding of the label of each instance.
+            point_features: [R, S] of the point encoder.
         """
         parts = [branch(geometry[:, self.columns[name]]) for name, branch in self.branches.items()]
         if self.label is not None:
             parts.append(self.label(label_embedding))
         if self.shape is not None:
-            if shape is None or not shape.shape[-1]:
-                raise ValueError("cells without what the point encoder makes of them; call `seen` first")
-            parts.append(self.shape(shape))
+            if point_features is None or not point_features.shape[-1]:
+                raise ValueError("the cells have no point features; call `with_point_features` first")
+            parts.append(self.shape(point_features))
         merged: Tensor = self.merge(torch.cat([nn.functional.normalize(part, dim=-1) for part in parts], dim=-1))
         return merged

@@ -1,4 +1,4 @@
-"""Small pieces that several encoders share."""
+"""Layers that several encoders share."""
 
 from itertools import pairwise
 
@@ -7,7 +7,7 @@ from torch import Tensor, nn
 
 
 def masked_max(x: Tensor, mask: Tensor) -> Tensor:
-    """Maximum over the second to last axis, of real entries only.
+    """Return the maximum over the second to last axis, of real entries only.
 
     Args:
         x: [..., K, D].
@@ -19,15 +19,15 @@ def masked_max(x: Tensor, mask: Tensor) -> Tensor:
     return x.masked_fill(~mask[..., None], float("-inf")).amax(dim=-2)
 
 
-def groups_by_size(mask: Tensor, size: int = 8) -> list[tuple[Tensor, int]]:
-    """Rows of a padded batch in groups of about equally many real entries, so that little is computed for padding.
+def group_by_size(mask: Tensor, size: int = 8) -> list[tuple[Tensor, int]]:
+    """Group the rows of a padded batch by their number of real entries, to compute little for padding.
 
     Args:
         mask: [B, K] bool, True where an entry is real.
-        size: rows a group.
+        size: rows per group.
 
     Returns:
-        (rows [up to `size`], length that holds all their real entries) of each group.
+        For each group its rows [up to `size`], and the length that contains all their real entries.
     """
     length = (mask * torch.arange(1, mask.shape[1] + 1, device=mask.device)).amax(dim=1)
     order = length.argsort(stable=True)
@@ -35,7 +35,7 @@ def groups_by_size(mask: Tensor, size: int = 8) -> list[tuple[Tensor, int]]:
 
 
 def mlp(*widths: int) -> nn.Sequential:
-    """Linear layers with ReLU between them; the last is linear."""
+    """Return linear layers with ReLU between them."""
     layers: list[nn.Module] = []
     for i, (width_in, width_out) in enumerate(pairwise(widths)):
         layers += [nn.ReLU()] if i else []
@@ -44,7 +44,7 @@ def mlp(*widths: int) -> nn.Sequential:
 
 
 class SetTransformer(nn.Module):
-    """Self-attention layers over a set: no positions, padding masked, so order and padding do not matter."""
+    """Self-attention layers over a set, without positions and with padding masked."""
 
     def __init__(self, width: int, num_layers: int, num_heads: int, dropout: float) -> None:
         super().__init__()
@@ -54,17 +54,17 @@ class SetTransformer(nn.Module):
         )
 
     def forward(self, x: Tensor, mask: Tensor) -> Tensor:
-        """[B, K, D] features of sets with mask [B, K], True where an entry is real."""
+        """Return features [B, K, D] of sets with mask [B, K], True where an entry is real."""
         for layer in self.layers:
             x = layer(x, src_key_padding_mask=~mask)
         return torch.where(mask[..., None], x, 0.0)
 
 
 class HintEncoder(nn.Module):
-    """Hint features F^T from token features (MNCL, text backbone).
+    """The hint features F^T from token features (MNCL, text backbone).
 
-    Differs: the tokens are projected to D before the transformer layer, which costs a third and
-    measures the same.
+    Differs: the tokens are projected to D before the transformer layer, which takes a third of the time at the same
+    recall.
     """
 
     def __init__(self, text_width: int, width: int, dropout: float) -> None:
@@ -75,7 +75,7 @@ class HintEncoder(nn.Module):
         self.norm = nn.BatchNorm1d(width)
 
     def forward(self, tokens: Tensor, mask: Tensor) -> Tensor:
-        """[S, D] features of sentences from token features [S, T, W] with mask [S, T]."""
+        """Return features [S, D] of sentences from token features [S, T, W] with mask [S, T]."""
         pooled = masked_max(self.tokens(self.project(tokens), mask), mask)
         features: Tensor = self.norm(self.head(pooled))
         return features

@@ -1,4 +1,4 @@
-"""The instance and relation level of a gallery: a vector an instance, in half precision on disk."""
+"""Vectors of the instance and relation levels of a gallery, one per instance, stored in float16."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -17,17 +17,17 @@ from models.paper.levels import Level, Levels
 from models.paper.retriever import Retriever, Vectors
 
 STARTS_FILE = "levels.starts.npy"
-TEXTS_AT_ONCE = 64
-Singles = npt.NDArray[np.float32]
+TEXTS_PER_BATCH = 64  # compared with all cells at once; bounds the memory of the product
+Float32s = npt.NDArray[np.float32]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LevelTable:
-    """Unit vectors of every instance of every cell, by level.
+    """The unit vectors of all instances of all cells, by level.
 
     Attributes:
         starts: [N + 1] cell n has the rows starts[n] to starts[n + 1]; no cell is empty.
-        vectors: for each level but the global one, [R, D], float32 as made, float16 as read.
+        vectors: [R, D] by level, without the global one; float32 when computed, float16 when loaded.
     """
 
     starts: Ints
@@ -35,11 +35,11 @@ class LevelTable:
 
     @property
     def is_empty(self) -> bool:
-        """Whether there is the global level alone."""
+        """Whether there is only the global level."""
         return not self.vectors
 
     def take(self, cells: Ints) -> "LevelTable":
-        """The rows of some cells, in the given order."""
+        """Return the rows of some cells, in the given order."""
         if not self.vectors:
             return self
         begin, end = self.starts[cells], self.starts[cells + 1]
@@ -48,10 +48,10 @@ class LevelTable:
         return LevelTable(starts, {level: table[rows] for level, table in self.vectors.items()})
 
     @classmethod
-    def joined(cls, tables: Sequence["LevelTable"]) -> "LevelTable":
-        """The table of some galleries, one after the other; at least one."""
+    def concatenate(cls, tables: Sequence["LevelTable"]) -> "LevelTable":
+        """Concatenate the tables of one or more galleries."""
         if tables[0].is_empty:
-            return NO_LEVELS
+            return EMPTY_LEVEL_TABLE
         if len(tables) == 1:
             return tables[0]
         sizes = np.concatenate([np.diff(table.starts) for table in tables])
@@ -59,12 +59,12 @@ class LevelTable:
         return cls(np.concatenate([[0], np.cumsum(sizes)]), vectors)
 
     @property
-    def bytes_a_cell(self) -> float:
-        """What the levels cost on disk, on average."""
+    def bytes_per_cell(self) -> float:
+        """Mean size of a cell's vectors on disk."""
         return sum(2 * table.size for table in self.vectors.values()) / max(1, len(self.starts) - 1)
 
-    def scores(self, texts: Sequence[Levels], cells: Ints) -> dict[Level, Singles]:
-        """Similarity of descriptions with some cells at each level (`models.paper.levels.set_similarity`).
+    def scores(self, texts: Sequence[Levels], cells: Ints) -> dict[Level, Float32s]:
+        """Return the similarities of descriptions with some cells at each level (`models.paper.levels.set_similarity`).
 
         Args:
             texts: Q descriptions, each with B = 1.
@@ -76,30 +76,30 @@ class LevelTable:
         begin, end = self.starts[cells], self.starts[cells + 1]
         rows = ranges(begin, end)
         segments = np.concatenate([[0], np.cumsum(end - begin)[:-1]])
-        found: dict[Level, Singles] = {}
+        scores: dict[Level, Float32s] = {}
         for level, table in self.vectors.items():
             instances = table[rows].astype(np.float32, copy=False).T
-            found[level] = np.empty((len(texts), len(cells)), np.float32)
-            for start in range(0, len(texts), TEXTS_AT_ONCE):
-                hints = [text.of(level)[0].cpu().numpy() for text in texts[start : start + TEXTS_AT_ONCE]]
+            scores[level] = np.empty((len(texts), len(cells)), np.float32)
+            for start in range(0, len(texts), TEXTS_PER_BATCH):
+                hints = [text.vectors(level)[0].cpu().numpy() for text in texts[start : start + TEXTS_PER_BATCH]]
                 best = np.maximum.reduceat(np.concatenate(hints) @ instances, segments, axis=1)
-                sizes = [len(said) for said in hints]
+                sizes = [len(vectors) for vectors in hints]
                 sums = np.add.reduceat(best, np.concatenate([[0], np.cumsum(sizes)[:-1]]), axis=0)
-                found[level][start : start + len(hints)] = sums / np.array(sizes)[:, None]
-        return found
+                scores[level][start : start + len(hints)] = sums / np.array(sizes)[:, None]
+        return scores
 
     def save(self, directory: Path) -> None:
-        """Write a file a level, and the rows of the cells."""
+        """Write one file per level, and the row starts of the cells."""
         np.save(directory / STARTS_FILE, self.starts)
         for level, vectors in self.vectors.items():
             np.save(directory / f"levels.{level}.npy", vectors.astype(np.float16))
 
     @classmethod
     def load(cls, directory: Path, levels: Sequence[Level]) -> "LevelTable":
-        """Map what `save` wrote into memory.
+        """Map the files of `save` into memory.
 
         Raises:
-            IndexBroken: a level is missing, or the files do not belong together.
+            IndexBroken: a level is missing, or the files do not match.
         """
         names: list[Level] = [level for level in levels if level != "global"]
         advice = "rebuild it with 'hereabouts index'"
@@ -109,45 +109,49 @@ class LevelTable:
         except (OSError, ValueError, EOFError) as error:
             raise IndexBroken(f"the levels in {directory} cannot be read; {advice}") from error
         if any(len(table) != starts[-1] for table in vectors.values()):
-            raise IndexBroken(f"the levels in {directory} are of different sizes; {advice}")
+            raise IndexBroken(f"the levels in {directory} have different sizes; {advice}")
         return cls(starts, dict(vectors))
 
 
-NO_LEVELS = LevelTable(np.zeros(1, np.int64), {})
+EMPTY_LEVEL_TABLE = LevelTable(np.zeros(1, np.int64), {})
 
 
 def encode_gallery(
-    retriever: Retriever, cells: CellFeatures, share: Callable[..., Iterable[Any]] = map
+    retriever: Retriever, cells: CellFeatures, map_blocks: Callable[..., Iterable[Any]] = map
 ) -> tuple[Vectors, LevelTable]:
-    """A gallery as a retriever sees it, in one pass.
+    """Encode a gallery at all levels of a retriever.
 
     Args:
         retriever: the model.
-        cells: of `Retriever.seen`.
-        share: `map`, or what shares blocks of cells out to other processes (`map_forked`).
+        cells: of `Retriever.with_point_features`.
+        map_blocks: `map`, or a function that distributes the blocks over processes (`map_forked`).
 
     Returns:
-        [N, D] float32 unit vectors of the global level, and the table of the others.
+        Unit vectors [N, D] float32 of the global level, and the table of the other levels.
     """
     width = retriever.config.width
     names: list[Level] = [level for level in retriever.levels if level != "global"]
-    whole = np.empty((len(cells), width), np.float32)
+    global_vectors = np.empty((len(cells), width), np.float32)
     others: dict[Level, npt.NDArray[np.floating[Any]]] = {
         n: np.empty((len(cells.label), width), np.float32) for n in names
     }
     labels = retriever.text_encoder.embed(cells.labels)
 
-    def encoded(first: int) -> list[tuple[Ints, Vectors, dict[Level, Vectors]]]:
-        """(rows, global level, others) of the batches of a block."""
+    def encode_block(first: int) -> list[tuple[Ints, Vectors, dict[Level, Vectors]]]:
+        """Return (rows, global level, other levels) of each batch of a block."""
         return [
-            (rows, levels.whole.cpu().numpy(), {n: levels.of(n)[levels.mask].cpu().numpy() for n in names})
+            (
+                rows,
+                levels.global_vectors.cpu().numpy(),
+                {n: levels.vectors(n)[levels.mask].cpu().numpy() for n in names},
+            )
             for rows, levels in retriever.encode_cells(cells, labels, first)
         ]
 
-    for batch in chain.from_iterable(share(encoded, range(0, len(cells), BLOCK))):
-        chosen, vectors, by_level = batch
-        whole[chosen] = vectors
-        rows = ranges(cells.starts[chosen], cells.starts[chosen + 1])
+    for batch in chain.from_iterable(map_blocks(encode_block, range(0, len(cells), BLOCK))):
+        cell_rows, vectors, by_level = batch
+        global_vectors[cell_rows] = vectors
+        rows = ranges(cells.starts[cell_rows], cells.starts[cell_rows + 1])
         for level in names:
             others[level][rows] = by_level[level]
-    return whole, LevelTable(np.asarray(cells.starts), others)
+    return global_vectors, LevelTable(np.asarray(cells.starts), others)

@@ -9,29 +9,28 @@ from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.paper.instance_encoder import CellBatch, InstanceEncoder
-from models.paper.layers import HintEncoder, SetTransformer, groups_by_size, masked_max, mlp
+from models.paper.layers import HintEncoder, SetTransformer, group_by_size, masked_max, mlp
 from models.paper.levels import Level, Levels, level_scores
 from models.paper.losses import contrastive_loss, negative_contrastive_loss
 from models.paper.retriever import Retriever, RetrieverConfig
-from models.paper.scene_graph import Aggregate, Axis, CellEdges, HintEdges, Query, SceneGraph
+from models.paper.scene_graph import Aggregate, AttentionAxis, AttentionQuery, CellEdges, HintEdges, SceneGraph
 
 
 class MnclConfig(RetrieverConfig):
-    """Shape and loss of MNCL; every row of the paper's tables 3 and 4 and both curves of figure 4 is one of these.
+    """Architecture and loss of MNCL, with an option for each row of tables 3 and 4 and for both curves of figure 4.
 
     Attributes:
-        levels: what is compared; "global" is always among them.
+        levels: the levels to compare; always includes "global".
         cell_layers: attention layers over the instances of a cell.
         hint_layers: attention layers over the hints of a description.
-        dropout: in the attention layers, while training.
+        dropout: of the attention layers in training.
         loss: "contrastive" is the vanilla loss (InfoNCE), "negative" the paper's.
         loss_temperature: tau.
-        exponent: a of the negative loss's weights; 0 is the vanilla loss (figure 4).
-        least_weight: what these weights are at least: 0.8 in the released code, 0 in the paper.
+        exponent: a of the weights of the negative loss; 0 selects the vanilla loss (figure 4).
+        least_weight: minimum of these weights: 0.8 in the released code, 0 in the paper.
         graph_layers: m of the scene graph (figure 4).
-        aggregate: whether the graph's nodes gather their edges ("gcn", the paper's word) or only pass on their own
-            state ("code").
-        attention_query, attention_axis: of external space attention, see `ExternalSpaceAttention`.
+        aggregate: "gcn" (the paper) adds the mean of its edges to each node, "code" (the released code) does not.
+        attention_query, attention_axis: see `ExternalSpaceAttention`.
     """
 
     levels: tuple[Level, ...] = ("global", "instance", "relation")
@@ -44,15 +43,15 @@ class MnclConfig(RetrieverConfig):
     least_weight: float = Field(default=0.8, ge=0, le=1)
     graph_layers: int = 3
     aggregate: Aggregate = "code"
-    attention_query: Query = "edges"
-    attention_axis: Axis = "edges"
+    attention_query: AttentionQuery = "edges"
+    attention_axis: AttentionAxis = "edges"
 
 
 class Mncl(Retriever):
-    """MNCL's retriever.
+    """The retriever of MNCL.
 
-    Differs: padding is masked, labels enter as text embeddings (any word can be a label), and the loss leaves pairs
-    of one cell out of the negatives.
+    Differs: padding is masked, labels enter as text embeddings (any word can be a label), and pairs of one cell are
+    not negatives.
     """
 
     method: ClassVar[str] = "mncl"
@@ -75,69 +74,69 @@ class Mncl(Retriever):
 
     @property
     def levels(self) -> tuple[Level, ...]:
-        """See Retriever."""
+        """The levels of the configuration."""
         return self.config.levels
 
-    def global_alone(self) -> "Mncl":
-        """See Retriever."""
-        lean = copy.copy(self)
-        lean.config = self.config.model_copy(update={"levels": ("global",)})
-        return lean
+    def global_only(self) -> "Mncl":
+        """Return a copy with the global level only; it shares the weights."""
+        reduced = copy.copy(self)
+        reduced.config = self.config.model_copy(update={"levels": ("global",)})
+        return reduced
 
-    def read(self, tokens: TokenFeatures) -> Tensor:
-        """See Retriever."""
+    def embed_hints(self, tokens: TokenFeatures) -> Tensor:
+        """Return features [S, D] of hint sentences."""
         features: Tensor = self.hints(tokens.values, tokens.mask)
         return features
 
-    def describe(self, hints: Tensor, mask: Tensor) -> Levels:
-        """See Retriever."""
-        whole = nn.functional.normalize(masked_max(hints + self.description(hints, mask), mask), dim=-1)
+    def embed_texts(self, hints: Tensor, mask: Tensor) -> Levels:
+        """Return the vectors of descriptions."""
+        global_vectors = nn.functional.normalize(masked_max(hints + self.description(hints, mask), mask), dim=-1)
         if "relation" in self.levels:
-            return self._with_graph(whole, mask, self.hint_graph(hints, self.hint_edges(hints), mask))
+            return self._with_graph(global_vectors, mask, self.hint_graph(hints, self.hint_edges(hints), mask))
         if "instance" in self.levels:
-            return Levels(whole, mask, instance=_unit(self.hint_subspace(hints), mask))
-        return Levels(whole, mask)
+            return Levels(global_vectors, mask, instance=_unit(self.hint_subspace(hints), mask))
+        return Levels(global_vectors, mask)
 
-    def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
-        """See Retriever."""
+    def embed_cells(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
+        """Return the vectors of cells."""
         mask = batch.mask
-        features = self.instances.padded(batch, label_embeddings)
-        whole = nn.functional.normalize(masked_max(self.cell(features, mask), mask), dim=-1)
+        features = self.instances.encode_padded(batch, label_embeddings)
+        global_vectors = nn.functional.normalize(masked_max(self.cell(features, mask), mask), dim=-1)
         if "relation" in self.levels:
-            return self._with_graph(whole, mask, self._graph_of_cells(features, batch.geometry[..., :3], mask))
+            return self._with_graph(global_vectors, mask, self._run_cell_graph(features, batch.geometry[..., :3], mask))
         if "instance" in self.levels:
-            return Levels(whole, mask, instance=_unit(self.cell_subspace(features), mask))
-        return Levels(whole, mask)
+            return Levels(global_vectors, mask, instance=_unit(self.cell_subspace(features), mask))
+        return Levels(global_vectors, mask)
 
-    def _graph_of_cells(self, features: Tensor, centers: Tensor, mask: Tensor) -> tuple[Tensor, Tensor]:
-        """Nodes and relations [B, I, D]: cells of like size together, as the edges grow with its square."""
+    def _run_cell_graph(self, features: Tensor, centers: Tensor, mask: Tensor) -> tuple[Tensor, Tensor]:
+        """Return nodes and relations [B, I, D], run on groups of equal size: the edges grow with its square."""
         nodes, relations = (torch.zeros_like(features, dtype=torch.float32) for _ in range(2))
-        for rows, longest in groups_by_size(mask):
+        for rows, longest in group_by_size(mask):
             ends = self.cell_edges(centers[rows, :longest])
-            found = self.cell_graph(features[rows, :longest], ends, mask[rows, :longest])
-            nodes[rows, :longest], relations[rows, :longest] = (part.float() for part in found)
+            states = self.cell_graph(features[rows, :longest], ends, mask[rows, :longest])
+            nodes[rows, :longest], relations[rows, :longest] = (part.float() for part in states)
         return nodes, relations
 
-    def _with_graph(self, whole: Tensor, mask: Tensor, graph: tuple[Tensor, Tensor]) -> Levels:
-        """Levels from a scene graph's nodes (the code's instance level) and relations."""
+    def _with_graph(self, global_vectors: Tensor, mask: Tensor, graph: tuple[Tensor, Tensor]) -> Levels:
+        """Return the levels from the nodes of a scene graph (the code's instance level) and its relations."""
         nodes, relations = graph
         instance = _unit(nodes, mask) if "instance" in self.levels else None
-        return Levels(whole, mask, instance, _unit(relations, mask))
+        return Levels(global_vectors, mask, instance, _unit(relations, mask))
 
     def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
-        """The sum over the levels, weights 1; see Retriever."""
+        """Return the sum of the losses of all levels."""
         config = self.config
         terms = []
         for level, scores in level_scores(text, cells, self.levels).items():
             if config.loss == "contrastive" or config.exponent == 0:
                 terms.append(contrastive_loss(scores, same_cell, config.loss_temperature))
             else:
-                means = text.mean_of(level), cells.mean_of(level)
+                means = text.mean_vectors(level), cells.mean_vectors(level)
                 weights = config.loss_temperature, config.exponent, config.least_weight
                 terms.append(negative_contrastive_loss(scores, *means, same_cell, *weights))
         return torch.stack(terms).sum()
 
 
 def _unit(vectors: Tensor, mask: Tensor) -> Tensor:
-    """Unit vectors, zero where nothing is real."""
+    """Normalize vectors to unit length, with zeros at padding."""
     return nn.functional.normalize(vectors, dim=-1) * mask[..., None]

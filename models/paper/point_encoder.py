@@ -1,4 +1,4 @@
-"""PointNet++ (Qi et al., NeurIPS 2017): what the points of an instance look like."""
+"""PointNet++ (Qi et al., NeurIPS 2017), features of the points of an instance."""
 
 from itertools import pairwise
 from typing import Final
@@ -7,13 +7,13 @@ import torch
 from torch import Tensor, nn
 
 POINT_WIDTH: Final = 256
-# Of each set-abstraction level: how many points stay, within which radius each gathers how many neighbours, widths.
+# For each set-abstraction level: number of points to keep, radius and number of neighbours, widths of the layers.
 _LEVELS: Final = ((64, 0.2, 16, (32, 64)), (16, 0.4, 16, (64, 128)))
 _LAST: Final = (128, POINT_WIDTH)
 
 
 def farthest_points(xyz: Tensor, count: int) -> Tensor:
-    """[R, count] rows of points that lie far from each other, from the first on (farthest point sampling).
+    """Return rows [R, count] of points by farthest point sampling, starting with the first point.
 
     Args:
         xyz: [R, P, 3].
@@ -28,13 +28,13 @@ def farthest_points(xyz: Tensor, count: int) -> Tensor:
     return chosen
 
 
-def ball(xyz: Tensor, centers: Tensor, radius: float, count: int) -> Tensor:
-    """[R, M, count] the points nearest to each centre; the nearest again in place of those outside the radius.
+def nearest_in_ball(xyz: Tensor, centers: Tensor, radius: float, count: int) -> Tensor:
+    """Return the points [R, M, count] nearest to each centre; the nearest one replaces those outside the radius.
 
     Args:
         xyz: [R, P, 3].
         centers: [R, M, 3].
-        radius: in the unit of both.
+        radius: in the unit of `xyz`.
         count: at most P.
     """
     distance, near = torch.cdist(centers, xyz).topk(count, dim=-1, largest=False)
@@ -42,13 +42,13 @@ def ball(xyz: Tensor, centers: Tensor, radius: float, count: int) -> Tensor:
 
 
 def _layers(*widths: int) -> nn.Sequential:
-    """Linear layers, each normalised within a point, so that a feature does not depend on the batch, and rectified."""
+    """Return linear layers with layer norm, so that features do not depend on the batch, and ReLU."""
     layers = [(nn.Linear(*pair), nn.LayerNorm(pair[1]), nn.ReLU()) for pair in pairwise(widths)]
     return nn.Sequential(*(part for layer in layers for part in layer))
 
 
 class SetAbstraction(nn.Module):
-    """A level of PointNet++: points gather their neighbourhood, the maximum over it is their feature."""
+    """A level of PointNet++: the feature of a kept point is the maximum over its neighbourhood."""
 
     def __init__(self, width: int, count: int, radius: float, neighbours: int, widths: tuple[int, ...]) -> None:
         super().__init__()
@@ -56,19 +56,19 @@ class SetAbstraction(nn.Module):
         self.layers = _layers(width + 3, *widths)
 
     def forward(self, xyz: Tensor, features: Tensor) -> tuple[Tensor, Tensor]:
-        """Points [R, P, 3] with features [R, P, F] to points [R, M, 3] with features [R, M, D]."""
+        """Reduce points [R, P, 3] with features [R, P, F] to points [R, M, 3] with features [R, M, D]."""
         row = torch.arange(len(xyz), device=xyz.device)[:, None]
         centers = xyz[row, farthest_points(xyz, self.count)]
-        near = ball(xyz, centers, self.radius, self.neighbours)
+        near = nearest_in_ball(xyz, centers, self.radius, self.neighbours)
         offset = xyz[row[..., None], near] - centers[:, :, None]
         gathered = torch.cat([offset, features[row[..., None], near]], dim=-1)
         return centers, self.layers(gathered).amax(dim=2)
 
 
 class PointEncoder(nn.Module):
-    """PointNet++ with three set-abstraction levels, one scale each, the last over all that is left.
+    """PointNet++ with three single-scale set-abstraction levels, the last one over all remaining points.
 
-    Trained to tell label and colour (`models.training.fit_points`), then frozen (MNCL's point backbone, Text2Pos).
+    It is trained to classify label and colour (`models.training.fit_points`), then frozen (MNCL, Text2Pos).
     """
 
     def __init__(self) -> None:
@@ -81,9 +81,9 @@ class PointEncoder(nn.Module):
         self.last = _layers(width + 3, *_LAST)
 
     def forward(self, points: Tensor) -> Tensor:
-        """[R, POINT_WIDTH] features of instances from [R, P, 6] points: place, colour."""
+        """Return features [R, POINT_WIDTH] of instances from points [R, P, 6]: position and colour."""
         xyz, features = points[..., :3], points[..., 3:]
         for level in self.levels:
             xyz, features = level(xyz, features)
-        seen: Tensor = self.last(torch.cat([xyz, features], dim=-1)).amax(dim=1)
-        return seen
+        pooled: Tensor = self.last(torch.cat([xyz, features], dim=-1)).amax(dim=1)
+        return pooled

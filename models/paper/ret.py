@@ -1,4 +1,4 @@
-"""RET (Wang, Fan and Kankanhalli, AAAI 2023), coarse stage: transformers whose values carry relations of pairs."""
+"""RET (Wang, Fan and Kankanhalli, AAAI 2023), coarse stage: transformers whose values include pair relations."""
 
 from typing import ClassVar
 
@@ -15,12 +15,12 @@ NUM_HEADS = 4
 
 
 class RetConfig(RetrieverConfig):
-    """Shape and loss of RET.
+    """Architecture and loss of RET.
 
     Attributes:
         cell_layers: relation-enhanced layers over the instances of a cell.
         hint_layers: relation-enhanced layers over the hints of a description.
-        dropout: in these layers, while training.
+        dropout: of these layers in training.
         margin: of the ranking loss.
     """
 
@@ -38,9 +38,9 @@ class InstanceRelation(nn.Module):
         self.linear = nn.Linear(3, width, bias=False)
 
     def forward(self, centers: Tensor, mask: Tensor) -> Tensor:
-        """[B, K, D] from centres [B, K, 3] with mask [B, K]."""
+        """Return [B, K, D] from centres [B, K, 3] with mask [B, K]."""
         mapped = self.linear(centers)
-        # The maximum over j does not touch c_i: nothing of size K x K x D is made.
+        # The maximum over j does not depend on c_i, so no tensor of size K x K x D is needed.
         pooled: Tensor = mapped + masked_max(-mapped, mask)[:, None]
         return pooled
 
@@ -53,7 +53,7 @@ class HintRelation(nn.Module):
         self.of_first, self.of_second = nn.Linear(width, width), nn.Linear(width, width, bias=False)
 
     def forward(self, hints: Tensor, mask: Tensor) -> Tensor:
-        """[B, K, D] from features [B, K, D] with mask [B, K]."""
+        """Return [B, K, D] from features [B, K, D] with mask [B, K]."""
         pooled: Tensor = self.of_first(hints) + masked_max(self.of_second(hints), mask)[:, None]
         return pooled
 
@@ -70,7 +70,7 @@ class RelationLayer(nn.Module):
         self.dropout = nn.Dropout(dropout)
 
     def forward(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
-        """One layer.
+        """Apply the layer.
 
         Args:
             x: [B, K, D].
@@ -78,14 +78,14 @@ class RelationLayer(nn.Module):
             mask: [B, K] bool, True where an entry is real.
 
         Returns:
-            [B, K, D]; what stands at padding means nothing.
+            [B, K, D], undefined at padding.
         """
         x = self.attention_norm(x + self.dropout(self.attend(x, relation, mask)))
         updated: Tensor = self.feed_forward_norm(x + self.dropout(self.feed_forward(x)))
         return updated
 
     def attend(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
-        """The attention alone; arguments as in `forward`."""
+        """Apply the attention alone; arguments as in `forward`."""
         b, k, d = x.shape
         query, key, value = self.project(x).chunk(3, dim=-1)
         query, key, value = (
@@ -100,26 +100,26 @@ class RelationLayer(nn.Module):
 
 
 class RelationTransformer(nn.Module):
-    """Relation-enhanced layers, then the maximum over the set as a unit vector (RET, either side)."""
+    """Relation-enhanced layers and the maximum over the set as a unit vector, for texts or cells (RET)."""
 
     def __init__(self, width: int, num_layers: int, dropout: float) -> None:
         super().__init__()
         self.layers = nn.ModuleList(RelationLayer(width, dropout) for _ in range(num_layers))
 
     def forward(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
-        """[B, D] unit vectors of sets; arguments as in `RelationLayer`."""
+        """Return unit vectors [B, D] of sets; arguments as in `RelationLayer`."""
         for layer in self.layers:
             x = layer(x, relation, mask)
         return nn.functional.normalize(masked_max(x, mask), dim=-1)
 
 
 class Ret(Retriever):
-    """RET's coarse stage: hints by an LSTM over words, one relation-enhanced transformer a side, a ranking loss.
+    """The coarse stage of RET: an LSTM over the words of a hint, relation-enhanced transformers, a ranking loss.
 
-    The authors' repository (daoyuan98/text2pos-ret) holds no code, so this follows the paper alone. Chosen here,
-    because no source at hand settles it: relations are pooled by their maximum over the partners and made once, for
-    all layers. Differs: padding is masked (in the pooling too), any number of hints, instances from the encoder that
-    all methods share, and pairs of one cell are no negatives.
+    The authors' repository (daoyuan98/text2pos-ret) has no code, so this follows the paper. The paper leaves open how
+    relations are pooled: here by their maximum over the partners, once for all layers. Differs: padding is masked (in
+    the pooling too), any number of hints, instances from the encoder that all methods share, and pairs of one cell are
+    not negatives.
     """
 
     method: ClassVar[str] = "ret"
@@ -136,22 +136,22 @@ class Ret(Retriever):
         self.instance_relation = InstanceRelation(width)
         self.cell = RelationTransformer(width, config.cell_layers, dropout)
 
-    def read(self, tokens: TokenFeatures) -> Tensor:
-        """See Retriever."""
+    def embed_hints(self, tokens: TokenFeatures) -> Tensor:
+        """Return features [S, D] of hint sentences."""
         features: Tensor = self.hints(tokens.ids, tokens.mask)
         return features
 
-    def describe(self, hints: Tensor, mask: Tensor) -> Levels:
-        """See Retriever."""
+    def embed_texts(self, hints: Tensor, mask: Tensor) -> Levels:
+        """Return the vectors of descriptions."""
         return Levels(self.description(hints, self.hint_relation(hints, mask), mask), mask)
 
-    def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
-        """See Retriever."""
+    def embed_cells(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
+        """Return the vectors of cells."""
         mask = batch.mask
-        features = self.instances.padded(batch, label_embeddings)
+        features = self.instances.encode_padded(batch, label_embeddings)
         relation = self.instance_relation(batch.geometry[..., :3], mask)
         return Levels(self.cell(features, relation, mask), mask)
 
     def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
-        """See Retriever."""
-        return pairwise_ranking_loss(text.whole @ cells.whole.T, same_cell, self.config.margin)
+        """Return the ranking loss of the global vectors."""
+        return pairwise_ranking_loss(text.global_vectors @ cells.global_vectors.T, same_cell, self.config.margin)

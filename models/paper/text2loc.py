@@ -15,12 +15,12 @@ NUM_HEADS = 4
 
 
 class Text2LocConfig(RetrieverConfig):
-    """Shape and loss of Text2Loc.
+    """Architecture and loss of Text2Loc.
 
     Attributes:
         cell_layers: attention layers over the instances of a cell.
-        hint_layers: attention layers over the hints of a description, each with a residual around it.
-        dropout: in the attention layers, while training.
+        hint_layers: attention layers over the hints of a description, each with a residual connection.
+        dropout: of the attention layers in training.
         loss_temperature: tau.
     """
 
@@ -31,7 +31,7 @@ class Text2LocConfig(RetrieverConfig):
 
 
 class Text2Loc(Retriever):
-    """Text2Loc's global place recognition; MNCL's global level grew out of it.
+    """The global place recognition of Text2Loc, on which MNCL's global level is based.
 
     Text branch (the paper's hierarchical transformer with max pooling): a frozen language model, one transformer layer
     over the tokens of a hint, maximum, linear and batch norm; then one layer over the hints with a residual,
@@ -41,8 +41,7 @@ class Text2Loc(Retriever):
     Differs: padding is masked (the released code attends to it and takes the maximum over it), any number of hints
     (there: the same for a whole batch), instances from the encoder that all methods share (by default without
     PointNet++), tokens are projected to D before their layer (see HintEncoder), feed-forward layers are 2D wide on the
-    text side too (there: 4D), pairs of one cell are no negatives, and the language model is what the project ships
-    with unless told T5.
+    text side too (there: 4D), pairs of one cell are not negatives, and the default language model is MiniLM, not T5.
     """
 
     method: ClassVar[str] = "text2loc"
@@ -59,24 +58,24 @@ class Text2Loc(Retriever):
         self.instances = InstanceEncoder(text_encoder.width, width, config.inputs)
         self.cell = SetTransformer(width, config.cell_layers, num_heads=NUM_HEADS, dropout=dropout)
 
-    def read(self, tokens: TokenFeatures) -> Tensor:
-        """See Retriever."""
+    def embed_hints(self, tokens: TokenFeatures) -> Tensor:
+        """Return features [S, D] of hint sentences."""
         features: Tensor = self.hints(tokens.values, tokens.mask)
         return features
 
-    def describe(self, hints: Tensor, mask: Tensor) -> Levels:
-        """See Retriever."""
+    def embed_texts(self, hints: Tensor, mask: Tensor) -> Levels:
+        """Return the vectors of descriptions."""
         for layer in self.description:
             hints = hints + layer(hints, mask)
         return Levels(nn.functional.normalize(masked_max(hints, mask), dim=-1), mask)
 
-    def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
-        """See Retriever."""
+    def embed_cells(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
+        """Return the vectors of cells."""
         mask = batch.mask
-        features = self.instances.padded(batch, label_embeddings)
+        features = self.instances.encode_padded(batch, label_embeddings)
         features = self.cell(nn.functional.normalize(features, dim=-1), mask)
         return Levels(nn.functional.normalize(masked_max(features, mask), dim=-1), mask)
 
     def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
-        """See Retriever."""
-        return contrastive_loss(text.whole @ cells.whole.T, same_cell, self.config.loss_temperature)
+        """Return the contrastive loss of the global vectors."""
+        return contrastive_loss(text.global_vectors @ cells.global_vectors.T, same_cell, self.config.loss_temperature)

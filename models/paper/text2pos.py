@@ -1,4 +1,4 @@
-"""Text2Pos (Kolmet et al., CVPR 2022), coarse stage: words through an LSTM, a graph over instances, a ranking loss."""
+"""Text2Pos (Kolmet et al., CVPR 2022), coarse stage: an LSTM over words, a graph over instances, a ranking loss."""
 
 from typing import ClassVar
 
@@ -15,10 +15,10 @@ from models.paper.retriever import Retriever, RetrieverConfig
 
 
 class Text2PosConfig(RetrieverConfig):
-    """Shape and loss of Text2Pos.
+    """Architecture and loss of Text2Pos.
 
     Attributes:
-        neighbours: k of the edge convolution, the instance itself counted.
+        neighbours: k of the edge convolution, including the instance itself.
         margin: of the ranking loss.
     """
 
@@ -27,10 +27,10 @@ class Text2PosConfig(RetrieverConfig):
 
 
 class WordEncoder(nn.Module):
-    """A sentence by a bidirectional LSTM over learned word embeddings (Text2Pos, language encoder).
+    """A bidirectional LSTM over learned word embeddings (Text2Pos, language encoder).
 
-    The last states of the two directions are averaged, as in the released code. Differs: the words are the
-    tokenizer's pieces, so no word is unknown; the language model's weights have no part.
+    The last states of the two directions are averaged, as in the released code. Differs: the words are the pieces of
+    the tokenizer, so no word is unknown. The weights of the language model are not used.
     """
 
     def __init__(self, text_encoder: TextEncoder, width: int) -> None:
@@ -41,10 +41,10 @@ class WordEncoder(nn.Module):
         self.lstm = nn.LSTM(width, width, batch_first=True, bidirectional=True)
 
     def forward(self, ids: Tensor, mask: Tensor) -> Tensor:
-        """[S, D] features of sentences from token ids [S, T], padded at the end as mask [S, T] says."""
-        lengths = mask.sum(dim=1).cpu()  # where packing wants them
+        """Return features [S, D] of sentences from token ids [S, T], padded at the end, with mask [S, T]."""
+        lengths = mask.sum(dim=1).cpu()  # packing requires it
         packed = pack_padded_sequence(self.words(ids), lengths, batch_first=True, enforce_sorted=False)
-        _, (last, _) = self.lstm(packed)  # [2, S, D], one a direction
+        _, (last, _) = self.lstm(packed)  # [2, S, D], one per direction
         features: Tensor = last.mean(dim=0)
         return features
 
@@ -52,19 +52,19 @@ class WordEncoder(nn.Module):
 class EdgeConvolution(nn.Module):
     """x_i <- max over the k nearest j of MLP([x_i; x_j - x_i]), near in feature space (Text2Pos, cell encoder).
 
-    This is DynamicEdgeConv of DGCNN, as in the released code. Differs: padding is nobody's neighbour, and there is no
-    batch norm, so a cell does not depend on the batch in training either.
+    This is DynamicEdgeConv of DGCNN, as in the released code. Differs: padding is never a neighbour, and there is no
+    batch norm, so a cell does not depend on the rest of the batch.
     """
 
     def __init__(self, width: int, neighbours: int) -> None:
         super().__init__()
         self.neighbours = neighbours
-        # The MLP's first layer, split: nodes are mapped once, not once an edge.
+        # The first layer of the MLP, split, so that nodes are mapped once instead of once per edge.
         self.of_node, self.of_difference = nn.Linear(width, width), nn.Linear(width, width, bias=False)
         self.head = nn.Sequential(nn.ReLU(), nn.Linear(width, width))
 
     def forward(self, x: Tensor, mask: Tensor) -> Tensor:
-        """[B, K, D] features of sets with mask [B, K]; what stands at padding means nothing."""
+        """Return features [B, K, D] of sets with mask [B, K], undefined at padding."""
         batch = torch.arange(len(x), device=x.device)[:, None, None]
         nearest = self._nearest(x.detach(), mask)
         ends = self.of_difference(x)
@@ -72,21 +72,20 @@ class EdgeConvolution(nn.Module):
         return masked_max(self.head(edges), mask[batch, nearest])
 
     def _nearest(self, x: Tensor, mask: Tensor) -> Tensor:
-        """[B, K, k] indices of the nearest real entries, padding last."""
-        # Not by matrix products, which round by the size of the batch and so could pick another neighbour.
+        """Return indices [B, K, k] of the nearest real entries, padding last."""
+        # Without matrix products, whose rounding depends on the batch size and so could change the neighbours.
         distance = torch.cdist(x, x, compute_mode="donot_use_mm_for_euclid_dist")
         distance = distance.masked_fill(~mask[:, None], float("inf"))
         return distance.topk(min(self.neighbours, x.shape[1]), largest=False).indices
 
 
 class Text2Pos(Retriever):
-    """Text2Pos's coarse stage. No attention anywhere.
+    """The coarse stage of Text2Pos, which has no attention.
 
-    Differs: the paper runs one LSTM over the whole description; here each hint is read for itself and the description
-    is the maximum over its hints, so that their order does not matter and any number of them will do. Instances come
-    from the encoder that all methods share (by default without PointNet++), and padding is masked. The released
-    code ends its MLPs with a ReLU, so that its cell vectors are never negative while its descriptions can be; here the
-    last layer is linear.
+    Differs: the paper runs one LSTM over the whole description; here the LSTM reads each hint alone and the description
+    is the maximum over its hints, for any number of hints in any order. Instances come from the encoder that all
+    methods share (by default without PointNet++), and padding is masked. The released code ends its MLPs with a ReLU,
+    so that its cell vectors are never negative while its descriptions can be; here the last layer is linear.
     """
 
     method: ClassVar[str] = "text2pos"
@@ -101,42 +100,42 @@ class Text2Pos(Retriever):
         self.graph = EdgeConvolution(width, config.neighbours)
         self.cell = mlp(width, width, width)
 
-    def read(self, tokens: TokenFeatures) -> Tensor:
-        """See Retriever."""
+    def embed_hints(self, tokens: TokenFeatures) -> Tensor:
+        """Return features [S, D] of hint sentences."""
         features: Tensor = self.hints(tokens.ids, tokens.mask)
         return features
 
-    def describe(self, hints: Tensor, mask: Tensor) -> Levels:
-        """See Retriever."""
+    def embed_texts(self, hints: Tensor, mask: Tensor) -> Levels:
+        """Return the vectors of descriptions."""
         return Levels(nn.functional.normalize(masked_max(hints, mask), dim=-1), mask)
 
-    def look(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
-        """See Retriever."""
+    def embed_cells(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
+        """Return the vectors of cells."""
         mask = batch.mask
-        features = self.instances.padded(batch, label_embeddings)
+        features = self.instances.encode_padded(batch, label_embeddings)
         features = self.graph(nn.functional.normalize(features, dim=-1), mask)
         return Levels(nn.functional.normalize(self.cell(masked_max(features, mask)), dim=-1), mask)
 
     def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
-        """See Retriever."""
-        return pairwise_ranking_loss(text.whole @ cells.whole.T, same_cell, self.config.margin)
+        """Return the ranking loss of the global vectors."""
+        return pairwise_ranking_loss(text.global_vectors @ cells.global_vectors.T, same_cell, self.config.margin)
 
 
 def pairwise_ranking_loss(scores: Tensor, same_cell: Tensor, margin: float) -> Tensor:
-    """Pairwise ranking loss in both directions (Text2Pos, and RET after it; first in Kiros et al., 2014).
+    """Return the pairwise ranking loss in both directions (Text2Pos, and RET after it; first in Kiros et al., 2014).
 
     L = mean over i of the sum over j != i of max(0, m - s_ii + s_ij) + max(0, m - s_ii + s_ji): all other pairs of the
-    batch are negatives. Differs: pairs of one cell are none.
+    batch are negatives. Differs: pairs of one cell are not negatives.
 
     Args:
-        scores: [B, B] similarity of description i with cell j; their own are on the diagonal.
-        same_cell: [B, B] bool, True where two rows belong to one cell, the diagonal too.
+        scores: [B, B] similarity of description i with cell j; the true pairs are on the diagonal.
+        same_cell: [B, B] bool, True where two rows belong to one cell, including the diagonal.
         margin: m.
 
     Returns:
         Scalar.
     """
-    own = scores.diagonal()
-    other_cells = (margin - own[:, None] + scores).clamp(min=0)
-    other_texts = (margin - own[None, :] + scores).clamp(min=0)
+    true_pairs = scores.diagonal()
+    other_cells = (margin - true_pairs[:, None] + scores).clamp(min=0)
+    other_texts = (margin - true_pairs[None, :] + scores).clamp(min=0)
     return (other_cells + other_texts).masked_fill(same_cell, 0.0).sum() / len(scores)

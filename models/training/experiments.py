@@ -3,12 +3,12 @@
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from models.paper.instance_encoder import PAPERS
+from models.paper.instance_encoder import PAPER_INPUTS
 
 Changes = tuple[tuple[str, Any], ...]
 Metric = Literal["retrieval", "localization"]
 # What an instance is seen by: a name, and the fields that say so.
-VARIANTS: dict[str, Changes] = {"our inputs": (), "the paper's inputs": (("inputs", PAPERS),)}
+VARIANTS: dict[str, Changes] = {"our inputs": (), "the paper's inputs": (("inputs", PAPER_INPUTS),)}
 POINTS = "points"  # the method name of the point encoder
 
 

@@ -15,7 +15,7 @@ from models.citymap.gallery import Gallery
 from models.citymap.points import Ints
 from models.citymap.queries import Queries
 from models.citymap.types import Floats
-from models.paper.fine.fine_model import FineModel, Truth
+from models.paper.fine.fine_model import FineModel, FineTargets
 from models.paper.instance_encoder import CellBatch, CellFeatures
 from models.sources.source import APART_M
 from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect
@@ -37,7 +37,7 @@ class FineBatch:
     cells: CellBatch
     sentences: Tensor
     hint_mask: Tensor
-    truth: Truth
+    truth: FineTargets
 
 
 class FineSet:
@@ -89,7 +89,7 @@ class FineSet:
             cells=reflect(self.training.features.batch(cells), matrix),
             sentences=torch.from_numpy(said.sentences),
             hint_mask=torch.from_numpy(said.mask),
-            truth=Truth(reflect_offset(torch.from_numpy(offset), matrix), torch.from_numpy(match)),
+            truth=FineTargets(reflect_offset(torch.from_numpy(offset), matrix), torch.from_numpy(match)),
         )
 
     def _match(self, hints: Ints, cell: int, position_m: Floats) -> Ints:
@@ -133,7 +133,7 @@ class FineValidation:
         other = np.where(count > 0, np.append(neighbours, -1)[np.minimum(pick, len(neighbours))], -1)
         rows = np.column_stack([asked.truth, other])
         offset = offsets_in(cells, rows, asked.positions_m[:, None])
-        features = model.seen(CellFeatures.of(cells, np.array(gallery.labels)))
+        features = model.with_point_features(CellFeatures.from_cells(cells, np.array(gallery.labels)))
         return cls(features, cells.size_m, asked.sentences, rows, offset)
 
     def residuals_m(self, model: FineModel) -> Floats:

@@ -11,7 +11,7 @@ from torch import Tensor
 
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.paper.fine.checkpoint import FINE_METHODS, save_fine
-from models.paper.fine.fine_model import FineConfig, FineModel, Truth
+from models.paper.fine.fine_model import FineConfig, FineModel, FineTargets
 from models.training.engine import distributed
 from models.training.engine.devices import lent_to
 from models.training.engine.loop import History, Progress, pick_device, run_training
@@ -58,8 +58,8 @@ class FineTask:
         training, examples, device = self.sources[batch[0]].training, batch[1], self.model.device
         training.to(device)
         hints = hint_features(self.model, training.vocabulary, examples)
-        instances = self.model.look(examples.cells.to(device), training.label_embeddings)
-        truth = Truth(examples.truth.offset.to(device), examples.truth.match.to(device))
+        instances = self.model.embed_instances(examples.cells.to(device), training.label_embeddings)
+        truth = FineTargets(examples.truth.offset.to(device), examples.truth.match.to(device))
         return self.model.loss(hints, examples.hint_mask.to(device), instances, truth)
 
     def validate(self) -> dict[str, float]:
@@ -72,7 +72,7 @@ def hint_features(model: FineModel, vocabulary: HintVocabulary, batch: FineBatch
     device = model.device
     mask = batch.hint_mask.to(device)
     sentences, inverse = torch.unique(batch.sentences.to(device)[mask], return_inverse=True)
-    features = model.read(vocabulary.tokens(sentences))
+    features = model.embed_hints(vocabulary.tokens(sentences))
     hints = features.new_zeros(*mask.shape, features.shape[-1])
     hints[mask] = features[inverse]
     return hints

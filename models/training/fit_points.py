@@ -20,7 +20,7 @@ from models.citymap.colours import KITTI360_PALETTE
 from models.errors import TrainingError, WeightsError
 from models.files import replace_file
 from models.paper.fine.fine_model import FineModel
-from models.paper.instance_encoder import GEOMETRY, CellFeatures
+from models.paper.instance_encoder import GEOMETRY_WIDTHS, CellFeatures
 from models.paper.point_encoder import POINT_WIDTH, PointEncoder
 from models.paper.retriever import Retriever
 from models.training.engine import distributed
@@ -55,7 +55,7 @@ class PointExamples:
             own = np.array([number.get(name, -100) for name in part.labels])
             points.append(part.points(cells))
             label.append(own[batch.label[batch.mask]])
-            columns = batch.geometry[batch.mask][:, -GEOMETRY["colour"] :].numpy()
+            columns = batch.geometry[batch.mask][:, -GEOMETRY_WIDTHS["colour"] :].numpy()
             rgb.append(np.where(columns[:, 3:] > 0, columns[:, :3], np.nan))
         colour = KITTI360_PALETTE.word_index(np.concatenate(rgb))
         found = np.concatenate(label), np.where(colour < 0, -100, colour)
@@ -177,7 +177,7 @@ def look_at_points(
         figures = _read_points(model.points, config.points)
         model.points.to(pick_device(config.device))
     for source in sources:
-        source.training.features = model.seen(source.training.features)
+        source.training.features = model.with_point_features(source.training.features)
     return figures
 
 

@@ -77,10 +77,10 @@ class RetrievalTask:
         training, examples = self.sources[batch.source].training, batch.examples
         training.to(device)
         hints = self._hint_features(training.vocabulary, examples, device)
-        text = self.model.describe(hints, examples.hint_mask.to(device))
+        text = self.model.embed_texts(hints, examples.hint_mask.to(device))
         # Rows of one source, so a cell's row names it in all processes.
         cell = distributed.gather(examples.cell.to(device))
-        cells = self.model.look(examples.cells.to(device), training.label_embeddings)
+        cells = self.model.embed_cells(examples.cells.to(device), training.label_embeddings)
         text, cells = (distributed.gather_levels(_in_float32(levels)) for levels in (text, cells))
         with torch.autocast(device.type, enabled=False):  # a temperature of .05 would make half precision coarse
             return self.model.loss(text, cells, cell[:, None] == cell[None, :])
@@ -90,7 +90,7 @@ class RetrievalTask:
         mask = batch.hint_mask.to(device)
         sentences = batch.sentences.to(device).masked_fill(~mask, -1)
         different, features = distributed.gather_features(
-            sentences, lambda asked: self.model.read(vocabulary.tokens(asked))
+            sentences, lambda asked: self.model.embed_hints(vocabulary.tokens(asked))
         )
         hints = features.new_zeros(*sentences.shape, features.shape[-1])
         hints[mask] = features[torch.searchsorted(different, sentences[mask])]
@@ -104,7 +104,7 @@ class RetrievalTask:
 
 def _in_float32(levels: Levels) -> Levels:
     instance, relation = (x if x is None else x.float() for x in (levels.instance, levels.relation))
-    return replace(levels, whole=levels.whole.float(), instance=instance, relation=relation)
+    return replace(levels, global_vectors=levels.global_vectors.float(), instance=instance, relation=relation)
 
 
 def train_retriever(

@@ -7,7 +7,7 @@ height.
 
 from typing import Any
 
-from models.paper.instance_encoder import OURS, Input
+from models.paper.instance_encoder import DEFAULT_INPUTS, Input
 from models.training.experiments import Experiment, Row, Run, made_of
 
 
@@ -20,7 +20,7 @@ def _exponent(a: int) -> Run:
 
 
 def _without(name: Input) -> Row:
-    return Row(f"without {name}", _mncl(inputs=tuple(each for each in OURS if each != name)))
+    return Row(f"without {name}", _mncl(inputs=tuple(each for each in DEFAULT_INPUTS if each != name)))
 
 
 MNCL, RET, TEXT2LOC, TEXT2POS = (Run(method) for method in ("mncl", "ret", "text2loc", "text2pos"))
@@ -149,8 +149,8 @@ INPUTS = Experiment(
     "What an instance is seen by",
     (
         Row("label, colour, centre, closest point, size, number of points (our inputs)", MNCL),
-        *(_without(name) for name in OURS),
-        Row("our inputs and points", _mncl(inputs=(*OURS, "points"))),
+        *(_without(name) for name in DEFAULT_INPUTS),
+        Row("our inputs and points", _mncl(inputs=(*DEFAULT_INPUTS, "points"))),
         Row("points, colour, centre, number of points (the paper's)", made_of(MNCL, "the paper's inputs")),
     ),
     variants=("our inputs",),

@@ -125,7 +125,7 @@ class TrainingSet:
 
     def __init__(self, statements: Statements, encoder: TextEncoder, wording: Wording = "varied") -> None:
         self.statements, self.table, self.best, self.wording = statements, statements.table, statements.best, wording
-        self.features = CellFeatures.of(statements.gallery.cells, np.array(statements.gallery.labels))
+        self.features = CellFeatures.from_cells(statements.gallery.cells, np.array(statements.gallery.labels))
         self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)
         if not len(self.usable):
             raise DataError(f"none of {len(self.best)} positions has {MIN_HINTS} things around it; take a larger map")

@@ -86,7 +86,7 @@ def load_cells(path: Path, splits: tuple[str, str]) -> TrainingCells:
 
 
 def _features(gallery: Gallery) -> CellFeatures:
-    return CellFeatures.of(gallery.cells, np.array(gallery.labels))
+    return CellFeatures.from_cells(gallery.cells, np.array(gallery.labels))
 
 
 def _facts(taught: Source, asked: Source) -> dict[str, Any]:

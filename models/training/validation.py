@@ -27,7 +27,7 @@ class Validation:
     """
 
     def __init__(self, gallery: Gallery, asked: Queries, retriever: Retriever) -> None:
-        self.features = retriever.seen(CellFeatures.of(gallery.cells, np.array(gallery.labels)))
+        self.features = retriever.with_point_features(CellFeatures.from_cells(gallery.cells, np.array(gallery.labels)))
         self.descriptions, self.truth = asked.sentences, asked.truth
 
     def scores(self, retriever: Retriever) -> npt.NDArray[np.float32]:
@@ -54,8 +54,8 @@ class Encoded:
 
     def level_scores(self, descriptions: Sequence[Sequence[str]]) -> dict[Level, npt.NDArray[np.float32]]:
         """[Q, N] similarities of descriptions with all cells, by level."""
-        texts = self.retriever.encode_together(descriptions)
-        whole = np.concatenate([text.whole.numpy() for text in texts]) @ self.vectors.T
+        texts = self.retriever.encode_texts_padded(descriptions)
+        whole = np.concatenate([text.global_vectors.numpy() for text in texts]) @ self.vectors.T
         return {**self.table.scores(texts, np.arange(len(self.vectors))), "global": whole}
 
 

@@ -208,7 +208,7 @@ def _of_retriever(job: Job, weights: Path) -> dict[str, Any]:
         "retrieval": report["retrieval"],
         "validation_retrieval": _record(weights)["sources"][0]["validation"]["retrieval"],
         "calibration_error": report["calibration"]["expected_calibration_error"],
-        "bytes_a_cell": 4 * retriever.config.width + localizer.ranker.table.bytes_a_cell,
+        "bytes_a_cell": 4 * retriever.config.width + localizer.ranker.table.bytes_per_cell,
         "parameters": sum(p.numel() for p in retriever.parameters()),
     }
     if grown:

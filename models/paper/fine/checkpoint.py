@@ -1,4 +1,4 @@
-"""Saving and loading models of the fine stage."""
+"""Saving and loading of fine stages."""
 
 from pathlib import Path
 
@@ -12,18 +12,18 @@ FINE_STAGES = Checkpoints(
     "fine",
     FINE_METHODS,
     SHIPPED_WEIGHTS_DIR / "regressor",
-    "train some with 'hereabouts train --method regressor' (or matching) and name their directory in "
-    "HEREABOUTS_FINE_WEIGHTS_DIR, or leave the position at the cell's centre",
+    "train weights with 'hereabouts train --method regressor' (or matching) and set HEREABOUTS_FINE_WEIGHTS_DIR "
+    "to their directory, or use the centre of the cell as the position",
     is_int8=True,
 )
 save_fine, load_fine = FINE_STAGES.save, FINE_STAGES.load
 
 
 def load_refiner(method: FineMethod, directory: Path | None = None) -> FineModel:
-    """The fine stage of a method: from a directory of weights, if they are of that method, else the one that ships.
+    """Load a fine stage of a method: from `directory` if its weights are of that method, else the shipped one.
 
     Raises:
         WeightsError: the directory or the weights in it cannot be read.
     """
-    given = load_fine(directory) if directory else None
-    return given if given and given.method == method else load_fine(SHIPPED_WEIGHTS_DIR / method)
+    custom = load_fine(directory) if directory else None
+    return custom if custom and custom.method == method else load_fine(SHIPPED_WEIGHTS_DIR / method)

@@ -1,4 +1,4 @@
-"""What every model of the fine stage is: hints and a candidate cell into a position inside the cell."""
+"""The base class of the fine stages, which predict a position within a candidate cell from hints."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,45 +14,45 @@ from torch import Tensor, nn
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
 from models.paper.instance_encoder import (
-    DISTANCE,
-    OURS,
+    CLOSEST_DISTANCE_COLUMN,
+    DEFAULT_INPUTS,
     CellBatch,
     CellFeatures,
     Input,
     InstanceEncoder,
-    columns,
+    geometry_columns,
 )
 from models.paper.layers import HintEncoder
 from models.paper.point_encoder import PointEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 10 MB at D = 128
-PAIRS = 1024  # of description and cell, located at once
+PAIRS_PER_BATCH = 1024  # pairs of description and cell; bounds the memory of a prediction
 Offsets = npt.NDArray[np.float64]
 FineMethod = Literal["regressor", "matching"]
 
 
 class FineConfig(BaseModel):
-    """Shape of a model of the fine stage.
+    """Configuration common to all fine stages.
 
     Attributes:
         text_encoder: "minilm", a directory or a hub id.
         width: D.
-        inputs: what of an instance is looked at, see `InstanceEncoder`; "points" needs a `PointEncoder`.
-        plain: whether the instances' plain geometry is added to their features, whose normalising blurs coordinates;
-            False is the papers'.
-        max_instances: of a cell, those nearest to its centre; None for all of them, which measures better than the
-            paper's 16.
-        rounds: of cross-attention between hints and instances.
+        inputs: features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`.
+        plain: whether a linear map of the geometry is added to the features of the instances, because their
+            normalisation blurs coordinates; False in the papers.
+        max_instances: number of instances of a cell to use, those nearest to its centre; None for all, which is more
+            accurate than the 16 of the paper.
+        rounds: rounds of cross-attention between hints and instances.
         heads: of the attention.
-        dropout: in the attention layers, while training.
-        error_m: standard deviation of a coordinate, metres, given the right cell; measured on validation data.
+        dropout: of the attention layers in training.
+        error_m: standard deviation of a coordinate in metres, given the right cell; measured on validation data.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     text_encoder: str = DEFAULT_TEXT_ENCODER
     width: int = 128
-    inputs: tuple[Input, ...] = Field(default=OURS, min_length=1)
+    inputs: tuple[Input, ...] = Field(default=DEFAULT_INPUTS, min_length=1)
     plain: bool = True
     max_instances: int | None = Field(default=None, ge=1)
     rounds: int = Field(default=2, ge=1)
@@ -62,14 +62,14 @@ class FineConfig(BaseModel):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Instances:
-    """What a model sees of B cells.
+class InstanceFeatures:
+    """Encoded instances of B cells.
 
     Attributes:
         features: [B, I, D].
-        geometry: [B, I, 16] see `models.paper.instance_encoder.GEOMETRY`.
+        geometry: [B, I, 16], see `models.paper.instance_encoder.GEOMETRY_WIDTHS`.
         mask: [B, I] bool, True where an instance is real.
-        order: [B, I] int64, its column in the batch of cells.
+        order: [B, I] int64, column of each instance in the batch of cells.
     """
 
     features: Tensor
@@ -79,26 +79,27 @@ class Instances:
 
     @property
     def center(self) -> Tensor:
-        """[B, I, 2] middle of each instance, in cells (0..1 inside)."""
+        """Centres [B, I, 2] of the instances, in cell units (0..1 inside)."""
         return self.geometry[..., :2] / 2 + 0.5
 
-    def take(self, rows: Tensor) -> "Instances":
-        """Some of the cells, in the given order."""
-        return Instances(self.features[rows], self.geometry[rows], self.mask[rows], self.order[rows])
+    def take(self, rows: Tensor) -> "InstanceFeatures":
+        """Return some of the cells, in the given order."""
+        return InstanceFeatures(self.features[rows], self.geometry[rows], self.mask[rows], self.order[rows])
 
-    def meant_by(self, truth: "Truth", hint_mask: Tensor) -> Tensor:
-        """[B, H, I] bool, True where a hint, real by hint_mask [B, H], means an instance."""
-        is_meant = self.order[:, None, :] == truth.match[:, :, None]
-        return is_meant & self.mask[:, None, :] & hint_mask[..., None]
+    def match_mask(self, targets: "FineTargets", hint_mask: Tensor) -> Tensor:
+        """Return a mask [B, H, I], True where a real hint (hint_mask [B, H]) refers to an instance."""
+        is_match = self.order[:, None, :] == targets.match[:, :, None]
+        return is_match & self.mask[:, None, :] & hint_mask[..., None]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Truth:
-    """What is known of B descriptions and their cells.
+class FineTargets:
+    """The training targets of B descriptions and their cells.
 
     Attributes:
         offset: [B, 2] true position in the cell, 0..1.
-        match: [B, H] int64, column in the batch of cells of the instance that each hint means; -1 if the cell lacks it.
+        match: [B, H] int64, column in the batch of cells of the instance that each hint refers to; -1 if the cell does
+            not contain it.
     """
 
     offset: Tensor
@@ -106,7 +107,7 @@ class Truth:
 
 
 class FineModel(OnTextEncoder):
-    """A model of the fine stage; subclasses say how hints and instances meet."""
+    """A fine stage; subclasses define how a position follows from hints and instances."""
 
     method: ClassVar[FineMethod]
     config_type: ClassVar[type[FineConfig]]
@@ -120,124 +121,124 @@ class FineModel(OnTextEncoder):
         self.hint_encoder = HintEncoder(text_encoder.width, config.width, config.dropout)
         self.points = PointEncoder().requires_grad_(False) if "points" in config.inputs else None
         self.instance_encoder = InstanceEncoder(text_encoder.width, config.width, config.inputs)
-        self.columns = columns(config.inputs)
+        self.columns = geometry_columns(config.inputs)
         self.geometry = nn.Linear(len(self.columns), config.width) if config.plain else None
         self.rounds = nn.ModuleList(
             CrossAttentionRound(config.width, config.heads, config.dropout) for _ in range(config.rounds)
         )
 
-    def locate(self, hints: Tensor, hint_mask: Tensor, instances: Instances) -> Tensor:
-        """[B, 2] positions in the cells, 0..1 inside.
+    def locate(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures) -> Tensor:
+        """Return positions [B, 2] in the cells, 0..1 inside.
 
         Args:
-            hints: [B, H, D] of `read`.
+            hints: [B, H, D] of `embed_hints`.
             hint_mask: [B, H] bool, True where a hint is real.
-            instances: of `look`.
+            instances: of `embed_instances`.
         """
         raise NotImplementedError
 
-    def loss(self, hints: Tensor, hint_mask: Tensor, instances: Instances, truth: Truth) -> Tensor:
-        """What training makes small, a scalar; arguments as `locate`."""
+    def loss(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures, targets: FineTargets) -> Tensor:
+        """Return the training loss, a scalar; arguments as `locate`."""
         raise NotImplementedError
 
     @property
     def needs_matches(self) -> bool:
-        """Whether `loss` reads `Truth.match`."""
+        """Whether `loss` uses `FineTargets.match`."""
         return True
 
     @property
     def error_m(self) -> float | None:
-        """See FineConfig."""
+        """Standard deviation of a coordinate in metres, see FineConfig."""
         return self.config.error_m
 
     @property
     def device(self) -> torch.device:
-        """Where its weights are."""
+        """The device of the weights."""
         return next(self.parameters()).device
 
     def train(self, mode: bool = True) -> "FineModel":
-        """Switch between training and evaluation; features cached under other weights are forgotten."""
+        """Switch between training and evaluation, and clear the cached features of the previous weights."""
         self._hint_cache.clear()
         return super().train(mode)
 
-    def read(self, tokens: TokenFeatures) -> Tensor:
-        """[S, D] features of hint sentences, each for itself."""
+    def embed_hints(self, tokens: TokenFeatures) -> Tensor:
+        """Return features [S, D] of hint sentences, each encoded alone."""
         features: Tensor = self.hint_encoder(tokens.values.to(self.device), tokens.mask.to(self.device))
         return features
 
-    def seen(self, cells: CellFeatures) -> CellFeatures:
-        """Cells as this model takes them, see `Retriever.seen`."""
-        return cells.seen(self.points)
+    def with_point_features(self, cells: CellFeatures) -> CellFeatures:
+        """Return cells with the features of the model's point encoder, or unchanged if it has none."""
+        return cells.with_point_features(self.points)
 
-    def look(self, cells: CellBatch, label_embeddings: Tensor) -> Instances:
-        """Features of the instances of cells, of no more than `max_instances`.
+    def embed_instances(self, cells: CellBatch, label_embeddings: Tensor) -> InstanceFeatures:
+        """Encode the instances of cells, at most `max_instances` per cell.
 
         Args:
             cells: padded cells.
             label_embeddings: [L, W] text embedding of each label.
         """
-        order = nearest(cells, self.config.max_instances)
+        order = nearest_instances(cells, self.config.max_instances)
         row = torch.arange(len(order), device=order.device)[:, None]
         geometry, mask = cells.geometry[row, order], cells.mask[row, order]
-        real, label, shape = geometry[mask], cells.label[row, order][mask], cells.shape[row, order][mask]
-        found = self.instance_encoder(real, label_embeddings[label], shape)
+        real, label = geometry[mask], cells.label[row, order][mask]
+        encoded = self.instance_encoder(real, label_embeddings[label], cells.point_features[row, order][mask])
         if self.geometry is not None:
-            found = found + self.geometry(real[:, self.columns])
-        features = found.new_zeros(*mask.shape, self.config.width)
-        features[mask] = found
-        return Instances(features, geometry, mask, order)
+            encoded = encoded + self.geometry(real[:, self.columns])
+        features = encoded.new_zeros(*mask.shape, self.config.width)
+        features[mask] = encoded
+        return InstanceFeatures(features, geometry, mask, order)
 
-    def meet(self, hints: Tensor, hint_mask: Tensor, instances: Instances) -> tuple[Tensor, Tensor]:
-        """Hints [B, H, D] and instances [B, I, D] after all rounds of cross-attention."""
-        seen = instances.features
+    def cross_attend(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures) -> tuple[Tensor, Tensor]:
+        """Return hints [B, H, D] and instances [B, I, D] after all rounds of cross-attention."""
+        features = instances.features
         for layer in self.rounds:
-            hints, seen = layer(hints, hint_mask, seen, instances.mask)
-        return hints, seen
+            hints, features = layer(hints, hint_mask, features, instances.mask)
+        return hints, features
 
     @torch.inference_mode()
     def predict(
         self, descriptions: Sequence[Sequence[str]], cells: CellFeatures, rows: npt.NDArray[np.integer[Any]]
     ) -> Offsets:
-        """Where each description's position would be in each of some cells.
+        """Predict the position of each description in each of some cells.
 
         Args:
             descriptions: Q lists of hint sentences, any number in any order.
             cells: the gallery.
-            rows: [Q, J] cells to look into; -1 for none.
+            rows: [Q, J] candidate cells; -1 for none.
 
         Returns:
-            [Q, J, 2] offsets, inside the cell (0..1: the nearest that is, which is never further from a position
-            inside); the middle where there is no cell.
+            Offsets [Q, J, 2], clipped to the cell (0..1); the centre where there is no cell.
         """
         labels = self._embed(cells.labels)
         hint_features = self._hint_cache(hint for hints in descriptions for hint in hints)
         offsets = np.full((*rows.shape, 2), 0.5)
-        # Descriptions of a like number of hints together, so that little is padding.
-        asked = np.argwhere(rows >= 0)
-        asked = asked[np.argsort([len(descriptions[q]) for q in asked[:, 0]], kind="stable")]
-        for start in range(0, len(asked), PAIRS):
-            q, j = asked[start : start + PAIRS].T
-            kept, of_pair = np.unique(rows[q, j], return_inverse=True)
-            seen = self.look(cells.batch(kept).to(self.device), labels).take(torch.from_numpy(of_pair))
-            # In one order: an answer does not depend on the order of the hints.
+        # Sorted by the number of hints, to compute little for padding.
+        pairs = np.argwhere(rows >= 0)
+        pairs = pairs[np.argsort([len(descriptions[q]) for q in pairs[:, 0]], kind="stable")]
+        for start in range(0, len(pairs), PAIRS_PER_BATCH):
+            q, j = pairs[start : start + PAIRS_PER_BATCH].T
+            cell_rows, of_pair = np.unique(rows[q, j], return_inverse=True)
+            batch = cells.batch(cell_rows).to(self.device)
+            instances = self.embed_instances(batch, labels).take(torch.from_numpy(of_pair))
+            # Sorted, so that the result does not depend on the order of the hints.
             hints, mask = _stack([[hint_features[hint] for hint in sorted(descriptions[n])] for n in q])
-            offsets[q, j] = self.locate(hints, mask, seen).clamp(0, 1).cpu().numpy()
+            offsets[q, j] = self.locate(hints, mask, instances).clamp(0, 1).cpu().numpy()
         return offsets
 
     def _read_sentences(self, sentences: Sequence[str]) -> Tensor:
-        return self.read(self.text_encoder(sentences))
+        return self.embed_hints(self.text_encoder(sentences))
 
     def _embed(self, labels: tuple[str, ...]) -> Tensor:
         if labels not in self._label_cache:
-            self._label_cache = {labels: self.text_encoder.embed(labels)}  # one gallery at a time
+            self._label_cache = {labels: self.text_encoder.embed(labels)}  # of the last gallery only
         return self._label_cache[labels].to(self.device)
 
 
 class CrossAttentionRound(nn.Module):
-    """Instances look at the hints, then the hints at what the instances have become.
+    """Instances attend to the hints, then the hints to the updated instances (Text2Loc, cascaded cross-attention).
 
-    Text2Loc, cascaded cross-attention transformer. Each look is self-attention, cross-attention and a feed-forward
-    layer. Differs from its code: padding is masked, and the norms stand before the layers, which learns faster.
+    Each step is self-attention, cross-attention and a feed-forward layer. Differs from the released code: padding is
+    masked, and the norms come before the layers, which trains faster.
     """
 
     def __init__(self, width: int, num_heads: int, dropout: float) -> None:
@@ -250,7 +251,7 @@ class CrossAttentionRound(nn.Module):
     def forward(
         self, hints: Tensor, hint_mask: Tensor, instances: Tensor, instance_mask: Tensor
     ) -> tuple[Tensor, Tensor]:
-        """Hints [B, H, D] and instances [B, I, D] with masks [B, H] and [B, I], True where one is real."""
+        """Update hints [B, H, D] and instances [B, I, D] with masks [B, H] and [B, I], True where an entry is real."""
         no_hint, no_instance = ~hint_mask, ~instance_mask
         instances = self.of_instances(
             instances, hints, tgt_key_padding_mask=no_instance, memory_key_padding_mask=no_hint
@@ -259,14 +260,14 @@ class CrossAttentionRound(nn.Module):
         return hints, instances
 
 
-def nearest(cells: CellBatch, count: int | None) -> Tensor:
-    """[B, min(I, count)] columns of the instances nearest to the centre of their cell, nearest first."""
-    distance = cells.geometry[..., DISTANCE].masked_fill(~cells.mask, float("inf"))
+def nearest_instances(cells: CellBatch, count: int | None) -> Tensor:
+    """Return columns [B, min(I, count)] of the instances nearest to the centre of their cell, nearest first."""
+    distance = cells.geometry[..., CLOSEST_DISTANCE_COLUMN].masked_fill(~cells.mask, float("inf"))
     return distance.argsort(dim=1, stable=True)[:, :count]
 
 
 def _stack(hints: list[list[Tensor]]) -> tuple[Tensor, Tensor]:
-    """Features [B, H, D] and mask [B, H] of descriptions with unlike numbers of hints."""
-    features = nn.utils.rnn.pad_sequence([torch.stack(said) for said in hints], batch_first=True)
-    sizes = torch.tensor([len(said) for said in hints], device=features.device)
+    """Pad the hints of descriptions to features [B, H, D] with mask [B, H]."""
+    features = nn.utils.rnn.pad_sequence([torch.stack(sequence) for sequence in hints], batch_first=True)
+    sizes = torch.tensor([len(sequence) for sequence in hints], device=features.device)
     return features, torch.arange(features.shape[1], device=features.device) < sizes[:, None]

@@ -1,7 +1,7 @@
-"""Matching of hints and instances in the fine stage (Text2Pos, CVPR 2022): the baselines' fine stage.
+"""Matching of hints and instances, the fine stage of Text2Pos (CVPR 2022) and RET (AAAI 2023).
 
-RET (AAAI 2023) cascades the two: hints that have met the instances, not the hints alone, say the offsets (`refine`).
-Its relation-enhanced encoders are the retriever's (`models.paper.ret`), not repeated here.
+RET predicts offsets from hints after they have attended to the instances (`refine`). Its relation-enhanced encoders are
+part of the retriever only (`models.paper.ret`).
 """
 
 import math
@@ -11,19 +11,19 @@ import torch
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder
-from models.paper.fine.fine_model import FineConfig, FineMethod, FineModel, Instances, Truth
+from models.paper.fine.fine_model import FineConfig, FineMethod, FineModel, FineTargets, InstanceFeatures
 from models.paper.layers import mlp
 
 
 class MatchingConfig(FineConfig):
-    """Shape and loss of the matching.
+    """Architecture and loss of the matching.
 
     Attributes:
-        refine: whether the offset of a match is read from the hint alone (Text2Pos), or from the hint after it met the
-            instances (RET's cascaded matching and refinement).
+        refine: whether offsets are predicted from hints after cross-attention (RET's cascaded matching and refinement)
+            instead of hints alone (Text2Pos).
         iterations: of Sinkhorn's algorithm.
-        threshold: least share of a match that counts.
-        offset_weight: of the offsets' squared error beside the matches' negative log-likelihood.
+        threshold: minimum share of a match that counts.
+        offset_weight: weight of the squared error of the offsets in the loss.
     """
 
     refine: bool = False
@@ -33,11 +33,11 @@ class MatchingConfig(FineConfig):
 
 
 class Matching(FineModel):
-    """Each hint finds its instance and says how far the position lies from its middle.
+    """Fine stage that matches each hint to an instance and predicts the offset of the position from its centre.
 
-    Attention, then Sinkhorn's optimal transport; the position is the mean over the matches, the cell's centre without
-    any. Differs from Text2Pos: any number of hints and instances, masked; attention as in the regressor; the frozen
-    text encoder in place of an LSTM.
+    Cross-attention, then Sinkhorn's optimal transport; the position is the mean over the matches, or the centre of the
+    cell if there is none. Differs from Text2Pos: any number of hints and instances, masked; attention as in the
+    regressor; the frozen text encoder in place of an LSTM.
     """
 
     method: ClassVar[FineMethod] = "matching"
@@ -47,14 +47,14 @@ class Matching(FineModel):
     def __init__(self, text_encoder: TextEncoder, config: MatchingConfig) -> None:
         super().__init__(text_encoder, config)
         self.project_hints, self.project_instances = (mlp(config.width, config.width) for _ in range(2))
-        self.unmatched = nn.Parameter(torch.tensor(1.0))  # score of having no partner
+        self.unmatched = nn.Parameter(torch.tensor(1.0))  # score of having no match
         self.offset = mlp(config.width, config.width // 2, 2)
 
-    def locate(self, hints: Tensor, hint_mask: Tensor, instances: Instances) -> Tensor:
-        """See FineModel."""
+    def locate(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures) -> Tensor:
+        """Return positions [B, 2] in the cells, 0..1 inside."""
         log_share, offset = self.match(hints, hint_mask, instances)
         share = log_share[:, :-1, :-1].exp()
-        # Hard matches: each the other's best, and sure enough.
+        # Hard matches: mutual best matches with a share above the threshold.
         of_hint, of_instance = share == share.amax(dim=2, keepdim=True), share == share.amax(dim=1, keepdim=True)
         matched = (of_hint & of_instance & (share > self.config.threshold)).float()
         position = instances.center[:, None, :, :] + offset[:, :, None, :]  # [B, H, I, 2]
@@ -62,52 +62,56 @@ class Matching(FineModel):
         mean = (position * matched[..., None]).sum(dim=(1, 2)) / count.clamp(min=1)
         return torch.where(count > 0, mean, 0.5)
 
-    def match(self, hints: Tensor, hint_mask: Tensor, instances: Instances) -> tuple[Tensor, Tensor]:
-        """Who is meant, and where the position lies from there; arguments as `locate`.
+    def match(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures) -> tuple[Tensor, Tensor]:
+        """Return the matches and the offsets from them to the position; arguments as `locate`.
 
         Returns:
-            log_share: [B, H + 1, I + 1] logarithm of the share of each hint in each instance; a real hint's row and a
-                real instance's column add up to one, the last of each stands for "no partner".
-            offset: [B, H, 2] from the middle of the instance that a hint means to the position, in cells.
+            log_share: [B, H + 1, I + 1] logarithm of the share of each hint in each instance; rows of real hints and
+                columns of real instances sum to one, the last row and column stand for "no match".
+            offset: [B, H, 2] from the centre of the matched instance to the position, in cell units.
         """
-        met, seen = self.meet(hints, hint_mask, instances)
-        scores = self.project_hints(met) @ self.project_instances(seen).transpose(1, 2) / math.sqrt(met.shape[-1])
+        attended, features = self.cross_attend(hints, hint_mask, instances)
+        scores = (
+            self.project_hints(attended)
+            @ self.project_instances(features).transpose(1, 2)
+            / math.sqrt(attended.shape[-1])
+        )
         share = sinkhorn(scores.float(), hint_mask, instances.mask, self.unmatched, self.config.iterations)
-        return share, self.offset(met if self.config.refine else hints)
+        return share, self.offset(attended if self.config.refine else hints)
 
-    def loss(self, hints: Tensor, hint_mask: Tensor, instances: Instances, truth: Truth) -> Tensor:
-        """Negative log-likelihood of the matches, squared error of their offsets (Text2Pos); see FineModel."""
+    def loss(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures, targets: FineTargets) -> Tensor:
+        """Return the negative log-likelihood of the matches plus the squared error of their offsets (Text2Pos)."""
         log_share, offset = self.match(hints, hint_mask, instances)
-        is_meant = instances.meant_by(truth, hint_mask)
-        has_partner, is_partner = is_meant.any(dim=2), is_meant.any(dim=1)
+        is_match = instances.match_mask(targets, hint_mask)
+        has_match, is_matched = is_match.any(dim=2), is_match.any(dim=1)
         terms = (
-            log_share[:, :-1, :-1][is_meant],
-            log_share[:, :-1, -1][hint_mask & ~has_partner],
-            log_share[:, -1, :-1][instances.mask & ~is_partner],
+            log_share[:, :-1, :-1][is_match],
+            log_share[:, :-1, -1][hint_mask & ~has_match],
+            log_share[:, -1, :-1][instances.mask & ~is_matched],
         )
         likelihood = -torch.cat(terms).mean()
         position = instances.center[:, None, :, :] + offset[:, :, None, :]
-        error = ((position - truth.offset[:, None, None, :]) ** 2)[is_meant]
+        error = ((position - targets.offset[:, None, None, :]) ** 2)[is_match]
         return likelihood + self.config.offset_weight * error.sum() / max(1, len(error))
 
 
 def sinkhorn(scores: Tensor, row_mask: Tensor, column_mask: Tensor, unmatched: Tensor, iterations: int) -> Tensor:
-    """Optimal transport with a bin for what has no partner (SuperGlue, CVPR 2020, Eq. 8 to 10; in logarithms).
+    """Compute optimal transport with bins for unmatched rows and columns (SuperGlue, CVPR 2020, Eq. 8 to 10).
 
     Args:
         scores: [B, H, I].
         row_mask: [B, H] bool, True where a row is real.
         column_mask: [B, I] bool, True where a column is real.
-        unmatched: scalar, score of having no partner.
-        iterations: of normalising rows and columns.
+        unmatched: scalar, score of having no match.
+        iterations: number of normalisations of rows and columns.
 
     Returns:
-        [B, H + 1, I + 1] logarithm of the assignment: a real row and a real column add up to 1, the bins' to the
-        number of columns and of rows; -inf at padding.
+        Logarithm of the assignment, [B, H + 1, I + 1]: real rows and columns sum to 1, the bins to the number of
+        columns and rows; -inf at padding.
     """
     b, h, i = scores.shape
     rows, columns = (mask.sum(dim=1, keepdim=True) for mask in (row_mask, column_mask))
-    log_rows = torch.cat([row_mask, columns], dim=1).log()  # what a row adds up to: 1, nothing at padding
+    log_rows = torch.cat([row_mask, columns], dim=1).log()  # sum of each row: 1, or 0 at padding
     log_columns = torch.cat([column_mask, rows], dim=1).log()
     couplings = torch.cat([scores, unmatched.expand(b, h, 1)], dim=2)
     couplings = torch.cat([couplings, unmatched.expand(b, 1, i + 1)], dim=1)

@@ -1,4 +1,4 @@
-"""The regressor of the fine stage (Text2Loc, CVPR 2024; MNCL uses it unchanged)."""
+"""The regressor, the fine stage of Text2Loc (CVPR 2024), which MNCL uses unchanged."""
 
 import math
 from typing import ClassVar
@@ -7,17 +7,18 @@ import torch
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder
-from models.paper.fine.fine_model import FineConfig, FineMethod, FineModel, Instances, Truth
+from models.paper.fine.fine_model import FineConfig, FineMethod, FineModel, FineTargets, InstanceFeatures
 from models.paper.layers import masked_max, mlp
 
 
 class RegressorConfig(FineConfig):
-    """Shape and loss of the regressor.
+    """Architecture and loss of the regressor.
 
     Attributes:
-        point: whether hints take coordinates from the instances they point at, see Regressor; False is the paper's
-            matching-free model.
-        match_weight: of the likelihood that a hint points at the instance it means, beside the squared error.
+        point: whether hints receive the coordinates of the instances they attend to, see Regressor; False is the
+            matching-free model of the paper.
+        match_weight: weight of the log-likelihood that a hint attends to its true instance, relative to the squared
+            error.
     """
 
     point: bool = True
@@ -25,12 +26,12 @@ class RegressorConfig(FineConfig):
 
 
 class Regressor(FineModel):
-    """Hints and instances through cascaded cross-attention, maximum over hints, MLP to a position.
+    """Fine stage by regression: cascaded cross-attention, maximum over hints, MLP to a position.
 
-    Differs from Text2Loc: any number of hints and instances, masked; instances are described by geometry and label, see
-    `models.paper.instance_encoder`. With `point`, a last attention takes the instances' plain geometry as its
-    values, and is told while training which instance each hint means: without, coordinates must find their way through
-    all layers, which takes an order of magnitude more steps. Soft shares, no matches, when it predicts.
+    Differs from Text2Loc: any number of hints and instances, masked; instances have geometry and label, see
+    `models.paper.instance_encoder`. With `point`, a last attention has the plain geometry of the instances as values
+    and is trained with the true instance of each hint. Without it, coordinates must pass all layers, which takes ten
+    times as many training steps. Predictions use soft shares, no matches.
     """
 
     method: ClassVar[FineMethod] = "regressor"
@@ -48,29 +49,31 @@ class Regressor(FineModel):
 
     @property
     def needs_matches(self) -> bool:
-        """See FineModel."""
+        """Whether the attention is trained with the true instances."""
         return self.config.point and self.config.match_weight > 0
 
-    def locate(self, hints: Tensor, hint_mask: Tensor, instances: Instances) -> Tensor:
-        """See FineModel."""
-        return self.point(hints, hint_mask, instances)[0]
+    def locate(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures) -> Tensor:
+        """Return positions [B, 2] in the cells, 0..1 inside."""
+        return self.point_to_instances(hints, hint_mask, instances)[0]
 
-    def loss(self, hints: Tensor, hint_mask: Tensor, instances: Instances, truth: Truth) -> Tensor:
-        """Squared error in half cells (Text2Loc, fine localization), and that of pointing; see FineModel."""
-        offset, log_share = self.point(hints, hint_mask, instances)
-        error = nn.functional.mse_loss(2 * offset, 2 * truth.offset)
+    def loss(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures, targets: FineTargets) -> Tensor:
+        """Return the squared error in half cells (Text2Loc) minus the weighted log-likelihood of the true instances."""
+        offset, log_share = self.point_to_instances(hints, hint_mask, instances)
+        error = nn.functional.mse_loss(2 * offset, 2 * targets.offset)
         if log_share is None:
             return error
-        pointed = log_share[instances.meant_by(truth, hint_mask)]
-        return error - self.config.match_weight * pointed.sum() / max(1, len(pointed))
+        log_likelihood = log_share[instances.match_mask(targets, hint_mask)]
+        return error - self.config.match_weight * log_likelihood.sum() / max(1, len(log_likelihood))
 
-    def point(self, hints: Tensor, hint_mask: Tensor, instances: Instances) -> tuple[Tensor, Tensor | None]:
-        """Positions [B, 2] and the logarithm of each hint's shares in the instances [B, H, I]; None without `point`."""
-        met, seen = self.meet(hints, hint_mask, instances)
+    def point_to_instances(
+        self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures
+    ) -> tuple[Tensor, Tensor | None]:
+        """Return positions [B, 2] and log shares [B, H, I] of the hints in the instances; None without `point`."""
+        attended, features = self.cross_attend(hints, hint_mask, instances)
         log_share = None
         if self.config.point:
-            scores = self.point_from(met) @ self.point_to(seen).transpose(1, 2) / math.sqrt(met.shape[-1])
+            scores = self.point_from(attended) @ self.point_to(features).transpose(1, 2) / math.sqrt(attended.shape[-1])
             log_share = scores.masked_fill(~instances.mask[:, None, :], float("-inf")).log_softmax(dim=2)
-            met = met + self.pointed_at(torch.matmul(log_share.exp(), instances.geometry[..., self.columns]))
-        from_center: Tensor = self.head(masked_max(self.vote(met), hint_mask))  # in half cells
+            attended = attended + self.pointed_at(torch.matmul(log_share.exp(), instances.geometry[..., self.columns]))
+        from_center: Tensor = self.head(masked_max(self.vote(attended), hint_mask))  # in half cells
         return from_center / 2 + 0.5, log_share

@@ -128,7 +128,7 @@ def gather_levels(levels: Levels) -> Levels:
 
     # Numbers travel as bytes: not every backend has booleans.
     mask = gather(nn.functional.pad(levels.mask, (0, missing)).to(torch.uint8)).bool()
-    return Levels(gather(levels.whole), mask, sets(levels.instance), sets(levels.relation))
+    return Levels(gather(levels.global_vectors), mask, sets(levels.instance), sets(levels.relation))
 
 
 def gather_features(sentences: Tensor, features: Callable[[Tensor], Tensor]) -> tuple[Tensor, Tensor]:

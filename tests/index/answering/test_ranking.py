@@ -28,7 +28,9 @@ def expected(weighted, cells, labels):
     ranker = Ranker.of(weighted, cells, labels)
     texts = weighted.encode_texts(TEXTS)
     table = ranker.table.scores(texts, np.arange(len(cells)))
-    whole = np.concatenate([text.whole.numpy() for text in texts]) @ ranker.store.vectors(np.arange(len(cells))).T
+    whole = (
+        np.concatenate([text.global_vectors.numpy() for text in texts]) @ ranker.store.vectors(np.arange(len(cells))).T
+    )
     return WEIGHTS[0] * whole + WEIGHTS[1] * table["instance"] + WEIGHTS[2] * table["relation"]
 
 
@@ -45,7 +47,9 @@ def test_the_best_of_vector_search_are_reordered_and_stay_first(weighted, cells,
     plain, deep = (Ranker.of(weighted, cells, labels, depth=depth) for depth in (0, 20))
     texts = weighted.encode_texts(TEXTS)
     (whole, by_whole), (scores, rows) = plain.rank(texts, 50), deep.rank(texts, 50)
-    assert np.array_equal(by_whole, plain.store.search(np.concatenate([t.whole.numpy() for t in texts]), 50)[1])
+    assert np.array_equal(
+        by_whole, plain.store.search(np.concatenate([t.global_vectors.numpy() for t in texts]), 50)[1]
+    )
     for q in range(len(TEXTS)):
         first = by_whole[q, :20]
         assert list(rows[q, :20]) == list(first[np.argsort(-expected[q][first], kind="stable")])
@@ -76,7 +80,7 @@ def test_saved_and_loaded_ranks_the_same(weighted, cells, labels, tmp_path) -> N
     ranker.table.save(tmp_path)
     again, texts = Ranker.load(weighted, tmp_path, ranker.store), weighted.encode_texts(TEXTS)
     assert again.rank(texts, 10)[0] == pytest.approx(ranker.rank(texts, 10)[0], abs=2e-3)
-    lean = Ranker.load(weighted.global_alone(), tmp_path, ranker.store)
+    lean = Ranker.load(weighted.global_only(), tmp_path, ranker.store)
     assert lean.table.is_empty
     assert np.array_equal(lean.rank(texts, 10)[1], ranker.search(texts, 10)[1]), "the global level alone"
     (tmp_path / "levels.instance.npy").unlink()
@@ -85,11 +89,13 @@ def test_saved_and_loaded_ranks_the_same(weighted, cells, labels, tmp_path) -> N
 
 
 def test_cells_are_looked_at_once(weighted, cells, labels, monkeypatch) -> None:
-    looked, look = [], weighted.look
-    monkeypatch.setattr(weighted, "look", lambda batch, labels: looked.append(len(batch.mask)) or look(batch, labels))
+    sizes, embed_cells = [], weighted.embed_cells
+    monkeypatch.setattr(
+        weighted, "embed_cells", lambda batch, labels: sizes.append(len(batch.mask)) or embed_cells(batch, labels)
+    )
     rich = Ranker.of(weighted, cells, labels)
-    assert sum(looked) == len(cells)
-    lean = Ranker.of(weighted.global_alone(), cells, labels)
+    assert sum(sizes) == len(cells)
+    lean = Ranker.of(weighted.global_only(), cells, labels)
     assert lean.table.is_empty
     everything = np.arange(len(cells))
     assert np.array_equal(lean.store.vectors(everything), rich.store.vectors(everything))

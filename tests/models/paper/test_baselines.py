@@ -20,7 +20,7 @@ TEXTS = [
 
 @pytest.fixture(scope="module")
 def features(city, cells):
-    return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+    return CellFeatures.from_cells(cells, np.array([i.label for i in city.instances]))
 
 
 @pytest.fixture(scope="module")
@@ -43,19 +43,19 @@ def test_a_sentence_alone_and_in_a_batch(retriever) -> None:
     sentences = [sentence for text in TEXTS for sentence in text]
     sentences.append("On my far left, past the second row of young trees, stands a dark green bench with a metal back.")
     with torch.inference_mode():
-        together = retriever.read(retriever.text_encoder(sentences))
+        together = retriever.embed_hints(retriever.text_encoder(sentences))
         for row, sentence in enumerate(sentences):
-            alone = retriever.read(retriever.text_encoder([sentence]))[0]
+            alone = retriever.embed_hints(retriever.text_encoder([sentence]))[0]
             assert torch.allclose(together[row], alone, atol=1e-5)
 
 
 def test_a_description_alone_and_in_a_batch(retriever) -> None:
     hints, mask = torch.randn(4, 6, WIDTH), torch.arange(6) < torch.tensor([[6], [1], [3], [5]])
     hints[~mask] = 1e3
-    together = retriever.describe(hints, mask).whole
+    together = retriever.embed_texts(hints, mask).global_vectors
     assert together.norm(dim=-1).tolist() == pytest.approx([1] * 4)
     for row, real in enumerate(mask):
-        alone = retriever.describe(hints[row, real][None], real[real][None]).whole[0]
+        alone = retriever.embed_texts(hints[row, real][None], real[real][None]).global_vectors[0]
         assert torch.allclose(together[row], alone, atol=1e-5)
 
 
@@ -63,17 +63,19 @@ def test_a_cell_alone_and_in_a_batch(retriever, features, labels) -> None:
     sizes = np.diff(features.starts)
     rows = np.array([sizes.argmin(), 3, sizes.argmax(), 11])
     with torch.inference_mode():
-        together = retriever.look(features.batch(rows), labels).whole
+        together = retriever.embed_cells(features.batch(rows), labels).global_vectors
         assert together.norm(dim=-1).tolist() == pytest.approx([1] * 4)
         for row, found in zip(rows, together, strict=True):
-            assert torch.allclose(retriever.look(features.batch(np.array([row])), labels).whole[0], found, atol=1e-5)
+            assert torch.allclose(
+                retriever.embed_cells(features.batch(np.array([row])), labels).global_vectors[0], found, atol=1e-5
+            )
 
 
 def test_order_of_hints_does_not_matter(retriever) -> None:
     assert np.array_equal(retriever.encode_descriptions([TEXTS[2]]), retriever.encode_descriptions([TEXTS[2][::-1]]))
     hints, mask = torch.randn(2, 5, WIDTH), torch.ones(2, 5, dtype=torch.bool)
-    before, after = retriever.describe(hints, mask), retriever.describe(hints[:, [3, 1, 0, 4, 2]], mask)
-    assert torch.allclose(before.whole, after.whole, atol=1e-5)
+    before, after = retriever.embed_texts(hints, mask), retriever.embed_texts(hints[:, [3, 1, 0, 4, 2]], mask)
+    assert torch.allclose(before.global_vectors, after.global_vectors, atol=1e-5)
 
 
 def test_order_of_instances_does_not_matter(retriever, features, labels) -> None:
@@ -81,7 +83,9 @@ def test_order_of_instances_does_not_matter(retriever, features, labels) -> None
     order = torch.randperm(batch.mask.shape[1])
     shuffled = replace(batch, geometry=batch.geometry[:, order], label=batch.label[:, order], mask=batch.mask[:, order])
     with torch.inference_mode():
-        difference = retriever.look(batch, labels).whole - retriever.look(shuffled, labels).whole
+        difference = (
+            retriever.embed_cells(batch, labels).global_vectors - retriever.embed_cells(shuffled, labels).global_vectors
+        )
     assert difference.abs().max() < 1e-5
 
 
@@ -105,8 +109,11 @@ def examples(features, text_encoder):
 def loss_and_recall(retriever, examples, labels):
     batch, tokens = examples
     own, mask = torch.arange(8), torch.ones(8, 3, dtype=torch.bool)
-    text, cells = retriever.describe(retriever.read(tokens).view(8, 3, WIDTH), mask), retriever.look(batch, labels)
-    first = (text.whole @ cells.whole.T).argmax(dim=1)
+    text, cells = (
+        retriever.embed_texts(retriever.embed_hints(tokens).view(8, 3, WIDTH), mask),
+        retriever.embed_cells(batch, labels),
+    )
+    first = (text.global_vectors @ cells.global_vectors.T).argmax(dim=1)
     return retriever.loss(text, cells, own[:, None] == own), (first == own).float().mean().item()
 
 

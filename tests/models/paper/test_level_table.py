@@ -20,7 +20,7 @@ def model(mncl):
 
 @pytest.fixture(scope="module")
 def features(city, cells):
-    return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+    return CellFeatures.from_cells(cells, np.array([i.label for i in city.instances]))
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +38,7 @@ def test_scores_are_those_of_the_padded_form(model, features, table, texts) -> N
     found = table.scores(texts, rows)
     assert set(found) == {"instance", "relation"}
     with torch.inference_mode():
-        cells = model.look(features.batch(rows), model.text_encoder.embed(features.labels))
+        cells = model.embed_cells(features.batch(rows), model.text_encoder.embed(features.labels))
         for n, text in enumerate(texts):
             expected = level_scores(text, cells, LEVELS)
             for level, scores in found.items():
@@ -52,7 +52,7 @@ def test_saved_and_mapped_is_the_same_in_half_precision(model, table, texts, tmp
     for level, scores in again.scores(texts, rows).items():
         assert scores == pytest.approx(expected[level], abs=2e-3)
     size = sum((tmp_path / f"levels.{level}.npy").stat().st_size for level in expected)
-    assert table.bytes_a_cell * (len(table.starts) - 1) == pytest.approx(size, abs=300), "but for the headers"
+    assert table.bytes_per_cell * (len(table.starts) - 1) == pytest.approx(size, abs=300), "but for the headers"
 
 
 def test_missing_or_mixed_levels_are_refused(model, table, tmp_path) -> None:

@@ -5,7 +5,7 @@ import torch
 
 from models.paper.levels import Levels, level_scores, set_similarity, sum_of_z_scores
 from models.paper.mncl import Mncl, MnclConfig
-from models.paper.scene_graph import CellEdges, Ends, ExternalSpaceAttention, HintEdges, SceneGraph
+from models.paper.scene_graph import CellEdges, EdgeTerms, ExternalSpaceAttention, HintEdges, SceneGraph
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def test_z_scores_make_levels_comparable() -> None:
 def test_scene_graph_against_a_loop(aggregate) -> None:
     torch.manual_seed(2)
     graph = SceneGraph(4, 2, aggregate, "edges", "edges")
-    nodes, ends = torch.randn(1, 3, 4), Ends(torch.randn(1, 3, 4), torch.randn(1, 3, 4))
+    nodes, ends = torch.randn(1, 3, 4), EdgeTerms(torch.randn(1, 3, 4), torch.randn(1, 3, 4))
     v, e = list(nodes[0]), [[ends.first[0, i] + ends.second[0, j] for j in range(3)] for i in range(3)]
     with torch.no_grad():
         for _ in range(2):
@@ -99,16 +99,16 @@ def test_every_row_of_the_ablation_trains(text_encoder, levels, loss) -> None:
     torch.manual_seed(0)
     model = Mncl(text_encoder, MnclConfig(width=16, levels=levels, loss=loss)).train()
     hints, mask = torch.randn(4, 3, 16), torch.ones(4, 3, dtype=torch.bool)
-    text = model.describe(hints, mask)
+    text = model.embed_texts(hints, mask)
     cells = Levels(
-        text.whole.flip(0), mask, *(None if v is None else v.flip(0) for v in (text.instance, text.relation))
+        text.global_vectors.flip(0), mask, *(None if v is None else v.flip(0) for v in (text.instance, text.relation))
     )
     assert list(level_scores(text, cells, model.levels)) == list(levels)
     value = model.loss(text, cells, torch.eye(4, dtype=torch.bool))
     value.backward()
     assert torch.isfinite(value)
     with pytest.raises(ValueError, match="no level"):
-        text.of("relation" if "instance" in levels or levels == ("global",) else "instance")
+        text.vectors("relation" if "instance" in levels or levels == ("global",) else "instance")
 
 
 def test_the_losses_settings_reach_the_loss(text_encoder) -> None:

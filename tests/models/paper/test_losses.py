@@ -5,7 +5,7 @@ import math
 import pytest
 import torch
 
-from models.paper.losses import contrastive_loss, log_improbable, negative_contrastive_loss, negative_weights
+from models.paper.losses import contrastive_loss, log_complement, negative_contrastive_loss, negative_weights
 
 TAU = 0.3
 
@@ -90,7 +90,7 @@ def test_gradients_near_certainty_are_those_of_double_precision(lead) -> None:
 
     def gradient(dtype: torch.dtype) -> torch.Tensor:
         logits = torch.tensor([[lead, 0.0, -1.0, 0.5]], dtype=dtype, requires_grad=True)
-        log_improbable(logits, dim=1)[0, 0].backward()
+        log_complement(logits, dim=1)[0, 0].backward()
         return logits.grad.double()
 
     exact = gradient(torch.float64)

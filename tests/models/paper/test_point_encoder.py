@@ -6,10 +6,10 @@ import torch
 
 from models.citymap.point_sample import NUM_POINTS, sample_points
 from models.errors import WeightsError
-from models.paper.instance_encoder import OURS, CellFeatures
+from models.paper.instance_encoder import DEFAULT_INPUTS, CellFeatures
 from models.paper.level_table import LevelTable, encode_gallery
 from models.paper.mncl import Mncl, MnclConfig
-from models.paper.point_encoder import POINT_WIDTH, PointEncoder, ball, farthest_points
+from models.paper.point_encoder import POINT_WIDTH, PointEncoder, farthest_points, nearest_in_ball
 
 
 @pytest.fixture(scope="module")
@@ -19,7 +19,7 @@ def clouds():
 
 @pytest.fixture(scope="module")
 def features(city, cells):
-    return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+    return CellFeatures.from_cells(cells, np.array([i.label for i in city.instances]))
 
 
 def test_farthest_points_are_those_of_a_naive_loop(clouds) -> None:
@@ -33,7 +33,7 @@ def test_farthest_points_are_those_of_a_naive_loop(clouds) -> None:
 
 def test_a_ball_holds_the_nearest_within_its_radius(clouds) -> None:
     xyz, centers = clouds[..., :3], clouds[:, :5, :3]
-    near = ball(xyz, centers, 0.25, 8)
+    near = nearest_in_ball(xyz, centers, 0.25, 8)
     for r in range(3):
         for m in range(5):
             distance = (xyz[r] - centers[r, m]).norm(dim=1)
@@ -88,21 +88,21 @@ def test_samples_belong_to_their_parts(city, cells) -> None:
 
 def first_cells(features: CellFeatures, count: int) -> CellFeatures:
     end = features.starts[count]
-    parts = {name: getattr(features, name)[:end] for name in ("geometry", "label", "shape")}
+    parts = {name: getattr(features, name)[:end] for name in ("geometry", "label", "point_features")}
     return replace(features, starts=features.starts[: count + 1], **parts)
 
 
 def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
     torch.manual_seed(0)
-    features = first_cells(features, 80)  # more than are looked at together
-    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), inputs=(*OURS, "points"))).eval()
-    seen = model.seen(features)
-    assert seen.shape.shape == (len(features.label), POINT_WIDTH)
+    features = first_cells(features, 80)  # more than one batch of the point encoder
+    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), inputs=(*DEFAULT_INPUTS, "points"))).eval()
+    seen = model.with_point_features(features)
+    assert seen.point_features.shape == (len(features.label), POINT_WIDTH)
     vectors = encode_gallery(model, seen)[0]
-    flat = encode_gallery(model, replace(seen, shape=np.zeros_like(seen.shape)))[0]
+    flat = encode_gallery(model, replace(seen, point_features=np.zeros_like(seen.point_features)))[0]
     assert np.abs(vectors - flat).max() > 1e-3
     first = seen.batch(np.arange(3))
-    assert torch.equal(first.shape[first.mask], torch.from_numpy(seen.shape[: int(first.mask.sum())]))
+    assert torch.equal(first.point_features[first.mask], torch.from_numpy(seen.point_features[: int(first.mask.sum())]))
 
 
 def test_a_slice_that_begins_at_a_block_gives_the_bits_of_the_whole(
@@ -113,37 +113,41 @@ def test_a_slice_that_begins_at_a_block_gives_the_bits_of_the_whole(
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
     torch.manual_seed(0)
     cells, labels = cells.take(np.arange(90)), np.array([i.label for i in city.instances])
-    model = Mncl(text_encoder, MnclConfig(width=32, inputs=(*OURS, "points"))).eval()
-    vectors, table = encode_gallery(model, model.seen(CellFeatures.of(cells, labels)))
-    slices = (CellFeatures.of(cells, labels, range(*ends)) for ends in ((0, 48), (48, 48), (48, 90)))
-    parts = [encode_gallery(model, model.seen(some)) for some in slices]
+    model = Mncl(text_encoder, MnclConfig(width=32, inputs=(*DEFAULT_INPUTS, "points"))).eval()
+    vectors, table = encode_gallery(model, model.with_point_features(CellFeatures.from_cells(cells, labels)))
+    slices = (CellFeatures.from_cells(cells, labels, range(*ends)) for ends in ((0, 48), (48, 48), (48, 90)))
+    parts = [encode_gallery(model, model.with_point_features(some)) for some in slices]
     assert np.array_equal(np.concatenate([part[0] for part in parts]), vectors)
-    joined = LevelTable.joined([part[1] for part in parts])
+    joined = LevelTable.concatenate([part[1] for part in parts])
     assert np.array_equal(joined.starts, table.starts)
     assert all(np.array_equal(joined.vectors[level], table.vectors[level]) for level in ("instance", "relation"))
 
 
 def test_without_points_the_message_says_what_to_do(features, text_encoder) -> None:
-    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), inputs=(*OURS, "points")))
+    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global",), inputs=(*DEFAULT_INPUTS, "points")))
     with pytest.raises(WeightsError, match="inputs"):
-        model.seen(replace(features, sample=None))
+        model.with_point_features(replace(features, sample=None))
 
 
 def test_what_is_made_of_points_is_kept_and_found_again(features, monkeypatch, tmp_path) -> None:
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
     some = first_cells(features, 4)
-    encoder, looked = PointEncoder().eval(), CellFeatures._look
-    seen = some.seen(encoder).shape
-    monkeypatch.setattr(CellFeatures, "_look", None)
-    assert np.array_equal(some.seen(encoder).shape, seen), "read, not computed"
-    monkeypatch.setattr(CellFeatures, "_look", lambda *_: np.zeros((0, 0)))
-    assert not some.seen(PointEncoder().eval()).shape.size, "another encoder makes something else of them"
-    assert not replace(some, geometry=some.geometry + 1).seen(encoder).shape.size
-    assert not replace(some, sample=lambda cells: some.sample(cells) * 2).seen(encoder).shape.size
-    monkeypatch.setattr(CellFeatures, "_look", looked)
+    encoder, encode_points = PointEncoder().eval(), CellFeatures._encode_points
+    seen = some.with_point_features(encoder).point_features
+    monkeypatch.setattr(CellFeatures, "_encode_points", None)
+    assert np.array_equal(some.with_point_features(encoder).point_features, seen), "read, not computed"
+    monkeypatch.setattr(CellFeatures, "_encode_points", lambda *_: np.zeros((0, 0)))
+    assert not some.with_point_features(PointEncoder().eval()).point_features.size, (
+        "another encoder makes something else of them"
+    )
+    assert not replace(some, geometry=some.geometry + 1).with_point_features(encoder).point_features.size
+    assert (
+        not replace(some, sample=lambda cells: some.sample(cells) * 2).with_point_features(encoder).point_features.size
+    )
+    monkeypatch.setattr(CellFeatures, "_encode_points", encode_points)
     for path in (tmp_path / "points").iterdir():
         path.write_bytes(b"junk")
-    assert np.array_equal(some.seen(encoder).shape, seen), "a broken file is made anew"
+    assert np.array_equal(some.with_point_features(encoder).point_features, seen), "a broken file is made anew"
     (tmp_path / "file").write_bytes(b"")
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path / "file"))
-    assert np.array_equal(some.seen(encoder).shape, seen), "without a place to keep it too"
+    assert np.array_equal(some.with_point_features(encoder).point_features, seen), "without a place to keep it too"

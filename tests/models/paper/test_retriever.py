@@ -4,7 +4,14 @@ import torch
 
 from models.errors import WeightsError
 from models.paper.checkpoint import load_retriever, save_retriever
-from models.paper.instance_encoder import NUM_GEOMETRY, OURS, PAPERS, CellFeatures, InstanceEncoder, columns
+from models.paper.instance_encoder import (
+    DEFAULT_INPUTS,
+    GEOMETRY_WIDTH,
+    PAPER_INPUTS,
+    CellFeatures,
+    InstanceEncoder,
+    geometry_columns,
+)
 from models.paper.layers import masked_max
 from models.paper.level_table import encode_gallery
 from models.paper.levels import LEVELS
@@ -24,7 +31,7 @@ def model(mncl):
 
 @pytest.fixture(scope="module")
 def features(city, cells):
-    return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+    return CellFeatures.from_cells(cells, np.array([i.label for i in city.instances]))
 
 
 def test_masked_max_ignores_padding() -> None:
@@ -44,9 +51,9 @@ def test_padding_a_description_changes_nothing(model) -> None:
     hints = torch.randn(1, 3, 32)
     padded = torch.cat([hints, torch.full((1, 4, 32), 1e3)], dim=1)
     mask = torch.arange(7)[None] < 3
-    alone, beside = model.describe(hints, torch.ones(1, 3, dtype=torch.bool)), model.describe(padded, mask)
+    alone, beside = model.embed_texts(hints, torch.ones(1, 3, dtype=torch.bool)), model.embed_texts(padded, mask)
     for level in LEVELS:
-        assert torch.allclose(beside.of(level)[:, :3], alone.of(level)[:, :3], atol=1e-5)
+        assert torch.allclose(beside.vectors(level)[:, :3], alone.vectors(level)[:, :3], atol=1e-5)
 
 
 def test_order_of_hints_does_not_matter(model) -> None:
@@ -54,10 +61,10 @@ def test_order_of_hints_does_not_matter(model) -> None:
     hints = torch.randn(2, 5, 32)
     mask = torch.ones(2, 5, dtype=torch.bool)
     order = [3, 1, 0, 4, 2]
-    before, after = model.describe(hints, mask), model.describe(hints[:, order], mask)
-    assert torch.allclose(before.whole, after.whole, atol=1e-5)
+    before, after = model.embed_texts(hints, mask), model.embed_texts(hints[:, order], mask)
+    assert torch.allclose(before.global_vectors, after.global_vectors, atol=1e-5)
     for level in ("instance", "relation"):
-        assert torch.allclose(before.of(level)[:, order], after.of(level), atol=1e-5)
+        assert torch.allclose(before.vectors(level)[:, order], after.vectors(level), atol=1e-5)
 
 
 def test_a_cell_alone_and_in_a_batch(model, features) -> None:
@@ -65,12 +72,12 @@ def test_a_cell_alone_and_in_a_batch(model, features) -> None:
     labels = model.text_encoder.embed(features.labels)
     for n in (0, 7, len(features) - 1):
         with torch.inference_mode():
-            alone = model.look(features.batch(np.array([n])), labels)
-            beside = model.look(features.batch(np.array([n, 3, 11])), labels)
-        assert np.abs(alone.whole[0].numpy() - every[n]).max() < 1e-5
+            alone = model.embed_cells(features.batch(np.array([n])), labels)
+            beside = model.embed_cells(features.batch(np.array([n, 3, 11])), labels)
+        assert np.abs(alone.global_vectors[0].numpy() - every[n]).max() < 1e-5
         real = int(alone.mask.sum())
         for level in ("instance", "relation"):
-            assert torch.allclose(alone.of(level)[0, :real], beside.of(level)[0, :real], atol=1e-5)
+            assert torch.allclose(alone.vectors(level)[0, :real], beside.vectors(level)[0, :real], atol=1e-5)
 
 
 def test_cached_hints_give_the_same_vector_and_are_forgotten_when_weights_change(model, text_encoder) -> None:
@@ -88,7 +95,7 @@ def test_features_of_a_cell(city, cells, features) -> None:
     n = 4
     rows = slice(cells.parts.starts[n], cells.parts.starts[n + 1])
     geometry = features.geometry[rows]
-    assert geometry.shape[1] == NUM_GEOMETRY
+    assert geometry.shape[1] == GEOMETRY_WIDTH
     offset = (cells.parts.closest_m[rows] - cells.center_m[n])[:, :2]
     assert geometry[:, 3:5] * 15 == pytest.approx(offset, abs=1e-3)
     assert geometry[:, 5] * 15 == pytest.approx(np.hypot(*offset.T), abs=1e-3)
@@ -137,24 +144,24 @@ def test_config_is_strict() -> None:
         MnclConfig(depth=3)
 
 
-@pytest.mark.parametrize("left_out", [*OURS])
+@pytest.mark.parametrize("left_out", [*DEFAULT_INPUTS])
 def test_an_input_left_out_is_not_looked_at(features, text_encoder, left_out) -> None:
-    inputs = tuple(name for name in OURS if name != left_out)
+    inputs = tuple(name for name in DEFAULT_INPUTS if name != left_out)
     torch.manual_seed(0)
     encoder = InstanceEncoder(text_encoder.width, 32, inputs)
     geometry, label = torch.from_numpy(features.geometry[:50]), torch.randn(50, text_encoder.width)
     before = encoder(geometry, label)
-    for name in OURS:
+    for name in DEFAULT_INPUTS:
         other_geometry, other_label = geometry.clone(), label
         if name == "label":
             other_label = label + 1
         else:
-            other_geometry[:, columns([name])] += 1
+            other_geometry[:, geometry_columns([name])] += 1
         same = torch.equal(encoder(other_geometry, other_label), before)
         assert same == (name == left_out), name
 
 
 def test_columns_are_all_of_the_geometry() -> None:
-    assert columns(OURS) == list(range(NUM_GEOMETRY))
-    assert columns(PAPERS) == [0, 1, 2, 11, 12, 13, 14, 15]
-    assert columns(["label"]) == []
+    assert geometry_columns(DEFAULT_INPUTS) == list(range(GEOMETRY_WIDTH))
+    assert geometry_columns(PAPER_INPUTS) == [0, 1, 2, 11, 12, 13, 14, 15]
+    assert geometry_columns(["label"]) == []

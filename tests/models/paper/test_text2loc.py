@@ -24,7 +24,7 @@ def test_every_layer_over_hints_has_a_residual(model) -> None:
         first = hints + model.description[0](hints, mask)
         second = first + model.description[1](first, mask)
         expected = torch.nn.functional.normalize(masked_max(second, mask), dim=-1)
-        assert torch.allclose(model.describe(hints, mask).whole, expected, atol=1e-6)
+        assert torch.allclose(model.embed_texts(hints, mask).global_vectors, expected, atol=1e-6)
 
 
 def test_loss_against_a_loop(model) -> None:

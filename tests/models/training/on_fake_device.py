@@ -18,7 +18,7 @@ from models.language.text_encoder import load_text_encoder
 from models.paper import point_encoder
 from models.paper.checkpoint import METHODS, load_retriever
 from models.paper.fine.checkpoint import FINE_METHODS, load_fine
-from models.paper.instance_encoder import OURS, PAPERS, Input
+from models.paper.instance_encoder import DEFAULT_INPUTS, PAPER_INPUTS, Input
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
 from models.sources.source import open_source
 from models.training import fit_fine, fit_points, fit_retriever, validation
@@ -67,7 +67,7 @@ def shared_points(sources: Any, out: Path) -> None:
     """A point encoder that was made before."""
     fit_points.train_points([TrainingCells.of(*sources)], out / "points", CONFIG)
     given = CONFIG.model_copy(update={"points": out / "points"})
-    config = METHODS["text2loc"].config_type(width=32, inputs=PAPERS)
+    config = METHODS["text2loc"].config_type(width=32, inputs=PAPER_INPUTS)
     fit_retriever.train_retriever(partial(load, sources), out, METHODS["text2loc"], config, given)
 
 
@@ -162,7 +162,7 @@ def main(osm_file: Path, out: Path) -> None:
     cases: dict[str, Callable[[], None]] = {"device": device, "lending": lending}
     for train, methods in ((retriever, METHODS), (fine, FINE_METHODS)):
         for method in methods:
-            for inputs in (OURS, PAPERS):
+            for inputs in (DEFAULT_INPUTS, PAPER_INPUTS):
                 name = f"{method}-{inputs[0]}"
                 cases[name] = partial(train, sources, method, inputs, out / name)
     cases["points"] = partial(shared_points, sources, out / "points")

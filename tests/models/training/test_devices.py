@@ -10,7 +10,7 @@ from torch.utils import backend_registration
 
 from models.paper.checkpoint import METHODS
 from models.paper.fine.checkpoint import FINE_METHODS
-from models.paper.instance_encoder import OURS, PAPERS
+from models.paper.instance_encoder import DEFAULT_INPUTS, PAPER_INPUTS
 
 pytestmark = [
     pytest.mark.slow,
@@ -20,7 +20,7 @@ pytestmark = [
     ),
 ]
 ROOT = Path(__file__).parents[3]
-MODELS = [f"{method}-{inputs[0]}" for method in (*METHODS, *FINE_METHODS) for inputs in (OURS, PAPERS)]
+MODELS = [f"{method}-{inputs[0]}" for method in (*METHODS, *FINE_METHODS) for inputs in (DEFAULT_INPUTS, PAPER_INPUTS)]
 
 
 @pytest.fixture(scope="module")

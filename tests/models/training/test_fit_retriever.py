@@ -14,7 +14,7 @@ from models.paper import point_encoder
 from models.paper.checkpoint import METHODS, load_retriever
 from models.paper.fine.checkpoint import load_fine
 from models.paper.fine.matching import MatchingConfig
-from models.paper.instance_encoder import PAPERS, CellFeatures
+from models.paper.instance_encoder import PAPER_INPUTS, CellFeatures
 from models.paper.mncl import Mncl, MnclConfig
 from models.paper.text2loc import Text2Loc, Text2LocConfig
 from models.sources.source import open_sources
@@ -41,7 +41,7 @@ def test_directions_turn_with_the_map() -> None:
 
 
 def test_turning_a_cell_keeps_distances_and_turns_directions(cells, city) -> None:
-    features = CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+    features = CellFeatures.from_cells(cells, np.array([i.label for i in city.instances]))
     batch = features.batch(np.arange(8))
     turned = reflect(batch, torch.from_numpy(SYMMETRIES))
     assert torch.equal(turned.geometry[0], batch.geometry[0]), "the first symmetry is none"
@@ -84,7 +84,7 @@ def test_the_vocabulary_numbers_its_sentences(region) -> None:
 
 
 @pytest.mark.slow
-def test_training_learns_is_seeded_and_is_saved(regions, tmp_path) -> None:
+def test_training_learns_is_seeded_and_is_saved(regions, text_encoder, tmp_path) -> None:
     config = TrainingConfig(steps=12, batch_size=16, spacing_m=15.0, validate_every=6, learning_rate=3e-3)
     seen = []
 
@@ -169,7 +169,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(strip, coarse, tmp_pat
         if (at.step, at.steps) == (3, 4):
             raise KeyboardInterrupt
 
-    model = MnclConfig(width=32, levels=("global",), inputs=PAPERS)
+    model = MnclConfig(width=32, levels=("global",), inputs=PAPER_INPUTS)
     train_retriever(load, tmp_path / "a", Mncl, model, config)
     figures = json.loads((tmp_path / "a" / "config.json").read_text())["training"]["point_encoder"]
     cells, labels = whole.data.cells, np.array(whole.data.gallery.labels)
@@ -197,8 +197,8 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, co
     figures = train_points([TrainingCells.of(*regions)], tmp_path / "points", config)
     monkeypatch.setattr("models.training.fit_points.fit_points", None)  # none is trained again
     given = config.model_copy(update={"points": tmp_path / "points"})
-    train_retriever(load, tmp_path / "coarse", Text2Loc, Text2LocConfig(width=32, inputs=PAPERS), given)
-    train_fine(load, tmp_path / "fine", "matching", MatchingConfig(width=32, inputs=PAPERS, plain=False), given)
+    train_retriever(load, tmp_path / "coarse", Text2Loc, Text2LocConfig(width=32, inputs=PAPER_INPUTS), given)
+    train_fine(load, tmp_path / "fine", "matching", MatchingConfig(width=32, inputs=PAPER_INPUTS, plain=False), given)
     wanted = load_file(tmp_path / "points" / "model.safetensors")
     for directory, loaded in (("coarse", load_retriever), ("fine", load_fine)):
         found = loaded(tmp_path / directory).points.state_dict()
@@ -207,7 +207,7 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, co
         assert record["point_encoder"] == figures
     nowhere = config.model_copy(update={"points": tmp_path / "nowhere"})
     with pytest.raises(WeightsError, match="--method points"):
-        train_retriever(load, tmp_path / "w", Text2Loc, Text2LocConfig(width=32, inputs=PAPERS), nowhere)
+        train_retriever(load, tmp_path / "w", Text2Loc, Text2LocConfig(width=32, inputs=PAPER_INPUTS), nowhere)
 
 
 @pytest.mark.slow

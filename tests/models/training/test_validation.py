@@ -63,7 +63,7 @@ def test_many_texts_at_a_time_get_the_scores_of_each_alone(source, text_encoder,
     texts = [list(hints)[: int(rng.integers(1, 7))] for hints in asked.descriptions]
     gallery, recall = Encoded(retriever, asked.features), asked.recall(retriever)
     together = gallery.level_scores(texts)
-    monkeypatch.setattr(type(retriever), "encode_together", Retriever.encode_texts)
+    monkeypatch.setattr(type(retriever), "encode_texts_padded", Retriever.encode_texts)
     alone = gallery.level_scores(texts)
     assert list(together) == list(alone)
     assert all(np.abs(together[level] - alone[level]).max() < 1e-5 for level in alone)

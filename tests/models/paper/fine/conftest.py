@@ -15,7 +15,7 @@ def fine_set(source, text_encoder):
 
 @pytest.fixture(scope="session")
 def features(city, cells):
-    return CellFeatures.of(cells, np.array([i.label for i in city.instances]))
+    return CellFeatures.from_cells(cells, np.array([i.label for i in city.instances]))
 
 
 @pytest.fixture(scope="session", params=sorted(FINE_METHODS))

@@ -9,9 +9,9 @@ from safetensors.torch import load_file, save_file
 from models.checkpoint import MAX_UNROUNDED_VALUES
 from models.errors import WeightsError
 from models.paper.fine.checkpoint import FINE_METHODS, load_fine, save_fine
-from models.paper.fine.fine_model import CrossAttentionRound, Truth, nearest
+from models.paper.fine.fine_model import CrossAttentionRound, FineTargets, nearest_instances
 from models.paper.fine.matching import MatchingConfig, sinkhorn
-from models.paper.instance_encoder import OURS, columns
+from models.paper.instance_encoder import DEFAULT_INPUTS, geometry_columns
 from models.training.fine_data import FineBatch
 
 TEXTS = [
@@ -65,11 +65,11 @@ def test_cross_attention_against_a_naive_loop() -> None:
 
 def test_the_nearest_instances_are_kept(features) -> None:
     batch = features.batch(np.arange(12))
-    order = nearest(batch, 6)
+    order = nearest_instances(batch, 6)
     for row, kept in enumerate(order):
         distance = batch.geometry[row, : int(batch.mask[row].sum()), 5]
         assert torch.equal(batch.geometry[row, kept, 5], distance.sort().values[:6])
-    assert nearest(batch, None).shape == batch.mask.shape
+    assert nearest_instances(batch, None).shape == batch.mask.shape
 
 
 def test_a_description_alone_and_in_a_batch(fine_model, features) -> None:
@@ -89,8 +89,8 @@ def test_padding_and_masked_instances_change_nothing(fine_model, features) -> No
     alone, beside = features.batch(np.array([4])), features.batch(np.array([4, int(np.diff(features.starts).argmax())]))
     beside.geometry[0, int(beside.mask[0].sum()) :] = 1e3
     with torch.inference_mode():
-        first = fine_model.locate(hints, mask, fine_model.look(alone, labels))
-        seen = fine_model.look(beside, labels).take(torch.tensor([0]))
+        first = fine_model.locate(hints, mask, fine_model.embed_instances(alone, labels))
+        seen = fine_model.embed_instances(beside, labels).take(torch.tensor([0]))
         assert torch.allclose(fine_model.locate(padded, longer, seen), first, atol=1e-5)
 
 
@@ -102,7 +102,7 @@ def test_order_does_not_matter(fine_model, features) -> None:
     cells = features.batch(np.array([2, 8]))
     hints, mask = torch.randn(2, 5, 32), torch.ones(2, 5, dtype=torch.bool)
     with torch.inference_mode():
-        seen = fine_model.look(cells, labels)
+        seen = fine_model.embed_instances(cells, labels)
         mixed = fine_model.locate(hints[:, [3, 1, 0, 4, 2]], mask, seen)
         assert torch.allclose(fine_model.locate(hints, mask, seen), mixed, atol=1e-5)
 
@@ -117,7 +117,7 @@ def test_every_parameter_that_locates_gets_a_finite_gradient(fine_model, fine_se
     batch: FineBatch = fine_set.batch(8, np.random.default_rng(0))
     fine_model.zero_grad()
     hints = torch.randn(*batch.sentences.shape, 32, requires_grad=True)
-    instances = fine_model.look(batch.cells, fine_set.training.label_embeddings)
+    instances = fine_model.embed_instances(batch.cells, fine_set.training.label_embeddings)
     fine_model.loss(hints, batch.hint_mask, instances, batch.truth).backward()
     gradients = {name: p.grad for name, p in fine_model.named_parameters() if not name.startswith("hint_encoder")}
     assert all(g is not None and torch.isfinite(g).all() for g in gradients.values())
@@ -144,7 +144,7 @@ def test_sinkhorn_gives_every_real_row_and_column_its_share() -> None:
 
 def test_matching_averages_over_the_matches(text_encoder, features, monkeypatch) -> None:
     model = FINE_METHODS["matching"](text_encoder, MatchingConfig(width=32)).eval()
-    seen = model.look(features.batch(np.array([3])), text_encoder.embed(features.labels))
+    seen = model.embed_instances(features.batch(np.array([3])), text_encoder.embed(features.labels))
     share = torch.full((1, 4, seen.mask.shape[1] + 1), 1e-6)
     share[0, 0, 2], share[0, 1, 1], share[0, 2, 4] = 0.9, 0.8, 0.1  # the last is too unsure
     offset = torch.tensor([[[0.1, 0.0], [0.0, -0.2], [5.0, 5.0]]])
@@ -157,8 +157,8 @@ def test_matching_averages_over_the_matches(text_encoder, features, monkeypatch)
 
 def test_the_instances_meant_survive_the_choice_of_the_nearest(fine_model, fine_set) -> None:
     batch = fine_set.batch(16, np.random.default_rng(3))
-    seen = fine_model.look(batch.cells, fine_set.training.label_embeddings)
-    meant = seen.meant_by(Truth(batch.truth.offset, batch.truth.match), batch.hint_mask)
+    seen = fine_model.embed_instances(batch.cells, fine_set.training.label_embeddings)
+    meant = seen.match_mask(FineTargets(batch.truth.offset, batch.truth.match), batch.hint_mask)
     assert meant.any()
     for b, h, i in meant.nonzero().tolist():
         column = int(batch.truth.match[b, h])
@@ -231,10 +231,10 @@ def test_inputs_that_are_left_out_change_no_position(features, text_encoder, met
     sure = {"threshold": 0.0} if method == "matching" else {}
     model = FINE_METHODS[method](text_encoder, FINE_METHODS[method].config_type(width=32, inputs=inputs, **sure)).eval()
     before = model.predict(TEXTS, features, ROWS)
-    for name in OURS:
+    for name in DEFAULT_INPUTS:
         geometry, label = features.geometry.copy(), features.label
         if name == "label":
             label = (label + 1) % len(features.labels)
-        geometry[:, columns([name])] += 0.5
+        geometry[:, geometry_columns([name])] += 0.5
         found = model.predict(TEXTS, replace(features, geometry=geometry, label=label), ROWS)
         assert np.array_equal(found, before) == (name not in inputs), name

@@ -11,7 +11,7 @@ from safetensors.torch import save_file
 from torch import nn
 
 from models.language.text_encoder import TokenFeatures
-from models.paper.instance_encoder import NUM_GEOMETRY, CellBatch
+from models.paper.instance_encoder import GEOMETRY_WIDTH, CellBatch
 from models.paper.mncl import Mncl, MnclConfig
 from models.training.engine import distributed
 from models.training.engine.loop import LoopConfig, run_training
@@ -73,7 +73,7 @@ def whole_batch(rng) -> Batch:
     """8 examples; the cells of the second half are larger, two rows are of one cell, sentences come twice."""
     sizes = np.array([1, 3, 2, 3, 5, 4, 2, 6])
     mask = torch.from_numpy(np.arange(6) < sizes[:, None])
-    geometry = torch.from_numpy(rng.normal(size=(8, 6, NUM_GEOMETRY)).astype(np.float32)) * mask[..., None]
+    geometry = torch.from_numpy(rng.normal(size=(8, 6, GEOMETRY_WIDTH)).astype(np.float32)) * mask[..., None]
     label = torch.from_numpy(rng.integers(LABELS, size=(8, 6)))
     hint_mask = torch.from_numpy(np.arange(4) < rng.integers(2, 5, size=(8, 1)))
     sentences = torch.from_numpy(rng.integers(SENTENCES, size=(8, 4)))
@@ -84,7 +84,8 @@ def whole_batch(rng) -> Batch:
 def part(batch: Batch, rows: slice) -> Batch:
     """Some rows, padded to the largest cell of them only."""
     largest = int(batch.cells.mask[rows].sum(dim=1).max())
-    cells = (x[rows, :largest] for x in (batch.cells.geometry, batch.cells.label, batch.cells.mask, batch.cells.shape))
+    part = batch.cells
+    cells = (x[rows, :largest] for x in (part.geometry, part.label, part.mask, part.point_features))
     return Batch(CellBatch(*cells), batch.sentences[rows], batch.hint_mask[rows], batch.cell[rows])
 
 
