@@ -25,16 +25,14 @@ from app.http.protocol import LocalizerLike
 from app.http.routes import batch, cells, describe, evaluate, geocoder, health, localize, maps, page
 from app.http.routes import indexes as index_routes
 from app.jobs.runner import EvaluationJobs
-from app.settings import Settings, is_local
+from app.settings import Settings
 from app.threads import usable_cpus
 from app.workers.checksums import check_version
 from app.workers.order import OpenOrder
 from app.workers.remote import open_workers
 from index.build.artifact import read_aliases
 from index.build.manifest import MANIFEST
-from index.build.snapshot import SNAPSHOTS
 from models.errors import HereaboutsError
-from models.files import remove_abandoned
 
 if TYPE_CHECKING:
     from app.http.tracing import Traces
@@ -63,8 +61,6 @@ def create_app(
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
-        for directory in (settings.index_dir, settings.index_dir / SNAPSHOTS):
-            remove_abandoned(directory)
         await indexes.start()
         jobs.start()
         try:
@@ -82,12 +78,7 @@ def create_app(
     app.state.jobs = jobs
     add_error_handlers(app)
     _add_routes(app, settings, page_dir, traces)
-    app.openapi = partial(  # type: ignore[method-assign]
-        describe_app,
-        app,
-        needs_key=settings.read_key is not None,
-        needs_admin_key=settings.admin_key is not None,
-    )
+    app.openapi = partial(describe_app, app, needs_key=settings.read_key is not None)  # type: ignore[method-assign]
     return app
 
 
@@ -123,13 +114,7 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path, traces: "Trace
     app.state.routes = [route for router in routers for route in router.routes]  # FastAPI hides those it includes
     larger = {evaluate.PATH: settings.max_evaluate_bytes, batch.PATH: batch.BODIES * settings.max_bytes}
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger=larger)
-    app.add_middleware(
-        KeyCheck,
-        read_key=settings.read_key,
-        admin_key=settings.admin_key,
-        is_local=is_local(settings.host),
-        open_routes=open_routes(routers),
-    )
+    app.add_middleware(KeyCheck, read_key=settings.read_key, open_routes=open_routes(routers))
     app.add_middleware(AccessLog, metrics=app.state.metrics, log_descriptions=settings.log_descriptions)
     if traces is not None:
         app.add_middleware(traces.around)

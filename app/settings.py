@@ -28,10 +28,8 @@ class Settings(BaseSettings):
     )
     host: str = "127.0.0.1"
     port: int = Field(8000, ge=0, le=65535)
-    read_key: SecretStr | None = Field(None, description="what clients have to send to ask anything; None: nothing")
-    admin_key: SecretStr | None = Field(
-        None,
-        description="what operators have to send to change indexes; None: nothing on this machine, else nobody may",
+    read_key: SecretStr | None = Field(
+        None, description="the key that every request needs; None: no key, and only direct local requests may evaluate"
     )
     data_dir: Path | None = Field(None, description="maps and data sets that POST /evaluate takes by name; None: none")
     max_bytes: PositiveInt = Field(262_144, description="of a request body")
@@ -53,7 +51,7 @@ class Settings(BaseSettings):
     log_level: Literal["debug", "info", "warning", "error"] = "info"
     log_descriptions: bool = Field(False, description="writes what people say, and what faults say of it, into the log")
 
-    @field_validator("read_key", "admin_key")
+    @field_validator("read_key")
     @classmethod
     def _key_can_be_sent(cls, key: SecretStr | None) -> SecretStr | None:
         if key is not None and not _KEY.fullmatch(key.get_secret_value()):

@@ -65,6 +65,10 @@ class Mould:
         """Begin to index the town as `hereabouts index` does; the process."""
         return self._ask(do="build", out=str(out), **limits)
 
+    def set_alias(self, root, alias, version, **limits):
+        """Begin `hereabouts alias set` on an index directory; the process."""
+        return self._ask(do="set_alias", root=str(root), alias=alias, version=version, **limits)
+
     def serve(self, root, jobs="jobs", **limits):
         """Start a service on an index directory; its process, and where it answers, once it does.
 
@@ -158,6 +162,12 @@ class _Forks:
         os.environ["HEREABOUTS_WEIGHTS_DIR"] = str(self._weights)
         _limit(**limits)
         app(["index", "--map", str(self._map), "--out", out])
+
+    def set_alias(self, root, alias, version, **limits):
+        from app.cli.main import app
+
+        _limit(**limits)
+        app(["alias", "set", alias, version, "--index", root])
 
     def serve(self, root, jobs, port, **limits):
         from app.jobs.runner import EvaluationJobs

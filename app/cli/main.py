@@ -18,6 +18,7 @@ from app.cli import data as cli_data
 from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
+from app.cli.aliases import aliases
 from app.cli.index_options import check_shares, parse_shard, share_out
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
@@ -280,6 +281,7 @@ for command in (
     cli_reproduce.reproduce,
 ):
     app.command()(command)
+app.add_typer(aliases, name="alias")
 
 
 if __name__ == "__main__":

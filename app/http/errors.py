@@ -45,8 +45,7 @@ class Code(Enum):
     KEY_WRONG = (
         401,
         "The key is wrong",
-        "Send the key that the service was started with (HEREABOUTS_READ_KEY, HEREABOUTS_ADMIN_KEY), once; "
-        "ask its operator.",
+        "Send the key that the service was started with (HEREABOUTS_READ_KEY); its operator has it.",
         None,
     )
     KEY_NOT_SET = (
@@ -56,16 +55,8 @@ class Code(Enum):
         "service's machine, to localhost and not through a proxy.",
         None,
     )
-    ADMIN_OFF = (
-        403,
-        "Nobody may change this service from outside",
-        "Its operator sets HEREABOUTS_ADMIN_KEY, and sends that.",
-        None,
-    )
-    ADMIN_KEY_REQUIRED = (403, "This takes the admin key", "The read key is not enough; ask the operator.", None)
     NOT_FOUND = (404, "No such path", "See /docs for the paths there are.", None)
     INDEX_NOT_FOUND = (404, "No such index", "GET /info names the indexes that are served.", None)
-    VERSION_NOT_FOUND = (404, "No such index version", "GET /indexes lists them.", None)
     CELL_NOT_FOUND = (404, "No such cell", "Take a cell_id from an answer of the index that is served now.", None)
     MAP_NOT_FOUND = (
         404,
@@ -78,17 +69,10 @@ class Code(Enum):
     NOT_ACCEPTABLE = (406, "No such format", "Accept application/json or application/geo+json.", None)
     NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.", None)
     BODY_TOO_SLOW = (408, "The body did not come in time", "Send it without a pause, or send less.", None)
-    CONFLICT = (409, "In conflict with what the service holds", "Look at /info, then ask again.", None)
-    INDEX_MISMATCH = (
-        409,
-        "Another model built that index",
-        "Build it with the model that is served (hereabouts index), or serve the model that built it.",
-        None,
-    )
     INDEX_BROKEN = (
         409,
-        "That index is broken",
-        "A file of it is missing, changed or of another format; build it again. What was served still is.",
+        "The index directory is broken",
+        "Its aliases.json cannot be read; its operator has to restore it or build the index again.",
         None,
     )
     NOT_WRITABLE = (
@@ -135,7 +119,6 @@ _BY_STATUS = {
         Code.NOT_FOUND,
         Code.METHOD_NOT_ALLOWED,
         Code.NOT_ACCEPTABLE,
-        Code.CONFLICT,
         Code.BODY_TOO_LARGE,
         Code.UNSUPPORTED_MEDIA_TYPE,
         Code.INVALID_REQUEST,

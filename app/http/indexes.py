@@ -1,7 +1,7 @@
 """The indexes that are served: a queue an alias, exchanged under load when the alias names another version."""
 
 import asyncio
-from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine, Mapping, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from functools import partial
@@ -14,7 +14,7 @@ from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue, refuse
 from app.settings import Settings
 from index.build.artifact import DEFAULT
-from models.errors import HereaboutsError, IndexBroken, IndexMismatch, IndexUnusable
+from models.errors import HereaboutsError, IndexBroken, IndexUnusable
 
 LOOKED_AT_S: Final = 1.0  # how often aliases are read again
 
@@ -55,14 +55,14 @@ class Indexes:
         self._retiring: set[asyncio.Task[None]] = set()
         self._checks: set[asyncio.Task[None]] = set()  # of what is served, and of what was
         self._watching: asyncio.Task[None] | None = None
-        self._switching, self._checking = asyncio.Lock(), asyncio.Lock()
+        self._checking = asyncio.Lock()
         self._is_draining = False
         self._unreadable = ""  # why, when it was last logged
 
     async def start(self) -> None:
         """Begin to open what the aliases name, and to watch them."""
-        self._is_draining, self._switching, self._checking = False, asyncio.Lock(), asyncio.Lock()
-        named = await self._named()
+        self._is_draining, self._checking = False, asyncio.Lock()
+        named = await self._named() or {}
         self._served = {alias: self._begin(alias, named.get(alias)) for alias in {DEFAULT, *named}}
         for alias, served in self._served.items():
             self._begin_check(alias, served)
@@ -152,51 +152,29 @@ class Indexes:
         await asyncio.gather(*self._retiring, *self._checks, return_exceptions=True)
         await asyncio.gather(*(served.queue.close() for served in self._served.values()))
 
-    async def switch(self, alias: str, version: str, keep: Coroutine[None, None, None] | None = None) -> None:
-        """Open a version, then let an alias name it; who asks meanwhile, or has asked, is answered by the one before.
+    async def _switch(self, alias: str, version: str) -> bool:
+        """Open a version, then let an alias serve it; earlier requests are answered by the version before.
 
-        Args:
-            alias: a name, new or known.
-            version: of the index directory.
-            keep: run once it is open and before anybody is answered by it; if it fails nothing is switched.
-
-        Raises:
-            Problem: it cannot be opened; the one before keeps answering.
+        Returns:
+            Whether it was opened; otherwise the alias serves what it served before.
         """
-        async with self._switching:
-            await self._exchange(alias, version, keep)
-
-    async def _follow(self, alias: str, version: str) -> None:
-        """As `switch`, unless the alias has moved on since it was read: a switch may have ended meanwhile."""
-        async with self._switching:
-            if (await self._named()).get(alias) == version:
-                await self._exchange(alias, version)
-
-    async def _exchange(self, alias: str, version: str, keep: Coroutine[None, None, None] | None = None) -> None:
-        if alias in self._served and self._served[alias].version == version and keep is None:
-            return
         new = self._begin(alias, version)
         try:
             await new.queue.opened()
-            if isinstance(new.queue.failure, IndexMismatch):
-                raise Problem(Code.INDEX_MISMATCH)
-            if new.queue.failure is not None:
-                raise Problem(Code.INDEX_BROKEN)
             new.queue.check_accepting()
-            if keep is not None:
-                await keep
-        except BaseException:
-            if keep is not None:
-                keep.close()
+        except BaseException as error:
             await new.queue.close()
-            raise
+            if not isinstance(error, Problem):
+                raise
+            reason = str(new.queue.failure or error.detail)
+            log.error("index not switched", alias=alias, index_version=version, reason=reason)
+            return False
         old, self._served[alias] = self._served.get(alias), new
         self._begin_check(alias, new)
         log.info("index switched", alias=alias, index_version=new.queue.localizer.facts.version)
         if old is not None:
-            task = asyncio.create_task(self._retire(old))
-            self._retiring.add(task)
-            task.add_done_callback(self._retiring.discard)
+            self._begin_retiring(old)
+        return True
 
     def _begin(self, alias: str, version: str | None) -> _Served:
         limits = self._settings
@@ -206,6 +184,11 @@ class Indexes:
         if self._is_draining:
             queue.drain()
         return _Served(queue, version)
+
+    def _begin_retiring(self, served: _Served) -> None:
+        task = asyncio.create_task(self._retire(served))
+        self._retiring.add(task)
+        task.add_done_callback(self._retiring.discard)
 
     async def _retire(self, served: _Served) -> None:
         """End a queue once no request uses it."""
@@ -239,30 +222,35 @@ class Indexes:
         else:
             log.info("index verified", alias=alias, index_version=version)
 
-    async def _named(self) -> dict[str, str]:
+    async def _named(self) -> dict[str, str] | None:
+        """Return the version that each alias names; None if the aliases cannot be read."""
         try:
             return dict(await asyncio.to_thread(self._read_aliases))
         except (IndexUnusable, OSError) as error:
             if str(error) != self._unreadable:
                 log.error("aliases cannot be read", reason=str(error))
             self._unreadable = str(error)
-            return {}
+            return None
 
     async def _watch(self) -> None:
-        """Follow the aliases; what cannot be opened is tried again when its alias changes again."""
+        """Follow the aliases; a version that cannot be opened is tried again when its alias changes again."""
         failed: dict[str, str] = {}
         while True:
             await asyncio.sleep(LOOKED_AT_S)
-            for alias, version in (await self._named()).items():
+            named = await self._named()
+            if named is None:
+                continue
+            for alias in self._served.keys() - named.keys() - {DEFAULT}:
+                log.info("index removed", alias=alias)
+                self._begin_retiring(self._served.pop(alias))
+            for alias, version in named.items():
                 served = self._served.get(alias)
                 if failed.get(alias) == version or (served is not None and served.version == version):
                     continue
-                try:
-                    await self._follow(alias, version)
+                if await self._switch(alias, version):
                     failed.pop(alias, None)
-                except Problem as problem:
+                else:
                     failed[alias] = version
-                    log.error("index not switched", alias=alias, index_version=version, reason=problem.detail)
 
 
 def _cancel(task: asyncio.Task[None]) -> None:

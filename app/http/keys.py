@@ -1,8 +1,8 @@
-"""Who may ask and who may change: the read key, the admin key. What is new is closed, unless it says it is open."""
+"""The key that opens the service. A new route is closed, unless it says that it is open."""
 
 import hmac
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 from typing import Any, Final
 
 from fastapi import APIRouter
@@ -15,7 +15,6 @@ from app.settings import is_local
 
 OPEN: Final[dict[str, Any]] = {"security": []}  # `openapi_extra=` of a route that needs no key; OpenAPI's own words
 DOCS: Final = frozenset({("GET", "/docs"), ("GET", "/docs/oauth2-redirect"), ("GET", "/openapi.json")})
-ADMIN: Final = "/indexes"
 DOCS_ASSETS: Final = "/static-offline-docs/"
 SCHEMES: Final[dict[str, Any]] = {
     "bearer": {"type": "http", "scheme": "bearer"},
@@ -46,29 +45,18 @@ Headers = Iterable[tuple[bytes, bytes]]
 
 
 class KeyCheck:
-    """Refuses requests without a key, before a route is looked for, a body is read or a place in the queue is taken.
+    """Refuses requests without the key before they are routed, their body is read or they take a place in the queue.
 
     Args:
-        app: what is served.
-        read_key: of what asks; None: nothing.
-        admin_key: of what changes the indexes, and of everything else too; None: nothing if the service is local, else
-            nobody may.
-        is_local: whether only this machine reaches the service.
-        open_routes: method and path of what needs no key; HEAD goes with GET. Paths are compared as they are, so one
-            with a parameter is never open.
+        app: the application behind this middleware.
+        read_key: the key; None leaves reading open, and changes to direct requests from this machine.
+        open_routes: method and path of the routes that never need the key; HEAD goes with GET. Paths are compared as
+            they are, so a path with a parameter is never open.
     """
 
-    def __init__(
-        self,
-        app: ASGIApp,
-        read_key: SecretStr | None,
-        admin_key: SecretStr | None,
-        is_local: bool,
-        open_routes: Collection[tuple[str, str]],
-    ) -> None:
+    def __init__(self, app: ASGIApp, read_key: SecretStr | None, open_routes: Collection[tuple[str, str]]) -> None:
         self.app = app
-        self._read_key, self._admin_key = _bytes(read_key), _bytes(admin_key)
-        self._is_local = is_local
+        self._key = None if read_key is None else read_key.get_secret_value().encode()
         self._open_routes = frozenset(open_routes) | DOCS
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -82,18 +70,10 @@ class KeyCheck:
         await self.app(scope, receive, send)
 
     def _check(self, scope: Scope) -> None:
-        headers, changes = scope["headers"], is_admin(scope)
-        if self._read_key is not None or (changes and self._admin_key is not None):
-            check_key(headers, [key for key in (self._read_key, self._admin_key) if key is not None])
-        if not changes:
-            if self._read_key is None and changes_state(scope) and not is_direct(scope):
-                raise _refusal(headers, Code.KEY_NOT_SET, CHALLENGE)
-            return
-        if self._admin_key is None:
-            if self._read_key is not None or not self._is_local or not is_direct(scope):
-                raise _refusal(headers, Code.ADMIN_OFF, CHALLENGE)
-        elif not all(hmac.compare_digest(each, self._admin_key) for each in sent_keys(headers)):
-            raise _refusal(headers, Code.ADMIN_KEY_REQUIRED, CHALLENGE)
+        if self._key is not None:
+            check_key(scope["headers"], self._key)
+        elif changes_state(scope) and not is_direct(scope):
+            raise _refusal(scope["headers"], Code.KEY_NOT_SET)
 
     def _is_open(self, scope: Scope) -> bool:
         if scope["type"] != "http":
@@ -131,16 +111,6 @@ def _host_name(value: bytes) -> str:
     return (found["address"] or found["name"]).removesuffix(".").lower() if found else ""
 
 
-def is_admin(scope: Scope) -> bool:
-    """Whether a request would change what is served."""
-    path = scope["path"]
-    return scope.get("method") not in {"GET", "HEAD", "OPTIONS"} and (path == ADMIN or path.startswith(f"{ADMIN}/"))
-
-
-def _bytes(key: SecretStr | None) -> bytes | None:
-    return None if key is None else key.get_secret_value().encode()
-
-
 def open_routes(routers: Iterable[APIRouter]) -> set[tuple[str, str]]:
     """Method and path of the routes that say they are open, by `openapi_extra=OPEN`."""
     return {
@@ -152,8 +122,8 @@ def open_routes(routers: Iterable[APIRouter]) -> set[tuple[str, str]]:
     }
 
 
-def check_key(headers: Headers, keys: Sequence[bytes]) -> None:
-    """Refuse a request by the keys that it brings: each has to be one of those that open.
+def check_key(headers: Headers, key: bytes) -> None:
+    """Refuse a request unless it sends the key, and no other key.
 
     Raises:
         Problem: 401, with the challenge that RFC 6750 asks for.
@@ -161,7 +131,7 @@ def check_key(headers: Headers, keys: Sequence[bytes]) -> None:
     sent = sent_keys(headers)
     if not sent:
         raise _refusal(headers, Code.KEY_REQUIRED, CHALLENGE)
-    if not all([any([hmac.compare_digest(each, key) for key in keys]) for each in sent]):  # noqa: C419  # all are looked at
+    if not all([hmac.compare_digest(each, key) for each in sent]):  # noqa: C419  # compare all, whatever the first is
         raise _refusal(headers, Code.KEY_WRONG, f'{CHALLENGE}, error="invalid_token"')
 
 
@@ -178,9 +148,9 @@ def sent_keys(headers: Headers) -> list[bytes]:
     return [key for key in keys if key]
 
 
-def _refusal(headers: Headers, code: Code, challenge: str) -> Problem:
+def _refusal(headers: Headers, code: Code, challenge: str | None = None) -> Problem:
     problem = Problem(code)
-    problem.headers = {"WWW-Authenticate": challenge}
+    problem.headers = {} if challenge is None else {"WWW-Authenticate": challenge}
     if not {b"content-length", b"transfer-encoding"}.isdisjoint(name for name, _ in headers):
         problem.headers["Connection"] = "close"  # else the server goes on reading what it throws away
     return problem

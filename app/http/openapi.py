@@ -8,7 +8,7 @@ from fastapi.openapi.utils import get_openapi
 from app.http.errors import PROBLEM_JSON, Code, Problem, ProblemBody
 from app.http.formats import geojson
 from app.http.formats.negotiation import GEOJSON, JSON
-from app.http.keys import OPEN, SCHEMES, is_admin
+from app.http.keys import OPEN, SCHEMES
 
 PROBLEM_SCHEMA = {"$ref": f"#/components/schemas/{ProblemBody.__name__}"}
 Responses = dict[int | str, dict[str, Any]]
@@ -35,13 +35,12 @@ def geojson_content() -> dict[str, Any]:
     return {"content": {GEOJSON: {"schema": schema, "example": geojson.EXAMPLE}}}
 
 
-def describe(app: FastAPI, needs_key: bool, needs_admin_key: bool) -> dict[str, Any]:
-    """The OpenAPI document, with errors as problem+json; made once.
+def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
+    """Return the OpenAPI document of an application, with errors as problem+json; it is made once.
 
     Args:
-        app: what is described.
-        needs_key: whether all that is not open needs a key.
-        needs_admin_key: whether what changes the indexes does.
+        app: the application.
+        needs_key: whether every route that is not open needs the key.
     """
     if app.openapi_schema is None:
         document = get_openapi(
@@ -57,8 +56,8 @@ def describe(app: FastAPI, needs_key: bool, needs_admin_key: bool) -> dict[str, 
                         _as_problem(response["content"])
         for unused in ("HTTPValidationError", "ValidationError"):
             document["components"]["schemas"].pop(unused, None)
-        if needs_key or needs_admin_key:
-            _ask_for_key(document, needs_key)
+        if needs_key:
+            _require_key(document)
         app.openapi_schema = document
     return app.openapi_schema
 
@@ -69,20 +68,15 @@ def error_table() -> str:
     return "\n".join(["| code | status | what and what to do |", "|---|---|---|", *rows])
 
 
-def _ask_for_key(document: dict[str, Any], everywhere: bool) -> None:
-    """Has /docs show a button for the key, and what needs it say so: all but open routes, or what changes indexes."""
+def _require_key(document: dict[str, Any]) -> None:
+    """Make /docs show a button for the key, and add the 401 to every operation that is not open."""
     document["components"]["securitySchemes"] = SCHEMES
-    either: list[dict[str, list[str]]] = [{name: []} for name in SCHEMES]
-    if everywhere:
-        document["security"] = either  # open routes lift it for themselves
+    document["security"] = [{name: []} for name in SCHEMES]  # open routes lift it for themselves
     [(status, refused)] = problems(Code.KEY_REQUIRED, Code.KEY_WRONG).items()
     content = {PROBLEM_JSON: {**refused["content"][PROBLEM_JSON], "schema": PROBLEM_SCHEMA}}
-    for name, path in document["paths"].items():
-        for method, operation in path.items():
-            changes = is_admin({"path": name, "method": method.upper()})
-            if changes and not everywhere:
-                operation["security"] = either
-            if changes or (everywhere and operation.get("security") != OPEN["security"]):
+    for path in document["paths"].values():
+        for operation in path.values():
+            if operation.get("security") != OPEN["security"]:
                 operation["responses"][str(status)] = {"description": refused["description"], "content": content}
 
 

@@ -15,7 +15,8 @@
 """
 
 import logging
-from contextlib import closing, suppress
+from collections.abc import Iterable, Iterator
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
@@ -42,7 +43,7 @@ class Aliases(BaseModel):
         versions: sha256 of the manifest of each version that was registered.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(extra="forbid")
 
     aliases: dict[Name, Name] = {}
     versions: dict[Name, Sha256] = {}
@@ -59,7 +60,9 @@ def set_alias(root: Path, alias: str, version: str) -> None:
     Raises:
         IndexBroken: the aliases there are cannot be read.
     """
-    _change(root, aliases={alias: version}, versions={version: sha256(root / version / MANIFEST)})
+    with _changing(root) as known:
+        known.aliases[alias] = version
+        known.versions[version] = sha256(root / version / MANIFEST)
     with suppress(IndexBroken):  # whoever opens it says so
         manifest = read_manifest(root / version)
         if alias == DEFAULT and manifest.collection is not None:
@@ -74,8 +77,21 @@ def _move_in_milvus(alias: str, manifest: Manifest) -> None:
         _log.warning("the alias %s moved to %s, but not in Milvus: %s", alias, manifest.version, error)
 
 
+def remove_alias(root: Path, alias: str) -> None:
+    """Remove an alias; the version that it names stays.
+
+    Raises:
+        IndexBroken: there is no such alias, or the aliases cannot be read.
+    """
+    known = read_aliases(root)
+    if alias not in known.aliases:
+        raise IndexBroken(f"no alias {alias} in {root}; its aliases are {_listed(known.aliases)}")
+    with _changing(root) as known:
+        known.aliases.pop(alias, None)
+
+
 def register(root: Path, version: str) -> Manifest:
-    """Take a version that was built elsewhere and copied into an index directory; no alias names it yet.
+    """Register a version that was built elsewhere and copied into an index directory; no alias names it yet.
 
     Returns:
         Its manifest.
@@ -90,16 +106,19 @@ def register(root: Path, version: str) -> Manifest:
     check_files(root / version, manifest)
     check_sums(root / version, manifest)
     check_store(manifest)
-    _change(root, aliases={}, versions={version: sha256(root / version / MANIFEST)})
+    with _changing(root) as known:
+        known.versions[version] = sha256(root / version / MANIFEST)
     return manifest
 
 
-def _change(root: Path, aliases: dict[str, str], versions: dict[str, str]) -> None:
+@contextmanager
+def _changing(root: Path) -> Iterator[Aliases]:
+    """Lock the aliases of an index directory, and write them as the block leaves them unless it fails."""
     root.mkdir(parents=True, exist_ok=True)
     with FileLock(root / LOCK):
         known = read_aliases(root)
-        changed = Aliases(aliases=known.aliases | aliases, versions=known.versions | versions)
-        replace_file(root / ALIASES, (changed.model_dump_json(indent=2) + "\n").encode())
+        yield known
+        replace_file(root / ALIASES, (known.model_dump_json(indent=2) + "\n").encode())
 
 
 def read_aliases(root: Path) -> Aliases:
@@ -163,9 +182,13 @@ def _named(root: Path, alias: str) -> Path:
     """The version's directory that an alias names."""
     aliases = read_aliases(root).aliases
     if alias not in aliases:
-        there = f"; its aliases are {', '.join(sorted(aliases))}" if aliases else ""
+        there = f"; its aliases are {_listed(aliases)}" if aliases else ""
         raise IndexBroken(f"no index {'' if alias == DEFAULT else alias + ' '}in {root}{there}; {ADVICE}")
     return root / aliases[alias]
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names)) or "none"
 
 
 def check_store(manifest: Manifest) -> None:

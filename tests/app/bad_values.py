@@ -100,8 +100,6 @@ FIELDS: Table = {  # in place of what a field of BASES has, or beside it
         "refine": NO_REFINE[::2],
         "index": NO_NAME[5::6],
     },
-    "POST /indexes": {"version": NO_NAME},
-    "POST /indexes/aliases": {"alias": NO_NAME[::2], "version": NO_NAME[1::3]},
 }
 WHOLE: dict[str, list[Any]] = {  # bodies that are no good as a whole
     "POST /localize": [

@@ -15,16 +15,12 @@ GOOD = {  # by method and path of the OpenAPI document: what httpx sends
     "GET /cells/{cell_id}": {},
     "GET /maps/{name}/points": {},
     "GET /indexes": {},
-    "POST /indexes": {"json": {"version": "v1"}},
-    "POST /indexes/aliases": {"json": {"alias": "default", "version": "v1"}},
-    "POST /indexes/{version}/verify": {"json": {}},
-    "POST /indexes/{version}/snapshot": {"json": {}},
     "GET /healthz": {},
     "GET /readyz": {},
     "GET /metrics": {},
     "GET /info": {},
 }
-IN_PATH = {"job": "none", "cell_id": "fakeville_00001", "name": "fakeville", "version": "v1"}
+IN_PATH = {"job": "none", "cell_id": "fakeville_00001", "name": "fakeville"}
 WITH_BODY = tuple(operation for operation, sent in GOOD.items() if "json" in sent)
 
 

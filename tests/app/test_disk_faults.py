@@ -2,13 +2,12 @@
 
 import os
 import shutil
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 
 import httpx
 import pytest
 
-from index.build.artifact import open_version, read_aliases, register
+from index.build.artifact import open_version, read_aliases
 from models.files import TEMP_PREFIX
 from tests.mould import Mould
 
@@ -91,35 +90,35 @@ def test_an_index_that_cannot_be_written_is_said_and_what_is_there_stays(mould, 
 @pytest.mark.parametrize("limits", [{"file_bytes": 0}, READ_ONLY])
 def test_a_service_that_cannot_write_says_so_and_answers_as_before(serve, root, limits, problem, until):
     default = read_aliases(root).aliases["default"]
-    add(root, "copied")
-    add(root, "another")
-    register(root, "another")
     evaluation = {"queries": [{"hints": ["held"], "position": [1, 2]}]}
     with serve(root) as api:
         held = api.post("/evaluate", json=evaluation).json()["job"]
         until(lambda: api.get(f"/evaluate/{held}").json()["status"] == "running")
-    changes = (
-        ("/indexes", {"version": "copied"}),
-        ("/indexes/aliases", {"alias": "default", "version": "another"}),
-        (f"/indexes/{default}/snapshot", {}),
-        ("/evaluate", evaluation),
-    )
-    refused = changes[:3] if limits == READ_ONLY else changes  # jobs that cannot be kept are done all the same
     before = listing(root.parent)
     with disk(root.parent, limits), serve(root, **limits) as api:
-        indexes = api.get("/indexes").json()
-        assert indexes["aliases"] == {"default": default}
-        for path, body in refused:
-            problem(api.post(path, json=body), 409, "not_writable")
+        assert api.get("/indexes").json()["aliases"] == {"default": default}
+        if limits != READ_ONLY:  # where jobs cannot be kept at all, they are done all the same
+            problem(api.post("/evaluate", json=evaluation), 409, "not_writable")
         answer = api.post("/localize", json={"description": "a tree"})
         assert (answer.status_code, answer.json()["provenance"]["index_version"]) == (200, default)
-        assert api.get("/indexes").json() == indexes
     assert listing(root.parent) == before
     with serve(root) as api:
         assert api.get(f"/evaluate/{held}").json()["status"] == "interrupted"
-        for path, body in changes:
-            assert api.post(path, json=body).is_success, path
-        assert api.get("/indexes").json()["aliases"] == {"default": "another"}
+        assert api.post("/evaluate", json=evaluation).is_success
+
+
+@pytest.mark.parametrize("limits", [{"file_bytes": 0}, READ_ONLY])
+def test_an_alias_that_cannot_be_written_is_said_and_the_old_one_stays(mould, root, limits):
+    add(root, "copied")
+    before = listing(root), read_aliases(root)
+    with disk(root, limits):
+        status, said = mould.wait(mould.set_alias(root, "default", "copied", **limits))
+    assert status == 1
+    assert f"{root} cannot be written" in " ".join(said.split())
+    assert "Traceback" not in said
+    assert (listing(root), read_aliases(root)) == before
+    assert mould.wait(mould.set_alias(root, "default", "copied"))[0] == 0
+    assert read_aliases(root).aliases == {"default": "copied"}
 
 
 def test_two_builds_at_once_lose_nothing(mould, root):
@@ -135,22 +134,17 @@ def test_two_builds_at_once_lose_nothing(mould, root):
     assert {path.name for path in root.iterdir()} == {*known.versions, "aliases.json", ".lock"}
 
 
-def test_two_services_that_register_and_switch_at_once_lose_nothing(serve, root, until):
+def test_two_that_set_aliases_at_once_lose_nothing_and_a_service_follows(mould, serve, root, until):
     default = read_aliases(root).aliases["default"]
-    names = [[f"{service}{n}" for n in range(6)] for service in "ab"]
+    names = [[f"{operator}{n}" for n in range(6)] for operator in "ab"]
     wanted = {"default": default} | {version: version for versions in names for version in versions}
     for version in {*wanted} - {"default"}:
         add(root, version)
-
-    def change(api, versions):
-        for version in versions:
-            assert api.post("/indexes", json={"version": version}).status_code == 201
-            assert api.post("/indexes/aliases", json={"alias": version, "version": version}).status_code == 200
-
-    with serve(root) as one, serve(root, jobs="others") as other, ThreadPoolExecutor(2) as pool:
-        list(pool.map(change, (one, other), names))
-        for api in (one, other):
-            until(lambda api=api: api.get("/indexes").json()["aliases"] == wanted)
+    with serve(root) as api:
+        for both in zip(*names, strict=True):
+            for pid in [mould.set_alias(root, version, version) for version in both]:
+                assert mould.wait(pid)[0] == 0
+        until(lambda: api.get("/indexes").json()["aliases"] == wanted)
     known = read_aliases(root)
     assert known.aliases == wanted
     assert set(known.versions) == set(wanted.values())

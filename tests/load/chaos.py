@@ -1,7 +1,7 @@
 """Whether kills lose anything or leave it half done: run by `make chaos`, which says how many.
 
-Kills builds of an index, and a service that registers, switches, takes snapshots and takes evaluations, each after a
-random share of the time that it takes undisturbed. Then the service starts again: what was acknowledged has to be
+Kills builds of an index, `hereabouts alias set`, and a service that takes evaluations, each after a random share of the
+time that it takes undisturbed. Then the service starts again: what was acknowledged has to be
 there, what was not wholly or not at all, and no scrap of it. Prints a line of JSON an operation with the kills "before"
 anything of it was on disk, "during" it, and "after" it was acknowledged. Ends with 1 at the first thing that is wrong.
 """

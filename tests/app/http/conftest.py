@@ -6,10 +6,8 @@ from tests.versions import write_version
 
 @pytest.fixture(scope="module")
 def versions_dir(tmp_path_factory):
-    """An index directory without a model's work in it: v1 is registered, copied is whole, broken was changed."""
+    """An index directory without a model's work in it; v1 is registered, and no alias names it."""
     root = tmp_path_factory.mktemp("index")
-    for version in ("v1", "copied", "broken"):
-        write_version(root / version)
+    write_version(root / "v1")
     register(root, "v1")
-    (root / "broken" / "cells.json").write_text("changed")
     return root

@@ -1,12 +1,12 @@
 import asyncio
 import errno
-import threading
 import time
 from contextlib import asynccontextmanager
 from dataclasses import replace
 
 import pytest
 from fake_localizer import FakeLocalizer
+from structlog.testing import capture_logs
 
 from app.http.errors import Code, Problem
 from app.http.indexes import Indexes
@@ -25,7 +25,7 @@ class City:
 
     def open(self, alias, version):
         if version in self.broken:
-            raise IndexBroken(version)
+            raise IndexBroken(f"{version} is broken")
         fake = FakeLocalizer()
         fake.facts = replace(fake.facts, version=version or "none")
         self.opened[version] = fake
@@ -113,29 +113,24 @@ def test_a_request_keeps_its_version_while_the_alias_moves_on():
     asyncio.run(run())
 
 
-def test_what_was_read_of_an_alias_before_a_switch_ended_is_not_followed_after_it():
-    city = City(default="v1")
-    reading, switched = threading.Event(), threading.Event()
-
-    def read():
-        named = dict(city.aliases)
-        reading.set()
-        assert switched.wait(10)
-        return named
-
-    async def keep():
-        city.aliases = {"default": "v2"}
+def test_an_alias_that_is_removed_answers_its_requests_and_no_more():
+    city = City(default="v1", canary="c1")
 
     async def run():
         async with serving(city) as indexes:
-            first = city.opened["v1"]
-            indexes._read_aliases = read
-            await asyncio.to_thread(reading.wait, 10)
-            await indexes.switch("default", "v2", keep())
-            switched.set()
-            await asyncio.sleep(0.1)
-            assert await asked(indexes) == "v2"
-            assert city.opened["v1"] is first
+            canary = city.opened["c1"]
+            canary.gate.clear()
+            waiting = asyncio.create_task(asked(indexes, "canary"))
+            await asyncio.to_thread(canary.entered.acquire, timeout=5)
+            city.aliases = {}
+            await soon(lambda: indexes.names() == ["default"])
+            with pytest.raises(Problem) as refused:
+                await asked(indexes, "canary")
+            assert refused.value.code is Code.INDEX_NOT_FOUND
+            assert await asked(indexes) == "v1"  # requests that name no index need it
+            canary.gate.set()
+            assert await waiting == "c1"
+            await soon(lambda: canary.is_closed)
 
     asyncio.run(run())
 
@@ -146,11 +141,12 @@ def test_a_version_that_cannot_be_opened_leaves_the_old_one_serving():
 
     async def run():
         async with serving(city) as indexes:
-            with pytest.raises(Problem) as refused:
-                await indexes.switch("default", "v2")
-            assert refused.value.code is Code.INDEX_BROKEN
             city.aliases = {"default": "v2"}
-            await asyncio.sleep(0.1)
+            with capture_logs() as lines:
+                await soon(lambda: "index not switched" in [line["event"] for line in lines])
+                await asyncio.sleep(0.1)
+            [said] = [line for line in lines if line["event"] == "index not switched"]
+            assert (said["alias"], said["index_version"], said["reason"]) == ("default", "v2", "v2 is broken")
             assert await asked(indexes) == "v1"
             city.aliases = {"default": "v3"}
             await soon(lambda: indexes.queue().localizer.facts.version == "v3")
@@ -293,12 +289,13 @@ def test_a_check_ends_with_the_version_or_the_service_that_it_is_of():
 
 
 def test_a_check_that_is_ended_can_wait_for_its_process_though_the_service_ends_meanwhile():
-    begun, ended = [], []
+    city, begun, ended = City(default="v1"), [], []
 
     async def run():
-        async with serving(City(default="v1"), checking(begun, ended, 0.05)) as indexes:
+        async with serving(city, checking(begun, ended, 0.05)) as indexes:
             await soon(lambda: begun)
-            await indexes.switch("default", "v2")
+            city.aliases = {"default": "v2"}
+            await soon(lambda: indexes.queue().localizer.facts.version == "v2")
             await asyncio.sleep(0)  # the check of v1 has been cancelled
         assert "v1" in ended
 

@@ -162,7 +162,7 @@ def test_refused_before_the_body_is_read(problem):
         async def send(message):
             sent.append(message)
 
-        await KeyCheck(never, Settings(read_key=KEY).read_key, None, is_local=True, open_routes=())(scope, never, send)
+        await KeyCheck(never, Settings(read_key=KEY).read_key, open_routes=())(scope, never, send)
         return sent
 
     headers = [(b"content-length", b"99")]
@@ -259,7 +259,9 @@ def test_a_new_route_counts_as_one_that_changes_something_unless_its_method_says
     local, other = local_client(app), TestClient(app)
     for method in ("POST", "PUT", "PATCH", "DELETE"):
         assert local.request(method, "/new").json() == 1
-        problem(other.request(method, "/new"), 403, "key_not_set")
+        response = other.request(method, "/new")
+        problem(response, 403, "key_not_set")
+        assert "www-authenticate" not in response.headers, "no key would do"
     assert other.get("/new").json() == 2
 
 

@@ -74,16 +74,18 @@ def test_it_answers_as_an_index_in_a_file(served, index_dir, weights_dir, until)
                 assert one["probability"] == pytest.approx(two["probability"], abs=1e-4)
 
 
-def test_its_rows_are_counted_when_it_is_verified(served, root, tmp_path, weights_dir, until, problem, osm_file):
-    version = read_aliases(root).aliases["default"]
-    assert served.post(f"/indexes/{version}/verify", json={}).status_code == 200
+def test_its_rows_are_counted_when_it_is_verified(root, tmp_path, weights_dir, osm_file):
+    verified = CliRunner().invoke(cli.app, ["verify", "--index", str(root)])
+    assert verified.exit_code == 0, verified.output
     other = tmp_path / "index"
     directory = build_index(osm_file, other, weights_dir, store="milvus")
     manifest = open_version(other)[1]
     assert build_index(osm_file, other, weights_dir, keep_current=True, store="milvus") == directory
     MilvusStore(manifest.collection, manifest.dim, manifest.cells).drop()
     shutil.copytree(directory, root / directory.name)
-    problem(served.post("/indexes", json={"version": directory.name}), 409, "index_broken")
+    refused = CliRunner().invoke(cli.app, ["alias", "set", "canary", directory.name, "--index", str(root)])
+    assert refused.exit_code == 1
+    assert read_aliases(root).aliases.keys() == {"default"}
     shutil.rmtree(root / directory.name)
 
 
@@ -113,7 +115,9 @@ def test_where_milvus_is_down_the_service_starts_and_what_needs_no_vectors_is_an
         response = api.post("/localize", json=QUERIES[0])
         problem(response, 503, "store_unavailable")
         assert response.headers["Retry-After"] == "2"
-        problem(api.post(f"/indexes/{manifest.version}/verify", json={}), 503, "store_unavailable")
+        verified = CliRunner().invoke(cli.app, ["verify", "--index", str(root)])
+        assert verified.exit_code == 1
+        assert "Milvus" in verified.stderr
         batch = api.post("/localize/batch", json={"items": QUERIES[:1]}).json()
         assert batch["items"][0]["error"]["code"] == "store_unavailable"
         assert api.get("/cells").status_code == 200

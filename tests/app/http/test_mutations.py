@@ -20,7 +20,6 @@ BODIES = (
     ("/localize/batch", b'{"items": [{"hints": ["a tree"], "within": {"bbox": [1.5, 2, 3, 4]}}]}'),
     ("/describe", b'{"position": [24.94, 60.17], "crs": "wgs84"}'),
     ("/evaluate", b'{"queries": [{"description": "a tree", "position": [1, -2.5e1]}], "grow": [100]}'),
-    ("/indexes/aliases", b'{"alias": "default", "version": "v1"}'),
 )
 HEADS = (
     b"GET /search?q=a+tree&viewbox=24.9,60.1,25.0,60.2&limit=3 HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n",

@@ -17,9 +17,9 @@ from app.main import create_app
 from app.settings import Settings
 from models.citymap.frame import Frame
 from models.citymap.scenery.files import SceneryPart
-from models.errors import IndexMismatch, StoreUnavailable
+from models.errors import StoreUnavailable
 
-READ, ADMIN = "read-key-1", "admin-key-1"
+READ = "read-key-1"
 GEO, PICTURE = {"Accept": "application/geo+json"}, {"Accept": "image/png"}
 ASKED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", "GET /search", "GET /reverse")
 DRAWN = ("GET /cells", "GET /cells/{cell_id}")
@@ -28,10 +28,6 @@ OF_ONE_INDEX = (*(operation for operation in ASKED if operation != "POST /locali
 OF_JOB = ("GET /evaluate/{job}", "DELETE /evaluate/{job}", "GET /evaluate/{job}/events")
 OPEN = ("GET /healthz", "GET /readyz", "GET /metrics", "GET /info")
 CLOSED = tuple(operation for operation in GOOD if operation not in OPEN)
-REGISTER, ALIAS = "POST /indexes", "POST /indexes/aliases"
-VERIFY, SNAPSHOT = "POST /indexes/{version}/verify", "POST /indexes/{version}/snapshot"
-CHANGING = (REGISTER, ALIAS, VERIFY, SNAPSHOT)
-CREATED = (REGISTER, SNAPSHOT)
 WORK = {  # what a localizer does for an operation
     "POST /localize": "localize",
     "POST /localize/batch": "localize",
@@ -63,20 +59,13 @@ def services(until, versions_dir, tmp_path_factory):
         yield Services(stack, until, versions_dir, SceneryPart(part, "ab" * 32))
 
 
-def of_version(api, operation, version):
-    """A request about a version, be it named in the body or in the path."""
-    body = GOOD[operation]["json"]
-    return ask(api, operation, {"version": version}, json=body | {"version": version} if body else body)
-
-
 def of_index(api, operation, name):
     where = "json" if operation in WITH_BODY else "params"
     return ask(api, operation, **{where: GOOD[operation].get(where, {}) | {"index": name}})
 
 
 @provokes(202, None, "POST /evaluate")
-@provokes(201, None, *CREATED)
-@provokes(200, None, *(op for op in GOOD if op not in (*CREATED, "POST /evaluate", *OF_JOB)))
+@provokes(200, None, *(op for op in GOOD if op not in ("POST /evaluate", *OF_JOB)))
 def good_request(services, operation, patch):
     return ask(services(), operation)
 
@@ -112,24 +101,9 @@ def forwarded_request(services, operation, patch):
     return ask(services(), operation, headers={"X-Forwarded-For": "192.0.2.1"})
 
 
-@provokes(403, "admin_off", *CHANGING)
-def service_that_others_reach(services, operation, patch):
-    return ask(services(host="0.0.0.0"), operation)
-
-
-@provokes(403, "admin_key_required", *CHANGING)
-def read_key_alone(services, operation, patch):
-    return ask(services(read_key=READ, admin_key=ADMIN), operation, headers={"X-API-Key": READ})
-
-
 @provokes(404, "index_not_found", *OF_ONE_INDEX)
 def another_index(services, operation, patch):
     return of_index(services(), operation, "paris")
-
-
-@provokes(404, "version_not_found", *CHANGING)
-def another_version(services, operation, patch):
-    return of_version(services(), operation, "none")
 
 
 @provokes(404, "cell_not_found", "GET /cells/{cell_id}")
@@ -172,29 +146,10 @@ def broken_aliases(services, operation, patch):
     return ask(services(index_dir=torn), operation)
 
 
-@provokes(409, "index_broken", *CHANGING)
-def changed_file(services, operation, patch):
-    return of_version(services(), operation, "broken")
-
-
-@provokes(409, "not_writable", REGISTER, ALIAS, SNAPSHOT)
-def full_disk(services, operation, patch):
-    for writer in ("index.build.artifact.replace_file", "index.build.snapshot.open_atomic"):
-        patch.setattr(writer, raises(OSError(errno.ENOSPC, "full")))
-    return of_version(services(), operation, "copied" if operation == REGISTER else "v1")
-
-
 @provokes(409, "not_writable", "POST /evaluate")
 def full_disk_of_jobs(services, operation, patch):
     patch.setattr("app.jobs.store.JobStore.add", raises(OSError(errno.ENOSPC, "full")))
     return ask(services(), operation)
-
-
-@provokes(409, "index_mismatch", ALIAS)
-def index_of_another_model(services, operation, patch):
-    api = services()
-    patch.setattr(services, "open", raises(IndexMismatch))
-    return ask(api, operation)
 
 
 @provokes(413, "body_too_large", *WITH_BODY)
@@ -258,13 +213,6 @@ def index_that_cannot_be_opened(services, operation, patch):
     return ask(services.failed(), operation)
 
 
-@provokes(503, "load_failed", ALIAS)
-def fault_of_what_opens(services, operation, patch):
-    api = services()
-    patch.setattr(services, "open", raises(RuntimeError("a fault")))
-    return ask(api, operation)
-
-
 @provokes(503, "store_unavailable", "POST /localize", "GET /search")
 def vectors_that_cannot_be_asked(services, operation, patch):
     patch.setattr(services.fake, "localize", raises(StoreUnavailable("Milvus is down")))
@@ -273,13 +221,7 @@ def vectors_that_cannot_be_asked(services, operation, patch):
     return response
 
 
-@provokes(503, "store_unavailable", *CHANGING)
-def rows_that_cannot_be_counted(services, operation, patch):
-    patch.setattr("index.build.artifact.check_store", raises(StoreUnavailable("Milvus is down")))
-    return of_version(services(), operation, "copied" if operation == REGISTER else "v1")
-
-
-@provokes(503, "draining", *ASKED, ALIAS, "GET /readyz")
+@provokes(503, "draining", *ASKED, "GET /readyz")
 def service_that_ends(services, operation, patch):
     return ask(services.draining(), operation)
 
@@ -322,21 +264,4 @@ def promised(**settings):
 
 def test_the_document_promises_what_is_provoked_and_nothing_else():
     assert promised(read_key=READ) == set(PROVOKED)
-    assert promised(read_key=READ, admin_key=ADMIN) == set(PROVOKED)
     assert promised() == {key for key in PROVOKED if key[1] != 401}
-    assert promised(admin_key=ADMIN) == {key for key in PROVOKED if key[1] != 401 or key[0] in CHANGING}
-
-
-def test_with_an_admin_key_alone_what_changes_indexes_asks_for_it():
-    document = create_app(Settings(admin_key=ADMIN)).openapi()
-    assert set(document["components"]["securitySchemes"]) == {"bearer", "api_key"}
-    assert "security" not in document
-    for path, operations in document["paths"].items():
-        for method, operation in operations.items():
-            assert bool(operation.get("security")) == (f"{method.upper()} {path}" in CHANGING)
-
-
-def test_a_file_that_cannot_be_read_is_a_broken_index(services, monkeypatch, problem):
-    monkeypatch.setattr("index.build.manifest.sha256", raises(OSError(errno.EIO, "bad disk")))
-    for operation in (ALIAS, VERIFY, SNAPSHOT):
-        problem(ask(services(), operation), 409, "index_broken")

@@ -1,0 +1,80 @@
+"""The commands on the names that an index directory serves its versions under."""
+# ruff: noqa: PLC0415
+
+import re
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.cli.options import INDEX_DIR, IndexDir
+from models.errors import DataError, IndexBroken
+
+AliasName = Annotated[str, typer.Argument(metavar="NAME", help="the alias; requests take it as `index`")]
+
+aliases = typer.Typer(
+    help="List and change the names (aliases) that an index directory serves its versions under.", no_args_is_help=True
+)
+
+
+@aliases.command("list")
+def list_aliases(index_dir: IndexDir = INDEX_DIR) -> None:
+    """Print each alias and its version, then the versions without an alias after a "-"."""
+    from index.build.artifact import read_aliases
+
+    known = read_aliases(index_dir)
+    versions = _versions(index_dir)
+    if not known.aliases and not versions:
+        raise IndexBroken(f"no index in {index_dir}; give the directory that 'hereabouts index' wrote as --index")
+    for alias, version in sorted(known.aliases.items()):
+        typer.echo(f"{alias}\t{version}")
+    for version in sorted(set(versions) - set(known.aliases.values())):
+        typer.echo(f"-\t{version}")
+
+
+@aliases.command("set")
+def set_alias(
+    name: AliasName,
+    version: Annotated[str, typer.Argument(metavar="VERSION", help="a version in the index directory")],
+    index_dir: IndexDir = INDEX_DIR,
+) -> None:
+    """Verify a version and let an alias name it. A version that was copied there is registered first."""
+    from index.build import artifact
+    from index.build.manifest import NAME
+
+    if not re.fullmatch(NAME, name):
+        raise DataError(f"{name!r} is not a name for an alias; use letters, digits, '.', '_' and '-'")
+    versions = _versions(index_dir)
+    if version not in versions:
+        raise IndexBroken(f"no version {version} in {index_dir}; its versions are {', '.join(versions) or 'none'}")
+    try:
+        artifact.register(index_dir, version)
+        artifact.set_alias(index_dir, name, version)
+    except OSError as error:
+        raise _not_written(index_dir, error) from error
+    typer.echo(f"{name} names {version}; a running service follows within a second")
+
+
+@aliases.command("remove")
+def remove_alias(name: AliasName, index_dir: IndexDir = INDEX_DIR) -> None:
+    """Remove an alias. Its version stays, and so does the alias "default", which requests without `index` need."""
+    from index.build import artifact
+
+    if name == artifact.DEFAULT:
+        raise DataError(f"{name} cannot be removed; let it name another version with 'hereabouts alias set'")
+    try:
+        artifact.remove_alias(index_dir, name)
+    except OSError as error:
+        raise _not_written(index_dir, error) from error
+    typer.echo(f"{name} is removed; a running service follows within a second")
+
+
+def _versions(index_dir: Path) -> list[str]:
+    """Return the names of the versions in an index directory, sorted."""
+    from index.build.manifest import MANIFEST
+
+    return sorted(path.parent.name for path in index_dir.glob(f"[!.]*/{MANIFEST}"))
+
+
+def _not_written(index_dir: Path, error: OSError) -> DataError:
+    return DataError(f"{index_dir} cannot be written: {error}; make room, or run this as the owner of the directory")
