@@ -17,7 +17,6 @@ def configure_logging(level: str, with_words: bool = False) -> None:
     """
     without_words = structlog.processors.ExceptionRenderer(lambda exc_info: where(exc_info[1]))
     shared: list[structlog.typing.Processor] = [
-        structlog.contextvars.merge_contextvars,
         structlog.stdlib.add_log_level,
         structlog.stdlib.add_logger_name,
         structlog.processors.TimeStamper(fmt="iso", utc=True),

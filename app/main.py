@@ -1,13 +1,10 @@
 """The service: put together here, and nowhere else."""
 
-import asyncio
-import os
-from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from asgi_correlation_id import CorrelationIdMiddleware
 from fastapi import FastAPI
@@ -32,12 +29,7 @@ from app.workers.order import OpenOrder
 from app.workers.remote import open_workers
 from index.build.artifact import read_aliases
 from index.build.manifest import MANIFEST
-from models.errors import HereaboutsError
 
-if TYPE_CHECKING:
-    from app.http.tracing import Traces
-
-SPANS_WANTED_BY = ("OTEL_EXPORTER_OTLP_ENDPOINT", "OTEL_EXPORTER_OTLP_TRACES_ENDPOINT", "OTEL_TRACES_EXPORTER")
 ABOUT = """Say in plain words what you see around you, and it says where in the city you are.
 
 Errors are problem+json (RFC 9457); `code` is stable:
@@ -57,7 +49,6 @@ def create_app(
     """
     indexes = _indexes(settings, open_localizer)
     jobs = EvaluationJobs(settings.max_jobs, settings.jobs_dir)
-    traces = _open_traces(os.environ)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
@@ -68,8 +59,6 @@ def create_app(
         finally:
             await jobs.close()
             await indexes.close()
-            if traces is not None:
-                await asyncio.to_thread(traces.close)
 
     app = _fastapi(lifespan)
     app.state.settings = settings
@@ -77,7 +66,7 @@ def create_app(
     app.state.metrics = Metrics(indexes)
     app.state.jobs = jobs
     add_error_handlers(app)
-    _add_routes(app, settings, page_dir, traces)
+    _add_routes(app, settings, page_dir)
     app.openapi = partial(describe_app, app, needs_key=settings.read_key is not None)  # type: ignore[method-assign]
     return app
 
@@ -100,12 +89,12 @@ def _fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]]) -
         redoc_url=None,  # its page loads a logo from another origin
         redirect_slashes=False,  # a redirect would repeat the client's Host header
         swagger_ui_parameters={"validatorUrl": None},  # else Swagger shows a badge from swagger.io
-        # Its own spans have the query string and the path, its own logs what faults say.
+        # FastAPI's spans would hold the query string, which holds descriptions, and its logs the texts of errors.
         telemetry=dict.fromkeys(("tracing", "metrics", "logs", "auto_configure"), False),
     )
 
 
-def _add_routes(app: FastAPI, settings: Settings, page_dir: Path, traces: "Traces | None") -> None:
+def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
     asked = [routes.build_router(settings) for routes in (localize, batch, describe, evaluate, geocoder)]
     routers = (*asked, cells.router, maps.router, index_routes.router, health.router, page.build_router(page_dir))
@@ -116,30 +105,8 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path, traces: "Trace
     app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger=larger)
     app.add_middleware(KeyCheck, read_key=settings.read_key, open_routes=open_routes(routers))
     app.add_middleware(AccessLog, metrics=app.state.metrics, log_descriptions=settings.log_descriptions)
-    if traces is not None:
-        app.add_middleware(traces.around)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
     app.add_middleware(SafeHeaders)
-
-
-def _open_traces(environ: Mapping[str, str]) -> "Traces | None":
-    """Where spans go, if the variables of OpenTelemetry want any; else nothing of it is imported.
-
-    Raises:
-        HereaboutsError: what sends them is not installed, or they ask for what is not there.
-    """
-    if environ.get("OTEL_TRACES_EXPORTER") == "none" or environ.get("OTEL_SDK_DISABLED", "").lower() == "true":
-        return None
-    wanted = [name for name in SPANS_WANTED_BY if environ.get(name)]
-    if not wanted:
-        return None
-    try:
-        from app.http.tracing import open_traces  # noqa: PLC0415  # an extra, which few have
-    except ModuleNotFoundError as error:
-        raise HereaboutsError(
-            f"{wanted[0]} asks for spans, which takes {error.name}: pip install 'hereabouts[otel]', or unset it"
-        ) from None
-    return open_traces(environ)
 
 
 def _open_workers(settings: Settings, alias: str, version: str | None) -> Sequence[LocalizerLike]:

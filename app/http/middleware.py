@@ -67,7 +67,7 @@ class AccessLog:
                 status=status,
                 ms=round(seconds * 1000, 1),
                 request_id=correlation_id.get(),
-                **({"descriptions": notes.said} if self._log_descriptions and notes.said else {}),
+                **({"descriptions": notes.descriptions} if self._log_descriptions and notes.descriptions else {}),
             )
 
 

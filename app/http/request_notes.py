@@ -1,7 +1,5 @@
-"""What a route knows of its request, for the log line and the spans that are written around it."""
+"""Notes that a route leaves for the log line of its request."""
 
-import time
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -11,26 +9,13 @@ _NOTES: Final = "hereabouts.notes"
 
 
 @dataclass(frozen=True, slots=True)
-class Timed:
-    """An answer of the model: when it was there (nanoseconds since 1970), and what it took."""
+class RequestNotes:
+    """The descriptions of one request; they are logged only where the settings say so."""
 
-    done_ns: int
-    timings_ms: Mapping[str, float]
-
-
-@dataclass(frozen=True, slots=True)
-class Notes:
-    """Of one request: what was said, which goes nowhere but into a log that is to have it, and its answers."""
-
-    said: list[str] = field(default_factory=list)
-    timed: list[Timed] = field(default_factory=list)
-
-    def answered(self, timings_ms: Mapping[str, float]) -> None:
-        """Note an answer that is there now."""
-        self.timed.append(Timed(time.time_ns(), timings_ms))
+    descriptions: list[str] = field(default_factory=list)
 
 
-def notes_of(scope: Scope) -> Notes:
-    """The notes of a request; whoever comes first makes them."""
-    notes: Notes = scope.setdefault(_NOTES, Notes())
+def notes_of(scope: Scope) -> RequestNotes:
+    """Return the notes of a request; the first caller creates them."""
+    notes: RequestNotes = scope.setdefault(_NOTES, RequestNotes())
     return notes

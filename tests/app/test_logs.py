@@ -134,6 +134,13 @@ def test_lines_have_what_was_said_where_the_operator_wants_it(logged, in_a_threa
     assert fault["exception"].endswith(f"RuntimeError: secret: bad {TEXT}")
 
 
+def test_fastapi_sends_no_telemetry_of_its_own_whatever_its_variables_say(monkeypatch):
+    """Its spans would hold query strings, so what people type into /search."""
+    monkeypatch.setenv("FASTAPI_OTEL_AUTO_CONFIGURE", "true")
+    telemetry = create_app(Settings())._telemetry
+    assert not any(telemetry[kind] for kind in ("tracing", "metrics", "logs", "auto_configure"))
+
+
 @pytest.mark.parametrize("is_wanted", [True, False])
 def test_a_service_that_logs_what_is_said_warns(monkeypatch, is_wanted):
     monkeypatch.setattr(DrainingServer, "run", lambda self: None)

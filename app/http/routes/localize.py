@@ -84,14 +84,12 @@ async def found_for(request: Request, asked: LocalizeRequest, queue: InferenceQu
     """
     started_s = time.monotonic()
     deadline_s = started_s + asked.deadline_ms / 1000
-    notes = notes_of(request.scope)
-    notes.said.append(asked.text())
+    notes_of(request.scope).descriptions.append(asked.text())
     served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
     timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
     found = LocalizeResponse.of(served.answer, queue.localizer, correlation_id.get() or "", timings_ms, asked.index)
     if asked.ros and found.estimate is not None:
         found.ros = pose_of(found.estimate, found.crs.frame_id)
-    notes.answered(found.timings_ms)
     return found
 
 
