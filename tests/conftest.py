@@ -24,8 +24,8 @@ from index.build.build import build_index
 from models.checkpoint import round_weights
 from models.citymap.cells import CellTable
 from models.citymap.gallery import MapData
-from models.citymap.geometry.solids import points_on
-from models.citymap.map_geometry import Bodies, bodies_of, cut_cells
+from models.citymap.geometry.solids import sample_solid
+from models.citymap.map_geometry import MapGeometry, build_geometry, cut_cells
 from models.citymap.points import PointTable
 from models.citymap.queries import Queries
 from models.citymap.types import CityMap
@@ -33,8 +33,8 @@ from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.paper.checkpoint import save_retriever
 from models.paper.mncl import Mncl, MnclConfig
 from models.sources.kitti360.job import prepare_data
-from models.sources.osm.feature_strips import Instances, Strips
-from models.sources.osm.map import features_of, frame_and_box, load_osm
+from models.sources.osm.feature_strips import FeatureInstances, FeatureStrips
+from models.sources.osm.map import load_osm, read_features, read_frame_and_box
 from models.sources.source import MapSource
 from tests.milvus_server import SKIPPED, MilvusServer
 from tests.models.sources.raw_scenes import TEST_STREET, TRAIN_STREETS, VAL_STREET, write_towns
@@ -148,14 +148,14 @@ def scan(osm_file: Path, city: CityMap) -> CityMap:
     """The same town as points."""
     xyz: dict[str | None, list[Any]] = {}
     with TemporaryDirectory() as directory:
-        strips = Strips(Path(directory), features_of(osm_file, *frame_and_box(osm_file)))
-        found = Instances.of(strips)
+        strips = FeatureStrips(Path(directory), read_features(osm_file, *read_frame_and_box(osm_file)))
+        found = FeatureInstances.join(strips)
         placed = {each.number: each.feature for number in strips.numbers for each in strips.read(number)}
-    for number in np.argsort(found.place):
-        if found.of_feature[number] >= 0:
-            first = placed[found.first[found.of_feature[number]]]
+    for number in np.argsort(found.rank):
+        if found.feature_instance[number] >= 0:
+            first = placed[found.first[found.feature_instance[number]]]
             solid = placed[number].solid(0, placed[number].base_m, placed[number].height_m)
-            xyz.setdefault(first.source_id, []).append(points_on(solid))
+            xyz.setdefault(first.source_id, []).append(sample_solid(solid))
     instances = tuple(
         replace(one, points_m=np.concatenate(xyz[one.source_id]).astype(np.float32)) for one in city.instances
     )
@@ -164,27 +164,27 @@ def scan(osm_file: Path, city: CityMap) -> CityMap:
 
 @pytest.fixture(scope="session")
 def points(scan: CityMap) -> PointTable:
-    return PointTable.of(scan, scan.rules.eps_m)
+    return PointTable.from_map(scan, scan.rules.eps_m)
 
 
 @pytest.fixture(scope="session")
-def bodies(city: CityMap) -> Bodies:
-    return bodies_of(city)
+def bodies(city: CityMap) -> MapGeometry:
+    return build_geometry(city)
 
 
 @pytest.fixture(scope="session")
-def cells(city: CityMap, bodies: Bodies) -> CellTable:
+def cells(city: CityMap, bodies: MapGeometry) -> CellTable:
     return cut_cells(city, bodies)
 
 
 @pytest.fixture(scope="session")
-def source(osm_file: Path, city: CityMap, bodies: Bodies, cells: CellTable) -> MapSource:
+def source(osm_file: Path, city: CityMap, bodies: MapGeometry, cells: CellTable) -> MapSource:
     """As `open_source` gives it."""
     return MapSource(osm_file, city, bodies, cells)
 
 
 @pytest.fixture(scope="session")
-def regions(osm_file: Path, city: CityMap, bodies: Bodies, cells: CellTable) -> list[MapSource]:
+def regions(osm_file: Path, city: CityMap, bodies: MapGeometry, cells: CellTable) -> list[MapSource]:
     """The west to train on, and the strip beside it to choose by."""
     return [MapSource(osm_file, city, bodies, cells, split) for split in ("train", "val")]
 

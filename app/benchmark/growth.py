@@ -12,7 +12,7 @@ from app.benchmark.questions import Question, ask_all, shared_out, take_question
 from app.benchmark.searches import measure_searches
 from app.benchmark.service import PARTS, measure_parts, open_index
 from models.errors import DataError, HereaboutsError
-from models.sources.osm.city_copies import Block, Extract
+from models.sources.osm.city_copies import CityExtract, CopyGrid
 
 if TYPE_CHECKING:  # so that the command line starts without torch
     from index.answering.localizer import Localizer
@@ -55,7 +55,7 @@ def run_growth(map_path: Path, sizes: Sequence[int], out: Path | None = None) ->
     Raises:
         MapError, DataError: the map cannot be used, or a size is smaller than it.
     """
-    extract = Extract.of(map_path)
+    extract = CityExtract.read(map_path)
     cells, questions = _of_one_copy(map_path)
     if sizes[0] < cells:
         raise DataError(
@@ -95,7 +95,7 @@ def _assumed(map_path: Path, cells: int) -> str:
     )
 
 
-def _measure_size(extract: Extract, copies: int, questions: list[Question], scratch: Path) -> dict[str, Any]:
+def _measure_size(extract: CityExtract, copies: int, questions: list[Question], scratch: Path) -> dict[str, Any]:
     """All figures of one size.
 
     Args:
@@ -127,7 +127,7 @@ def _measure_size(extract: Extract, copies: int, questions: list[Question], scra
     }
 
 
-def _measure_service(index_dir: Path, questions: list[Question], block: Block) -> dict[str, Any]:
+def _measure_service(index_dir: Path, questions: list[Question], block: CopyGrid) -> dict[str, Any]:
     start = time.perf_counter()
     with serving(index_dir) as service:
         ready_s, ready_mib = time.perf_counter() - start, service.memory_mib()

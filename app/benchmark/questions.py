@@ -11,7 +11,7 @@ import numpy as np
 
 from app.benchmark.service import percentiles
 from models.errors import MapError
-from models.sources.osm.city_copies import Block
+from models.sources.osm.city_copies import CopyGrid
 
 if TYPE_CHECKING:  # so that the command line starts without torch
     from models.citymap.gazetteer.gazetteer import Gazetteer
@@ -51,7 +51,7 @@ class Answers:
     seconds: list[float]
     places: list[tuple[float, float] | None]
 
-    def figures(self, asked: Sequence[Question], block: Block) -> dict[str, Any]:
+    def figures(self, asked: Sequence[Question], block: CopyGrid) -> dict[str, Any]:
         """Latencies, and how near the estimates are.
 
         Returns:
@@ -59,7 +59,7 @@ class Answers:
             "accuracy_in_any_copy": by this a place counts as right in whichever copy it is.
         """
         seconds = percentiles(self.seconds) if self.seconds else {"p50": None, "p99": None}
-        folded = [place and block.folded(*place) for place in self.places]
+        folded = [place and block.to_first_copy(*place) for place in self.places]
         return seconds | {
             "unanswered": len(asked) - len(self.seconds),
             "accuracy": _accuracy(asked, self.places),
@@ -89,7 +89,7 @@ def take_questions(source: "Source") -> list[Question]:
 
 
 def _name(gazetteer: "Gazetteer", number: int) -> str:
-    return gazetteer.words[number].names[0]
+    return gazetteer.objects[number].names[0]
 
 
 def shared_out(questions: Sequence[Question]) -> tuple[Sequence[Question], list[Sequence[Question]]]:
@@ -106,7 +106,7 @@ def shared_out(questions: Sequence[Question]) -> tuple[Sequence[Question], list[
     return questions[:WARM_UP], [rest[n * each : (n + 1) * each] for n in range(sorts)]
 
 
-def ask_all(client: httpx.Client, questions: Sequence[Question], block: Block) -> dict[str, Any]:
+def ask_all(client: httpx.Client, questions: Sequence[Question], block: CopyGrid) -> dict[str, Any]:
     """Ask a service of a tiled city, one request after another.
 
     Args:
@@ -149,7 +149,7 @@ def _ask(client: httpx.Client, questions: Sequence[Question], fields: Sequence[d
     return answers
 
 
-def _box(block: Block, share: float, question: Question) -> list[float]:
+def _box(block: CopyGrid, share: float, question: Question) -> list[float]:
     """West, south, east, north: a share of a block's area round a place, all of it inside the block."""
     west, south, east, north = block.bounds()
     low, high = [], []

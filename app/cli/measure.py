@@ -80,9 +80,9 @@ def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> Non
     from app.cli.progress import stage_bars
     from index.answering.localizer import Localizer
     from index.evaluation.place_texts import evaluate_told, told_tables
-    from models.sources.place_texts import load_told_texts
+    from models.sources.place_texts import load_place_texts
 
-    texts = load_told_texts(data)
+    texts = load_place_texts(data)
     weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     with stage_bars() as show:
         found = evaluate_told(Localizer.open(settings.index_dir, *weights), texts, report, show)

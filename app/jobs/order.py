@@ -80,7 +80,7 @@ class Evaluation(BaseModel):
         localizer = Localizer.open(self.index_dir, *dirs)
         data = localizer.map_data()
         sentences = [(description,) for description in self.descriptions]
-        queries = Queries.of_text(sentences, np.array(self.positions_m), data.cells)
+        queries = Queries.from_text(sentences, np.array(self.positions_m), data.cells)
         answering = localizer.posterior if self.refine == "posterior" else localizer.by_vectors(self.refine).raw()
         return evaluate(data, queries, answering, report_dir, self.grow_m, progress)
 
@@ -103,7 +103,7 @@ class Evaluation(BaseModel):
         from models.posterior.neighbours.neighbour_index import surroundings_of  # noqa: PLC0415
 
         ranker = self._ranker(source, load_retriever(self.weights_dir).global_only(), progress)
-        surroundings = surroundings_of(source.bodies(), source.data.cells, progress)
+        surroundings = surroundings_of(source.geometry(), source.data.cells, progress)
         model = load_posterior(self.posterior_weights_dir)
         return PosteriorLocalizer.of_map(model, source.data, ranker, surroundings, source.gazetteer())
 

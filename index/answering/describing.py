@@ -22,8 +22,8 @@ from index.answering.result import pair
 from models.citymap.colours import Palette
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery
-from models.citymap.gazetteer.gazetteer import ADDRESS, Gazetteer
-from models.citymap.gazetteer.name_columns import STREET
+from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, Gazetteer
+from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.hints import BEST_CELL_REACH_M, direction_index, round_robin
 from models.citymap.points import Ints
 from models.citymap.templates import OPPOSITE
@@ -41,7 +41,7 @@ NEAR_M: Final = 4.0  # added to distances: what is nearer is no more telling
 RARE_M: Final = 5.0  # as much nearer counts what is rarer by a factor of e
 # Kinds that nobody sees from a street: upstairs, underground, or a mere point of a track.
 UNSEEN: Final = (
-    ADDRESS,
+    ADDRESS_KIND,
     "amenity/parking/underground",
     "entrance",
     "office",
@@ -139,8 +139,8 @@ def street_facts(gazetteer: Gazetteer, position: Floats, most_crossing: int) -> 
     if found is None:
         return []
     street, way_m = found
-    words = gazetteer.words[street]
-    name, sight = words.names[0], Sight(STREET, words.names[0], words.source_id, way_m)
+    words = gazetteer.objects[street]
+    name, sight = words.names[0], Sight(STREET_KIND, words.names[0], words.source_id, way_m)
     crossing = list(islice(_crossing(gazetteer, street, position), most_crossing))
     if sight.metres > ON_STREET_M:
         text = named_text(name, way_m)
@@ -155,12 +155,12 @@ def _crossing(gazetteer: Gazetteer, street: int, position: Floats) -> Iterator[F
     meeting = pairs[(pairs == street).any(axis=1)]
     others = np.unique(meeting[meeting != street])
     ways = ways_from(gazetteer, others, position, CROSSING_M)
-    if len(ways.item) and ways.metres.min() <= AT_CORNER_M:
+    if len(ways.target) and ways.distance_m.min() <= AT_CORNER_M:
         return
-    for row in np.argsort(ways.metres, kind="stable").tolist():
-        words, way_m = gazetteer.words[int(others[ways.item[row]])], ways.way_m[row]
+    for row in np.argsort(ways.distance_m, kind="stable").tolist():
+        words, way_m = gazetteer.objects[int(others[ways.target[row]])], ways.offset_m[row]
         name = words.names[0]
-        yield Sight(STREET, name, words.source_id, way_m).fact(named_text(name, way_m), position)
+        yield Sight(STREET_KIND, name, words.source_id, way_m).fact(named_text(name, way_m), position)
 
 
 class NamedSights:
@@ -171,8 +171,8 @@ class NamedSights:
     """
 
     def __init__(self, gazetteer: Gazetteer) -> None:
-        self._gazetteer, words = gazetteer, gazetteer.words
-        streets = [name.casefold() for row in gazetteer.by_kind.get(STREET, ()) for name in words[row].names]
+        self._gazetteer, words = gazetteer, gazetteer.objects
+        streets = [name.casefold() for row in gazetteer.by_kind.get(STREET_KIND, ()) for name in words[row].names]
         # "Broadway & West 25th Street", a bus stop, would be read as the corner
         of_streets = re.compile(rf"\b(?:{'|'.join(map(re.escape, streets))})\b") if streets else None
         seen = [
@@ -192,13 +192,13 @@ class NamedSights:
         apart = np.hypot(*(gazetteer.middles_m[objects] - position).T) - gazetteer.reach_m[objects]
         near = np.flatnonzero(apart <= reach_m)
         ways = ways_from(gazetteer, objects[near], position, reach_m)
-        rows = near[ways.item]
+        rows = near[ways.target]
         # who is somewhere in a large park knows little more
-        size_m = np.where(ways.metres < AT_M, gazetteer.reach_m[objects[rows]], 0.0)
-        cost = (ways.metres + NEAR_M + size_m) * np.sqrt(self._namesakes[rows])
+        size_m = np.where(ways.distance_m < AT_M, gazetteer.reach_m[objects[rows]], 0.0)
+        cost = (ways.distance_m + NEAR_M + size_m) * np.sqrt(self._namesakes[rows])
         found: dict[str, Fact] = {}
         for n in np.argsort(cost, kind="stable").tolist():
-            words, way_m = gazetteer.words[int(objects[rows[n]])], ways.way_m[n]
+            words, way_m = gazetteer.objects[int(objects[rows[n]])], ways.offset_m[n]
             name = words.names[0]
             if name.casefold() not in found:
                 sight = Sight(words.kinds[0], name, words.source_id, way_m)

@@ -29,7 +29,7 @@ from index.build.artifact import find_version, open_version
 from index.build.manifest import ADVICE, Manifest, check_model
 from index.stores.faiss_store import FaissStore
 from index.stores.opening import open_store
-from models.citymap.cells import Parts
+from models.citymap.cells import PartTable
 from models.citymap.colours import PALETTES
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery, MapData
@@ -160,7 +160,7 @@ class Localizer:
         """
         store, self.ranker.store = self.ranker.store, FaissStore.of(np.zeros((1, self.manifest.dim), np.float32))
         try:
-            words = self._gazetteer.words
+            words = self._gazetteer.objects
             streets = np.flatnonzero(words.is_street & words.has_name)
             street = words[int(streets[0])].names[0] if len(streets) else "Main Street"
             self.localize([Query("I am north of a building."), Query(f"I am on {street}, near a pharmacy.")])
@@ -201,7 +201,7 @@ class Localizer:
             Landmarks.load(self._directory),
         )
 
-    def _cut(self, cells: Ints) -> Parts:
+    def _cut(self, cells: Ints) -> PartTable:
         """The parts of some cells, of a map of pieces."""
         surroundings = self._surroundings
         assert isinstance(surroundings, PieceSurroundings)

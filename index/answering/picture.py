@@ -15,7 +15,7 @@ from matplotlib.patheffects import withStroke
 
 from index.answering.answers import Answer, Estimate
 from index.answering.localizer import Localizer
-from models.citymap.scenery.reading import AREA, LINE, POINT, Drawn, Outline, look, read_scenery
+from models.citymap.scenery.reading import AREA, LINE, POINT, DecodedScenery, Outline, load_look, read_scenery
 
 SIZE_IN: Final = (11.0, 6.2)
 DPI: Final = 130
@@ -38,7 +38,7 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
     found = localizer.scenery(0)
     if found is None:
         raise ValueError("the index has no scenery; build it again")
-    drawn, colours = read_scenery(found.path), look()["light"]
+    drawn, colours = read_scenery(found.path), load_look()["light"]
     figure = Figure(figsize=SIZE_IN, dpi=DPI, facecolor="white")
     near = figure.add_axes((0.01, 0.05, 0.64, 0.8))
     whole = figure.add_axes((0.665, 0.05, 0.325, 0.8))
@@ -82,7 +82,9 @@ def _box(localizer: Localizer) -> tuple[float, float, float, float]:
     return float(west), float(south), float(east), float(north)
 
 
-def _draw_map(axes: Axes, drawn: Drawn, box: tuple[float, float, float, float], colours: dict[str, Any]) -> None:
+def _draw_map(
+    axes: Axes, drawn: DecodedScenery, box: tuple[float, float, float, float], colours: dict[str, Any]
+) -> None:
     west, south, east, north = box
     axes.set(xlim=(west, east), ylim=(south, north), xticks=[], yticks=[], facecolor=colours["ground"])
     axes.set_aspect("equal")
@@ -93,7 +95,7 @@ def _draw_map(axes: Axes, drawn: Drawn, box: tuple[float, float, float, float], 
     points_a_metre = 72 * axes.get_position().height * SIZE_IN[1] / (north - south)
     order = {"ground": 0, "walls": 1, "rising": 2}
     for kind, level in order.items():
-        paints = look()[kind]
+        paints = load_look()[kind]
         for outline in reversed(drawn.outlines):
             if outline.label in paints and _is_seen(outline, box):
                 edge = colours["rail"] if kind == "rising" else "none"
@@ -129,7 +131,7 @@ def _draw_estimate(axes: Axes, estimate: Estimate, colours: dict[str, Any]) -> N
     axes.plot(*at, "o", ms=10, color=accent, mec="white", mew=2, zorder=7)
 
 
-def _draw_names(axes: Axes, drawn: Drawn, colours: dict[str, Any]) -> None:
+def _draw_names(axes: Axes, drawn: DecodedScenery, colours: dict[str, Any]) -> None:
     """Streets along their lines and places at their points, as many as have room."""
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
     taken: list[tuple[float, float]] = []
@@ -146,7 +148,7 @@ def _draw_names(axes: Axes, drawn: Drawn, colours: dict[str, Any]) -> None:
         axes.text(x, y, name, rotation=angle, **style)
 
 
-def _names(drawn: Drawn, box: tuple[float, float, float, float]) -> Iterator[tuple[str, float, float, float]]:
+def _names(drawn: DecodedScenery, box: tuple[float, float, float, float]) -> Iterator[tuple[str, float, float, float]]:
     """Names with where they go and how they are turned, degrees; streets first, each once."""
     west, south, east, north = box
     lines: dict[str, np.ndarray[Any, Any]] = {}
@@ -161,8 +163,8 @@ def _names(drawn: Drawn, box: tuple[float, float, float, float]) -> Iterator[tup
         middle = path[len(path) // 2 - 1 : len(path) // 2 + 1]
         (dx, dy), (x, y) = middle[1] - middle[0], middle.mean(axis=0)
         yield name, float(x), float(y), float((np.degrees(np.arctan2(dy, dx)) + 90) % 180 - 90)
-    for place in {place.name: place for place in drawn.places if _is_in(place.at_m, box)}.values():
-        yield place.name, *place.at_m, 0.0
+    for place in {place.name: place for place in drawn.places if _is_in(place.position_m, box)}.values():
+        yield place.name, *place.position_m, 0.0
 
 
 def _is_in(at_m: tuple[float, float], box: tuple[float, float, float, float]) -> bool:

@@ -125,7 +125,7 @@ class PlaceReader:
         shown["at"] = pair(np.round(position + by.way_m, 2))
         shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*by.way_m))) % 360, 1)
         if by.item < len(mention.objects):
-            words = self.gazetteer.words[int(mention.objects[by.item])]
+            words = self.gazetteer.objects[int(mention.objects[by.item])]
             kind = words.kinds[0] if words.kinds else None
             shown |= {"instance": kind, "name": words.names[0] if words.names else None, "source_id": words.source_id}
         label = mention.kinds[0] if mention.kinds else shown.get("instance")

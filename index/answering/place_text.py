@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.citymap.gazetteer.closest_points import Around, Ways, cut, ways_to
+from models.citymap.gazetteer.closest_points import ClosestPoints, PointGroups, find_closest_points, select_objects
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
@@ -27,17 +27,17 @@ def place_text(gazetteer: Gazetteer, position: Floats) -> str | None:
 
 def nearest_street(gazetteer: Gazetteer, position: Floats) -> tuple[int, Floats] | None:
     """The street that a position [2] is on, and the way [2] to its line; None where there is none."""
-    streets = gazetteer.streets[_may_be_near(*gazetteer.where_streets, position, ON_STREET_M)]
+    streets = gazetteer.streets[_may_be_near(*gazetteer.street_extents, position, ON_STREET_M)]
     ways = ways_from(gazetteer, streets, position, ON_STREET_M)
-    if not len(ways.item):
+    if not len(ways.target):
         return None
-    best = int(ways.metres.argmin())
-    return int(streets[ways.item[best]]), ways.way_m[best]
+    best = int(ways.distance_m.argmin())
+    return int(streets[ways.target[best]]), ways.offset_m[best]
 
 
 def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
     """Where on a street a position [2] is: at which corner, or between which."""
-    name = gazetteer.words[street].names[0]
+    name = gazetteer.objects[street].names[0]
     meeting = gazetteer.corner_streets
     rows = np.flatnonzero((meeting[:, 0] == street) | (meeting[:, 1] == street))
     away = gazetteer.corners_m[rows].astype(np.float64) - position
@@ -59,15 +59,15 @@ def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
 
 
 def _beside(gazetteer: Gazetteer, position: Floats) -> str | None:
-    near = gazetteer.named[_may_be_near(*gazetteer.where_named, position, NAMED_M)]
+    near = gazetteer.named[_may_be_near(*gazetteer.named_extents, position, NAMED_M)]
     ways = ways_from(gazetteer, near, position, NAMED_M)
-    if not len(ways.item):
+    if not len(ways.target):
         return None
-    best = int(ways.metres.argmin())
-    name, metres = gazetteer.words[int(near[ways.item[best]])].names[0], float(ways.metres[best])
+    best = int(ways.distance_m.argmin())
+    name, metres = gazetteer.objects[int(near[ways.target[best]])].names[0], float(ways.distance_m[best])
     if metres < 1.0:
         return f"at {name}"
-    return f"{metres:.0f} m {wind_of(-ways.way_m[best])} of {name}"
+    return f"{metres:.0f} m {wind_of(-ways.offset_m[best])} of {name}"
 
 
 def _may_be_near(middles_m: Floats, reach_m: Floats, position: Floats, apart_m: float) -> npt.NDArray[np.bool_]:
@@ -82,11 +82,13 @@ def wind_of(way_m: Floats) -> str:
     return WINDS[round(float(np.degrees(np.arctan2(east, north))) / 45) % 8]
 
 
-def ways_from(gazetteer: Gazetteer, objects: Ints, position: Floats, reach_m: float) -> Ways:
+def ways_from(gazetteer: Gazetteer, objects: Ints, position: Floats, reach_m: float) -> ClosestPoints:
     """The ways from a position [2] to some objects of a gazetteer."""
-    return ways_to(Around.of(position[None], np.zeros(1, np.int64)), *cut(gazetteer, objects), reach_m)
+    return find_closest_points(
+        PointGroups.from_groups(position[None], np.zeros(1, np.int64)), *select_objects(gazetteer, objects), reach_m
+    )
 
 
 def _other(gazetteer: Gazetteer, corner: int, street: int) -> str:
     one, two = gazetteer.corner_streets[corner]
-    return gazetteer.words[int(two if one == street else one)].names[0]
+    return gazetteer.objects[int(two if one == street else one)].names[0]

@@ -22,7 +22,7 @@ from index.asking.questions import Questions
 from models.citymap.colours import Palette
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery, MapData
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
 from models.citymap.points import Ints
 from models.language.mentions.contradictions import contradictions
 from models.language.mentions.languages import ENGLISH, NAMES, language_of
@@ -86,7 +86,7 @@ class PosteriorLocalizer:
         frame: Frame,
         surroundings: Surroundings,
         ranker: Ranker,
-        gazetteer: Gazetteer = NOTHING_NAMED,
+        gazetteer: Gazetteer = EMPTY_GAZETTEER,
         grid_m: float = 10.0,
         meanings: Meanings | None = None,
         statements: Statements | None = None,
@@ -117,7 +117,7 @@ class PosteriorLocalizer:
         data: MapData,
         ranker: Ranker,
         surroundings: Surroundings,
-        gazetteer: Gazetteer = NOTHING_NAMED,
+        gazetteer: Gazetteer = EMPTY_GAZETTEER,
     ) -> "PosteriorLocalizer":
         """On a map that is no index."""
         given = model, data.gallery, data.palette, data.frame, surroundings, ranker

@@ -13,7 +13,7 @@ from index.build.publish import Publisher, save_names
 from index.build.shard import Shard
 from index.build.shard_data import Part, writing
 from index.build.shard_store import Origin, Parts
-from models.citymap.cells import BLOCK
+from models.citymap.cells import CELLS_PER_BLOCK
 from models.citymap.types import Progress
 from models.errors import IndexUnusable
 from models.paper.checkpoint import load_retriever
@@ -23,7 +23,7 @@ from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.neighbours.neighbour_index import surroundings_of
 from models.posterior.neighbours.scan_index import ScanSurroundings
 from models.processes import forked
-from models.sources.osm.extract import Region, extracted
+from models.sources.osm.extract import Region, extracted_file
 from models.sources.source import open_source
 from models.spool import scratch, spooling_in
 
@@ -106,7 +106,7 @@ class IndexJob:
             forked(partial(save_names, path, named)) as names,
         ):
             source = open_source(path, self.split, report)
-            surroundings = surroundings_of(source.bodies(), source.data.cells, report)
+            surroundings = surroundings_of(source.geometry(), source.data.cells, report)
             rows = range(len(source.data.cells))
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
             part = Part.of(encoder, likelihood, source, surroundings, rows, report)
@@ -127,8 +127,8 @@ class IndexJob:
         with self._room(), self._map(report) as path:
             source = open_source(path, self.split, report)
             count = len(source.data.cells)
-            rows = shard.rows(count, BLOCK)
-            surroundings = surroundings_of(source.bodies(), source.data.cells, report, rows)
+            rows = shard.rows(count, CELLS_PER_BLOCK)
+            surroundings = surroundings_of(source.geometry(), source.data.cells, report, rows)
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
             part = Part.of(encoder, likelihood, source, surroundings, rows, report)
             report("write part", 0, 0)
@@ -153,7 +153,9 @@ class IndexJob:
                 made = parts.read(count, self._encoder(ready).levels, source.data.cells)
                 scanned = [part.scanned for part in made if part.scanned is not None]
                 surroundings = (
-                    ScanSurroundings.joined(scanned) if scanned else surroundings_of(source.bodies(), source.data.cells)
+                    ScanSurroundings.joined(scanned)
+                    if scanned
+                    else surroundings_of(source.geometry(), source.data.cells)
                 )
                 names = partial(save_names, path, named)
                 version = self._publisher(ready).publish(source, made, surroundings, names, report)
@@ -205,7 +207,7 @@ class IndexJob:
         """The map's file, of the region that is wanted, until the block ends."""
         if self.within is not None:
             report("take the region", 0, 0)
-        with extracted(self.map_path, self.within) as path:
+        with extracted_file(self.map_path, self.within) as path:
             yield path
 
     def _current(self, ready: _Ready) -> Path | None:

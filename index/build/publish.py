@@ -31,7 +31,7 @@ from models.posterior.neighbours.neighbour_index import Surroundings
 from models.posterior.node_batch import colour_words
 from models.posterior.statements import Statements
 from models.processes import give_back
-from models.sources.source import Source, gazetteer_of
+from models.sources.source import Source, open_gazetteer
 from models.spool import forget, spooled
 
 
@@ -133,7 +133,7 @@ class Publisher:
 
 def save_names(path: Path, directory: Path) -> Path:
     """Write what a map names, what that is found by, and what it means, into a directory, which is returned."""
-    gazetteer_of(path).save(directory)
+    open_gazetteer(path).save(directory)
     give_back()
     gazetteer, vocabulary, encoder = Gazetteer.load(directory), load_vocabulary(), load_text_encoder()
     table = NameTable.of(gazetteer, vocabulary, encoder.is_everyday)

@@ -13,7 +13,7 @@ from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
 from index.stores.store import Floats
-from models.citymap.cells import BLOCK, CellTable
+from models.citymap.cells import CELLS_PER_BLOCK, CellTable
 from models.citymap.gallery import MapData
 from models.citymap.types import Progress
 from models.errors import DataError, IndexBroken
@@ -34,7 +34,7 @@ from models.spool import forget, spooled
 
 FILE: Final = "part.safetensors"
 COLUMNS: Final = ("starts", "statement", "holds", "vectors")
-AT_ONCE: Final = 32 * BLOCK  # cells
+AT_ONCE: Final = 32 * CELLS_PER_BLOCK  # cells
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +79,7 @@ class Part:
         surroundings.forget()
         vectors, levels = _encoded(retriever, source.data, rows, report)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceSurroundings):
-            source.cut_anew(surroundings.cut)
+            source.defer_parts(surroundings.cut)
             give_back()
         report("tabulate statements", 0, 0)
         data, things = source.data, surroundings.things

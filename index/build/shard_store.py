@@ -17,7 +17,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from index.build.manifest import MANIFEST, Name, Sha256
 from index.build.shard import Shard
 from index.build.shard_data import Part
-from models.citymap.cells import BLOCK, CellTable
+from models.citymap.cells import CELLS_PER_BLOCK, CellTable
 from models.errors import IndexBroken
 from models.files import FileRecord, file_records, new_directory, sha256
 from models.paper.levels import Level
@@ -180,7 +180,7 @@ class Parts:
             IndexBroken: one has other cells than its shard.
         """
         for shard in Shard.all(count):
-            manifest, rows = _read(self.path(shard)), shard.rows(len(cells), BLOCK)
+            manifest, rows = _read(self.path(shard)), shard.rows(len(cells), CELLS_PER_BLOCK)
             if (*manifest.rows, manifest.cells) != (rows.start, rows.stop, len(cells)):
                 raise IndexBroken(f"{self.path(shard)} has other cells than its shard; delete it and make it again")
         return [Part.load(self.path(shard), levels, cells) for shard in Shard.all(count)]

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from models.citymap.gallery import MapData
-from models.citymap.hints import hint_table
+from models.citymap.hints import build_hint_table
 from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS, Hint
 from models.training.metrics import RETRIEVAL_KS
@@ -46,7 +46,7 @@ def ambiguity(data: MapData, queries: Queries, hints: Sequence[tuple[Hint, ...]]
 
 def _symbols_of_cells(data: MapData) -> tuple[dict[tuple[str, str | None, int], int], csr_array]:
     """A number for each statement that is true at some centre, and [N, S] which are true where."""
-    table = hint_table(data.palette, data.cells.parts, data.cells.center_m)
+    table = build_hint_table(data.palette, data.cells.parts, data.cells.center_m)
     number: dict[tuple[str, str | None, int], int] = {}
     words = (*data.palette.words, None)  # the last, for colour -1
     said = [

@@ -21,7 +21,7 @@ from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.language.mentions.languages import language_of
 from models.language.mentions.reader import listener_wind
-from models.sources.place_texts import SIGMA_M, ToldText
+from models.sources.place_texts import START_SIGMA_M, PlaceText
 
 WITHIN_M: Final = (10, 30, 100, 250)
 CONSTRUCTIONS: Final = (
@@ -49,7 +49,7 @@ class Told:
 
 
 def evaluate_told(
-    localizer: Localizer, texts: Sequence[ToldText], report_dir: Path | None, progress: Progress
+    localizer: Localizer, texts: Sequence[PlaceText], report_dir: Path | None, progress: Progress
 ) -> dict[str, Any]:
     """Ask an index texts with known goals; those with a start get a prior of 800 m round it.
 
@@ -92,12 +92,12 @@ def evaluate_told(
     return report
 
 
-def ask(localizer: Localizer, texts: Sequence[ToldText], progress: Progress) -> Told:
+def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) -> Told:
     """The answers to texts; arguments as `evaluate_told`."""
     rows = []
     for n, text in enumerate(texts):
         progress("ask", n, len(texts))
-        prior = None if text.start is None else Prior((text.start[1], text.start[0]), SIGMA_M)
+        prior = None if text.start is None else Prior((text.start[1], text.start[0]), START_SIGMA_M)
         [answer] = localizer.localize([Query(text.text, prior=prior, crs="wgs84")])
         rows.append(_row(localizer, text, answer))
     progress("ask", len(texts), len(texts))
@@ -105,7 +105,7 @@ def ask(localizer: Localizer, texts: Sequence[ToldText], progress: Progress) -> 
     return Told(error, np.stack([p50, p90], axis=1), probability, hit > 0)
 
 
-def _row(localizer: Localizer, text: ToldText, answer: Answer) -> tuple[float, float, float, float, bool]:
+def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, float, float, float, bool]:
     estimate = answer.estimate
     if estimate is None or estimate.wgs84 is None:
         extent_m = localizer.gallery.cells.extent_m
@@ -118,14 +118,14 @@ def _row(localizer: Localizer, text: ToldText, answer: Answer) -> tuple[float, f
     return error, estimate.radius_m.p50, estimate.radius_m.p90, estimate.probability, hit
 
 
-def _said(places: PlaceReader, text: ToldText) -> set[str]:
+def _said(places: PlaceReader, text: PlaceText) -> set[str]:
     mentions = places.read(text.text, language_of(text.text), to_listener=text.start is not None)
     found = {name for mention in mentions for name in constructions(mention)}
     return found | ({"listener"} if text.start is not None and listener_wind(text.text) is not None else set())
 
 
 def _without(
-    localizer: Localizer, places: PlaceReader, texts: Sequence[ToldText], name: str, progress: Progress
+    localizer: Localizer, places: PlaceReader, texts: Sequence[PlaceText], name: str, progress: Progress
 ) -> dict[str, Any]:
     places.without = frozenset((name,))
     try:

@@ -100,7 +100,7 @@ def evaluate_questions(
     queries = source.queries(seed)
     rows = rng.permutation(len(queries))[:texts]
     said = vague_texts(queries, rows.tolist(), rng, is_plain=is_plain)
-    truth = Truth(source.bodies(), source.data.gallery, source.data.palette, gazetteer)
+    truth = Truth(source.geometry(), source.data.gallery, source.data.palette, gazetteer)
     scenes = {scene: n for n, scene in enumerate(sorted(set(source.data.cells.scenes)))}
     talks = []
     for n, (row, text) in enumerate(zip(rows.tolist(), said, strict=True)):

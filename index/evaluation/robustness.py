@@ -16,7 +16,7 @@ from index.evaluation.evaluation import predict
 from index.evaluation.report import Table
 from index.evaluation.scoring import score
 from index.evaluation.trials import CANDIDATES_OF, Trial, all_trials
-from models.citymap.cells import CellTable, Parts
+from models.citymap.cells import CellTable, PartTable
 from models.citymap.gallery import Gallery, MapData
 from models.citymap.hints import direction_index
 from models.citymap.point_sample import Sampler
@@ -178,7 +178,7 @@ def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | N
     count = np.concatenate([[0], np.cumsum(kept)])
     columns = {f.name: getattr(parts, f.name)[kept] for f in fields(parts) if f.name != "starts"}
     cells = replace(
-        gallery.cells, content=Parts(starts=count[parts.starts], **columns), sample=_sampler_of(gallery.cells, kept)
+        gallery.cells, content=PartTable(starts=count[parts.starts], **columns), sample=_sampler_of(gallery.cells, kept)
     )
     return Damage(replace(data, gallery=replace(gallery, cells=cells)), kept)
 

@@ -10,11 +10,11 @@ from index.answering.answers import Question
 from index.answering.query import Reply
 from index.asking.question_spec import OTHER, UNKNOWN, Asked
 from models.citymap.colours import Palette
-from models.citymap.gallery import Clouds, Finder, Gallery
-from models.citymap.gazetteer.closest_points import Around, Ways, cut, ways_to
+from models.citymap.gallery import Gallery, NearestFinder, PointClouds
+from models.citymap.gazetteer.closest_points import ClosestPoints, PointGroups, find_closest_points, select_objects
 from models.citymap.gazetteer.gazetteer import Gazetteer
-from models.citymap.gazetteer.name_columns import STREET
-from models.citymap.map_geometry import PieceBodies
+from models.citymap.gazetteer.name_columns import STREET_KIND
+from models.citymap.map_geometry import PieceGeometry
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.lexicon.question_classes import load_asked
@@ -40,21 +40,23 @@ class Truth:
         gazetteer: its names.
     """
 
-    def __init__(self, bodies: Clouds | PieceBodies, gallery: Gallery, palette: Palette, gazetteer: Gazetteer) -> None:
+    def __init__(
+        self, bodies: PointClouds | PieceGeometry, gallery: Gallery, palette: Palette, gazetteer: Gazetteer
+    ) -> None:
         self._bodies, self._palette, self._gazetteer = bodies, palette, gazetteer
-        self._streets = gazetteer.by_kind.get(STREET, np.zeros(0, np.int64))
+        self._streets = gazetteer.by_kind.get(STREET_KIND, np.zeros(0, np.int64))
         kinds = load_asked().kinds
-        known = [n for n in gazetteer.named if gazetteer.words[n].kinds[0].startswith(kinds)]
+        known = [n for n in gazetteer.named if gazetteer.objects[n].kinds[0].startswith(kinds)]
         self._places = np.array(known, np.int64)
-        self._houses = np.array([n for n, w in enumerate(gazetteer.words) if w.street and w.numbers], np.int64)
+        self._houses = np.array([n for n, w in enumerate(gazetteer.objects) if w.street and w.numbers], np.int64)
         parts = gallery.cells.parts
-        instance, first = np.unique(bodies.part_instance(gallery.cells), return_index=True)
+        instance, first = np.unique(bodies.instances_of_parts(gallery.cells), return_index=True)
         self._rgb = dict(zip(instance.tolist(), parts.rgb[first], strict=True))
         label = {int(i): gallery.labels[parts.instance[row]] for i, row in zip(instance, first, strict=True)}
         owners: dict[tuple[int, str], list[int]] = {}
         for number, name in label.items():
             owners.setdefault((int(bodies.scene[number]), name), []).append(number)
-        self._owners, self._finders = owners, dict[tuple[int, str], Finder]()
+        self._owners, self._finders = owners, dict[tuple[int, str], NearestFinder]()
 
     def nearest(self, scene: int, position: Floats, label: str) -> tuple[float, float, int] | None:
         """Metres, degrees clockwise from north, and instance of the nearest of a class; None if the scene has none."""
@@ -62,7 +64,7 @@ class Truth:
         if key not in self._owners:
             return None
         if key not in self._finders:
-            self._finders[key] = self._bodies.finder(self._owners[key])
+            self._finders[key] = self._bodies.nearest_finder(self._owners[key])
         (east, north), instance = self._finders[key](position)
         return float(np.hypot(east, north)), float(np.degrees(np.arctan2(east, north))), instance
 
@@ -99,31 +101,35 @@ class Truth:
 
     def crossing(self, position: Floats, street: str) -> list[tuple[float, str]]:
         """Metres from where a position is on a street to the streets that cross it, and their names, nearest first."""
-        one = np.array([n for n in self._streets if self._gazetteer.words[n].names[0] == street], np.int64)
-        foot = position + self._ways(position, one, STREET_M).way_m[0]
+        one = np.array([n for n in self._streets if self._gazetteer.objects[n].names[0] == street], np.int64)
+        foot = position + self._ways(position, one, STREET_M).offset_m[0]
         found = []
         for pair, at in zip(self._gazetteer.corner_streets, self._gazetteer.corners_m, strict=True):
             if one[0] in pair:
                 other = int(pair[0] if pair[1] == one[0] else pair[1])
-                found.append((float(np.hypot(*(at - foot))), self._gazetteer.words[other].names[0]))
+                found.append((float(np.hypot(*(at - foot))), self._gazetteer.objects[other].names[0]))
         return sorted(found)
 
     def _near(
         self, position: Floats, objects: Ints, reach_m: float, called: Callable[[int], str] | None = None
     ) -> list[tuple[float, str]]:
         ways = self._ways(position, objects, reach_m)
-        items = objects[ways.item].tolist()
-        return sorted(zip(ways.metres.tolist(), map(called or self._name, items), strict=True))
+        items = objects[ways.target].tolist()
+        return sorted(zip(ways.distance_m.tolist(), map(called or self._name, items), strict=True))
 
     def _name(self, number: int) -> str:
-        return self._gazetteer.words[number].names[0]
+        return self._gazetteer.objects[number].names[0]
 
     def _address(self, number: int) -> str:
-        words = self._gazetteer.words[number]
+        words = self._gazetteer.objects[number]
         return f"{words.numbers[0]} {words.street}"
 
-    def _ways(self, position: Floats, objects: Ints, reach_m: float) -> Ways:
-        return ways_to(Around.of(position[None], np.zeros(1, np.int64)), *cut(self._gazetteer, objects), reach_m)
+    def _ways(self, position: Floats, objects: Ints, reach_m: float) -> ClosestPoints:
+        return find_closest_points(
+            PointGroups.from_groups(position[None], np.zeros(1, np.int64)),
+            *select_objects(self._gazetteer, objects),
+            reach_m,
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

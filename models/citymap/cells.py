@@ -15,19 +15,21 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from models.citymap.point_sample import Sampler, sample_points, samples
+from models.citymap.point_sample import Sampler, sample_points, stack_samples
 from models.citymap.points import Ints, PointTable, ranges
 from models.citymap.types import CutRules, Floats
 from models.processes import map_forked
 from models.spool import forget
 
-CHUNK = 128  # cubes a task
-AT_ONCE: Final = 100_000  # points of the grid, for which a tree is made of the locations around them
-BLOCK: Final = 1024  # cells that are encoded or tabulated together: their bits depend on no cell of another block
+CUBES_PER_TASK = 128  # cubes a task
+GRID_POINTS_PER_BLOCK: Final = 100_000  # points of the grid, for which a tree is made of the locations around them
+CELLS_PER_BLOCK: Final = (
+    1024  # cells that are encoded or tabulated together: their bits depend on no cell of another block
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Parts:
+class PartTable:
     """What lies in a number of cubes: one row an instance (or a connected part of it) and cube.
 
     Attributes:
@@ -61,7 +63,7 @@ class Parts:
         """Have what lies on disk take no memory until it is looked at."""
         forget(getattr(self, f.name) for f in fields(self))
 
-    def take(self, cubes: Ints) -> "Parts":
+    def take(self, cubes: Ints) -> "PartTable":
         """The rows of some cubes, in the given order."""
         begin, end = self.starts[cubes], self.starts[cubes + 1]
         if (
@@ -70,7 +72,7 @@ class Parts:
             return replace(self, starts=np.append(begin, end[-1]))  # the others are empty
         rows = ranges(begin, end)
         columns = {f.name: getattr(self, f.name)[rows] for f in fields(self) if f.name != "starts"}
-        return Parts(starts=np.concatenate([[0], np.cumsum(end - begin)]), **columns)
+        return PartTable(starts=np.concatenate([[0], np.cumsum(end - begin)]), **columns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,16 +92,16 @@ class CellTable:
     scenes: tuple[str, ...]
     center_m: Floats
     size_m: float
-    content: Parts | Callable[[Ints], Parts]
+    content: PartTable | Callable[[Ints], PartTable]
     sample: Sampler | None = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.ids)
 
     @cached_property
-    def parts(self) -> Parts:
+    def parts(self) -> PartTable:
         """What is in them; of a map of pieces it takes seconds to cut that out of a city, of some cells no time."""
-        return self.content if isinstance(self.content, Parts) else self.content(np.arange(len(self)))
+        return self.content if isinstance(self.content, PartTable) else self.content(np.arange(len(self)))
 
     @property
     def extent_m(self) -> float:
@@ -114,7 +116,7 @@ class CellTable:
             scenes=tuple(self.scenes[r] for r in rows),
             center_m=self.center_m[rows],
             size_m=self.size_m,
-            content=content.take(rows) if isinstance(content, Parts) else (lambda chosen: content(rows[chosen])),
+            content=content.take(rows) if isinstance(content, PartTable) else (lambda chosen: content(rows[chosen])),
             sample=sample and (lambda chosen: sample(rows[chosen])),
         )
 
@@ -124,14 +126,14 @@ def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
     low = np.floor(locations_m[:, :2].min(axis=0) / rules.grid_m).astype(int)
     high = np.ceil(locations_m[:, :2].max(axis=0) / rules.grid_m).astype(int)
     x, y = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1), indexing="ij")
-    return centers_near(np.column_stack([x.ravel(), y.ravel()]) * rules.grid_m, locations_m, rules.reach_m)
+    return centers_within_reach(np.column_stack([x.ravel(), y.ravel()]) * rules.grid_m, locations_m, rules.reach_m)
 
 
-def centers_near(grid_m: Floats, locations_m: Floats, reach_m: float) -> Floats:
+def centers_within_reach(grid_m: Floats, locations_m: Floats, reach_m: float) -> Floats:
     """[N, 3] those of the [G, 2] points of a grid that are within reach of a location, at the nearest one's height."""
     found = [np.zeros((0, 3))]
-    for n in range(0, len(grid_m), AT_ONCE):
-        some = grid_m[n : n + AT_ONCE]
+    for n in range(0, len(grid_m), GRID_POINTS_PER_BLOCK):
+        some = grid_m[n : n + GRID_POINTS_PER_BLOCK]
         low, high = some.min(axis=0) - reach_m, some.max(axis=0) + reach_m
         around = locations_m[((locations_m[:, :2] >= low) & (locations_m[:, :2] <= high)).all(axis=1)]
         if len(around):
@@ -143,7 +145,7 @@ def centers_near(grid_m: Floats, locations_m: Floats, reach_m: float) -> Floats:
 
 def cut_cubes(
     points: PointTable, centers_m: Floats, rules: CutRules, progress: Callable[[int, int], None] | None = None
-) -> Parts:
+) -> PartTable:
     """What lies in the cubes around some centres; in several processes when there are many.
 
     Args:
@@ -153,32 +155,36 @@ def cut_cubes(
         progress: called with (cubes cut, cubes to cut).
     """
     done, results = 0, []
-    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
-    for result in map_forked(partial(_summarise_chunk, points, rules), chunks):
+    chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)]
+    for result in map_forked(partial(_cut_chunk, points, rules), chunks):
         results.append(result)
         done += len(result[0])
         if progress:
             progress(done, len(centers_m))
     sizes = np.concatenate([result[0] for result in results]) if results else np.zeros(0, dtype=np.int64)
-    columns = [np.concatenate(column) for column in zip(*(r[1:] for r in results), strict=True)] or _columns([])
-    return Parts(np.concatenate([[0], np.cumsum(sizes)]), *columns)
+    columns = [
+        np.concatenate(column) for column in zip(*(r[1:] for r in results), strict=True)
+    ] or _concatenate_columns([])
+    return PartTable(np.concatenate([[0], np.cumsum(sizes)]), *columns)
 
 
 def sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
-    """[R, 256, 6] points of the parts of some cubes, in order of `Parts`."""
-    members = [rows for center in centers_m[cubes].astype(np.float64) for rows in _cut_cube(points, center, rules)]
-    return samples([sample_points(points.xyz[rows], points.colours(rows)) for rows in members])
+    """[R, 256, 6] points of the parts of some cubes, in order of `PartTable`."""
+    members = [
+        rows for center in centers_m[cubes].astype(np.float64) for rows in _unordered_parts(points, center, rules)
+    ]
+    return stack_samples([sample_points(points.xyz[rows], points.colours(rows)) for rows in members])
 
 
-def _summarise_chunk(points: PointTable, rules: CutRules, centers: Floats) -> tuple[Any, ...]:
+def _cut_chunk(points: PointTable, rules: CutRules, centers: Floats) -> tuple[Any, ...]:
     """(rows a cube, then the columns of Parts) of some cubes."""
-    members = [_cut_cube(points, center, rules) for center in centers.astype(np.float64)]
+    members = [_unordered_parts(points, center, rules) for center in centers.astype(np.float64)]
     sizes = np.array([len(rows) for rows in members], dtype=np.int64)
     summaries = [_summarise(points, rows, center) for rows, center in zip(members, centers, strict=True) if rows]
-    return (sizes, *_columns(summaries))
+    return (sizes, *_concatenate_columns(summaries))
 
 
-def _columns(summaries: list[tuple[Any, ...]]) -> list[npt.NDArray[Any]]:
+def _concatenate_columns(summaries: list[tuple[Any, ...]]) -> list[npt.NDArray[Any]]:
     empty = (
         *(np.zeros(0, dtype=np.int32),) * 2,
         *(np.zeros((0, 3), dtype=np.float32),) * 4,
@@ -210,12 +216,12 @@ def _summarise(points: PointTable, members: list[Ints], center: Floats) -> tuple
     )
 
 
-def cut_cube(points: PointTable, center_m: Floats, rules: CutRules) -> list[Ints]:
+def cut_parts(points: PointTable, center_m: Floats, rules: CutRules) -> list[Ints]:
     """The point rows of each part in one cube, by instance, then as DBSCAN numbers the parts."""
-    return sorted(_cut_cube(points, center_m, rules), key=lambda rows: int(points.instance[rows[0]]))
+    return sorted(_unordered_parts(points, center_m, rules), key=lambda rows: int(points.instance[rows[0]]))
 
 
-def _cut_cube(points: PointTable, center: Floats, rules: CutRules) -> list[Ints]:
+def _unordered_parts(points: PointTable, center: Floats, rules: CutRules) -> list[Ints]:
     """The point rows of each part in one cube, ordered by instance: things first, then stuff."""
     half = rules.cell_size_m / 2
     inside = points.inside(center - half, center + half)
@@ -244,7 +250,7 @@ def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
     Returns:
         [M] cluster of each row, -1 for noise. Clusters never cross from one instance to another.
     """
-    source, target = _pairs_among(points, rows)
+    source, target = _neighbour_pairs_among(points, rows)
     degree = 1 + np.bincount(source, minlength=len(rows)) + np.bincount(target, minlength=len(rows))
     core = degree >= min_samples
     from_core, to_core = core[source], core[target]
@@ -262,7 +268,7 @@ def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
     return np.where(found == len(rows), -1, found)
 
 
-def _pairs_among(points: PointTable, rows: Ints) -> tuple[Ints, Ints]:
+def _neighbour_pairs_among(points: PointTable, rows: Ints) -> tuple[Ints, Ints]:
     """[E], [E] positions in `rows`, ascending point rows, of neighbours that are both among them; the first ascends."""
     if not len(rows):
         return rows, rows

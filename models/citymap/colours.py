@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import ImageColor
 
-AT_ONCE: Final = 65_536  # colours that are compared with all centres
+COLOURS_PER_BLOCK: Final = 65_536  # colours that are compared with all centres
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,8 +30,8 @@ class Palette:
         centers, shape = np.asarray(self.centers).T / 255.0, np.shape(rgb)[:-1]
         flat = np.reshape(rgb, (-1, 3))
         found = np.empty(len(flat), np.intp)
-        for first in range(0, len(flat), AT_ONCE):
-            some = slice(first, first + AT_ONCE)
+        for first in range(0, len(flat), COLOURS_PER_BLOCK):
+            some = slice(first, first + COLOURS_PER_BLOCK)
             square = sum((flat[some, n, None] - centers[n]) ** 2 for n in range(3))
             found[some] = np.where(np.isnan(square).any(axis=-1), -1, np.argmin(square, axis=-1))
         return found.reshape(shape)

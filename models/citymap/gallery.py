@@ -13,7 +13,7 @@ from safetensors import SafetensorError
 from safetensors.numpy import save_file
 from scipy.spatial import cKDTree
 
-from models.citymap.cells import CellTable, Parts
+from models.citymap.cells import CellTable, PartTable
 from models.citymap.colours import Palette
 from models.citymap.frame import Frame
 from models.citymap.instances import InstanceTable
@@ -23,12 +23,14 @@ from models.errors import IndexBroken
 from models.files import map_arrays
 from models.strings import Categorical, merge_columns
 
-Finder = Callable[[Floats], tuple[Floats, int]]  # position [2] -> way [2] to the nearest instance, and which it is
+NearestFinder = Callable[
+    [Floats], tuple[Floats, int]
+]  # position [2] -> way [2] to the nearest instance, and which it is
 CELLS_FILE = "cells.safetensors"
 NAMES_FILE = "cells.json"
-SAID: Final = ("labels", "names", "sources")  # of each instance
-PARTS: Final = tuple(f.name for f in fields(Parts))
-MOST_DIGITS: Final = 19  # of a number of a cell
+INSTANCE_COLUMNS: Final = ("labels", "names", "sources")  # of each instance
+PART_COLUMNS: Final = tuple(f.name for f in fields(PartTable))
+MAX_ID_DIGITS: Final = 19  # of a number of a cell
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,7 +48,7 @@ class Gallery:
     sources: Sequence[str | None]
 
     @classmethod
-    def of(cls, city_map: CityMap, cells: CellTable) -> "Gallery":
+    def from_map(cls, city_map: CityMap, cells: CellTable) -> "Gallery":
         """The gallery of cells cut from a map."""
         instances = city_map.instances
         if isinstance(instances, InstanceTable):
@@ -63,10 +65,10 @@ class Gallery:
         cells = self.cells
         arrays = {"center_m": cells.center_m}
         if with_parts:
-            arrays |= {name: getattr(cells.parts, name) for name in PARTS}
-        said = (Categorical.from_strings(getattr(self, name)).columns(name) for name in SAID)
+            arrays |= {name: getattr(cells.parts, name) for name in PART_COLUMNS}
+        said = (Categorical.from_strings(getattr(self, name)).columns(name) for name in INSTANCE_COLUMNS)
         save_file(merge_columns([arrays, *said]), directory / CELLS_FILE)
-        scene = cells.scenes[0] if cells.ids == Numbered(cells.scenes[0], len(cells)) else None
+        scene = cells.scenes[0] if cells.ids == NumberedCellIds(cells.scenes[0], len(cells)) else None
         names: dict[str, Any] = {
             "scene": scene,
             "ids": None if scene else tuple(cells.ids),
@@ -76,7 +78,7 @@ class Gallery:
         (directory / NAMES_FILE).write_text(json.dumps(names, ensure_ascii=False))
 
     @classmethod
-    def load(cls, directory: Path, cut: Callable[[Ints], Parts] | None = None) -> "Gallery":
+    def load(cls, directory: Path, cut: Callable[[Ints], PartTable] | None = None) -> "Gallery":
         """Read what `save` wrote.
 
         Args:
@@ -90,17 +92,17 @@ class Gallery:
             arrays = map_arrays(directory / CELLS_FILE)[0]
             names = json.loads((directory / NAMES_FILE).read_text())
             center_m, scene = arrays.pop("center_m"), names["scene"]
-            ids = Numbered(scene, len(center_m)) if scene else tuple(names["ids"])
+            ids = NumberedCellIds(scene, len(center_m)) if scene else tuple(names["ids"])
             scenes = (scene,) * len(center_m) if scene else tuple(names["scenes"])
-            parts = {name: column for name, column in arrays.items() if name in PARTS}
-            content = Parts(**parts) if parts or cut is None else cut
+            parts = {name: column for name, column in arrays.items() if name in PART_COLUMNS}
+            content = PartTable(**parts) if parts or cut is None else cut
             cells = CellTable(ids, scenes, center_m, names["size_m"], content)
-            return cls(cells, *(Categorical.from_columns(arrays, name) for name in SAID))
+            return cls(cells, *(Categorical.from_columns(arrays, name) for name in INSTANCE_COLUMNS))
         except (OSError, SafetensorError, ValueError, KeyError, TypeError) as error:
             raise IndexBroken(f"the cells in {directory} cannot be read; rebuild it with 'hereabouts index'") from error
 
 
-class Numbered(Sequence[str]):
+class NumberedCellIds(Sequence[str]):
     """The names of the cells of one scene: a city has a million, each of which is made when it is asked for.
 
     Args:
@@ -130,12 +132,12 @@ class Numbered(Sequence[str]):
         """Which cell has a name, as sequences do, without looking at others."""
         number = value.rpartition("_")[2]
         rows = range(*slice(start, stop).indices(self._count))
-        if number.isdecimal() and len(number) < MOST_DIGITS and int(number) in rows and self[int(number)] == value:
+        if number.isdecimal() and len(number) < MAX_ID_DIGITS and int(number) in rows and self[int(number)] == value:
             return int(number)
         raise ValueError(f"no cell is named {value}")
 
     def __eq__(self, other: object) -> bool:
-        if isinstance(other, Numbered):
+        if isinstance(other, NumberedCellIds):
             return (self._scene, self._count) == (other._scene, other._count)
         return isinstance(other, Sequence) and len(self) == len(other) and all(map(eq, self, other))
 
@@ -169,7 +171,7 @@ class MapData:
         """The cells."""
         return self.gallery.cells
 
-    def cut_anew(self, cut: Callable[[Floats], Parts]) -> "MapData":
+    def with_deferred_parts(self, cut: Callable[[Floats], PartTable]) -> "MapData":
         """The same without the parts of cells, which are cut (round centres [N, 3]) when they are asked for."""
         centers_m = self.cells.center_m
         cells = replace(self.cells, content=lambda rows: cut(centers_m[rows]))
@@ -177,7 +179,7 @@ class MapData:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Clouds:
+class PointClouds:
     """The instances of a scan (or of several scenes) with all their points.
 
     Attributes:
@@ -185,7 +187,7 @@ class Clouds:
         starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
         is_thing: [I] bool, True for what is mentioned only where a share of it is near (`thing_share`).
         scene: [I] number of the scene of each.
-        of_part: [R] instance of each row of the cells' parts.
+        part_instances: [R] instance of each row of the cells' parts.
         thing_share: see `CutRules`.
         min_part_points: see `CutRules`.
     """
@@ -194,15 +196,15 @@ class Clouds:
     starts: Ints
     is_thing: npt.NDArray[np.bool_]
     scene: Ints
-    of_part: Ints
+    part_instances: Ints
     thing_share: float
     min_part_points: int
 
-    def part_instance(self, _cells: CellTable) -> Ints:
+    def instances_of_parts(self, _cells: CellTable) -> Ints:
         """[R] instance of each row of the cells' parts."""
-        return self.of_part
+        return self.part_instances
 
-    def finder(self, instances: Sequence[int]) -> Finder:
+    def nearest_finder(self, instances: Sequence[int]) -> NearestFinder:
         """What tells which of some instances is nearest to a position."""
         spans = [slice(int(self.starts[n]), int(self.starts[n + 1])) for n in instances]
         tree = cKDTree(np.concatenate([self.xyz[span, :2] for span in spans]).astype(np.float64))

@@ -7,10 +7,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from models.citymap.cells import CellTable, Parts
+from models.citymap.cells import CellTable, PartTable
 from models.citymap.colours import Palette
-from models.citymap.map_geometry import Bodies
-from models.citymap.points import thin
+from models.citymap.map_geometry import MapGeometry
+from models.citymap.points import thin_to_spacing
 from models.citymap.types import DIRECTIONS, CityMap, Description, Direction, Floats, Hint, Pose
 
 Strategy = Literal["closest", "class", "direction"]
@@ -57,12 +57,12 @@ class HintTable:
     distance_m: Floats
 
 
-def hint_table(palette: Palette, parts: Parts, positions_m: Floats) -> HintTable:
+def build_hint_table(palette: Palette, parts: PartTable, positions_m: Floats) -> HintTable:
     """All hints that are true at some positions.
 
     Args:
         palette: the colour words.
-        parts: the cubes around the positions (`Bodies.cut`).
+        parts: the cubes around the positions (`MapGeometry.cut`).
         positions_m: [N, 3] metres.
     """
     cube = parts.cube
@@ -97,10 +97,10 @@ def choose_hints(
     if strategy == "closest":
         return rows[:count]
     keys = labels[table.instance[rows]] if strategy == "class" else table.direction[rows]
-    return rows[np.argsort(_occurrence(keys), kind="stable")[:count]]
+    return rows[np.argsort(_occurrence_number(keys), kind="stable")[:count]]
 
 
-def _occurrence(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
+def _occurrence_number(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """[M] how many earlier entries have the same key: round-robin over the keys is a sort by it."""
     order = np.argsort(keys, kind="stable")
     starts = np.flatnonzero(np.diff(keys[order], prepend=-1))
@@ -112,16 +112,16 @@ def _occurrence(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
 def round_robin(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """[M] order in which the keys take turns, each with its next entry; keys go in the order they first appear."""
     _, first, key = np.unique(keys, return_index=True, return_inverse=True)
-    return np.lexsort((first[key], _occurrence(keys)))
+    return np.lexsort((first[key], _occurrence_number(keys)))
 
 
 def sample_positions(locations_m: Floats, spacing_m: float, rng: np.random.Generator) -> Floats:
     """[N, 3] locations at random, one a square block of `spacing_m`, in random order."""
-    return thin(rng.permutation(locations_m), spacing_m)
+    return thin_to_spacing(rng.permutation(locations_m), spacing_m)
 
 
 def describe_poses(
-    city_map: CityMap, bodies: Bodies, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
+    city_map: CityMap, bodies: MapGeometry, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
 ) -> list[Pose]:
     """Poses with descriptions at some positions, by each strategy (docs/formats.md, rule 5).
 
@@ -139,7 +139,7 @@ def describe_poses(
     distance, best = cKDTree(cells.center_m).query(positions_m)
     reachable = np.flatnonzero(distance <= BEST_CELL_REACH_M)
     positions, best = positions_m[reachable], best[reachable]
-    table = hint_table(city_map.palette, bodies.cut(positions), positions)
+    table = build_hint_table(city_map.palette, bodies.cut(positions), positions)
     labels = np.unique([i.label for i in city_map.instances], return_inverse=True)[1]
     poses = []
     for n in np.flatnonzero(np.diff(table.starts) >= num_hints):

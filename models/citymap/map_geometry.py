@@ -8,8 +8,8 @@ from typing import Protocol
 import numpy as np
 import shapely
 
-from models.citymap.cells import CellTable, Parts, cut_cubes, grid_centers, sample_cubes
-from models.citymap.gallery import Finder, Numbered
+from models.citymap.cells import CellTable, PartTable, cut_cubes, grid_centers, sample_cubes
+from models.citymap.gallery import NearestFinder, NumberedCellIds
 from models.citymap.geometry.cutting import cut_pieces, sample_pieces, scan_pieces
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.instances import InstanceTable
@@ -19,23 +19,23 @@ from models.errors import MapError
 from models.processes import give_back
 from models.spool import forget
 
-Cut = Callable[[int, int], None]  # cubes cut, cubes to cut
+CutProgress = Callable[[int, int], None]  # cubes cut, cubes to cut
 
 
-class Bodies(Protocol):
+class MapGeometry(Protocol):
     """Something that cubes can be cut out of."""
 
-    def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
+    def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
         """What lies in the cubes around centres [N, 3]; those of fewer parts than `least` may be left empty."""
         ...
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
-        """[R, 256, 6] points of the parts of some of these cubes, in order of `Parts`."""
+        """[R, 256, 6] points of the parts of some of these cubes, in order of `PartTable`."""
         ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PointBodies:
+class ScanGeometry:
     """A scan.
 
     Attributes:
@@ -46,7 +46,7 @@ class PointBodies:
     points: PointTable
     rules: CutRules
 
-    def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
+    def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
         """See Bodies."""
         del least
         return cut_cubes(self.points, centers_m, self.rules, progress)
@@ -57,7 +57,7 @@ class PointBodies:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PieceBodies:
+class PieceGeometry:
     """A map of lines and areas.
 
     Attributes:
@@ -72,7 +72,7 @@ class PieceBodies:
     shapes: Sequence[str]
     rules: CutRules
 
-    def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
+    def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
         """See Bodies."""
         return cut_pieces(self.pieces, self.rgb, centers_m, self.rules, progress, least)
 
@@ -85,11 +85,11 @@ class PieceBodies:
         """[I] scene of each instance; there is one."""
         return np.zeros(len(self.rgb), np.int64)
 
-    def part_instance(self, cells: CellTable) -> Ints:
+    def instances_of_parts(self, cells: CellTable) -> Ints:
         """[R] instance of each row of the cells' parts."""
         return cells.parts.instance
 
-    def finder(self, instances: Sequence[int]) -> Finder:
+    def nearest_finder(self, instances: Sequence[int]) -> NearestFinder:
         """What tells which of some instances is nearest to a position."""
         rows = np.flatnonzero(np.isin(self.pieces.instance, instances))
         geometry = self.pieces.geometry(rows)
@@ -105,16 +105,16 @@ class PieceBodies:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ScannedBodies:
+class ScannedPieceGeometry:
     """A map of lines and areas as a scan shows it: what is nearest is one of its points.
 
     Attributes:
         pieces: the map.
     """
 
-    pieces: PieceBodies
+    pieces: PieceGeometry
 
-    def cut(self, centers_m: Floats, progress: Cut | None = None, least: int = 0) -> Parts:
+    def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
         """See Bodies; `least` counts for nothing."""
         del least
         table, shapes, rules = self.pieces.pieces, self.pieces.shapes, self.pieces.rules
@@ -126,16 +126,16 @@ class ScannedBodies:
         return self.pieces.sample(centers_m, cubes)
 
 
-def bodies_of(city_map: CityMap) -> Bodies:
+def build_geometry(city_map: CityMap) -> MapGeometry:
     """What stands in a map."""
     if city_map.pieces is None:
-        return PointBodies(PointTable.of(city_map, city_map.rules.eps_m), city_map.rules)
+        return ScanGeometry(PointTable.from_map(city_map, city_map.rules.eps_m), city_map.rules)
     instances = city_map.instances
     assert isinstance(instances, InstanceTable), "as whoever reads geometry makes them"
-    return PieceBodies(city_map.pieces, instances.rgb, instances.shapes, city_map.rules)
+    return PieceGeometry(city_map.pieces, instances.rgb, instances.shapes, city_map.rules)
 
 
-def cut_cells(city_map: CityMap, bodies: Bodies, progress: Cut | None = None) -> CellTable:
+def cut_cells(city_map: CityMap, bodies: MapGeometry, progress: CutProgress | None = None) -> CellTable:
     """Cut a map into overlapping cells on a grid over its locations (docs/formats.md, rule 4).
 
     Args:
@@ -158,7 +158,7 @@ def cut_cells(city_map: CityMap, bodies: Bodies, progress: Cut | None = None) ->
             "too few to tell places apart; take a larger or richer map"
         )
     return CellTable(
-        ids=Numbered(city_map.name, len(kept)),
+        ids=NumberedCellIds(city_map.name, len(kept)),
         scenes=(city_map.name,) * len(kept),
         center_m=centers[kept],
         size_m=rules.cell_size_m,

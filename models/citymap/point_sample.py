@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from models.citymap.types import Floats
 
-NUM_POINTS = 256
+POINTS_PER_PART = 256
 # [C] rows of cells -> [R, 256, 6] the samples of all their parts, cell after cell.
 Sampler = Callable[[npt.NDArray[np.integer[Any]]], Floats]
 
@@ -24,11 +24,11 @@ def sample_points(xyz: Floats, rgb: Floats) -> Floats:
     """
     middle = (xyz.min(axis=0) + xyz.max(axis=0)) / 2
     reach = float(np.linalg.norm(xyz - middle, axis=1).max())
-    rows = np.linspace(0, len(xyz) - 1, NUM_POINTS).astype(np.intp)
+    rows = np.linspace(0, len(xyz) - 1, POINTS_PER_PART).astype(np.intp)
     shape = (xyz[rows] - middle) / max(reach, 1e-6)
     return np.concatenate([shape, np.nan_to_num(rgb[rows], nan=-1.0)], axis=1).astype(np.float32)
 
 
-def samples(parts: list[Floats]) -> Floats:
+def stack_samples(parts: list[Floats]) -> Floats:
     """[R, 256, 6] of R samples, of none too."""
-    return np.stack(parts) if parts else np.zeros((0, NUM_POINTS, 6), dtype=np.float32)
+    return np.stack(parts) if parts else np.zeros((0, POINTS_PER_PART, 6), dtype=np.float32)

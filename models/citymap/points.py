@@ -8,8 +8,8 @@ import numpy.typing as npt
 
 from models.citymap.types import CityMap, Floats
 
-TILE_M = 10.0
-PAIR_BLOCK = 100_000  # points whose neighbours are found at once
+INDEX_TILE_M = 10.0
+POINTS_PER_PAIR_BLOCK = 100_000  # points whose neighbours are found at once
 Ints = npt.NDArray[np.integer[Any]]
 
 
@@ -41,7 +41,7 @@ class PointTable:
     pairs: Ints
 
     @classmethod
-    def of(cls, city_map: CityMap, eps_m: float) -> "PointTable":
+    def from_map(cls, city_map: CityMap, eps_m: float) -> "PointTable":
         """Lay out a map's points and index them; eps_m is the distance at which stuff is connected."""
         instances = city_map.instances
         counts = np.array([len(i.points_m) for i in instances], dtype=np.int64)
@@ -76,11 +76,11 @@ class PointTable:
             low: [3] south-west and lowest corner, metres; it belongs to the box.
             high: [3] the opposite corner; so does it.
         """
-        first = np.floor(low[:2] / TILE_M).astype(np.int64)
-        last = np.floor(high[:2] / TILE_M).astype(np.int64)
+        first = np.floor(low[:2] / INDEX_TILE_M).astype(np.int64)
+        last = np.floor(high[:2] / INDEX_TILE_M).astype(np.int64)
         columns = np.arange(first[0], last[0] + 1)
-        begin = np.searchsorted(self.tile_key, _key(columns, first[1]), side="left")
-        end = np.searchsorted(self.tile_key, _key(columns, last[1]), side="right")
+        begin = np.searchsorted(self.tile_key, _tile_key(columns, first[1]), side="left")
+        end = np.searchsorted(self.tile_key, _tile_key(columns, last[1]), side="right")
         rows = np.concatenate([self.tile_order[b:e] for b, e in zip(begin, end, strict=True)])
         xyz = self.xyz[rows]
         return np.sort(rows[((xyz >= low) & (xyz <= high)).all(axis=1)])
@@ -88,12 +88,12 @@ class PointTable:
 
 def tile_keys(xyz: Floats) -> Ints:
     """[P] one integer a tile; the tiles of one column follow each other from south to north."""
-    tile = np.floor(xyz[:, :2] / TILE_M).astype(np.int64)
-    keys: Ints = _key(tile[:, 0], tile[:, 1])
+    tile = np.floor(xyz[:, :2] / INDEX_TILE_M).astype(np.int64)
+    keys: Ints = _tile_key(tile[:, 0], tile[:, 1])
     return keys
 
 
-def _key(column: Any, row: Any) -> Any:
+def _tile_key(column: Any, row: Any) -> Any:
     return column * (1 << 31) + row
 
 
@@ -105,12 +105,12 @@ def ranges(begin: Ints, end: Ints) -> Ints:
     return found
 
 
-def corners(points_m: Floats) -> tuple[Floats, Floats]:
+def bounding_corners(points_m: Floats) -> tuple[Floats, Floats]:
     """The lowest and the highest coordinates of points [N, C], column by column, which NumPy is quicker with."""
     return np.array([column.min() for column in points_m.T]), np.array([column.max() for column in points_m.T])
 
 
-def thin(points: Floats, spacing_m: float) -> Floats:
+def thin_to_spacing(points: Floats, spacing_m: float) -> Floats:
     """One point of every square block of the plane, so that they lie about `spacing_m` apart."""
     return points[np.sort(np.unique(block_keys(points, spacing_m), return_index=True)[1])]
 
@@ -118,7 +118,7 @@ def thin(points: Floats, spacing_m: float) -> Floats:
 def block_keys(points: Floats, spacing_m: float) -> Ints:
     """[P] one integer a square block of the plane, ascending from west to east, in a column from south to north."""
     block = np.floor(points[:, :2] / spacing_m).astype(np.int64)
-    keys: Ints = _key(block[:, 0], block[:, 1])
+    keys: Ints = _tile_key(block[:, 0], block[:, 1])
     return keys
 
 
@@ -145,9 +145,9 @@ def _neighbour_pairs(xyz: Floats, instance: Ints, is_stuff: npt.NDArray[np.bool_
     # A fourth axis keeps instances further apart than eps, so that no pair crosses from one to another.
     apart = np.column_stack([xyz[rows].astype(np.float64), instance[rows] * (4.0 * eps_m)])
     found = [np.zeros(0, dtype=np.int64)]
-    for begin in range(0, len(rows), PAIR_BLOCK):
+    for begin in range(0, len(rows), POINTS_PER_PAIR_BLOCK):
         # From west to east, so that the partners of a block end not far behind it.
-        end = min(begin + PAIR_BLOCK, len(rows))
+        end = min(begin + POINTS_PER_PAIR_BLOCK, len(rows))
         reach = np.searchsorted(apart[:, 0], apart[end - 1, 0] + eps_m, side="right")
         tree = cKDTree(apart[begin:reach], leafsize=32, balanced_tree=False)
         pairs = tree.query_pairs(eps_m, output_type="ndarray")

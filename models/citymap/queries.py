@@ -36,7 +36,7 @@ class Queries:
     hints: Sequence[tuple[Hint, ...]] | None = None
 
     @classmethod
-    def of_text(cls, sentences: Sequence[tuple[str, ...]], positions_m: Floats, cells: CellTable) -> "Queries":
+    def from_text(cls, sentences: Sequence[tuple[str, ...]], positions_m: Floats, cells: CellTable) -> "Queries":
         """Queries of one's own; a description's best cell is the one whose centre is nearest.
 
         Args:
@@ -50,7 +50,7 @@ class Queries:
         return cls(sentences, positions_m, truth, scenes, [""] * len(sentences))
 
     @classmethod
-    def of_hints(
+    def from_hints(
         cls,
         hints: Sequence[tuple[Hint, ...]],
         positions_m: Floats,
@@ -63,7 +63,7 @@ class Queries:
         return cls(sentences, positions_m, truth, [cells.scenes[n] for n in truth], strategies, hints)
 
     @classmethod
-    def joined(cls, parts: Sequence["Queries"]) -> "Queries":
+    def concatenate(cls, parts: Sequence["Queries"]) -> "Queries":
         """Those of one gallery, one after the other; what they say is known."""
 
         def all_of(name: str) -> list[Any]:
@@ -90,7 +90,7 @@ class Queries:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Statements:
+class PositionStatements:
     """Positions, and everything that can be said at each of them.
 
     Attributes:
@@ -101,7 +101,7 @@ class Statements:
         labels: label of each instance that the table names.
         words: colour words that the table numbers.
         part_number: [R] number of each instance, in rows of the cells' parts; parts of one instance share it.
-        said_number: [H] number of the instance that each row of the table means, -1 if unknown.
+        mentioned_number: [H] number of the instance that each row of the table means, -1 if unknown.
     """
 
     gallery: Gallery
@@ -111,4 +111,4 @@ class Statements:
     labels: Sequence[str]
     words: tuple[str, ...]
     part_number: npt.NDArray[Any]
-    said_number: npt.NDArray[Any]
+    mentioned_number: npt.NDArray[Any]

@@ -9,12 +9,12 @@ from models.citymap.hints import HINT_REACH_M
 from models.citymap.types import Floats
 
 # Shares of the extent from west to east; what lies between two regions is used by neither.
-SHARES = {"train": (0.0, 0.5), "val": (0.5, 0.64), "test": (0.64, 1.0)}
-SPLITS = tuple(SHARES)
+SPLIT_SHARES = {"train": (0.0, 0.5), "val": (0.5, 0.64), "test": (0.64, 1.0)}
+SPLITS = tuple(SPLIT_SHARES)
 
 
 @dataclass(frozen=True, slots=True)
-class Region:
+class SplitRegion:
     """A strip of a map from south to north: everything with west_m <= x < east_m."""
 
     west_m: float
@@ -37,7 +37,7 @@ class Region:
         return kept
 
 
-def split_regions(cells: CellTable) -> dict[str, Region]:
+def split_regions(cells: CellTable) -> dict[str, SplitRegion]:
     """West to train on, a strip between to choose by, east to test on.
 
     Args:
@@ -46,4 +46,4 @@ def split_regions(cells: CellTable) -> dict[str, Region]:
     half = cells.size_m / 2
     west, east = float(cells.center_m[:, 0].min()) - half, float(cells.center_m[:, 0].max()) + half + 1e-6
     width = east - west
-    return {split: Region(west + low * width, west + high * width) for split, (low, high) in SHARES.items()}
+    return {split: SplitRegion(west + low * width, west + high * width) for split, (low, high) in SPLIT_SHARES.items()}

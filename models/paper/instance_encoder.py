@@ -12,7 +12,7 @@ import numpy.typing as npt
 import torch
 from torch import Tensor, nn
 
-from models.citymap.cells import BLOCK, CellTable
+from models.citymap.cells import CELLS_PER_BLOCK, CellTable
 from models.citymap.point_sample import Sampler
 from models.citymap.points import Ints, ranges
 from models.errors import WeightsError
@@ -134,8 +134,8 @@ class CellFeatures:
 
     def _point_batches(self) -> Iterator[Ints]:
         """Yield the cells of each batch; no batch spans two blocks (see `Retriever.encode_cells`)."""
-        for first in range(0, len(self), BLOCK):
-            rows = np.arange(first, min(first + BLOCK, len(self)))
+        for first in range(0, len(self), CELLS_PER_BLOCK):
+            rows = np.arange(first, min(first + CELLS_PER_BLOCK, len(self)))
             begin, end = self.starts[rows[0]], self.starts[rows[-1] + 1]
             ends = np.searchsorted(
                 self.starts[rows], np.arange(begin + INSTANCES_PER_POINT_BATCH, end, INSTANCES_PER_POINT_BATCH)

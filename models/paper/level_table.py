@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from models.citymap.cells import BLOCK
+from models.citymap.cells import CELLS_PER_BLOCK
 from models.citymap.points import Ints, ranges
 from models.errors import IndexBroken
 from models.paper.instance_encoder import CellFeatures
@@ -148,7 +148,7 @@ def encode_gallery(
             for rows, levels in retriever.encode_cells(cells, labels, first)
         ]
 
-    for batch in chain.from_iterable(map_blocks(encode_block, range(0, len(cells), BLOCK))):
+    for batch in chain.from_iterable(map_blocks(encode_block, range(0, len(cells), CELLS_PER_BLOCK))):
         cell_rows, vectors, by_level = batch
         global_vectors[cell_rows] = vectors
         rows = ranges(cells.starts[cell_rows], cells.starts[cell_rows + 1])

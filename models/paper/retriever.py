@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor
 from torch.nn.utils.rnn import pad_sequence
 
-from models.citymap.cells import BLOCK
+from models.citymap.cells import CELLS_PER_BLOCK
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
 from models.paper.instance_encoder import DEFAULT_INPUTS, CellBatch, CellFeatures, Input
@@ -196,7 +196,7 @@ class Retriever(OnTextEncoder):
             label_embeddings: [L, W] text embedding of each label.
             first: row of the first cell of the block.
         """
-        sizes = np.diff(cells.starts[first : first + BLOCK + 1])
+        sizes = np.diff(cells.starts[first : first + CELLS_PER_BLOCK + 1])
         order = first + np.argsort(sizes, kind="stable")
         for start in range(0, len(order), ENCODE_BATCH):
             rows = order[start : start + ENCODE_BATCH]

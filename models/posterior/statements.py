@@ -13,7 +13,7 @@ from safetensors import SafetensorError
 from scipy.sparse import coo_array
 from torch import Tensor
 
-from models.citymap.cells import BLOCK
+from models.citymap.cells import CELLS_PER_BLOCK
 from models.citymap.hints import ON_TOP_M
 from models.citymap.points import Ints
 from models.citymap.types import Floats
@@ -284,7 +284,7 @@ def statement_rows(
 
     def tabulated(first: int) -> dict[str, npt.NDArray[Any]]:
         """How many, statements, how much they hold in the cells from one on."""
-        last = min(first + BLOCK, len(starts) - 1)
+        last = min(first + CELLS_PER_BLOCK, len(starts) - 1)
         size = np.diff(starts[first : last + 1])
         around = surroundings.around(np.arange(starts[first], starts[last]))
         batch = NodeBatch.of(around, int(size.sum()), label, rgb, is_vague)
@@ -300,7 +300,7 @@ def statement_rows(
 
     types: dict[str, npt.DTypeLike] = {"size": np.int32, "statement": np.int32, "holds": np.float16}
     none = {name: np.zeros(0, dtype) for name, dtype in types.items()}
-    found = spooled(chain([none], map_forked(tabulated, range(0, len(starts) - 1, BLOCK))))
+    found = spooled(chain([none], map_forked(tabulated, range(0, len(starts) - 1, CELLS_PER_BLOCK))))
     sizes = found.pop("size")
     return StatementRows(np.concatenate([[0], np.cumsum(sizes)]), **found, possible=columns)
 

@@ -11,12 +11,12 @@ from typing import Any
 from models.errors import DataError
 
 SUFFIXES = (".jsonl", ".jsonl.gz")
-SIGMA_M = 800.0  # of the prior round a start
+START_SIGMA_M = 800.0  # of the prior round a start
 LatLon = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class ToldText:
+class PlaceText:
     """A text about a place.
 
     Attributes:
@@ -30,7 +30,7 @@ class ToldText:
     start: LatLon | None = None
 
 
-def load_told_texts(path: Path) -> list[ToldText]:
+def load_place_texts(path: Path) -> list[PlaceText]:
     """Read texts, one JSON object a line: `text`, `goal` [lat, lon] and, if there is one, `start` [lat, lon].
 
     Args:
@@ -41,7 +41,7 @@ def load_told_texts(path: Path) -> list[ToldText]:
     """
     try:
         with gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else path.open(encoding="utf-8") as file:
-            texts = list(_texts(path, file))
+            texts = list(_read_texts(path, file))
     except (OSError, EOFError, zlib.error, UnicodeDecodeError) as error:
         raise DataError(f"{path}: cannot be read ({error}); give a .jsonl or .jsonl.gz file") from error
     if not texts:
@@ -49,7 +49,7 @@ def load_told_texts(path: Path) -> list[ToldText]:
     return texts
 
 
-def _texts(path: Path, lines: Any) -> Iterator[ToldText]:
+def _read_texts(path: Path, lines: Any) -> Iterator[PlaceText]:
     for number, line in enumerate(lines, 1):
         if not line.strip():
             continue
@@ -58,7 +58,7 @@ def _texts(path: Path, lines: Any) -> Iterator[ToldText]:
             start = row.get("start")
             if not isinstance(row["text"], str):
                 raise ValueError("'text' is no text")
-            text = ToldText(row["text"], _degrees(row["goal"]), None if start is None else _degrees(start))
+            text = PlaceText(row["text"], _parse_lat_lon(row["goal"]), None if start is None else _parse_lat_lon(start))
             if not any(c.isalnum() for c in text.text):
                 raise ValueError("no words in 'text'")
         except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -69,7 +69,7 @@ def _texts(path: Path, lines: Any) -> Iterator[ToldText]:
         yield text
 
 
-def _degrees(value: Any) -> LatLon:
+def _parse_lat_lon(value: Any) -> LatLon:
     lat, lon = (float(v) for v in value)
     if not (-90 <= lat <= 90 and -180 <= lon <= 180):
         raise ValueError(f"{value} is not [latitude, longitude]")

@@ -13,32 +13,39 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from models.citymap.cells import CellTable, Parts
+from models.citymap.cells import CellTable, PartTable
 from models.citymap.colours import KITTI360_PALETTE
-from models.citymap.gallery import Clouds, Gallery, MapData
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer
-from models.citymap.hints import BEST_CELL_REACH_M, HintTable, describe_poses, hint_table, sample_positions
-from models.citymap.map_geometry import Bodies, PieceBodies, PointBodies, ScannedBodies, bodies_of, cut_cells
+from models.citymap.gallery import Gallery, MapData, PointClouds
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
+from models.citymap.hints import BEST_CELL_REACH_M, HintTable, build_hint_table, describe_poses, sample_positions
+from models.citymap.map_geometry import (
+    MapGeometry,
+    PieceGeometry,
+    ScanGeometry,
+    ScannedPieceGeometry,
+    build_geometry,
+    cut_cells,
+)
 from models.citymap.points import Ints
-from models.citymap.queries import Queries, Statements
+from models.citymap.queries import PositionStatements, Queries
 from models.citymap.regions import SPLITS, split_regions
 from models.citymap.scenery.cloud import encode_cloud
-from models.citymap.scenery.files import Encoded
-from models.citymap.scenery.shapes import Outlines, Place
+from models.citymap.scenery.files import SceneryBlob
+from models.citymap.scenery.shapes import NamedPoint, Outlines
 from models.citymap.types import CityMap, CutRules, Floats, Progress
 from models.errors import DataError, MapError
 from models.sources.kitti360.rules import CLASSES
 from models.sources.osm.gazetteer import load_gazetteer
-from models.sources.osm.map import frame_of, load_osm
+from models.sources.osm.map import load_osm, read_frame
 from models.sources.store.files import load_data
 from models.sources.store.pose_store import PoseStore
 
-SPACING_M = 10.0  # of the positions that are asked about in a map
+QUERY_SPACING_M = 10.0  # of the positions that are asked about in a map
 # A map's positions are the same at every run; what a model is chosen by is not what it is measured at.
-CHOSEN_BY, MEASURED_AT = 0, 1
-APART_M = 1e6  # between scenes, on an axis of their own
+VALIDATION_SEED, TEST_SEED = 0, 1
+SCENE_GAP_M = 1e6  # between scenes, on an axis of their own
 VOXEL_M = 0.2
-STUFF = [rule.label for rule in CLASSES if rule.is_stuff]
+STUFF_LABELS = [rule.label for rule in CLASSES if rule.is_stuff]
 
 
 class Source(ABC):
@@ -53,7 +60,7 @@ class Source(ABC):
     facts: dict[str, Any]
 
     @abstractmethod
-    def queries(self, seed: int = MEASURED_AT, spacing_m: float = SPACING_M) -> Queries:
+    def queries(self, seed: int = TEST_SEED, spacing_m: float = QUERY_SPACING_M) -> Queries:
         """Descriptions with known positions: the poses of a data set, or described positions of a map.
 
         Args:
@@ -69,7 +76,7 @@ class Source(ABC):
         return self
 
     @abstractmethod
-    def statements(self, spacing_m: float, rng: np.random.Generator) -> Statements:
+    def statements(self, spacing_m: float, rng: np.random.Generator) -> PositionStatements:
         """Everything that can be said at positions to train on; arguments as `queries`.
 
         Raises:
@@ -77,7 +84,7 @@ class Source(ABC):
         """
 
     @abstractmethod
-    def bodies(self) -> Clouds | PieceBodies:
+    def geometry(self) -> PointClouds | PieceGeometry:
         """What its surroundings are measured from: of a map everything, of a data set what its cells show."""
 
     @abstractmethod
@@ -85,7 +92,7 @@ class Source(ABC):
         """What a passer-by could name there; empty where nothing has a name."""
 
     @abstractmethod
-    def scenery(self, gazetteer: Gazetteer) -> Iterator[Encoded]:
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[SceneryBlob]:
         """What it looks like, in parts, as `models.citymap.scenery` encodes it, with the names of a gazetteer."""
 
 
@@ -95,23 +102,23 @@ class MapSource(Source):
     Args:
         path: what was opened, for messages.
         city_map: the map.
-        bodies: what stands in it.
+        geometry: what stands in it.
         cells: all its cells.
         split: one of SPLITS; None for the whole map.
     """
 
     def __init__(
-        self, path: Path, city_map: CityMap, bodies: Bodies, cells: CellTable, split: str | None = None
+        self, path: Path, city_map: CityMap, bodies: MapGeometry, cells: CellTable, split: str | None = None
     ) -> None:
         regions = split_regions(cells)
-        self._path, self._map, self._bodies, self._locations_m = path, city_map, bodies, city_map.locations_m
+        self._path, self._map, self._geometry, self._locations_m = path, city_map, bodies, city_map.locations_m
         if split is not None:
             cells = regions[split].cells(cells)
             self._locations_m = regions[split].locations(city_map.locations_m)
         self.data = MapData(
             name=city_map.name,
             split=split or "all",
-            gallery=Gallery.of(city_map, cells),
+            gallery=Gallery.from_map(city_map, cells),
             palette=city_map.palette,
             frame=city_map.frame,
             grid_m=city_map.rules.grid_m,
@@ -123,18 +130,18 @@ class MapSource(Source):
             "regions": {name: [region.west_m, region.east_m] for name, region in regions.items()},
         }
 
-    def queries(self, seed: int = MEASURED_AT, spacing_m: float = SPACING_M) -> Queries:
+    def queries(self, seed: int = TEST_SEED, spacing_m: float = QUERY_SPACING_M) -> Queries:
         """See Source."""
         cells = self.data.cells
         positions = sample_positions(self._locations_m, spacing_m, np.random.default_rng(seed))
-        poses = describe_poses(self._map, self._bodies, cells, positions) if len(cells) and len(positions) else []
+        poses = describe_poses(self._map, self._geometry, cells, positions) if len(cells) and len(positions) else []
         if not poses:
             raise MapError(
                 f"{self._path}: no position in split '{self.data.split}' can be described; "
                 "take a larger map or another split"
             )
         row = {cell_id: n for n, cell_id in enumerate(cells.ids)}
-        return Queries.of_hints(
+        return Queries.from_hints(
             [pose.description.hints for pose in poses],
             np.array([pose.position_m[:2] for pose in poses], dtype=np.float64),
             np.array([row[pose.cell_id] for pose in poses]),
@@ -142,38 +149,38 @@ class MapSource(Source):
             cells,
         )
 
-    def statements(self, spacing_m: float, rng: np.random.Generator) -> Statements:
+    def statements(self, spacing_m: float, rng: np.random.Generator) -> PositionStatements:
         """See Source."""
         return self.statements_at(sample_positions(self._locations_m, spacing_m, rng))
 
-    def statements_at(self, positions_m: Floats) -> Statements:
+    def statements_at(self, positions_m: Floats) -> PositionStatements:
         """What can be said at positions [N, 3]; those further than 15 m from every centre are left out."""
         gallery, palette = self.data.gallery, self.data.palette
         distance, best = cKDTree(gallery.cells.center_m).query(positions_m)
         near = distance <= BEST_CELL_REACH_M
         positions = positions_m[near]
-        table = hint_table(palette, self._bodies.cut(positions), positions)
+        table = build_hint_table(palette, self._geometry.cut(positions), positions)
         part_number = gallery.cells.parts.instance
-        return Statements(
+        return PositionStatements(
             gallery, positions[:, :2], best[near], table, gallery.labels, palette.words, part_number, table.instance
         )
 
-    def bodies(self) -> Clouds | PieceBodies:
+    def geometry(self) -> PointClouds | PieceGeometry:
         """See Source."""
-        if not isinstance(self._bodies, PointBodies):
-            assert isinstance(self._bodies, PieceBodies)
-            return self._bodies
-        points, rules = self._bodies.points, self._map.rules
+        if not isinstance(self._geometry, ScanGeometry):
+            assert isinstance(self._geometry, PieceGeometry)
+            return self._geometry
+        points, rules = self._geometry.points, self._map.rules
         scene, of_part = np.zeros(len(self._map.instances), dtype=np.int64), self.data.cells.parts.instance
         is_thing, least = ~points.is_stuff, rules.min_part_points
-        return Clouds(points.xyz, points.starts, is_thing, scene, of_part, rules.thing_share, least)
+        return PointClouds(points.xyz, points.starts, is_thing, scene, of_part, rules.thing_share, least)
 
     def as_scan(self) -> "MapSource":
         """See Source."""
-        if not isinstance(self._bodies, PieceBodies):
+        if not isinstance(self._geometry, PieceGeometry):
             return self
         scan = copy(self)
-        scan._bodies = ScannedBodies(self._bodies)
+        scan._geometry = ScannedPieceGeometry(self._geometry)
         return scan
 
     def lighten(self) -> None:
@@ -181,19 +188,19 @@ class MapSource(Source):
         nowhere = np.zeros((0, 3), np.float32)  # no view of what there was
         self._map, self._locations_m = replace(self._map, instances=(), locations_m=nowhere), nowhere
 
-    def cut_anew(self, cut: Callable[[Floats], Parts]) -> None:
+    def defer_parts(self, cut: Callable[[Floats], PartTable]) -> None:
         """Let go of the parts of cells, which are then cut (round centres [N, 3]) when they are asked for."""
-        self.data = self.data.cut_anew(cut)
+        self.data = self.data.with_deferred_parts(cut)
 
     def gazetteer(self) -> Gazetteer:
         """See Source; of the whole file, whatever the split."""
         return load_gazetteer(self._path, self.data.frame)
 
-    def scenery(self, gazetteer: Gazetteer) -> Iterator[Encoded]:
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[SceneryBlob]:
         """See Source; of the whole file, whatever the split."""
-        places = ((gazetteer.middles_m[n].tolist(), gazetteer.words[n]) for n in gazetteer.named.tolist())
-        outlines = self._map.outlines or Outlines.of(())
-        yield outlines.encode(Place((x, y), w.names[0], w.kinds[0]) for (x, y), w in places)
+        places = ((gazetteer.middles_m[n].tolist(), gazetteer.objects[n]) for n in gazetteer.named.tolist())
+        outlines = self._map.outlines or Outlines.from_shapes(())
+        yield outlines.encode(NamedPoint((x, y), w.names[0], w.kinds[0]) for (x, y), w in places)
 
 
 class StoreSource(Source):
@@ -209,35 +216,35 @@ class StoreSource(Source):
         self._scene = np.unique(cells.scenes, return_inverse=True)[1]
         numbers = tuple(str(number) for number in store.instance_ids)
         gallery = Gallery(cells, store.labels, (None,) * len(numbers), numbers)
-        self.data = MapData(name, split or "all", gallery, KITTI360_PALETTE, grid_m=_grid_of(cells, self._scene))
+        self.data = MapData(name, split or "all", gallery, KITTI360_PALETTE, grid_m=_grid_spacing_m(cells, self._scene))
         self.facts = {"data": name, "scenes": {self.data.split: [scene.name for scene in store.scenes]}}
 
-    def queries(self, seed: int = MEASURED_AT, spacing_m: float = SPACING_M) -> Queries:
+    def queries(self, seed: int = TEST_SEED, spacing_m: float = QUERY_SPACING_M) -> Queries:
         """See Source; nothing is drawn."""
         poses = self._store.poses
         if not len(poses):
             raise DataError(f"{self._store.source}: no poses in these scenes; name others with --split")
         hints = [poses.hints(q) for q in range(len(poses))]
         truth = poses.cell.astype(np.intp)
-        return Queries.of_hints(hints, poses.positions_m[:, :2], truth, poses.strategies, self.data.cells)
+        return Queries.from_hints(hints, poses.positions_m[:, :2], truth, poses.strategies, self.data.cells)
 
-    def statements(self, spacing_m: float, rng: np.random.Generator) -> Statements:
+    def statements(self, spacing_m: float, rng: np.random.Generator) -> PositionStatements:
         """See Source; nothing is drawn: what can be said is what the descriptions say."""
         poses, numbers = self._store.poses, self._store.instance_ids
         said, scene = poses.instance, self._scene[poses.cell]
-        return Statements(
+        return PositionStatements(
             gallery=self.data.gallery,
-            positions_m=np.column_stack([poses.positions_m[:, :2], scene * APART_M]),
+            positions_m=np.column_stack([poses.positions_m[:, :2], scene * SCENE_GAP_M]),
             best=poses.cell.astype(np.intp),
             # in the order in which they were said
             table=HintTable(poses.starts, poses.label, poses.direction, poses.colour, np.arange(float(len(said)))),
             labels=poses.words,
             words=poses.words,
             part_number=numbers,
-            said_number=np.where(said >= 0, numbers[said], -1),
+            mentioned_number=np.where(said >= 0, numbers[said], -1),
         )
 
-    def bodies(self) -> Clouds:
+    def geometry(self) -> PointClouds:
         """See Source; one point a cube of VOXEL_M."""
         store, cells, cube = self._store, self.data.cells, self.data.cells.parts.cube
         pairs = np.column_stack([self._scene[cube], store.instance_ids])
@@ -248,19 +255,19 @@ class StoreSource(Source):
         xyz = []
         for rows in groups:
             seen = np.concatenate([store.instance_points(int(r))[0] * cells.size_m + corner[r] for r in rows])
-            xyz.append(_one_a_voxel(seen).astype(np.float32))
+            xyz.append(_thin_by_voxel(seen).astype(np.float32))
         labels = np.array(store.labels)[[rows[0] for rows in groups]]
         starts = np.concatenate([[0], np.cumsum([len(points) for points in xyz])])
-        is_thing, rules = ~np.isin(labels, STUFF), CutRules()
-        return Clouds(
+        is_thing, rules = ~np.isin(labels, STUFF_LABELS), CutRules()
+        return PointClouds(
             np.concatenate(xyz), starts, is_thing, known[:, 0], part_instance, rules.thing_share, rules.min_part_points
         )
 
     def gazetteer(self) -> Gazetteer:
         """See Source; scans have no names."""
-        return NOTHING_NAMED
+        return EMPTY_GAZETTEER
 
-    def scenery(self, gazetteer: Gazetteer) -> Iterator[Encoded]:
+    def scenery(self, gazetteer: Gazetteer) -> Iterator[SceneryBlob]:
         """See Source; one point a cube of VOXEL_M."""
         del gazetteer
         cells, cube = self.data.cells, self.data.cells.parts.cube
@@ -268,12 +275,12 @@ class StoreSource(Source):
         seen: list[Floats] = [np.zeros((0, 6))]
         for row in range(len(cube)):
             points, rgb = self._store.instance_points(row)
-            seen.append(_one_a_voxel(np.concatenate([points * cells.size_m + corner[row], rgb], axis=1)))
-        coloured = _one_a_voxel(np.concatenate(seen))  # cells overlap
+            seen.append(_thin_by_voxel(np.concatenate([points * cells.size_m + corner[row], rgb], axis=1)))
+        coloured = _thin_by_voxel(np.concatenate(seen))  # cells overlap
         yield from encode_cloud(coloured[:, :3], np.rint(255 * coloured[:, 3:]).astype(np.uint8))
 
 
-def _one_a_voxel(rows: Floats) -> Floats:
+def _thin_by_voxel(rows: Floats) -> Floats:
     """Rows [n, ...], of whose first three columns one a cube of VOXEL_M is kept."""
     voxel = np.floor(rows[:, :3] / VOXEL_M).astype(np.int64) & 0x1FFFFF
     key = (voxel[:, 0] << 42) | (voxel[:, 1] << 21) | voxel[:, 2]
@@ -306,19 +313,19 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
     report = progress or (lambda stage, done, total: None)
     report("read map", 0, 0)
     city_map = load_osm(path)
-    bodies = bodies_of(city_map)
+    bodies = build_geometry(city_map)
     cells = cut_cells(city_map, bodies, lambda done, total: report("cut cells", done, total))
     return [MapSource(path, city_map, bodies, cells, split) for split in splits]
 
 
-def gazetteer_of(path: Path) -> Gazetteer:
+def open_gazetteer(path: Path) -> Gazetteer:
     """What a map names, as `Source.gazetteer`, without the rest of it; arguments and errors as `open_sources`."""
-    return NOTHING_NAMED if path.is_dir() else load_gazetteer(path, frame_of(path))
+    return EMPTY_GAZETTEER if path.is_dir() else load_gazetteer(path, read_frame(path))
 
 
-def _grid_of(cells: CellTable, scene: Ints) -> float:
+def _grid_spacing_m(cells: CellTable, scene: Ints) -> float:
     """Metres between neighbouring centres in the plane, the commonest; the size of a cell if there is one alone."""
     if len(cells) < 2:
         return cells.size_m
-    centers = np.column_stack([cells.center_m[:, :2], scene * APART_M])  # scenes may lie over each other
+    centers = np.column_stack([cells.center_m[:, :2], scene * SCENE_GAP_M])  # scenes may lie over each other
     return float(min(np.median(cKDTree(centers).query(centers, k=2)[0][:, 1]), cells.size_m))

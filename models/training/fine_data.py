@@ -17,7 +17,7 @@ from models.citymap.queries import Queries
 from models.citymap.types import Floats
 from models.paper.fine.fine_model import FineModel, FineTargets
 from models.paper.instance_encoder import CellBatch, CellFeatures
-from models.sources.source import APART_M
+from models.sources.source import SCENE_GAP_M
 from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect
 
 CLONED = 0.5  # share of the examples whose cell is a neighbour
@@ -98,7 +98,7 @@ class FineSet:
         rows = slice(parts.starts[cell], parts.starts[cell + 1])
         low, high = parts.low_m[rows, :2], parts.high_m[rows, :2]
         distance = np.linalg.norm(np.maximum(0, np.maximum(low - position_m, position_m - high)), axis=1)
-        said = self.statements.said_number[hints]
+        said = self.statements.mentioned_number[hints]
         is_meant = (self.statements.part_number[rows] == said[:, None]) & (said >= 0)[:, None]
         nearest: Ints = np.where(is_meant, distance, np.inf).argmin(axis=1)
         return np.where(is_meant.any(axis=1), nearest, -1)
@@ -170,7 +170,7 @@ def containing_cells(cells: CellTable, positions_m: Floats, best: npt.NDArray[np
     Returns:
         starts [N + 1] and cells: position n has cells[starts[n]:starts[n + 1]], ascending.
     """
-    scene = np.unique(cells.scenes, return_inverse=True)[1] * APART_M
+    scene = np.unique(cells.scenes, return_inverse=True)[1] * SCENE_GAP_M
     tree = cKDTree(np.column_stack([cells.center_m[:, :2], scene]))
     found = tree.query_ball_point(np.column_stack([positions_m, scene[best]]), cells.size_m / 2, p=np.inf)
     others = [sorted(set(rows) - {int(own)}) for rows, own in zip(found, best, strict=True)]

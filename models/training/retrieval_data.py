@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from torch import Tensor
 
 from models.citymap.hints import NUM_HINTS, STRATEGIES, choose_hints
-from models.citymap.queries import Statements
+from models.citymap.queries import PositionStatements
 from models.citymap.templates import TEMPLATES, render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DataError
@@ -123,7 +123,7 @@ class TrainingSet:
         DataError: no position has hints enough.
     """
 
-    def __init__(self, statements: Statements, encoder: TextEncoder, wording: Wording = "varied") -> None:
+    def __init__(self, statements: PositionStatements, encoder: TextEncoder, wording: Wording = "varied") -> None:
         self.statements, self.table, self.best, self.wording = statements, statements.table, statements.best, wording
         self.features = CellFeatures.from_cells(statements.gallery.cells, np.array(statements.gallery.labels))
         self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)

@@ -10,7 +10,7 @@ from models.citymap.gallery import Gallery
 from models.citymap.queries import Queries
 from models.language.text_encoder import TextEncoder
 from models.paper.instance_encoder import CellFeatures
-from models.sources.source import CHOSEN_BY, Source, open_sources
+from models.sources.source import VALIDATION_SEED, Source, open_sources
 from models.training.retrieval_data import TrainingSet
 from models.training.settings import TrainingConfig
 
@@ -64,7 +64,7 @@ class TrainingData:
             rng: draws positions in a map.
         """
         training = TrainingSet(taught.statements(config.spacing_m, rng), encoder, config.wording)
-        return cls(training, asked.data.gallery, asked.queries(CHOSEN_BY), _facts(taught, asked))
+        return cls(training, asked.data.gallery, asked.queries(VALIDATION_SEED), _facts(taught, asked))
 
     @property
     def cells(self) -> TrainingCells:

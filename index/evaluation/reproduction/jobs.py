@@ -26,7 +26,7 @@ from models.paper.checkpoint import METHODS, load_retriever
 from models.paper.fine.checkpoint import FINE_METHODS, load_fine
 from models.paper.fine.fine_model import FineModel
 from models.paper.retriever import Retriever
-from models.sources.source import CHOSEN_BY, open_sources
+from models.sources.source import VALIDATION_SEED, open_sources
 from models.training.engine.loop import pick_device
 from models.training.engine.run_dir import METRICS_FILE
 from models.training.experiments import POINTS, VARIANTS, Run, Scale, made_of
@@ -272,5 +272,5 @@ def _localizer(
 def asked(data: Path, *splits: str) -> Iterator[tuple[MapData, Queries]]:
     """Splits without the hints behind their sentences: exact matching is measured once, in `reproduce`."""
     for split, source in zip(splits, open_sources(data, splits), strict=True):
-        queries = source.queries(CHOSEN_BY) if split == VALIDATION else source.queries()
+        queries = source.queries(VALIDATION_SEED) if split == VALIDATION else source.queries()
         yield source.data, replace(queries, hints=None)

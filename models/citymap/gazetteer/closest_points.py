@@ -12,7 +12,7 @@ from models.compiled import compiled, longer
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Around:
+class PointGroups:
     """Positions in groups that lie close together, for which ways are looked up together.
 
     Attributes:
@@ -28,7 +28,7 @@ class Around:
     radius_m: float
 
     @classmethod
-    def of(cls, points_m: Floats, group: Ints) -> "Around":
+    def from_groups(cls, points_m: Floats, group: Ints) -> "PointGroups":
         """Positions [N, 2] with the number of each one's group, ascending."""
         starts = np.flatnonzero(np.diff(group, prepend=-1))
         low, high = np.minimum.reduceat(points_m, starts), np.maximum.reduceat(points_m, starts)
@@ -39,27 +39,29 @@ class Around:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Ways:
+class ClosestPoints:
     """Ways from positions to objects near them.
 
     Attributes:
         point: [P] position.
-        item: [P] which of the objects that were asked for.
-        way_m: [P, 2] from the position to the closest point of the object; no way inside an area.
+        target: [P] which of the objects that were asked for.
+        offset_m: [P, 2] from the position to the closest point of the object; no way inside an area.
     """
 
     point: Ints
-    item: Ints
-    way_m: Floats
+    target: Ints
+    offset_m: Floats
 
     @property
-    def metres(self) -> Floats:
+    def distance_m(self) -> Floats:
         """[P] how far."""
-        far: Floats = np.hypot(*self.way_m.T)
+        far: Floats = np.hypot(*self.offset_m.T)
         return far
 
 
-def ways_to(around: Around, segments_m: Floats, starts: Ints, is_area: npt.NDArray[np.bool_], reach_m: float) -> Ways:
+def find_closest_points(
+    around: PointGroups, segments_m: Floats, starts: Ints, is_area: npt.NDArray[np.bool_], reach_m: float
+) -> ClosestPoints:
     """The ways to objects, as far as they are within reach.
 
     Args:
@@ -69,13 +71,13 @@ def ways_to(around: Around, segments_m: Floats, starts: Ints, is_area: npt.NDArr
         is_area: likewise.
         reach_m: beyond are none.
     """
-    return Ways(*_all_ways(
+    return ClosestPoints(*_closest_points(
         around.points_m, around.starts, around.centers_m, around.radius_m,
         segments_m.astype(np.float64, copy=False), starts, is_area, float(reach_m),
     ))  # fmt: skip
 
 
-def cut(gazetteer: Gazetteer, objects: Ints) -> tuple[Floats, Ints, npt.NDArray[np.bool_]]:
+def select_objects(gazetteer: Gazetteer, objects: Ints) -> tuple[Floats, Ints, npt.NDArray[np.bool_]]:
     """Segments, starts and `is_area` of some objects of a gazetteer."""
     begin, end = gazetteer.starts[objects], gazetteer.starts[objects + 1]
     starts = np.concatenate([[0], np.cumsum(end - begin)])
@@ -83,14 +85,14 @@ def cut(gazetteer: Gazetteer, objects: Ints) -> tuple[Floats, Ints, npt.NDArray[
 
 
 @compiled
-def _all_ways(
+def _closest_points(
     points_m: Floats, group_starts: Ints, centers_m: Floats, radius_m: float,
     segments_m: Floats, starts: Ints, is_area: npt.NDArray[np.bool_], reach_m: float,
 ) -> tuple[Ints, Ints, Floats]:  # fmt: skip
     """(point, object, way) in order of group, then object: of a group only the segments that may be the closest."""
     count, room = 0, len(points_m) + 64
     point, item, way = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2))
-    boxes_m, metres = _boxes(segments_m, starts, reach_m + radius_m), np.empty(len(segments_m))
+    boxes_m, metres = _boxes_with_margin(segments_m, starts, reach_m + radius_m), np.empty(len(segments_m))
     for c in range(len(centers_m)):
         x, y = centers_m[c]
         for i in range(len(starts) - 1):
@@ -98,12 +100,12 @@ def _all_ways(
                 continue
             ends = segments_m[starts[i] : starts[i + 1]]
             for s in range(len(ends)):
-                metres[s] = _length(_way(x, y, ends[s]))
+                metres[s] = _length(_offset_to_segment(x, y, ends[s]))
             nearest = metres[: len(ends)].min()
             if nearest > reach_m + radius_m and not (is_area[i] and is_inside(x, y, ends)):
                 continue
             for p in range(group_starts[c], group_starts[c + 1]):
-                found = _closest(points_m[p, 0], points_m[p, 1], ends, metres, nearest + 2 * radius_m)
+                found = _closest_offset(points_m[p, 0], points_m[p, 1], ends, metres, nearest + 2 * radius_m)
                 if is_area[i] and is_inside(points_m[p, 0], points_m[p, 1], ends):
                     found = (0.0, 0.0)
                 if _length(found) > reach_m:
@@ -118,7 +120,7 @@ def _all_ways(
 
 
 @compiled
-def _boxes(segments_m: Floats, starts: Ints, margin_m: float) -> Floats:
+def _boxes_with_margin(segments_m: Floats, starts: Ints, margin_m: float) -> Floats:
     """[objects, 4] of each, wider by a margin."""
     boxes = np.empty((len(starts) - 1, 4))
     for i in range(len(starts) - 1):
@@ -130,7 +132,7 @@ def _boxes(segments_m: Floats, starts: Ints, margin_m: float) -> Floats:
 
 
 @compiled
-def _way(x: float, y: float, ends: Floats) -> tuple[float, float]:
+def _offset_to_segment(x: float, y: float, ends: Floats) -> tuple[float, float]:
     """From a point to the closest one of a segment [4]."""
     along_x, along_y = ends[2] - ends[0], ends[3] - ends[1]
     away_x, away_y = x - ends[0], y - ends[1]
@@ -147,12 +149,12 @@ def _length(way: tuple[float, float]) -> float:
 
 
 @compiled
-def _closest(x: float, y: float, ends: Floats, metres: Floats, farthest_m: float) -> tuple[float, float]:
+def _closest_offset(x: float, y: float, ends: Floats, metres: Floats, farthest_m: float) -> tuple[float, float]:
     """The way to the closest of those segments [n, 4] that are no farther from the group's centre than that."""
     best, found = np.inf, (0.0, 0.0)
     for s in range(len(ends)):
         if metres[s] <= farthest_m:
-            way = _way(x, y, ends[s])
+            way = _offset_to_segment(x, y, ends[s])
             square = way[0] * way[0] + way[1] * way[1]
             if square < best:
                 best, found = square, way

@@ -13,13 +13,13 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
 
-MOST_REACH: Final = 253  # pixels; the first step keeps a byte of each, and adds 1 to reach + 1
-MOST_SQUARED: Final = 180  # the same of `squares_away`, whose squares have 16 bits
-Columns = npt.NDArray[np.uint8]
-Squares = npt.NDArray[np.uint16]
+MAX_REACH_PX: Final = 253  # pixels; the first step keeps a byte of each, and adds 1 to reach + 1
+MAX_SQUARED_REACH_PX: Final = 180  # the same of `squared_distances`, whose squares have 16 bits
+ColumnDistances = npt.NDArray[np.uint8]
+SquaredDistances = npt.NDArray[np.uint16]
 
 
-def columns_away(drawn: Ints, shape: tuple[int, int], reach: int) -> Columns:
+def column_distances(drawn: Ints, shape: tuple[int, int], reach: int) -> ColumnDistances:
     """[columns, rows + 2 reach] pixels to the nearest that is drawn in a column, at most reach + 1.
 
     Args:
@@ -28,12 +28,12 @@ def columns_away(drawn: Ints, shape: tuple[int, int], reach: int) -> Columns:
         reach: pixels, at most MOST_REACH; there is a margin of as many at both ends of rows.
     """
     away = np.full((shape[0], shape[1] + 2 * reach), reach + 1, np.uint8)
-    _scan(away, drawn, reach)
+    _fill_columns(away, drawn, reach)
     return away
 
 
 @compiled
-def _scan(away: Columns, drawn: Ints, reach: int) -> None:
+def _fill_columns(away: ColumnDistances, drawn: Ints, reach: int) -> None:
     columns, rows = away.shape
     for pixel in drawn:
         away[pixel // (rows - 2 * reach), reach + pixel % (rows - 2 * reach)] = 0
@@ -46,7 +46,7 @@ def _scan(away: Columns, drawn: Ints, reach: int) -> None:
 
 
 @compiled
-def pixels_away(away: Columns, asked: Ints, reach: int) -> Floats:
+def pixel_distances(away: ColumnDistances, asked: Ints, reach: int) -> Floats:
     """[n] float32 pixels from some [n] to the nearest that is drawn; inf beyond reach. `away` is of columns_away."""
     rows = away.shape[1] - 2 * reach
     across = (np.arange(2 * reach + 1).astype(np.int32) - np.int32(reach)) ** 2
@@ -62,13 +62,13 @@ def pixels_away(away: Columns, asked: Ints, reach: int) -> Floats:
 
 
 @compiled
-def squares_away(away: Columns, reach: int) -> Squares:
+def squared_distances(away: ColumnDistances, reach: int) -> SquaredDistances:
     """[columns, rows] squared pixels from all to the nearest that is drawn; more than reach * reach is beyond reach.
 
     Without a branch in the loop over pixels: so the processor takes many of them at once.
 
     Args:
-        away: of `columns_away`.
+        away: of `column_distances`.
         reach: as there, at most MOST_SQUARED.
     """
     columns, rows = away.shape[0], away.shape[1] - 2 * reach

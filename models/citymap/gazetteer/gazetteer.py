@@ -11,7 +11,7 @@ import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
-from models.citymap.gazetteer.name_columns import STREET, Words, WordSpool, WordTable
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject, ObjectTable, ObjectTableBuilder
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import IndexBroken
@@ -19,9 +19,9 @@ from models.files import map_arrays
 from models.spool import Spool, starts_of
 from models.strings import merge_columns
 
-ADDRESS: Final = "address"  # the kind of what has a house number alone
-WALKED: Final = "walked"  # the kind of the one object that is all lines people walk on
-FILE = "gazetteer.safetensors"
+ADDRESS_KIND: Final = "address"  # the kind of what has a house number alone
+WALKED_KIND: Final = "walked"  # the kind of the one object that is all lines people walk on
+GAZETTEER_FILE = "gazetteer.safetensors"
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class Gazetteer:
     """O objects.
 
     Attributes:
-        words: O of them.
+        objects: O of them.
         segments_m: [G, 4] float32, x and y of both ends, map frame; a point is a segment without length.
         starts: [O + 1] object o has the segments starts[o] to starts[o + 1].
         is_area: [O] bool, True where the segments close to rings and the object is what is inside.
@@ -37,7 +37,7 @@ class Gazetteer:
         corners_m: [C, 2] float32, where.
     """
 
-    words: WordTable
+    objects: ObjectTable
     segments_m: Floats
     starts: Ints
     is_area: npt.NDArray[np.bool_]
@@ -45,17 +45,17 @@ class Gazetteer:
     corners_m: Floats
 
     def __len__(self) -> int:
-        return len(self.words)
+        return len(self.objects)
 
     @cached_property
     def by_kind(self) -> Mapping[str, Ints]:
         """The objects of every kind, parents' kinds too."""
-        return self.words.by_kind
+        return self.objects.by_kind
 
     @cached_property
     def named(self) -> Ints:
         """What has a name and a kind, and is no street."""
-        return np.flatnonzero(self.words.has_name & self.words.has_kind & ~self.words.is_street)
+        return np.flatnonzero(self.objects.has_name & self.objects.has_kind & ~self.objects.is_street)
 
     @cached_property
     def middles_m(self) -> Floats:
@@ -74,19 +74,19 @@ class Gazetteer:
     @cached_property
     def streets(self) -> Ints:
         """All streets."""
-        return self.by_kind.get(STREET, np.zeros(0, np.int64))
+        return self.by_kind.get(STREET_KIND, np.zeros(0, np.int64))
 
     @cached_property
-    def where_named(self) -> tuple[Floats, Floats]:
+    def named_extents(self) -> tuple[Floats, Floats]:
         """[2, n] middles and [n] reach of what is `named`: all of them are looked through for every answer."""
-        return self._where(self.named)
+        return self._extents(self.named)
 
     @cached_property
-    def where_streets(self) -> tuple[Floats, Floats]:
+    def street_extents(self) -> tuple[Floats, Floats]:
         """The same of `streets`."""
-        return self._where(self.streets)
+        return self._extents(self.streets)
 
-    def _where(self, objects: Ints) -> tuple[Floats, Floats]:
+    def _extents(self, objects: Ints) -> tuple[Floats, Floats]:
         middles_m, reach_m = np.ascontiguousarray(self.middles_m[objects].T), self.reach_m[objects]
         return middles_m.astype(np.float32), reach_m.astype(np.float32)  # half the memory to look through
 
@@ -101,8 +101,8 @@ class Gazetteer:
 
     def save(self, directory: Path) -> None:
         """Write one file."""
-        shapes = {name: getattr(self, name) for name in _ARRAYS}
-        save_file(merge_columns([shapes, self.words.columns()]), directory / FILE)
+        shapes = {name: getattr(self, name) for name in _SHAPE_COLUMNS}
+        save_file(merge_columns([shapes, self.objects.columns()]), directory / GAZETTEER_FILE)
 
     @classmethod
     def load(cls, directory: Path) -> "Gazetteer":
@@ -112,9 +112,9 @@ class Gazetteer:
             IndexBroken: the files do not hold a gazetteer.
         """
         try:
-            columns = map_arrays(directory / FILE)[0]
-            words = WordTable.from_columns(columns)
-            shapes = {name: columns[name] for name in _ARRAYS}
+            columns = map_arrays(directory / GAZETTEER_FILE)[0]
+            words = ObjectTable.from_columns(columns)
+            shapes = {name: columns[name] for name in _SHAPE_COLUMNS}
             if len(shapes["starts"]) != len(words) + 1 or shapes["starts"][-1] != len(shapes["segments_m"]):
                 raise ValueError("names and shapes are of different gazetteers")
             return cls(words, **shapes)
@@ -124,45 +124,45 @@ class Gazetteer:
             ) from error
 
 
-_ARRAYS = tuple(f.name for f in fields(Gazetteer) if f.name != "words")
+_SHAPE_COLUMNS = tuple(f.name for f in fields(Gazetteer) if f.name != "objects")
 
 
-class Objects:
+class GazetteerBuilder:
     """Objects of a gazetteer, as they come; what they take lies on disk."""
 
     def __init__(self) -> None:
-        self._words, self._spool, self._count = WordSpool(), Spool(), 0
+        self._objects, self._spool, self._count = ObjectTableBuilder(), Spool(), 0
 
     def __len__(self) -> int:
         return self._count
 
-    def add(self, words: Sequence[Words], segments_m: Sequence[Floats], is_area: Sequence[bool]) -> None:
+    def add(self, words: Sequence[GazetteerObject], segments_m: Sequence[Floats], is_area: Sequence[bool]) -> None:
         """Add some with their segments, [n, 4] each; at least none."""
-        self._words.add(words)
+        self._objects.add(words)
         sizes, areas = np.array([len(some) for some in segments_m], np.int64), np.array(is_area, dtype=np.bool_)
-        self._spool.add({"sizes": sizes, "segments_m": joined_segments(segments_m), "is_area": areas})
+        self._spool.add({"sizes": sizes, "segments_m": concatenate_segments(segments_m), "is_area": areas})
         self._count += len(words)
 
-    def gazetteer(self, corners: Any = None) -> Gazetteer:
+    def build(self, corners: Any = None) -> Gazetteer:
         """All of them, with corners (streets [C, 2], places [C, 2]) if any; none is added after that."""
         streets, places = corners if corners is not None else (np.zeros((0, 2), np.int64), np.zeros((0, 2), np.float32))
         columns = self._spool.columns()
         starts = starts_of(columns["sizes"])
-        return Gazetteer(self._words.table(), columns["segments_m"], starts, columns["is_area"], streets, places)
+        return Gazetteer(self._objects.build(), columns["segments_m"], starts, columns["is_area"], streets, places)
 
 
-def joined_segments(some: Sequence[Floats]) -> Floats:
+def concatenate_segments(some: Sequence[Floats]) -> Floats:
     """[n, 4] float32, all segments of some, [k, 4] each."""
     return np.concatenate([np.zeros((0, 4)), *some], dtype=np.float32, casting="same_kind")
 
 
 def build_gazetteer(
-    words: Sequence[Words], segments_m: Sequence[Floats], is_area: Sequence[bool], corners: Any = None
+    words: Sequence[GazetteerObject], segments_m: Sequence[Floats], is_area: Sequence[bool], corners: Any = None
 ) -> Gazetteer:
-    """A gazetteer of objects with their segments, [n, 4] each; corners as `Objects.gazetteer`."""
-    objects = Objects()
+    """A gazetteer of objects with their segments, [n, 4] each; corners as `GazetteerBuilder.build`."""
+    objects = GazetteerBuilder()
     objects.add(words, segments_m, is_area)
-    return objects.gazetteer(corners)
+    return objects.build(corners)
 
 
-NOTHING_NAMED = build_gazetteer((), (), ())
+EMPTY_GAZETTEER = build_gazetteer((), (), ())

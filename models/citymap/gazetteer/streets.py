@@ -8,45 +8,49 @@ import numpy as np
 import shapely
 from scipy.cluster.hierarchy import fcluster, linkage
 
-from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.spool import Column, Spool, starts_of
 
-ONE_CORNER_M = 45.0  # carriageways of one street meet another at several places, which are one corner
+CORNER_MERGE_M = 45.0  # carriageways of one street meet another at several places, which are one corner
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Ways:
+class StreetPiece:
     """A piece of a street.
 
     Attributes:
-        words: its names.
+        object: its names.
         nodes: [n] numbers of its nodes; streets that share one meet.
         segments_m: [s, 4].
         nodes_m: [n, 2] where they are.
     """
 
-    words: Words
+    object: GazetteerObject
     nodes: Ints
     segments_m: Floats
     nodes_m: Floats
 
 
-class Pieces:
+class StreetPieces:
     """Pieces of streets, as they come; of these the words alone stay in memory.
 
     Attributes:
-        words: of each.
+        objects: of each.
     """
 
     def __init__(self) -> None:
-        self.words, self._names, self._spool = list[Words](), dict[tuple[str, ...], tuple[str, ...]](), Spool()
+        self.objects, self._names, self._spool = (
+            list[GazetteerObject](),
+            dict[tuple[str, ...], tuple[str, ...]](),
+            Spool(),
+        )
 
-    def add(self, ways: Sequence[Ways]) -> None:
+    def add(self, ways: Sequence[StreetPiece]) -> None:
         """Add some, at least none."""
-        names = [self._names.setdefault(way.words.names, way.words.names) for way in ways]  # once for all of a street
-        self.words += [replace(way.words, names=some) for way, some in zip(ways, names, strict=True)]
+        names = [self._names.setdefault(way.object.names, way.object.names) for way in ways]  # once for all of a street
+        self.objects += [replace(way.object, names=some) for way, some in zip(ways, names, strict=True)]
         self._spool.add(
             {
                 "nodes": np.concatenate([np.zeros(0, np.int64), *(way.nodes for way in ways)]),
@@ -67,13 +71,13 @@ class Pieces:
 class Streets:
     """Streets with all their pieces; see Gazetteer."""
 
-    words: list[Words]
+    objects: list[GazetteerObject]
     segments_m: list[Floats]
     corner_streets: Ints
     corners_m: Floats
 
 
-def join_streets(pieces: Pieces, first: int) -> Streets:
+def join_streets(pieces: StreetPieces, first: int) -> Streets:
     """Join the pieces of each name.
 
     Args:
@@ -81,28 +85,28 @@ def join_streets(pieces: Pieces, first: int) -> Streets:
         first: number of the first street in the gazetteer.
     """
     by_name: dict[str, list[int]] = {}
-    for n, of in enumerate(pieces.words):
+    for n, of in enumerate(pieces.objects):
         by_name.setdefault(of.names[0].casefold(), []).append(n)
     columns, streets = pieces.columns(), list(by_name.values())
     words, segments = [], []
     for rows in streets:
-        names = dict.fromkeys(name for n in rows for name in pieces.words[n].names)
-        words.append(Words((STREET,), tuple(names), source_id=pieces.words[rows[0]].source_id))
-        segments.append(columns["segments_m"][_of(columns["segments_of"], np.array(rows))])
-    meets = _meetings(columns, streets, first)
-    for pair, at in _crossings(segments, first):
+        names = dict.fromkeys(name for n in rows for name in pieces.objects[n].names)
+        words.append(GazetteerObject((STREET_KIND,), tuple(names), source_id=pieces.objects[rows[0]].source_id))
+        segments.append(columns["segments_m"][_rows_of(columns["segments_of"], np.array(rows))])
+    meets = _shared_nodes(columns, streets, first)
+    for pair, at in _crossings_without_node(segments, first):
         if pair not in meets:
             meets[pair] = at
     pairs, places = [], []
     for pair, at in sorted(meets.items()):
-        for corner in _corners(np.array(at)):
+        for corner in _merge_corners(np.array(at)):
             pairs.append(pair)
             places.append(corner)
     corner_streets = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     return Streets(words, segments, corner_streets, np.array(places, dtype=np.float32).reshape(-1, 2))
 
 
-def _meetings(
+def _shared_nodes(
     columns: Mapping[str, Column], streets: Sequence[Sequence[int]], first: int
 ) -> dict[tuple[int, int], list[Floats]]:
     """Streets that share a node, the lower first, and where.
@@ -114,7 +118,7 @@ def _meetings(
     """
     pieces = np.array([n for rows in streets for n in rows], np.int64)
     street = np.repeat(np.arange(len(streets)), [len(rows) for rows in streets])
-    street, rows = np.repeat(street, np.diff(columns["nodes_of"])[pieces]), _of(columns["nodes_of"], pieces)
+    street, rows = np.repeat(street, np.diff(columns["nodes_of"])[pieces]), _rows_of(columns["nodes_of"], pieces)
     nodes, nodes_m = columns["nodes"][rows], columns["nodes_m"][rows]
     _, at, which = np.unique(nodes, return_index=True, return_inverse=True)
     pairs = np.unique(which * len(streets) + street)  # each street of a node once
@@ -129,12 +133,12 @@ def _meetings(
     return meets
 
 
-def _of(starts: Ints, pieces: Ints) -> Ints:
+def _rows_of(starts: Ints, pieces: Ints) -> Ints:
     """What belongs to some pieces, piece after piece."""
     return ranges(starts[pieces], starts[pieces + 1])
 
 
-def _crossings(segments: Sequence[Floats], first: int) -> Iterator[tuple[tuple[int, int], list[Floats]]]:
+def _crossings_without_node(segments: Sequence[Floats], first: int) -> Iterator[tuple[tuple[int, int], list[Floats]]]:
     """Streets that cross without meeting, on bridges and in tunnels, and where."""
     if not segments:
         return
@@ -145,9 +149,9 @@ def _crossings(segments: Sequence[Floats], first: int) -> Iterator[tuple[tuple[i
         yield (first + a, first + b), list(at)
 
 
-def _corners(at: Floats) -> list[Floats]:
+def _merge_corners(at: Floats) -> list[Floats]:
     """The middles of the places [n, 2] that are one corner."""
     if len(at) == 1:
         return [at[0]]
-    of = fcluster(linkage(at, "single"), ONE_CORNER_M, "distance")
+    of = fcluster(linkage(at, "single"), CORNER_MERGE_M, "distance")
     return [at[of == number].mean(axis=0) for number in np.unique(of)]

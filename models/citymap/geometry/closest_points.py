@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.citymap.geometry.groups import groups, window
+from models.citymap.geometry.groups import group_pieces, pieces_near
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.geometry.segments import STEP_M, Steps
 from models.citymap.geometry.solids import FORMS
@@ -17,20 +17,20 @@ from models.compiled import compiled, longer
 AREA: Final = FORMS.index("area")
 THING: Final = FORMS.index("thing")
 CROWN_M: Final = 3.0  # a crown may reach nearer than the tile that its trunk is in
-LEAST: Final = 0.6  # what hangs together counts by itself if it has at least this share of what a part has
-SLACK_M: Final = 1e-3  # by which a piece that fills its tile may stand over
-MOST_GROUPS: Final = 1 << 32
-USUAL: Final = 16  # things around a position, to begin with
+MIN_GROUP_SHARE: Final = 0.6  # what hangs together counts by itself if it has at least this share of what a part has
+TILE_SLACK_M: Final = 1e-3  # by which a piece that fills its tile may stand over
+GROUPS_LIMIT: Final = 1 << 32
+EXPECTED_ROWS_PER_POINT: Final = 16  # things around a position, to begin with
 # Near a position millimetres are as good in single precision, of which a processor takes twice as many at once.
-SINGLE: Final = np.float32
-STEP: Final = SINGLE(STEP_M)
-NONE: Final = SINGLE(0.0)
-ONE: Final = SINGLE(1.0)
-LANES: Final = 8  # points that a processor takes at once
-BEYOND: Final = SINGLE(np.inf)
+FLOAT: Final = np.float32
+STEP: Final = FLOAT(STEP_M)
+ZERO: Final = FLOAT(0.0)
+ONE: Final = FLOAT(1.0)
+SIMD_LANES: Final = 8  # points that a processor takes at once
+INFINITE: Final = FLOAT(np.inf)
 
 
-def ways_around(
+def closest_instances(
     table: PieceTable,
     rules: CutRules,
     centers_m: Floats,
@@ -57,33 +57,33 @@ def ways_around(
         [R] point, ascending, [R] instance and [R, 2] point minus the thing's closest point, in steps;
         the nearest first, (0, 0) inside an area.
     """
-    found: tuple[Ints, Ints, npt.NDArray[np.int8]] = _all_ways(
+    found: tuple[Ints, Ints, npt.NDArray[np.int8]] = _closest_instances(
         points_m.astype(np.float64), point_starts.astype(np.int64), centers_m[:, :2].astype(np.float64),
-        rules.cell_size_m / 2 - SLACK_M, float(reach_m), float(step_m), LEAST * rules.min_part_points,
-        table.low, table.shape, table.tile_starts, table.tile, table.instance, table.form, table.worth,
+        rules.cell_size_m / 2 - TILE_SLACK_M, float(reach_m), float(step_m), MIN_GROUP_SHARE * rules.min_part_points,
+        table.low, table.shape, table.tile_starts, table.tile, table.instance, table.form, table.point_count,
         table.bounds_m, table.crown_m, table.segment_starts, table.segments, table.link_starts, table.links,
     )  # fmt: skip
     return found
 
 
 @compiled
-def _all_ways(
+def _closest_instances(
     points_m: Floats, point_starts: Ints, centers_m: Floats, half_m: float, reach_m: float, step_m: float,
     least: float, low: Ints, shape: Ints, tile_starts: Ints, tile: Ints, instance: Ints, form: Ints, worth: Floats,
     bounds_m: Floats, crown_m: Floats, segment_starts: Ints, segments: Steps, link_starts: Ints, links: Ints,
 ) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:  # fmt: skip
-    room = USUAL * len(points_m) + 1024
+    room = EXPECTED_ROWS_PER_POINT * len(points_m) + 1024
     point, found, way = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2), np.int8)
     count = 0
     for n in range(len(point_starts) - 1):
         mine = points_m[point_starts[n] : point_starts[n + 1]]
         if len(mine) == 0:
             continue
-        pieces, runs = window(mine, reach_m + CROWN_M, low, shape, tile_starts)
-        order, starts = groups(
+        pieces, runs = pieces_near(mine, reach_m + CROWN_M, low, shape, tile_starts)
+        order, starts = group_pieces(
             pieces, runs, centers_m[n], half_m, least, tile, instance, form, worth, link_starts, links
         )
-        square, way_x, way_y = _ways_to_groups(
+        square, way_x, way_y = _offsets_to_groups(
             mine, order, starts, reach_m, tile, form, bounds_m, crown_m, segment_starts, segments
         )
         line = np.empty(len(starts), np.int64)
@@ -91,8 +91,8 @@ def _all_ways(
             if count + len(starts) > room:
                 room *= 2
                 point, found, way = longer(point), longer(found), longer(way)
-            for at in range(_put_in_line(m, step_m, square, way_x, way_y, line)):
-                g = line[at] % MOST_GROUPS
+            for at in range(_sort_groups(m, step_m, square, way_x, way_y, line)):
+                g = line[at] % GROUPS_LIMIT
                 point[count], found[count] = point_starts[n] + m, instance[order[starts[g]]]
                 way[count, 0] = np.int8(np.rint(way_x[g, m] / step_m))
                 way[count, 1] = np.int8(np.rint(way_y[g, m] / step_m))
@@ -101,14 +101,14 @@ def _all_ways(
 
 
 @compiled
-def _put_in_line(m: int, step_m: float, square: Floats, way_x: Floats, way_y: Floats, line: Ints) -> int:
+def _sort_groups(m: int, step_m: float, square: Floats, way_x: Floats, way_y: Floats, line: Ints) -> int:
     """Fill in the groups that a point has a way to, the nearest first: squared steps times MOST_GROUPS, plus number."""
     count = 0
     for g in range(len(square)):
         if square[g, m] < 0.0:
             continue
         x, y = np.rint(way_x[g, m] / step_m), np.rint(way_y[g, m] / step_m)
-        key, at = np.int64(x * x + y * y) * MOST_GROUPS + g, count
+        key, at = np.int64(x * x + y * y) * GROUPS_LIMIT + g, count
         while at > 0 and line[at - 1] > key:
             line[at] = line[at - 1]
             at -= 1
@@ -118,7 +118,7 @@ def _put_in_line(m: int, step_m: float, square: Floats, way_x: Floats, way_y: Fl
 
 
 @compiled
-def _ways_to_groups(
+def _offsets_to_groups(
     points_m: Floats, order: Ints, starts: Ints, reach_m: float, tile: Ints, form: Ints, bounds_m: Floats,
     crown_m: Floats, segment_starts: Ints, segments: Steps,
 ) -> tuple[Floats, Floats, Floats]:  # fmt: skip
@@ -127,28 +127,28 @@ def _ways_to_groups(
     P is a multiple of LANES; what is beyond the points is of the first one.
     """
     points, beyond = len(points_m), reach_m * reach_m
-    count = -(-points // LANES) * LANES
+    count = -(-points // SIMD_LANES) * SIMD_LANES
     shape = len(starts) - 1, count
-    best, best_x, best_y = np.empty(shape, SINGLE), np.empty(shape, SINGLE), np.empty(shape, SINGLE)
-    x, y, inside = np.empty(count, SINGLE), np.empty(count, SINGLE), np.empty(count, SINGLE)
+    best, best_x, best_y = np.empty(shape, FLOAT), np.empty(shape, FLOAT), np.empty(shape, FLOAT)
+    x, y, inside = np.empty(count, FLOAT), np.empty(count, FLOAT), np.empty(count, FLOAT)
     box_m = np.array([points_m[:, 0].min(), points_m[:, 1].min(), points_m[:, 0].max(), points_m[:, 1].max()])
     for g in range(len(best)):
         for p in range(count):
             best[g, p], best_x[g, p] = beyond, np.inf
         for n in range(starts[g], starts[g + 1]):
             k = order[n]
-            if _square_apart(bounds_m, k, box_m) > beyond:
+            if _squared_box_distance(bounds_m, k, box_m) > beyond:
                 continue
             first, last = segment_starts[k], segment_starts[k + 1]
             for p in range(count):
                 m = p if p < points else 0
                 x[p], y[p] = points_m[m, 0] - tile[k, 0] * TILE_M, points_m[m, 1] - tile[k, 1] * TILE_M
             if crown_m[k] > 0.0:
-                _to_crown(x, y, segments, first, last, crown_m[k], g, best, best_x, best_y)
+                _improve_by_crown(x, y, segments, first, last, crown_m[k], g, best, best_x, best_y)
             else:
-                _to_segments(x, y, segments, first, last, g, best, best_x, best_y)
+                _improve_by_segments(x, y, segments, first, last, g, best, best_x, best_y)
             if form[k] == AREA:
-                _insides(x, y, segments, first, last, inside)
+                _fill_inside(x, y, segments, first, last, inside)
                 for p in range(count):
                     if inside[p] == 1.0:
                         best[g, p], best_x[g, p], best_y[g, p] = 0.0, 0.0, 0.0
@@ -158,7 +158,7 @@ def _ways_to_groups(
 
 
 @compiled
-def _square_apart(bounds_m: Floats, k: int, other_m: Floats) -> float:
+def _squared_box_distance(bounds_m: Floats, k: int, other_m: Floats) -> float:
     """The square of how far the box of a piece and another are apart."""
     away_x = max(bounds_m[k, 0] - other_m[2], 0.0, other_m[0] - bounds_m[k, 2])
     away_y = max(bounds_m[k, 1] - other_m[3], 0.0, other_m[1] - bounds_m[k, 3])
@@ -167,7 +167,7 @@ def _square_apart(bounds_m: Floats, k: int, other_m: Floats) -> float:
 
 
 @compiled
-def _to_segments(
+def _improve_by_segments(
     x: Floats, y: Floats, segments: Steps, first: int, last: int, g: int, best: Floats, best_x: Floats, best_y: Floats
 ) -> None:
     """Improve the squared distance and the way of points, seen from the middle of a tile, to the nearest segment.
@@ -179,11 +179,11 @@ def _to_segments(
         x1, y1, x2, y2 = segments[s, 0] * STEP, segments[s, 1] * STEP, segments[s, 2] * STEP, segments[s, 3] * STEP
         along_x, along_y = x2 - x1, y2 - y1
         length = along_x * along_x + along_y * along_y
-        a_share = ONE / length if length > NONE else NONE
+        a_share = ONE / length if length > ZERO else ZERO
         for p in range(len(x)):
             from_x, from_y = x[p] - x1, y[p] - y1
             share = (from_x * along_x + from_y * along_y) * a_share
-            share = NONE if share < NONE else share
+            share = ZERO if share < ZERO else share
             share = ONE if share > ONE else share
             way_x, way_y = from_x - share * along_x, from_y - share * along_y
             this, so_far = way_x * way_x + way_y * way_y, best[g, p]
@@ -193,10 +193,10 @@ def _to_segments(
 
 
 @compiled
-def _insides(x: Floats, y: Floats, segments: Steps, first: int, last: int, inside: Floats) -> None:
+def _fill_inside(x: Floats, y: Floats, segments: Steps, first: int, last: int, inside: Floats) -> None:
     """1 for points that see an odd number of segments in the east, else 0."""
     for p in range(len(x)):
-        inside[p] = NONE
+        inside[p] = ZERO
     for s in range(first, last):
         x1, y1, x2, y2 = segments[s, 0] * STEP, segments[s, 1] * STEP, segments[s, 2] * STEP, segments[s, 3] * STEP
         slope = (x2 - x1) / (y2 - y1)
@@ -206,14 +206,14 @@ def _insides(x: Floats, y: Floats, segments: Steps, first: int, last: int, insid
 
 
 @compiled
-def _to_crown(
+def _improve_by_crown(
     x: Floats, y: Floats, segments: Steps, first: int, last: int, crown_m: float, g: int, best: Floats, best_x: Floats,
     best_y: Floats,
 ) -> None:  # fmt: skip
-    """As `_to_segments`, to the crown round a tree's trunk, which reaches nearer, as `crown_reach_m`."""
+    """As `_improve_by_segments`, to the crown round a tree's trunk, which reaches nearer, as `crown_reach_m`."""
     shape = (1, len(x))
-    trunk, trunk_x, trunk_y = np.full(shape, BEYOND), np.empty(shape, SINGLE), np.empty(shape, SINGLE)
-    _to_segments(x, y, segments, first, last, 0, trunk, trunk_x, trunk_y)
+    trunk, trunk_x, trunk_y = np.full(shape, INFINITE), np.empty(shape, FLOAT), np.empty(shape, FLOAT)
+    _improve_by_segments(x, y, segments, first, last, 0, trunk, trunk_x, trunk_y)
     for p in range(len(x)):
         nearer = 1.0
         if trunk[0, p] > 16.0 * crown_m * crown_m:

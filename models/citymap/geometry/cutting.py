@@ -1,4 +1,4 @@
-"""Cutting cubes out of a map of pieces: `Parts` as of points (docs/formats.md, rules 4 and 5), by geometry alone."""
+"""Cut cubes out of a map of pieces (docs/formats.md, rules 4 and 5), by geometry alone."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -11,52 +11,58 @@ import shapely
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from models.citymap.cells import Parts
+from models.citymap.cells import PartTable
 from models.citymap.geometry.pieces import PieceTable
-from models.citymap.geometry.solids import FORMS, Shape, Solid, crown_reach_m, points_on
+from models.citymap.geometry.solids import FORMS, Shape, Solid, crown_reach_m, sample_solid
 from models.citymap.geometry.tiling import TILE_M, Geometries
-from models.citymap.point_sample import sample_points, samples
+from models.citymap.point_sample import sample_points, stack_samples
 from models.citymap.points import Ints, ranges
 from models.citymap.types import CutRules, Floats
 from models.processes import map_forked
 from models.spool import spooled
 
-CHUNK = 1024  # cubes a task
+CUBES_PER_TASK = 1024  # cubes a task
 THING = FORMS.index("thing")
-SLACK_M = 1e-3  # by which a piece that fills its tile may stand over
+TILE_SLACK_M = 1e-3  # by which a piece that fills its tile may stand over
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cubes:
+class CubeContents:
     """What lies in some cubes, piece by piece: P rows in order of cube.
 
     Attributes:
         cube, piece: [P].
         geometry: [P] what of the piece is in the cube.
         bounds_m: [P, 4] its box.
-        worth: [P] of it.
+        point_count: [P] of it.
     """
 
     cube: Ints
     piece: Ints
     geometry: Geometries
     bounds_m: Floats
-    worth: Floats
+    point_count: Floats
 
     @classmethod
-    def of(cls, table: PieceTable, centers_m: Floats, size_m: float) -> "Cubes":
+    def cut(cls, table: PieceTable, centers_m: Floats, size_m: float) -> "CubeContents":
         """Cubes of some size round centres [N, 2 or more]."""
         low, high = centers_m[:, :2] - size_m / 2, centers_m[:, :2] + size_m / 2
-        first = np.floor((low + SLACK_M) / TILE_M + 0.5).astype(np.int64)
-        last = np.floor((high - SLACK_M) / TILE_M + 0.5).astype(np.int64)
+        first = np.floor((low + TILE_SLACK_M) / TILE_M + 0.5).astype(np.int64)
+        last = np.floor((high - TILE_SLACK_M) / TILE_M + 0.5).astype(np.int64)
         cube, piece = table.in_tiles(first, last)
-        geometry, bounds, worth = table.geometry(piece), table.bounds_m[piece], table.worth[piece].astype(np.float64)
-        cut = (bounds[:, :2] < low[cube] - SLACK_M).any(axis=1) | (bounds[:, 2:] > high[cube] + SLACK_M).any(axis=1)
+        geometry, bounds, worth = (
+            table.geometry(piece),
+            table.bounds_m[piece],
+            table.point_count[piece].astype(np.float64),
+        )
+        cut = (bounds[:, :2] < low[cube] - TILE_SLACK_M).any(axis=1) | (bounds[:, 2:] > high[cube] + TILE_SLACK_M).any(
+            axis=1
+        )
         rows = np.flatnonzero(cut)
         if len(rows):
             _clip(geometry, rows, cube[rows], low, high)
             before = table.geometry(piece[rows])
-            worth[rows] *= _size(geometry[rows]) / _size(before)
+            worth[rows] *= _extent(geometry[rows]) / _extent(before)
             bounds[rows] = shapely.bounds(geometry[rows])
         below = np.full(len(centers_m), np.inf) if centers_m.shape[1] < 3 else centers_m[:, 2] + size_m / 2
         kept = ~shapely.is_empty(geometry) & (table.heights_m[piece, 0] <= below[cube])
@@ -71,12 +77,12 @@ def _clip(geometry: Geometries, rows: Ints, cube: Ints, low: Floats, high: Float
         geometry[rows[begin:end]] = shapely.clip_by_rect(geometry[rows[begin:end]], *low[n], *high[n])
 
 
-def _size(geometry: Geometries) -> Floats:
+def _extent(geometry: Geometries) -> Floats:
     area, length = shapely.area(geometry), shapely.length(geometry)
     return np.where(area > 0, area, np.where(length > 0, length, 1.0))
 
 
-def hanging_together(table: PieceTable, cube: Ints, piece: Ints, is_linked: npt.NDArray[np.bool_]) -> Ints:
+def connected_pieces(table: PieceTable, cube: Ints, piece: Ints, is_linked: npt.NDArray[np.bool_]) -> Ints:
     """[P] number of what each piece of some cubes is part of there, by the links of those that may have any.
 
     Args:
@@ -104,7 +110,7 @@ def cut_pieces(
     rules: CutRules,
     progress: Callable[[int, int], None] | None = None,
     least: int = 0,
-) -> Parts:
+) -> PartTable:
     """What lies in the cubes around some centres; arguments and return as `models.citymap.cells.cut_cubes`.
 
     Args:
@@ -115,8 +121,10 @@ def cut_pieces(
         progress: called with (cubes cut, cubes to cut).
         least: cubes of fewer parts are left empty.
     """
-    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)] or [centers_m]
-    work = partial(_cut_chunk if len(chunks) == 1 else _cut_one_of_many, table, Wholes.of(table), rules, least)
+    chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)] or [centers_m]
+    work = partial(
+        _cut_chunk if len(chunks) == 1 else _cut_one_of_many, table, InstanceTotals.from_pieces(table), rules, least
+    )
     done = 0
 
     def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
@@ -132,70 +140,70 @@ def cut_pieces(
                 progress(done, len(centers_m))
 
     found = spooled(columns())
-    return Parts(starts=np.concatenate([[0], np.cumsum(found.pop("sizes"))]), **found)
+    return PartTable(starts=np.concatenate([[0], np.cumsum(found.pop("sizes"))]), **found)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Wholes:
+class InstanceTotals:
     """Things, which are kept whole: [I] sums over all pieces of each instance; of stuff they mean nothing.
 
     Attributes:
-        worth: [I].
+        point_count: [I].
         bounds_m: [I, 4].
     """
 
-    worth: Floats
+    point_count: Floats
     bounds_m: Floats
 
     @classmethod
-    def of(cls, table: PieceTable) -> "Wholes":
+    def from_pieces(cls, table: PieceTable) -> "InstanceTotals":
         """Of all instances of a table."""
         count = int(table.instance.max()) + 1
         bounds = np.full((count, 4), np.inf) * [1, 1, -1, -1]
         np.minimum.at(bounds[:, :2], table.instance, table.bounds_m[:, :2])
         np.maximum.at(bounds[:, 2:], table.instance, table.bounds_m[:, 2:])
-        worth = np.bincount(table.instance, table.worth, count).astype(np.float64)
+        worth = np.bincount(table.instance, table.point_count, count).astype(np.float64)
         return cls(worth, bounds)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Grouped:
+class _PartGroups:
     """The parts of some cubes as groups of pieces.
 
     Attributes:
         cubes: the pieces.
         order: [P'] rows of `cubes`, those of a group one after the other; groups by cube, things first, then instance.
         starts: [G] where in `order` each group begins.
-        kept: [G] whether the cube has it.
+        is_kept: [G] whether the cube has it.
     """
 
-    cubes: Cubes
+    cubes: CubeContents
     order: Ints
     starts: Ints
-    kept: npt.NDArray[np.bool_]
+    is_kept: npt.NDArray[np.bool_]
 
     @classmethod
-    def of(cls, table: PieceTable, whole: Wholes, rules: CutRules, centers: Floats) -> "_Grouped":
+    def cut(cls, table: PieceTable, whole: InstanceTotals, rules: CutRules, centers: Floats) -> "_PartGroups":
         """What lies in the cubes around centres."""
-        cubes = Cubes.of(table, centers, rules.cell_size_m)
+        cubes = CubeContents.cut(table, centers, rules.cell_size_m)
         is_thing = table.form[cubes.piece] == THING
         instance = table.instance[cubes.piece].astype(np.int64)
-        hanging = hanging_together(table, cubes.cube, cubes.piece, ~is_thing)
-        group = np.where(is_thing, -1 - cubes.cube * len(whole.worth) - instance, hanging)
+        hanging = connected_pieces(table, cubes.cube, cubes.piece, ~is_thing)
+        group = np.where(is_thing, -1 - cubes.cube * len(whole.point_count) - instance, hanging)
         order = np.lexsort((group, instance, ~is_thing, cubes.cube))
         starts = np.flatnonzero(np.diff(group[order], prepend=group[order[:1]] - 1))
-        worth = np.add.reduceat(cubes.worth[order], starts) if len(starts) else np.zeros(0)
+        worth = np.add.reduceat(cubes.point_count[order], starts) if len(starts) else np.zeros(0)
         first = order[starts]
-        share = rules.thing_share * whole.worth[instance[first]]
+        share = rules.thing_share * whole.point_count[instance[first]]
         kept = worth >= np.where(is_thing[first], share, rules.min_part_points)
         return cls(cubes, order, starts, kept)
 
 
-def _cut_chunk(table: PieceTable, whole: Wholes, rules: CutRules, least: int, centers: Floats) -> Parts:
+def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, least: int, centers: Floats) -> PartTable:
     """Parts without colours of some cubes."""
-    grouped = _Grouped.of(table, whole, rules, centers)
+    grouped = _PartGroups.cut(table, whole, rules, centers)
     cubes, order, starts = grouped.cubes, grouped.order, grouped.starts
-    if not grouped.kept.any():
+    if not grouped.is_kept.any():
         return _empty(len(centers))
     first = order[starts]
     cube, piece = cubes.cube[first], cubes.piece[first]
@@ -204,16 +212,16 @@ def _cut_chunk(table: PieceTable, whole: Wholes, rules: CutRules, least: int, ce
     high = np.maximum.reduceat(cubes.bounds_m[order, 2:], starts)
     heights = table.heights_m[cubes.piece[order]]
     base, top = np.minimum.reduceat(heights[:, 0], starts), np.maximum.reduceat(heights[:, 1], starts)
-    closest = _closest(cubes.geometry[order], centers[cubes.cube[order]], starts)
+    closest = _closest_points(cubes.geometry[order], centers[cubes.cube[order]], starts)
     way = centers[cube, :2] - closest
     metres = np.hypot(*way.T)
     closest += way * (crown_reach_m(metres, table.crown_m[piece]) / np.maximum(metres, 1e-9))[:, None]
     box = np.where(thing[:, None], whole.bounds_m[instance], np.concatenate([low, high], axis=1))
-    count = np.where(thing, whole.worth[instance], np.add.reduceat(cubes.worth[order], starts))
+    count = np.where(thing, whole.point_count[instance], np.add.reduceat(cubes.point_count[order], starts))
     top = np.where(thing, top, np.minimum(top, np.maximum(centers[cube, 2] + rules.cell_size_m / 2, base)))
-    rows = np.flatnonzero(grouped.kept)
+    rows = np.flatnonzero(grouped.is_kept)
     rows = rows[(np.bincount(cube[rows], minlength=len(centers)) >= least)[cube[rows]]]
-    return Parts(
+    return PartTable(
         starts=np.searchsorted(cube[rows], np.arange(len(centers) + 1)),
         instance=instance[rows].astype(np.int32),
         count=np.round(count[rows]).astype(np.int32),
@@ -224,7 +232,9 @@ def _cut_chunk(table: PieceTable, whole: Wholes, rules: CutRules, least: int, ce
     )
 
 
-def _cut_one_of_many(table: PieceTable, whole: Wholes, rules: CutRules, least: int, centers: Floats) -> Parts:
+def _cut_one_of_many(
+    table: PieceTable, whole: InstanceTotals, rules: CutRules, least: int, centers: Floats
+) -> PartTable:
     """As `_cut_chunk`, where the next ones need other pieces."""
     parts = _cut_chunk(table, whole, rules, least, centers)
     table.forget()
@@ -234,7 +244,7 @@ def _cut_one_of_many(table: PieceTable, whole: Wholes, rules: CutRules, least: i
 def sample_pieces(
     table: PieceTable, instance_rgb: Floats, shapes: Sequence[str], centers_m: Floats, rules: CutRules
 ) -> Floats:
-    """[R, 256, 6] points of the parts of cubes around some centres, in order of `Parts`.
+    """[R, 256, 6] points of the parts of cubes around some centres, in order of `PartTable`.
 
     Args:
         table: the map's pieces.
@@ -243,11 +253,11 @@ def sample_pieces(
         centers_m: [N, 3] centres, metres.
         rules: size of the cubes and how to clip.
     """
-    grouped = _Grouped.of(table, Wholes.of(table), rules, centers_m.astype(np.float64))
-    return samples(
+    grouped = _PartGroups.cut(table, InstanceTotals.from_pieces(table), rules, centers_m.astype(np.float64))
+    return stack_samples(
         [
             sample_points(xyz, np.broadcast_to(instance_rgb[instance], xyz.shape))
-            for _, instance, xyz in _points(table, shapes, grouped)
+            for _, instance, xyz in _sample_parts(table, shapes, grouped)
         ]
     )
 
@@ -258,27 +268,29 @@ def scan_pieces(table: PieceTable, shapes: Sequence[str], centers_m: Floats, rul
     Arguments and order as `sample_pieces`. A scan's points lie apart: the nearest is off by up to some metres along an
     edge that is far away, as is what a passer-by takes for it.
     """
-    grouped = _Grouped.of(table, Wholes.of(table), rules, centers_m.astype(np.float64))
+    grouped = _PartGroups.cut(table, InstanceTotals.from_pieces(table), rules, centers_m.astype(np.float64))
     found = [np.zeros((0, 3))]
-    for cube, _, xyz in _points(table, shapes, grouped):
+    for cube, _, xyz in _sample_parts(table, shapes, grouped):
         found.append(xyz[np.argmin(((xyz - centers_m[cube]) ** 2).sum(axis=1))][None])
     return np.concatenate(found).astype(np.float32)
 
 
-def _points(table: PieceTable, shapes: Sequence[str], grouped: _Grouped) -> Iterator[tuple[int, int, Floats]]:
+def _sample_parts(table: PieceTable, shapes: Sequence[str], grouped: _PartGroups) -> Iterator[tuple[int, int, Floats]]:
     """Of each part of some cubes the cube, the instance and [P, 3] points on it, metres."""
-    for rows in [r for r, kept in zip(np.split(grouped.order, grouped.starts[1:]), grouped.kept, strict=True) if kept]:
+    for rows in [
+        r for r, kept in zip(np.split(grouped.order, grouped.starts[1:]), grouped.is_kept, strict=True) if kept
+    ]:
         piece = grouped.cubes.piece[rows]
         instance, solids = int(table.instance[piece[0]]), []
         for n, geometry in zip(piece.tolist(), grouped.cubes.geometry[rows], strict=True):
             base, top = (float(z) for z in table.heights_m[n])
             solids.append(Solid(instance, cast(Shape, shapes[instance]), geometry, base, top))
-        xyz = np.concatenate([points_on(solid) for solid in solids])
+        xyz = np.concatenate([sample_solid(solid) for solid in solids])
         xyz = xyz if len(xyz) else np.array([[*shapely.get_coordinates(solids[0].geometry)[0], 0.0]])
         yield int(grouped.cubes.cube[rows[0]]), instance, xyz
 
 
-def _closest(geometry: Geometries, centers: Floats, new: Ints) -> Floats:
+def _closest_points(geometry: Geometries, centers: Floats, new: Ints) -> Floats:
     """[G, 2] point nearest to the centre, of groups of geometries that begin at some rows."""
     lines = shapely.shortest_line(shapely.points(centers[:, :2]), geometry)
     metres = shapely.length(lines)
@@ -291,6 +303,8 @@ def _closest(geometry: Geometries, centers: Floats, new: Ints) -> Floats:
     return ends
 
 
-def _empty(cubes: int) -> Parts:
+def _empty(cubes: int) -> PartTable:
     none = np.zeros((0, 3), np.float32)
-    return Parts(np.zeros(cubes + 1, np.int64), np.zeros(0, np.int32), np.zeros(0, np.int32), none, none, none, none)
+    return PartTable(
+        np.zeros(cubes + 1, np.int64), np.zeros(0, np.int32), np.zeros(0, np.int32), none, none, none, none
+    )

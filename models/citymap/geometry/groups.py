@@ -14,7 +14,7 @@ THING: Final = FORMS.index("thing")
 
 
 @compiled
-def window(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts: Ints) -> tuple[Ints, Ints]:
+def pieces_near(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts: Ints) -> tuple[Ints, Ints]:
     """(pieces, runs) in tiles within reach of some points, ascending; runs [R, 3]: first, end, place of the first."""
     first, last = np.empty(2, np.int64), np.empty(2, np.int64)
     for axis in range(2):
@@ -35,8 +35,8 @@ def window(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts
 
 
 @compiled
-def _place(piece: int, runs: Ints) -> int:
-    """Where a piece is among those of `window`; -1 if it is not."""
+def _position(piece: int, runs: Ints) -> int:
+    """Where a piece is among those of `pieces_near`; -1 if it is not."""
     for r in range(len(runs)):
         if runs[r, 0] <= piece < runs[r, 1]:
             place: int = runs[r, 2] + piece - runs[r, 0]
@@ -45,7 +45,7 @@ def _place(piece: int, runs: Ints) -> int:
 
 
 @compiled
-def groups(
+def group_pieces(
     pieces: Ints, runs: Ints, center_m: Floats, half_m: float, least: float, tile: Ints, instance: Ints, form: Ints,
     worth: Floats, link_starts: Ints, links: Ints,
 ) -> tuple[Ints, Ints]:  # fmt: skip
@@ -57,7 +57,7 @@ def groups(
         column, row = tile[pieces[p]]
         is_inside = first[0] <= column <= last[0] and first[1] <= row <= last[1]
         kind[p] = 2 if form[pieces[p]] == THING else 0 if is_inside else 1
-    group = _hanging_together(pieces, runs, kind, instance, link_starts, links)
+    group = _connect(pieces, runs, kind, instance, link_starts, links)
     size, total = np.zeros(count, np.int64), np.zeros(count)
     for p in range(count):
         size[group[p]] += 1
@@ -65,7 +65,7 @@ def groups(
     place, pieces_kept, groups_kept = np.full(count, -1, np.int64), 0, 0
     starts = np.empty(count + 1, np.int64)
     for g in range(count):
-        if size[g] and _counts(g, size, total, least, kind, pieces, instance):
+        if size[g] and _is_counted(g, size, total, least, kind, pieces, instance):
             place[g], starts[groups_kept] = pieces_kept, pieces_kept
             pieces_kept += size[g]
             groups_kept += 1
@@ -80,7 +80,7 @@ def groups(
 
 
 @compiled
-def _counts(g: int, size: Ints, total: Floats, least: float, kind: Ints, pieces: Ints, instance: Ints) -> bool:
+def _is_counted(g: int, size: Ints, total: Floats, least: float, kind: Ints, pieces: Ints, instance: Ints) -> bool:
     """Whether a group is large enough, a thing, or all that there is of its instance."""
     if total[g] >= least or kind[g] == 2:
         return True
@@ -91,7 +91,7 @@ def _counts(g: int, size: Ints, total: Floats, least: float, kind: Ints, pieces:
 
 
 @compiled
-def _hanging_together(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: Ints, links: Ints) -> Ints:
+def _connect(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: Ints, links: Ints) -> Ints:
     """[P] the first piece of what each hangs together with; what is beside a cube with what it goes on in."""
     count = len(pieces)
     parent = np.arange(count)
@@ -108,7 +108,7 @@ def _hanging_together(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link
                 seen += 1
             continue
         for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
-            q = _place(other, runs)
+            q = _position(other, runs)
             if q >= 0 and kind[q] == kind[p]:
                 a, b = _root(parent, p), _root(parent, q)
                 parent[max(a, b)] = min(a, b)
@@ -117,19 +117,19 @@ def _hanging_together(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link
         if kind[p] != 1:
             continue
         for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
-            q = _place(other, runs)
+            q = _position(other, runs)
             if q >= 0 and kind[q] == 0:
                 inside[_root(parent, p)] = _root(parent, q)
     group = np.empty(count, np.int64)
     for p in range(count):
         root = _root(parent, p)
         group[p] = inside[root] if inside[root] >= 0 else root
-    named: Ints = _by_first(group)
+    named: Ints = _number_by_first(group)
     return named
 
 
 @compiled
-def _by_first(group: Ints) -> Ints:
+def _number_by_first(group: Ints) -> Ints:
     """Groups by the first piece of each."""
     first = np.full(len(group), -1, np.int64)
     named = np.empty(len(group), np.int64)

@@ -7,31 +7,31 @@ from typing import Final
 import numpy as np
 import shapely
 
-from models.citymap.geometry.segments import Steps, segments_of, snapped
+from models.citymap.geometry.segments import Steps, snap, to_segments
 from models.citymap.geometry.solids import FORMS, Form, Solid
 from models.citymap.geometry.tiling import (
-    EVERYWHERE,
+    ALL_TILES,
     Geometries,
-    Span,
-    band_of,
+    TileSpan,
     clip_to_tiles,
     join_pieces,
-    take_apart,
-    uncovered,
+    split_connected,
+    subtract_covers,
+    tile_span,
 )
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 
-BAND: Final = 24  # columns of tiles that are cut together
+TILE_COLUMNS_PER_BAND: Final = 24  # columns of tiles that are cut together
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rows:
+class PieceRows:
     """Pieces, K rows in order of tile; see `PieceTable`.
 
     Attributes:
         column, row: [K] tile.
-        instance, form, dimension, bounds_m, heights_m, crown_m, worth: as of the table.
+        instance, form, dimension, bounds_m, heights_m, crown_m, point_count: as of the table.
         sizes: [K] segments of each.
         segments: [S, 4] of all.
     """
@@ -44,16 +44,16 @@ class Rows:
     bounds_m: Floats
     heights_m: Floats
     crown_m: Floats
-    worth: Floats
+    point_count: Floats
     sizes: Ints
     segments: Steps
 
     @classmethod
-    def joined(cls, some: Sequence["Rows"]) -> "Rows":
+    def concatenate(cls, some: Sequence["PieceRows"]) -> "PieceRows":
         """All of some, one after the other."""
         return cls(*(np.concatenate([getattr(rows, f.name) for rows in some]) for f in fields(cls)))
 
-    def take(self, order: Ints) -> "Rows":
+    def take(self, order: Ints) -> "PieceRows":
         """Some of them, in the given order."""
         ends = np.cumsum(self.sizes)[order]
         columns = {f.name: getattr(self, f.name)[order] for f in fields(self) if f.name != "segments"}
@@ -61,7 +61,7 @@ class Rows:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Chosen:
+class _SolidArrays:
     """N solids of one form.
 
     Attributes:
@@ -76,29 +76,29 @@ class _Chosen:
     heights_m: Floats
     radius_m: Floats
     crown_m: Floats
-    worth: Floats
+    point_density: Floats
 
     @classmethod
-    def of(cls, solids: Sequence[Solid], form: Form) -> "_Chosen":
+    def from_solids(cls, solids: Sequence[Solid], form: Form) -> "_SolidArrays":
         some = [solid for solid in solids if solid.form == form]
         geometry = np.empty(len(some), dtype=object)
         geometry[:] = [solid.geometry for solid in some]
         return cls(
             FORMS.index(form),
             geometry,
-            *band_of(shapely.bounds(geometry)[:, [0, 2]]),
+            *tile_span(shapely.bounds(geometry)[:, [0, 2]]),
             np.array([solid.instance for solid in some], dtype=np.int64),
             np.array([(solid.base_m, solid.top_m) for solid in some]).reshape(-1, 2),
             np.array([solid.radius_m for solid in some]),
             np.array([solid.crown_m for solid in some]),
-            np.array([solid.worth for solid in some]),
+            np.array([solid.point_density for solid in some]),
         )
 
-    def rows(self, column: Ints, row: Ints, of: Ints, pieces: Geometries, size: Floats) -> Rows:
+    def build_rows(self, column: Ints, row: Ints, of: Ints, pieces: Geometries, size: Floats) -> PieceRows:
         """Pieces of these; `of` [K] says of which, and their worth grows with their size."""
-        starts, segments = segments_of(pieces, np.stack([column, row], axis=1))
+        starts, segments = to_segments(pieces, np.stack([column, row], axis=1))
         bounds = shapely.bounds(pieces) + self.radius_m[of, None] * [-1, -1, 1, 1]
-        return Rows(
+        return PieceRows(
             column.astype(np.int32),
             row.astype(np.int32),
             self.instance[of].astype(np.int32),
@@ -107,13 +107,13 @@ class _Chosen:
             bounds.astype(np.float32),
             self.heights_m[of].astype(np.float32),
             self.crown_m[of].astype(np.float32),
-            (self.worth[of] * size).astype(np.float32),
+            (self.point_density[of] * size).astype(np.float32),
             np.diff(starts).astype(np.int32),
             segments,
         )
 
 
-def rows_in(solids: Sequence[Solid], band: Span) -> Rows:
+def cut_band(solids: Sequence[Solid], band: TileSpan) -> PieceRows:
     """The pieces of solids in some columns of tiles, in order of tile, then instance.
 
     Args:
@@ -121,24 +121,24 @@ def rows_in(solids: Sequence[Solid], band: Span) -> Rows:
             solids of one instance of areas or lines have the same heights.
         band: the columns.
     """
-    area, line, thing = (_Chosen.of(solids, form) for form in FORMS)
-    rows = Rows.joined([_stuff_of(area, band), _stuff_of(line, band), _things_of(thing, band)])
+    area, line, thing = (_SolidArrays.from_solids(solids, form) for form in FORMS)
+    rows = PieceRows.concatenate([_cut_stuff(area, band), _cut_stuff(line, band), _cut_things(thing, band)])
     return rows.take(np.lexsort((rows.instance, rows.row, rows.column)))
 
 
-def _stuff_of(chosen: _Chosen, band: Span) -> Rows:
+def _cut_stuff(chosen: _SolidArrays, band: TileSpan) -> PieceRows:
     """Pieces of areas (of what nothing covers) or of lines, each with what hangs together in a tile."""
-    column, row, of, geometry = _joined(chosen, band)
+    column, row, of, geometry = _join_in_tiles(chosen, band)
     is_area = FORMS[chosen.form] == "area"
-    of_piece, pieces = take_apart(geometry, 2 if is_area else 1)
+    of_piece, pieces = split_connected(geometry, 2 if is_area else 1)
     size = shapely.area(pieces) if is_area else shapely.length(pieces)
-    return chosen.rows(column[of_piece], row[of_piece], of[of_piece], pieces, size)
+    return chosen.build_rows(column[of_piece], row[of_piece], of[of_piece], pieces, size)
 
 
-def _things_of(chosen: _Chosen, band: Span) -> Rows:
+def _cut_things(chosen: _SolidArrays, band: TileSpan) -> PieceRows:
     """Pieces of things, which are whole: each tile's part is worth its share."""
-    cut = clip_to_tiles(chosen.geometry, EVERYWHERE)
-    geometry = snapped(cut.geometry)
+    cut = clip_to_tiles(chosen.geometry, ALL_TILES)
+    geometry = snap(cut.geometry)
     kept = ~shapely.is_empty(geometry)
     of, geometry = cut.feature[kept], geometry[kept]
     length = shapely.length(geometry)
@@ -146,10 +146,10 @@ def _things_of(chosen: _Chosen, band: Span) -> Rows:
     share = size / np.bincount(of, size, len(chosen.geometry))[of]
     column, row = cut.column[kept], cut.row[kept]
     here = (column >= band[0]) & (column < band[1])
-    return chosen.rows(column[here], row[here], of[here], geometry[here], share[here])
+    return chosen.build_rows(column[here], row[here], of[here], geometry[here], share[here])
 
 
-def _joined(chosen: _Chosen, band: Span) -> tuple[Ints, Ints, Ints, Geometries]:
+def _join_in_tiles(chosen: _SolidArrays, band: TileSpan) -> tuple[Ints, Ints, Ints, Geometries]:
     """(column, row, a solid, geometry) of each instance in each tile; of areas, what nothing covers."""
     # Of others no geometry is looked at: a process that does so has a copy of it.
     rows = np.flatnonzero((chosen.first < band[1]) & (chosen.last >= band[0]))
@@ -162,5 +162,5 @@ def _joined(chosen: _Chosen, band: Span) -> tuple[Ints, Ints, Ints, Geometries]:
     group = np.cumsum(new | (np.diff(chosen.instance[of], prepend=-1) != 0)) - 1
     at, joined = join_pieces(group, geometry)
     if FORMS[chosen.form] == "area":
-        joined = uncovered(tile[at], joined)
-    return column[at], row[at], of[at], snapped(joined)
+        joined = subtract_covers(tile[at], joined)
+    return column[at], row[at], of[at], snap(joined)

@@ -9,20 +9,22 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from models.citymap.geometry.piece_rows import BAND, Rows, rows_in
-from models.citymap.geometry.segments import STEP_M, Steps, geometry_of
+from models.citymap.geometry.piece_rows import TILE_COLUMNS_PER_BAND, PieceRows, cut_band
+from models.citymap.geometry.segments import STEP_M, Steps, to_geometry
 from models.citymap.geometry.solids import FORMS, Solid
-from models.citymap.geometry.tiling import FAR_M, TILE_M, TOUCHING_M, Geometries, band_of
-from models.citymap.points import Ints, block_keys, ranges, thin
+from models.citymap.geometry.tiling import BEYOND_MAP_M, TILE_M, TOUCHING_M, Geometries, tile_span
+from models.citymap.points import Ints, block_keys, ranges, thin_to_spacing
 from models.citymap.types import Floats
 from models.compiled import compiled
 from models.processes import map_forked
 from models.spool import forget, in_turn, spooled, starts_of
 
-AT_ONCE: Final = 20_000  # pieces whose geometry is put together for a moment
-COLUMNS: Final = 64  # of tiles whose pieces are linked together
-BORDER: Final = round(TILE_M / 2 / STEP_M)  # of a tile, in steps from its middle
+PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometry is put together for a moment
+TILE_COLUMNS_PER_BLOCK: Final = 64  # of tiles whose pieces are linked together
+TILE_EDGE_STEPS: Final = round(TILE_M / 2 / STEP_M)  # of a tile, in steps from its middle
 THING: Final = FORMS.index("thing")
+_STORED_NAMES: Final = {"point_count": "worth"}  # fields whose column has another name in an index
+_FIELD_NAMES: Final = {stored: name for name, stored in _STORED_NAMES.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,8 +40,8 @@ class PieceTable:
         bounds_m: [K, 4] float32 its box, metres, map frame.
         heights_m: [K, 2] float32 base and top.
         crown_m: [K] float32 radius of a tree's crown, 0 for what has none.
-        worth: [K] float32 points that a sensor would see of it.
-        segment_starts: [K + 1] int32, segments: [S, 4] int16 its lines and rings, see `segments_of`.
+        point_count: [K] float32 points that a sensor would see of it.
+        segment_starts: [K + 1] int32, segments: [S, 4] int16 its lines and rings, see `to_segments`.
         link_starts: [K + 1], links: piece k hangs together with links[link_starts[k]:link_starts[k + 1]].
     """
 
@@ -52,32 +54,35 @@ class PieceTable:
     bounds_m: Floats
     heights_m: Floats
     crown_m: Floats
-    worth: Floats
+    point_count: Floats
     segment_starts: Ints
     segments: Steps
     link_starts: Ints
     links: Ints
 
     @classmethod
-    def of(cls, solids: Sequence[Solid]) -> "PieceTable":
+    def from_solids(cls, solids: Sequence[Solid]) -> "PieceTable":
         """The pieces of some solids."""
-        columns = np.stack(band_of(shapely.bounds([solid.geometry for solid in solids])[:, [0, 2]]), axis=1)
-        bands = [(low, low + BAND) for low in range(int(columns.min()), int(columns.max()) + 1, BAND)]
-        return cls.joined(map_forked(partial(rows_in, solids), bands))
+        columns = np.stack(tile_span(shapely.bounds([solid.geometry for solid in solids])[:, [0, 2]]), axis=1)
+        bands = [
+            (low, low + TILE_COLUMNS_PER_BAND)
+            for low in range(int(columns.min()), int(columns.max()) + 1, TILE_COLUMNS_PER_BAND)
+        ]
+        return cls.from_bands(map_forked(partial(cut_band, solids), bands))
 
     @classmethod
-    def joined(cls, bands: Iterable[Rows]) -> "PieceTable":
+    def from_bands(cls, bands: Iterable[PieceRows]) -> "PieceTable":
         """The pieces of all solids of a map, which are laid down on disk.
 
         Args:
-            bands: of `rows_in`, from west to east; at least one has pieces.
+            bands: of `cut_band`, from west to east; at least one has pieces.
         """
-        columns = spooled({f.name: getattr(rows, f.name) for f in fields(Rows)} for rows in bands)
+        columns = spooled({f.name: getattr(rows, f.name) for f in fields(PieceRows)} for rows in bands)
         column, row, sizes = (columns.pop(name) for name in ("column", "row", "sizes"))
         low = np.array([column.min(), row.min()], dtype=np.int64)
         shape = np.array([column.max(), row.max()], dtype=np.int64) - low + 1
-        tile_starts, segment_starts = starts_of(_counts(column, row, low, shape)), starts_of(sizes)
-        links = spooled(_links(column, row, segment_starts, columns))
+        tile_starts, segment_starts = starts_of(_pieces_per_tile(column, row, low, shape)), starts_of(sizes)
+        links = spooled(_find_links(column, row, segment_starts, columns))
         table = cls(
             low, shape, tile_starts, segment_starts=segment_starts, link_starts=starts_of(links["sizes"]),
             links=links["links"], **columns,
@@ -89,18 +94,18 @@ class PieceTable:
 
     @classmethod
     def from_columns(cls, columns: Mapping[str, npt.NDArray[Any]]) -> "PieceTable":
-        """What `columns` gave."""
-        return cls(**columns)
+        """Build a table from what `columns` returned."""
+        return cls(**{_FIELD_NAMES.get(name, name): column for name, column in columns.items()})
 
     def columns(self) -> dict[str, npt.NDArray[Any]]:
-        """All of it, by name."""
-        return {f.name: getattr(self, f.name) for f in fields(self)}
+        """Return all columns by the names that an index stores them under."""
+        return {_STORED_NAMES.get(f.name, f.name): getattr(self, f.name) for f in fields(self)}
 
     def forget(self) -> None:
         """Have what lies on disk take no memory until it is looked at."""
         forget(column for column in vars(self).values() if isinstance(column, np.ndarray))
 
-    def of_instances(self, numbers: Ints) -> "PieceTable":
+    def renumber_instances(self, numbers: Ints) -> "PieceTable":
         """The same, of instances that have other numbers: each is now its place among these [I], ascending."""
         some = (some["instance"] for some in in_turn({"instance": self.instance}))
         table = replace(self, **spooled({"instance": np.searchsorted(numbers, n).astype(np.int32)} for n in some))
@@ -110,7 +115,7 @@ class PieceTable:
     def geometry(self, pieces: Ints) -> Geometries:
         """[n] of some pieces, metres, map frame; put together once of each, however often it is asked for."""
         known, which = np.unique(pieces, return_inverse=True)
-        return geometry_of(self.segment_starts, self.segments, self.tile, self.dimension, known)[which]
+        return to_geometry(self.segment_starts, self.segments, self.tile, self.dimension, known)[which]
 
     def in_tiles(self, first: Ints, last: Ints) -> tuple[Ints, Ints]:
         """The pieces in rectangles of tiles.
@@ -137,31 +142,31 @@ class PieceTable:
         tile: Ints = _tiles(self.tile_starts, self.low, self.shape)
         return tile
 
-    def lattice(self, pieces: Ints, spacing_m: float) -> Floats:
+    def ground_lattice(self, pieces: Ints, spacing_m: float) -> Floats:
         """[n, 3] float32 places on the ground of areas, one a square block of which a corner or a middle is inside.
 
         Args:
             pieces: rows of the areas, ascending.
             spacing_m: edge of the blocks.
         """
-        places: Floats = spooled({"m": some} for some in self._places(pieces, spacing_m))["m"]
+        places: Floats = spooled({"m": some} for some in self._lattice_batches(pieces, spacing_m))["m"]
         return places
 
-    def _places(self, pieces: Ints, spacing_m: float) -> Iterator[Floats]:
+    def _lattice_batches(self, pieces: Ints, spacing_m: float) -> Iterator[Floats]:
         """See `lattice`."""
         yield np.zeros((0, 3), np.float32)
         seen = np.zeros(0, np.int64)
-        for n in range(0, len(pieces), AT_ONCE):
-            some = pieces[n : n + AT_ONCE]
-            xy = thin(self._inside(some, spacing_m), spacing_m)
+        for n in range(0, len(pieces), PIECES_PER_BLOCK):
+            some = pieces[n : n + PIECES_PER_BLOCK]
+            xy = thin_to_spacing(self._lattice_inside(some, spacing_m), spacing_m)
             block = block_keys(xy, spacing_m)
             new = ~np.isin(block, seen)
             yield np.column_stack([xy[new], np.zeros(new.sum())]).astype(np.float32)
             column_m = (self.tile[some[-1], 0] - 0.5) * TILE_M - spacing_m  # what is west of it does not come again
             seen = np.concatenate([seen, block[new]])
-            seen = seen[seen >= block_keys(np.array([[column_m, -FAR_M]]), spacing_m)[0]]
+            seen = seen[seen >= block_keys(np.array([[column_m, -BEYOND_MAP_M]]), spacing_m)[0]]
 
-    def _inside(self, pieces: Ints, spacing_m: float) -> Floats:
+    def _lattice_inside(self, pieces: Ints, spacing_m: float) -> Floats:
         """[n, 2] corners and middles of blocks that are inside some areas."""
         step_m = spacing_m / 2
         low, high = (np.floor(self.bounds_m[pieces, axis : axis + 2] / step_m).astype(np.int64) + 1 for axis in (0, 2))
@@ -187,7 +192,7 @@ def _tiles(tile_starts: Ints, low: Ints, shape: Ints) -> Ints:
 
 
 @compiled
-def _counts(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
+def _pieces_per_tile(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
     """[columns * rows] how many pieces each tile has."""
     count = np.zeros(shape[0] * shape[1], np.int64)
     for k in range(len(columns)):
@@ -195,7 +200,9 @@ def _counts(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
     return count
 
 
-def _links(column: Ints, row: Ints, starts: Ints, columns: Mapping[str, npt.NDArray[Any]]) -> Iterator[dict[str, Ints]]:
+def _find_links(
+    column: Ints, row: Ints, starts: Ints, columns: Mapping[str, npt.NDArray[Any]]
+) -> Iterator[dict[str, Ints]]:
     """CSR of pairs of pieces of one instance that touch across the border of two tiles, some columns at a time.
 
     Args:
@@ -210,21 +217,21 @@ def _links(column: Ints, row: Ints, starts: Ints, columns: Mapping[str, npt.NDAr
     instance, dimension, form, segments = (columns[name] for name in ("instance", "dimension", "form", "segments"))
     count, known, pending = len(column), 0, np.zeros(0, np.int64)
     rows = range(int(row.min()), int(row.max()) + 2)
-    for first in range(int(column[0]), int(column[-1]) + 2, COLUMNS):
+    for first in range(int(column[0]), int(column[-1]) + 2, TILE_COLUMNS_PER_BLOCK):
         # Their western neighbours too, for the border between; the one in their east comes with the next ones.
-        begin, own, end = np.searchsorted(column, [first - 1, first, first + COLUMNS])
+        begin, own, end = np.searchsorted(column, [first - 1, first, first + TILE_COLUMNS_PER_BLOCK])
         at = np.stack([column[begin:end], row[begin:end]], axis=1).astype(np.int64)
         of = np.repeat(np.arange(end - begin), np.diff(starts[begin : end + 1]))
         ends = segments[starts[begin] : starts[end]]
-        on_border = (np.abs(ends) == BORDER).any(axis=1) & (form[begin:end] != THING)[of]
+        on_border = (np.abs(ends) == TILE_EDGE_STEPS).any(axis=1) & (form[begin:end] != THING)[of]
         of, ends = of[on_border], ends[on_border]
         here = at, instance[begin:end], dimension[begin:end]
-        pairs = _across(0, of, ends, *here, range(first, first + COLUMNS))
+        pairs = _touching_pairs(0, of, ends, *here, range(first, first + TILE_COLUMNS_PER_BLOCK))
         is_own = of >= own - begin
-        pairs = np.concatenate([pairs, _across(1, of[is_own], ends[is_own], *here, rows)]) + begin
+        pairs = np.concatenate([pairs, _touching_pairs(1, of[is_own], ends[is_own], *here, rows)]) + begin
         keys = np.unique(np.concatenate([pending, np.concatenate([pairs, pairs[:, ::-1]]) @ [count, 1]]))
         # The last column's pieces may have links to what comes next.
-        done = count if end == count else int(np.searchsorted(column, first + COLUMNS - 1))
+        done = count if end == count else int(np.searchsorted(column, first + TILE_COLUMNS_PER_BLOCK - 1))
         pending = keys[keys >= done * count]
         keys = keys[: len(keys) - len(pending)]
         yield {
@@ -234,7 +241,9 @@ def _links(column: Ints, row: Ints, starts: Ints, columns: Mapping[str, npt.NDAr
         known = done
 
 
-def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints, wanted: range) -> Ints:
+def _touching_pairs(
+    axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints, wanted: range
+) -> Ints:
     """[L, 2] pairs of pieces that touch across borders where x (axis 0) or y (axis 1) is constant.
 
     Args:
@@ -250,7 +259,7 @@ def _across(axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dime
     along_m = segments[:, [1 - axis, 3 - axis]] * STEP_M + at[of, 1 - axis, None] * TILE_M
     borders, intervals, pieces = [], [], []
     for side in (-1, 1):
-        on = segments[:, [axis, 2 + axis]] == side * BORDER
+        on = segments[:, [axis, 2 + axis]] == side * TILE_EDGE_STEPS
         number = at[of, axis] + (side + 1) // 2  # of the border, from low to high
         on &= ((number >= wanted.start) & (number < wanted.stop))[:, None]
         for rows, ends in ((on.all(axis=1), [0, 1]), (on[:, 0] & is_line, [0, 0]), (on[:, 1] & is_line, [1, 1])):

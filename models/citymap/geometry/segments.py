@@ -15,17 +15,17 @@ STEP_M: Final = 2e-4  # of stored coordinates, which are seen from the middle of
 Steps = npt.NDArray[np.int16]
 
 
-def snapped(geometry: Geometries) -> Geometries:
+def snap(geometry: Geometries) -> Geometries:
     """Geometries whose coordinates are as they are stored, valid still; empty what is too thin for that."""
     found: Geometries = shapely.set_precision(shapely.set_precision(geometry, STEP_M), 0.0)  # 0: of later results
     return found
 
 
-def segments_of(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
+def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
     """Segments of pieces.
 
     Args:
-        geometry: [K] in its tile each, `snapped`.
+        geometry: [K] in its tile each, `snap`.
         tile: [K, 2] column and row.
 
     Returns:
@@ -51,11 +51,11 @@ def segments_of(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
     return starts, np.round(local_m / STEP_M).astype(np.int16)
 
 
-def geometry_of(starts: Ints, segments: Steps, tile: Ints, dimension: Ints, pieces: Ints) -> Geometries:
+def to_geometry(starts: Ints, segments: Steps, tile: Ints, dimension: Ints, pieces: Ints) -> Geometries:
     """Some pieces again, from all segments.
 
     Args:
-        starts: see `segments_of`.
+        starts: see `to_segments`.
         segments: likewise.
         tile: [K, 2] column and row.
         dimension: [K] 0 for points, 1 for lines, 2 for areas.
@@ -73,7 +73,7 @@ def geometry_of(starts: Ints, segments: Steps, tile: Ints, dimension: Ints, piec
     lines = shapely.linestrings(ends_m[rows].reshape(-1, 2, 2))
     shapely.multilinestrings(lines, indices=of[rows], out=found)
     rows = np.flatnonzero(dimension[pieces][of] == 2)
-    _areas(ends_m[rows], ring_starts(ends[rows]), of[rows], found)
+    _fill_areas(ends_m[rows], ring_starts(ends[rows]), of[rows], found)
     return found
 
 
@@ -89,8 +89,8 @@ def ring_starts(ends: Steps) -> Ints:
     return begins[:count].copy()
 
 
-def _areas(ends_m: Floats, begins: Ints, of: Ints, found: Geometries) -> None:
-    """Fill in areas from their rings: shells turn one way and holes the other, as `segments_of` has them."""
+def _fill_areas(ends_m: Floats, begins: Ints, of: Ints, found: Geometries) -> None:
+    """Fill in areas from their rings: shells turn one way and holes the other, as `to_segments` has them."""
     ring = np.repeat(np.arange(len(begins)), np.diff(np.append(begins, len(of))))
     rings = shapely.linearrings(ends_m[:, :2], indices=ring)
     polygons, owner = shapely.polygons(rings), of[begins]

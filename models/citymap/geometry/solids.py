@@ -17,7 +17,7 @@ RAISED_SPACING_M: Final = {"outline": 0.7, "wall": 0.5, "box": 0.5}
 COLUMN_SPACING_M: Final = 0.25
 VISIBLE_HEIGHT_M: Final = 15.0  # a 30 m cell on the ground ends here
 CROWN_POINTS: Final = 64
-BOX_M: Final = 0.3  # from the middle of a small box to its sides
+BOX_HALF_WIDTH_M: Final = 0.3  # from the middle of a small box to its sides
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,7 +71,7 @@ class Solid:
         """How far it reaches beyond its geometry."""
         if self.is_raised:
             return 0.0
-        return BOX_M if self.shape == "box" else self.crown_m
+        return BOX_HALF_WIDTH_M if self.shape == "box" else self.crown_m
 
     @property
     def crown_m(self) -> float:
@@ -79,7 +79,7 @@ class Solid:
         return self.height_m / 4 if self.shape == "crown" else 0.0
 
     @property
-    def worth(self) -> float:
+    def point_density(self) -> float:
         """Points on a square metre of ground, on a metre of a line; on a thing, in all."""
         if self.shape == "ground":
             return 1 / GROUND_SPACING_M**2
@@ -87,7 +87,7 @@ class Solid:
             return len(self.levels_m) / RAISED_SPACING_M[self.shape]
         if self.is_raised:
             return float(len(self.levels_m) * (1 + ceil(shapely.length(self.geometry) / RAISED_SPACING_M[self.shape])))
-        return float(len(template(self.shape, self.height_m)))
+        return float(len(template_points(self.shape, self.height_m)))
 
 
 def crown_reach_m(metres: Floats, crown_m: Floats) -> Floats:
@@ -100,7 +100,7 @@ def crown_reach_m(metres: Floats, crown_m: Floats) -> Floats:
     return nearer
 
 
-def points_on(solid: Solid) -> Floats:
+def sample_solid(solid: Solid) -> Floats:
     """[P, 3] float64 points on a solid, metres."""
     if solid.shape == "ground":
         xy = np.concatenate([_lattice_inside(part) for part in shapely.get_parts(solid.geometry)])
@@ -108,7 +108,7 @@ def points_on(solid: Solid) -> Floats:
         xy = _along(solid.geometry, RAISED_SPACING_M[solid.shape])
     else:
         at = np.array([*shapely.get_coordinates(solid.geometry)[0], solid.base_m])
-        placed: Floats = template(solid.shape, solid.height_m) + at
+        placed: Floats = template_points(solid.shape, solid.height_m) + at
         return placed
     levels = solid.levels_m
     return np.column_stack([np.repeat(xy, len(levels), axis=0), np.tile(levels, len(xy))])
@@ -134,11 +134,11 @@ def _along(geometry: shapely.Geometry, spacing_m: float) -> Floats:
     return xy
 
 
-def template(shape: str, height_m: float) -> Floats:
+def template_points(shape: str, height_m: float) -> Floats:
     """[P, 3] points of a column, a crown or a small box that stands at the origin."""
     z = np.arange(0, height_m + 1e-9, COLUMN_SPACING_M)
     if shape == "box":
-        sides = np.array([-BOX_M, 0.0, BOX_M])
+        sides = np.array([-BOX_HALF_WIDTH_M, 0.0, BOX_HALF_WIDTH_M])
         return np.stack(np.meshgrid(sides, sides, z), axis=-1).reshape(-1, 3)
     if shape == "column":
         return np.column_stack([np.zeros((len(z), 2)), z])
@@ -147,5 +147,5 @@ def template(shape: str, height_m: float) -> Floats:
     i = np.arange(CROWN_POINTS) + 0.5
     polar, azimuth = np.arccos(1 - 2 * i / CROWN_POINTS), np.pi * (1 + 5**0.5) * i
     ball = np.column_stack([np.cos(azimuth) * np.sin(polar), np.sin(azimuth) * np.sin(polar), np.cos(polar)])
-    trunk = template("column", height_m - 2 * radius_m)
+    trunk = template_points("column", height_m - 2 * radius_m)
     return np.concatenate([trunk, ball * radius_m + [0, 0, height_m - radius_m]])

@@ -14,10 +14,10 @@ from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 
 Geometries = npt.NDArray[np.object_]
-Span = tuple[int, int]  # numbers of columns or rows of tiles, from the first to before the second
-EVERYWHERE: Final = (-(2**31), 2**31)
+TileSpan = tuple[int, int]  # numbers of columns or rows of tiles, from the first to before the second
+ALL_TILES: Final = (-(2**31), 2**31)
 TILE_M = 10.0  # as the grid of cells: a tile is the square round a centre
-FAR_M = 1e9  # beyond every map
+BEYOND_MAP_M = 1e9  # beyond every map
 TOUCHING_M = 0.75  # what is this near hangs together (rule 4)
 
 
@@ -37,25 +37,25 @@ class Clipped:
     geometry: Geometries
 
 
-def clip_to_tiles(geometry: Geometries, band: Span) -> Clipped:
+def clip_to_tiles(geometry: Geometries, band: TileSpan) -> Clipped:
     """Cut geometries [n] at the borders of tiles, those in some columns."""
-    strips = _cut_apart(geometry, np.arange(len(geometry)), 0, band)
+    strips = _cut_along_axis(geometry, np.arange(len(geometry)), 0, band)
     found: list[tuple[Ints, Ints, Ints, Geometries]] = [(strips[0][:0], strips[0][:0], strips[1][:0], strips[2][:0])]
     for number, begin, end in _runs(strips[0]):
-        row, feature, pieces = _cut_apart(strips[2][begin:end], strips[1][begin:end], 1, EVERYWHERE)
+        row, feature, pieces = _cut_along_axis(strips[2][begin:end], strips[1][begin:end], 1, ALL_TILES)
         found.append((np.full(len(row), number), row, feature, pieces))
     return Clipped(*(np.concatenate(some) for some in zip(*found, strict=True)))
 
 
-def band_of(ends_m: Floats) -> tuple[Ints, Ints]:
+def tile_span(ends_m: Floats) -> tuple[Ints, Ints]:
     """Numbers of the first and of the last column or row of tiles of [n, 2] from where to where."""
     first, last = (np.floor(ends / TILE_M + 0.5).astype(np.int64) for ends in ends_m.T)
     return first, last
 
 
-def _cut_apart(geometry: Geometries, feature: Ints, axis: int, span: Span) -> tuple[Ints, Ints, Geometries]:
+def _cut_along_axis(geometry: Geometries, feature: Ints, axis: int, span: TileSpan) -> tuple[Ints, Ints, Geometries]:
     """(band, feature, piece) of geometries along one axis, in order of band, then of the geometries."""
-    low, high = band_of(shapely.bounds(geometry)[:, [axis, axis + 2]])
+    low, high = tile_span(shapely.bounds(geometry)[:, [axis, axis + 2]])
     is_whole = low == high
     low = np.maximum(low, span[0])
     after = np.maximum(np.minimum(high + 1, span[1]), low)
@@ -69,7 +69,11 @@ def _cut_apart(geometry: Geometries, feature: Ints, axis: int, span: Span) -> tu
         rows = begin + np.flatnonzero(is_cut[begin:end])
         if len(rows):
             near, beyond = (number - 0.5) * TILE_M, (number + 0.5) * TILE_M
-            box = (near, -FAR_M, beyond, FAR_M) if axis == 0 else (-FAR_M, near, FAR_M, beyond)
+            box = (
+                (near, -BEYOND_MAP_M, beyond, BEYOND_MAP_M)
+                if axis == 0
+                else (-BEYOND_MAP_M, near, BEYOND_MAP_M, beyond)
+            )
             pieces[rows] = shapely.clip_by_rect(pieces[rows], *box)
     kept = ~shapely.is_empty(pieces)
     return band[kept], feature[of[kept]], pieces[kept]
@@ -94,7 +98,7 @@ def join_pieces(group: Ints, geometry: Geometries) -> tuple[Ints, Geometries]:
     return first, joined
 
 
-def uncovered(tile: Ints, geometry: Geometries) -> Geometries:
+def subtract_covers(tile: Ints, geometry: Geometries) -> Geometries:
     """What of areas is not below others: of each tile those before it cover it; `tile` ascending."""
     first = np.flatnonzero(np.diff(tile, prepend=-1))
     before = np.arange(len(tile)) - np.repeat(first, np.diff(np.append(first, len(tile))))
@@ -120,7 +124,7 @@ def _boxes_overlap(one: Geometries, other: Geometries) -> npt.NDArray[np.bool_]:
     return overlap
 
 
-def take_apart(geometry: Geometries, dimensions: int) -> tuple[Ints, Geometries]:
+def split_connected(geometry: Geometries, dimensions: int) -> tuple[Ints, Geometries]:
     """What hangs together: (row of `geometry`, piece), pieces of several parts where these are within TOUCHING_M."""
     parts, of = shapely.get_parts(geometry, return_index=True)
     # of a polygon that is only touched a line or a point is left, of one that is covered nothing

@@ -5,13 +5,13 @@ import unicodedata
 from collections.abc import Iterable, Mapping
 from typing import Final
 
-_BETWEEN: Final = re.compile(r"[\W_]+")
+_SEPARATORS: Final = re.compile(r"[\W_]+")
 
 
-def plain(name: str) -> str:
+def normalize_name(name: str) -> str:
     """A name without case, accents, spaces and punctuation; "&" is "and"."""
     letters = unicodedata.normalize("NFKD", name.casefold().replace("&", "and"))
-    return _BETWEEN.sub("", letters)
+    return _SEPARATORS.sub("", letters)
 
 
 class Brands:
@@ -28,7 +28,7 @@ class Brands:
         self._by_spelling: dict[str, list[int]] = {}
         for place, (_, spellings) in enumerate(self._brands):
             for spelling in spellings:
-                self._by_spelling.setdefault(plain(spelling), []).append(place)
+                self._by_spelling.setdefault(normalize_name(spelling), []).append(place)
 
     def tags(self, name: str) -> list[Mapping[str, str]]:
         """The sets of tags that places of a brand have; none if it is unknown."""
@@ -38,11 +38,11 @@ class Brands:
     def spellings(self, name: str) -> tuple[str, ...]:
         """The other spellings of a brand; none if it is unknown."""
         found = dict.fromkeys(spelling for place in self._places(name) for spelling in self._brands[place][1])
-        return tuple(spelling for spelling in found if plain(spelling) != plain(name))
+        return tuple(spelling for spelling in found if normalize_name(spelling) != normalize_name(name))
 
     def _places(self, name: str) -> list[int]:
         """Where the brands of a name are; those whose usual spelling it is come first, others only without them."""
-        form = plain(name)
+        form = normalize_name(name)
         places = self._by_spelling.get(form, [])
-        usual = [place for place in places if plain(self._brands[place][1][0]) == form]
+        usual = [place for place in places if normalize_name(self._brands[place][1][0]) == form]
         return usual or places

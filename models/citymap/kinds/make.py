@@ -19,18 +19,18 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
-from models.citymap.kinds.brands import plain
+from models.citymap.kinds.brands import normalize_name
 from models.errors import DataError
 from models.files import replace_file
 
 HERE = Path(__file__).parent
 # Tags of a brand that hold a name of it, and those that say what it is.
-SPELLED = re.compile(r"(name|brand|alt_name|short_name|official_name|brand:short)(:[a-z]{2,3}(-[A-Za-z]+)?)?")
-TOLD_BY = ("amenity", "shop", "cuisine", "leisure", "tourism", "office", "healthcare", "craft", "beauty", "clothes")
+NAME_TAGS = re.compile(r"(name|brand|alt_name|short_name|official_name|brand:short)(:[a-z]{2,3}(-[A-Za-z]+)?)?")
+KIND_TAGS = ("amenity", "shop", "cuisine", "leisure", "tourism", "office", "healthcare", "craft", "beauty", "clothes")
 Json = dict[str, Any]
 
 
-def read(path: Path) -> Json:
+def read_json(path: Path) -> Json:
     """A JSON file of a package."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -41,13 +41,13 @@ def read(path: Path) -> Json:
     return content
 
 
-def source(package: Path) -> Json:
+def package_source(package: Path) -> Json:
     """Name, version and licence of a package."""
-    about = read(package / "package.json")
+    about = read_json(package / "package.json")
     return {key: about[key] for key in ("name", "version", "license")}
 
 
-def selected(presets: Json, selection: Json) -> Json:
+def select_presets(presets: Json, selection: Json) -> Json:
     """The presets that are kinds of things a passer-by could mention, by id in order; of equal tags only one."""
     kept: dict[str, Any] = {}
     seen: dict[str, str] = {}
@@ -63,15 +63,15 @@ def selected(presets: Json, selection: Json) -> Json:
     return dict(sorted(kept.items()))
 
 
-def phrases(said: str, separator: str = "\n") -> list[str]:
+def split_phrases(said: str, separator: str = "\n") -> list[str]:
     """The phrases of a field of a translation, in lower case; what is in brackets is left out."""
     bare = re.sub(r"[((][^))]*[))]?", "", said.lower())
-    found = [phrase for part in bare.split(separator) for phrase in either(" ".join(part.split()))]
+    found = [phrase for part in bare.split(separator) for phrase in expand_slashes(" ".join(part.split()))]
     grounds = [phrase.removesuffix(" grounds") for phrase in found if phrase.endswith(" grounds")]
     return [phrase for phrase in (*grounds, *found) if phrase]
 
 
-def either(phrase: str) -> list[str]:
+def expand_slashes(phrase: str) -> list[str]:
     """What a phrase with a slash says: "bag/luggage store" is a bag store, "bus station / terminal" a bus terminal."""
     parts = [part.split() for part in phrase.split("/") if part.strip()]
     if len(parts) < 2:
@@ -84,16 +84,16 @@ def either(phrase: str) -> list[str]:
     return [" ".join(part) for part in parts]
 
 
-def named(key: str, presets: Json, translation: Json) -> Json:
+def resolve_translation(key: str, presets: Json, translation: Json) -> Json:
     """What a translation says of a preset; some presets refer to another one's name."""
     reference = re.fullmatch(r"\{(.+)\}", presets[key].get("name", ""))
     own: Json = translation.get(key, {})
     return {**translation.get(reference[1], {}), **own} if reference else own
 
 
-def translations(schema: Path, language: str) -> Json:
+def read_translations(schema: Path, language: str) -> Json:
     """What a language calls the presets."""
-    content = read(schema / "dist" / "translations" / f"{language}.min.json")
+    content = read_json(schema / "dist" / "translations" / f"{language}.min.json")
     found: Json = content[language].get("presets", {}).get("presets", {})
     return found
 
@@ -103,57 +103,64 @@ def unique(items: Iterable[str]) -> list[str]:
     return list(dict.fromkeys(items))
 
 
-def called(said: Iterable[Json]) -> tuple[list[str], list[str]]:
+def names_and_aliases(said: Iterable[Json]) -> tuple[list[str], list[str]]:
     """Names and aliases in what translations say of a kind."""
     said = list(said)
-    names = unique(phrase for one in said for phrase in phrases(one.get("name", "")))
-    aliases = unique(phrase for one in said for phrase in phrases(one.get("aliases", "")))
+    names = unique(phrase for one in said for phrase in split_phrases(one.get("name", "")))
+    aliases = unique(phrase for one in said for phrase in split_phrases(one.get("aliases", "")))
     return names, [alias for alias in aliases if alias not in names]
 
 
-def kinds_of_schema(schema: Path, kept: Json, presets: Json) -> list[Json]:
+def english_kinds(schema: Path, kept: Json, presets: Json) -> list[Json]:
     """The kinds with their English words; what other Englishes say is an alias."""
-    english = translations(schema, "en")
+    english = read_translations(schema, "en")
     folder = schema / "dist" / "translations"
-    others = [translations(schema, path.name[: -len(".min.json")]) for path in sorted(folder.glob("en-*.min.json"))]
+    others = [
+        read_translations(schema, path.name[: -len(".min.json")]) for path in sorted(folder.glob("en-*.min.json"))
+    ]
     kinds = []
     for key, kind in kept.items():
-        said = [named(preset, presets, english) for preset in kind["presets"]]
-        names, aliases = called(said)
-        abroad, more = called(named(preset, presets, other) for other in others for preset in kind["presets"])
+        said = [resolve_translation(preset, presets, english) for preset in kind["presets"]]
+        names, aliases = names_and_aliases(said)
+        abroad, more = names_and_aliases(
+            resolve_translation(preset, presets, other) for other in others for preset in kind["presets"]
+        )
         if not names:
             raise DataError(f"preset {key} has no English name")
-        terms = unique(phrase for one in said for phrase in phrases(one.get("terms", ""), ","))
+        terms = unique(phrase for one in said for phrase in split_phrases(one.get("terms", ""), ","))
         aliases = [alias for alias in unique([*names[1:], *aliases, *abroad, *more]) if alias != names[0]]
         terms = [term for term in terms if term not in (names[0], *aliases)]
         kinds.append({"id": key, "name": names[0], "tags": kind["tags"], "aliases": aliases, "terms": terms})
     return kinds
 
 
-def names_abroad(schema: Path, kept: Json, presets: Json, languages: list[str]) -> Json:
+def names_by_language(schema: Path, kept: Json, presets: Json, languages: list[str]) -> Json:
     """By language: by kind, in the order of the kinds, its names and its aliases; null where it has none."""
     words = {}
     for language in languages:
         if not (schema / "dist" / "translations" / f"{language}.min.json").exists():
             continue
-        translation = translations(schema, language)
-        rows = [called(named(preset, presets, translation) for preset in kind["presets"]) for kind in kept.values()]
+        translation = read_translations(schema, language)
+        rows = [
+            names_and_aliases(resolve_translation(preset, presets, translation) for preset in kind["presets"])
+            for kind in kept.values()
+        ]
         words[language] = ["\n".join(names) + ("\t" + "\n".join(also) if also else "") for names, also in rows]
     return words
 
 
-def spelled(item: Mapping[str, Any]) -> list[str]:
+def brand_spellings(item: Mapping[str, Any]) -> list[str]:
     """All spellings of a brand, the usual one first."""
     tags = item["tags"]
     usual = tags.get("brand:en") or tags.get("brand") or tags.get("name") or tags.get("operator") or item["displayName"]
-    more = [name for key in sorted(tags) if SPELLED.fullmatch(key) for name in tags[key].split(";")]
+    more = [name for key in sorted(tags) if NAME_TAGS.fullmatch(key) for name in tags[key].split(";")]
     found: dict[str, str] = {}
     for name in (usual, *more, *item.get("matchNames", [])):
-        found.setdefault(plain(name), name.strip())
+        found.setdefault(normalize_name(name), name.strip())
     return [name for form, name in found.items() if form]
 
 
-def brands_of_index(index: Json, brandless: list[str]) -> Json:
+def merge_brands(index: Json, brandless: list[str]) -> Json:
     """The brands, merged where they are the same thing: their tags (by number) and their spellings."""
     merged: dict[str, tuple[dict[str, int], list[str]]] = {}
     for path in sorted(index):
@@ -161,50 +168,52 @@ def brands_of_index(index: Json, brandless: list[str]) -> Json:
         if tree != "brands" or branch in brandless:
             continue
         for item in index[path]["items"]:
-            told = {key: item["tags"][key] for key in TOLD_BY if key in item["tags"]}
-            names = spelled(item)
+            told = {key: item["tags"][key] for key in KIND_TAGS if key in item["tags"]}
+            names = brand_spellings(item)
             if not told or not names:
                 continue
-            same = item["tags"].get("brand:wikidata") or plain(names[0])
+            same = item["tags"].get("brand:wikidata") or normalize_name(names[0])
             tags, spellings = merged.setdefault(same, ({}, []))
             form = json.dumps(told, sort_keys=True, ensure_ascii=False)
-            bare = plain(item["tags"].get("name", "")) == plain(item["tags"].get("brand", ""))  # not "Tesco Café"
+            bare = normalize_name(item["tags"].get("name", "")) == normalize_name(
+                item["tags"].get("brand", "")
+            )  # not "Tesco Café"
             tags[form] = tags.get(form, 0) + bare
             spellings.extend(names)
     kinds = sorted({tags for told, _ in merged.values() for tags in told})
     number = {tags: place for place, tags in enumerate(kinds)}
     rows = []
     for told, names in merged.values():
-        once = {plain(name): name for name in reversed(names)}
+        once = {normalize_name(name): name for name in reversed(names)}
         usual = sorted(told, key=told.__getitem__, reverse=True)
-        rows.append([[number[tags] for tags in usual], [once[form] for form in unique(map(plain, names))]])
+        rows.append([[number[tags] for tags in usual], [once[form] for form in unique(map(normalize_name, names))]])
     return {"tags": [json.loads(tags) for tags in kinds], "brands": sorted(rows, key=lambda row: row[1])}
 
 
-def packed(content: Json) -> bytes:
+def compress_json(content: Json) -> bytes:
     """A vendored file."""
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
     return lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME)
 
 
-def make(schema: Path, brands: Path, out: Path) -> None:
+def write_vocabulary(schema: Path, brands: Path, out: Path) -> None:
     """Write the vendored files into a folder."""
     selection = tomllib.loads((HERE / "selection.toml").read_text(encoding="utf-8"))
-    presets = read(schema / "dist" / "presets.min.json")
-    kept = selected(presets, selection)
-    sources = [source(schema), source(brands)]
-    abroad = names_abroad(schema, kept, presets, selection["languages"])
+    presets = read_json(schema / "dist" / "presets.min.json")
+    kept = select_presets(presets, selection)
+    sources = [package_source(schema), package_source(brands)]
+    abroad = names_by_language(schema, kept, presets, selection["languages"])
     kinds = {
         "version": ", ".join(f"{about['name'].rpartition('/')[2]} {about['version']}" for about in sources),
         "sources": sources,
         "languages": ["en", *abroad],
-        "kinds": kinds_of_schema(schema, kept, presets),
+        "kinds": english_kinds(schema, kept, presets),
     }
     names = {"source": sources[0], "names": abroad}
-    index = read(brands / "dist" / "json" / "nsi.min.json")["nsi"]
-    chains = {"source": sources[1], **brands_of_index(index, selection["brandless"])}
+    index = read_json(brands / "dist" / "json" / "nsi.min.json")["nsi"]
+    chains = {"source": sources[1], **merge_brands(index, selection["brandless"])}
     for file, content in (("kinds", kinds), ("names", names), ("brands", chains)):
-        replace_file(out / f"{file}.json.xz", packed(content))
+        replace_file(out / f"{file}.json.xz", compress_json(content))
     texts = [
         f"# {about['name']} {about['version']} ({about['license']})\n\n{(package / 'LICENSE.md').read_text().strip()}\n"
         for package, about in zip((schema, brands), sources, strict=True)
@@ -220,7 +229,7 @@ def main() -> None:
     parser.add_argument("--brands", type=Path, required=True, help="unpacked brand index")
     parser.add_argument("--out", type=Path, default=HERE, help="folder of the vendored files")
     arguments = parser.parse_args()
-    make(arguments.schema, arguments.brands, arguments.out)
+    write_vocabulary(arguments.schema, arguments.brands, arguments.out)
 
 
 if __name__ == "__main__":

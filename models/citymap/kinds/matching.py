@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-ANY = "*"
-NOT = ("", "no", "none")  # values that say that something is not there
+ANY_VALUE = "*"
+NEGATIVE_VALUES = ("", "no", "none")  # values that say that something is not there
 Tags = Mapping[str, str]
-Rest = tuple[tuple[str, str], ...]
+Conditions = tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,9 +24,9 @@ class Kind:
     tags: Tags
 
 
-def specific(kind: Kind) -> tuple[bool, bool, int, str]:
+def specificity_key(kind: Kind) -> tuple[bool, bool, int, str]:
     """The order of kinds: what an object is before its building, special before general, kinds of any value last."""
-    exact = sum(value != ANY for value in kind.tags.values())
+    exact = sum(value != ANY_VALUE for value in kind.tags.values())
     return (exact == 0, kind.id.startswith("building"), -exact, kind.id)
 
 
@@ -43,12 +43,12 @@ class Matcher:
         self._ids = [kind.id for kind in kinds]
         place = {key: number for number, key in enumerate(self._ids)}
         self._above = [[place[parent] for parent in parents(key) if parent in place] for key in self._ids]
-        self._index: dict[str, tuple[dict[str, list[tuple[int, Rest]]], list[tuple[int, Rest]]]] = {}
+        self._index: dict[str, tuple[dict[str, list[tuple[int, Conditions]]], list[tuple[int, Conditions]]]] = {}
         for number, kind in enumerate(kinds):
-            pairs = sorted(kind.tags.items(), key=lambda pair: (pair[1] == ANY, pair[0] == "amenity", pair))
+            pairs = sorted(kind.tags.items(), key=lambda pair: (pair[1] == ANY_VALUE, pair[0] == "amenity", pair))
             (key, value), *rest = pairs
             exact, anything = self._index.setdefault(key, ({}, []))
-            rows = anything if value == ANY else exact.setdefault(value, [])
+            rows = anything if value == ANY_VALUE else exact.setdefault(value, [])
             rows.append((number, tuple(rest)))
         for tag, one in same.items():
             key, _, value = tag.partition("=")
@@ -60,24 +60,24 @@ class Matcher:
         found: set[int] = set()
         for key, value in tags.items():
             rows = self._index.get(key)
-            if rows is None or value in NOT:
+            if rows is None or value in NEGATIVE_VALUES:
                 continue
             exact, anything = rows
             candidates = exact.get(value, ())
             if ";" in value:
                 candidates = [row for one in value.split(";") for row in exact.get(one.strip(), ())]
             for number, rest in (*candidates, *anything):
-                if not rest or fits(rest, tags):
+                if not rest or has_tags(rest, tags):
                     found.add(number)
                     found.update(self._above[number])
         return tuple([self._ids[number] for number in sorted(found)])
 
 
-def fits(rest: Rest, tags: Tags) -> bool:
+def has_tags(rest: Conditions, tags: Tags) -> bool:
     """Whether an object has tags; a list of values has each of them."""
     for key, wanted in rest:
         value = tags.get(key, "")
-        if value == wanted or (wanted == ANY and value not in NOT):
+        if value == wanted or (wanted == ANY_VALUE and value not in NEGATIVE_VALUES):
             continue
         if ";" not in value or wanted not in [one.strip() for one in value.split(";")]:
             return False

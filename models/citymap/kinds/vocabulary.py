@@ -10,14 +10,14 @@ from types import MappingProxyType
 from typing import Any
 
 from models.citymap.kinds.brands import Brands
-from models.citymap.kinds.matching import Kind, Matcher, specific
-from models.citymap.kinds.words import Nouns, english, foreign, own_kinds
+from models.citymap.kinds.matching import Kind, Matcher, specificity_key
+from models.citymap.kinds.words import Nouns, additional_kinds, english_nouns, foreign_nouns
 from models.errors import DataError
 
 HERE = Path(__file__).parent
 # Languages that go by another one's names.
-SAME = {"nb": "no", "nn": "no", "zh": "zh-CN", "zh-HK": "zh-TW"}
-FILES = ("kinds.json.xz", "names.json.xz", "brands.json.xz", "LICENCES.md")
+LANGUAGE_ALIASES = {"nb": "no", "nn": "no", "zh": "zh-CN", "zh-HK": "zh-TW"}
+VOCABULARY_FILES = ("kinds.json.xz", "names.json.xz", "brands.json.xz", "LICENCES.md")
 
 
 class Vocabulary:
@@ -32,11 +32,13 @@ class Vocabulary:
     def __init__(self, folder: Path = HERE) -> None:
         self._folder = folder
         self._ours = tomllib.loads((HERE / "ours.toml").read_text(encoding="utf-8"))
-        content = unpacked(folder / "kinds.json.xz")
+        content = read_compressed_json(folder / "kinds.json.xz")
         self._presets: list[dict[str, Any]] = content["kinds"]
         names: Mapping[str, str] = self._ours["names"]
         presets = [Kind(row["id"], names.get(row["id"], row["name"]), row["tags"]) for row in self._presets]
-        self.kinds: tuple[Kind, ...] = tuple(sorted((*presets, *own_kinds(self._ours, presets)), key=specific))
+        self.kinds: tuple[Kind, ...] = tuple(
+            sorted((*presets, *additional_kinds(self._ours, presets)), key=specificity_key)
+        )
         self._matcher = Matcher(self.kinds, self._ours["same"])
         self.version: str = content["version"]
         self.languages: tuple[str, ...] = tuple(content["languages"])
@@ -56,7 +58,7 @@ class Vocabulary:
             By casefolded phrase the ids of kinds with weights in (0, 1], the plainest first: 1 is the kind's name, 0.9
             another name, 0.5 a mere search term (in English only).
         """
-        language = SAME.get(language, language)
+        language = LANGUAGE_ALIASES.get(language, language)
         if language not in self.languages:
             language = language.partition("-")[0]
         if language not in self._nouns:
@@ -90,7 +92,7 @@ class Vocabulary:
         return self._read_foreign(self._read_names().get(language, ()))
 
     def _read_foreign(self, rows: Sequence[str], is_wanted: Callable[[str], bool] = bool) -> Nouns:
-        return foreign((row["id"] for row in self._presets), rows, is_wanted) if rows else {}
+        return foreign_nouns((row["id"] for row in self._presets), rows, is_wanted) if rows else {}
 
     def _read_english(self) -> Nouns:
         """English nouns, with those written by hand; a folder of few kinds leaves out what is said of others."""
@@ -101,23 +103,23 @@ class Vocabulary:
             for kind in self.kinds
         ]
         known = {kind.id for kind in self.kinds}
-        nouns = english(rows, self._ours, people)
+        nouns = english_nouns(rows, self._ours, people)
         return {
             phrase: kept for phrase, rows in nouns.items() if (kept := tuple(row for row in rows if row[0] in known))
         }
 
     def _read_names(self) -> dict[str, list[str]]:
         """By language; not kept, as each language is read once at most."""
-        found: dict[str, list[str]] = unpacked(self._folder / "names.json.xz")["names"]
+        found: dict[str, list[str]] = read_compressed_json(self._folder / "names.json.xz")["names"]
         return found
 
     @cached_property
     def _brands(self) -> Brands:
-        content = unpacked(self._folder / "brands.json.xz")
+        content = read_compressed_json(self._folder / "brands.json.xz")
         return Brands(content["tags"], content["brands"])
 
 
-def unpacked(path: Path) -> dict[str, Any]:
+def read_compressed_json(path: Path) -> dict[str, Any]:
     """The content of a vendored file."""
     try:
         content: dict[str, Any] = json.loads(lzma.decompress(path.read_bytes()))

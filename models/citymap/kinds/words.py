@@ -5,11 +5,11 @@ from typing import Any
 
 from models.citymap.kinds.matching import Kind
 
-NAME, ALIAS, TAG, LOOSE, TERM = 1.0, 0.9, 0.8, 0.7, 0.5
+NAME_WEIGHT, ALIAS_WEIGHT, TAG_WEIGHT, LOOSE_WEIGHT, TERM_WEIGHT = 1.0, 0.9, 0.8, 0.7, 0.5
 Weights = dict[str, dict[str, float]]
 Nouns = dict[str, tuple[tuple[str, float], ...]]
 # How a kind is called after its tag, by the first part of its id.
-AFTER_TAG = {
+TAG_PHRASES = {
     "shop": ("{} shop", "{} store"),
     "office": ("{} office",),
     "building": ("{} building",),
@@ -17,23 +17,27 @@ AFTER_TAG = {
     **dict.fromkeys(("amenity", "leisure", "man_made", "natural", "tourism", "barrier", "craft"), ("{}",)),
 }
 # How people call places by whose food they have, and by what they have; the kind of the food, of the restaurant.
-NATION = {
-    "{} restaurant": (0.8, NAME),
+NATION_PHRASES = {
+    "{} restaurant": (0.8, NAME_WEIGHT),
     **dict.fromkeys(
-        ("{} place", "{} food", "{} eatery", "{} spot", "{} joint", "{} takeaway", "{} takeout"), (NAME, 0)
+        ("{} place", "{} food", "{} eatery", "{} spot", "{} joint", "{} takeaway", "{} takeout"), (NAME_WEIGHT, 0)
     ),
     **dict.fromkeys(("{}", "a {}", "an {}", "{} cuisine", "{} kitchen"), (0.8, 0)),
 }
-DISH = {
-    **dict.fromkeys(("{} place", "{} joint", "{} shop", "{} spot", "{} restaurant", "{} bar", "{} store"), (NAME, 0)),
-    **dict.fromkeys(("{} house", "{} stand", "{} parlor", "{} parlour", "{} counter", "{} takeaway"), (ALIAS, 0)),
+DISH_PHRASES = {
+    **dict.fromkeys(
+        ("{} place", "{} joint", "{} shop", "{} spot", "{} restaurant", "{} bar", "{} store"), (NAME_WEIGHT, 0)
+    ),
+    **dict.fromkeys(
+        ("{} house", "{} stand", "{} parlor", "{} parlour", "{} counter", "{} takeaway"), (ALIAS_WEIGHT, 0)
+    ),
     "{}": (0.6, 0),
 }
 # Endings that one says for another.
-ENDINGS = ((" store", " shop"), (" shop", " store"), (" center", " centre"), (" parlor", " parlour"))
+INTERCHANGEABLE_ENDINGS = ((" store", " shop"), (" shop", " store"), (" center", " centre"), (" parlor", " parlour"))
 
 
-def own_kinds(ours: Mapping[str, Any], taken: Iterable[Kind]) -> Iterator[Kind]:
+def additional_kinds(ours: Mapping[str, Any], taken: Iterable[Kind]) -> Iterator[Kind]:
     """The kinds that the packages lack: those listed, cuisines, restaurants of cuisines, churches of denominations."""
     seen = [kind.tags for kind in taken]
     found = [Kind(key, row["name"], row["tags"]) for key, row in ours["kinds"].items()]
@@ -50,7 +54,7 @@ def own_kinds(ours: Mapping[str, Any], taken: Iterable[Kind]) -> Iterator[Kind]:
     return (kind for kind in found if kind.tags not in seen)
 
 
-def sayings(people: Mapping[str, Any]) -> Weights:
+def everyday_nouns(people: Mapping[str, Any]) -> Weights:
     """What people.toml says: "phrase, phrase" = "kind kind~ kind~0.6 @group"; ~ is loosely."""
     said: Weights = {}
     for phrases, kinds in people["words"].items():
@@ -58,13 +62,13 @@ def sayings(people: Mapping[str, Any]) -> Weights:
         for one in kinds.split():
             key, loose, weight = one.partition("~")
             for member in people["groups"][key[1:]] if key.startswith("@") else [key]:
-                rows[member] = max(rows.get(member, 0), float(weight or LOOSE) if loose else NAME)
+                rows[member] = max(rows.get(member, 0), float(weight or LOOSE_WEIGHT) if loose else NAME_WEIGHT)
         for phrase in phrases.split(","):
-            put(said, phrase.strip().casefold(), rows)
+            add_meanings(said, phrase.strip().casefold(), rows)
     return said
 
 
-def put(nouns: Weights, phrase: str, rows: Mapping[str, float]) -> None:
+def add_meanings(nouns: Weights, phrase: str, rows: Mapping[str, float]) -> None:
     """Let a phrase mean kinds, too; the higher weight counts."""
     kinds = nouns.setdefault(phrase, {})
     for key, weight in rows.items():
@@ -72,78 +76,78 @@ def put(nouns: Weights, phrase: str, rows: Mapping[str, float]) -> None:
             kinds[key] = weight
 
 
-def of_food(ours: Mapping[str, Any], by_tags: Mapping[tuple[str, str], str]) -> Weights:
+def food_nouns(ours: Mapping[str, Any], by_tags: Mapping[tuple[str, str], str]) -> Weights:
     """What places are called by their food: "thai place", "pizza joint"."""
     said: Weights = {}
-    for part, ways in (("nations", NATION), ("dishes", DISH)):
+    for part, ways in (("nations", NATION_PHRASES), ("dishes", DISH_PHRASES)):
         for values, words in ours[part].items():
             for value in values.split("|"):
                 restaurant = by_tags.get(("restaurant", value), "")
                 for word in words:
                     for way, weights in ways.items():
                         pairs = zip((f"cuisine/{value}", restaurant), weights, strict=True)
-                        put(said, way.format(word), {key: weight for key, weight in pairs if key and weight})
+                        add_meanings(said, way.format(word), {key: weight for key, weight in pairs if key and weight})
     return said
 
 
-def of_faith(ours: Mapping[str, Any]) -> Weights:
+def church_nouns(ours: Mapping[str, Any]) -> Weights:
     """What churches are called by their denomination."""
     said: Weights = {}
     for values, words in ours["denominations"].items():
         for key in (f"amenity/place_of_worship/christian/{value}" for value in values.split("|")):
             for word in words:
-                put(said, f"{word} church", {key: NAME})
-                put(said, f"{word} parish", {key: TAG})
+                add_meanings(said, f"{word} church", {key: NAME_WEIGHT})
+                add_meanings(said, f"{word} parish", {key: TAG_WEIGHT})
     return said
 
 
-def of_preset(row: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
+def preset_nouns(row: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
     """What a preset is called in English."""
     first, _, rest = row["id"].partition("/")
     if rest and "/" not in rest and list(row["tags"].items()) == [(first, rest)]:
-        for way in AFTER_TAG.get(first, ()):
-            yield way.format(rest.replace("_", " ")), TAG
-    for phrase, weight in ((row["name"], NAME), *((alias, ALIAS) for alias in row["aliases"])):
+        for way in TAG_PHRASES.get(first, ()):
+            yield way.format(rest.replace("_", " ")), TAG_WEIGHT
+    for phrase, weight in ((row["name"], NAME_WEIGHT), *((alias, ALIAS_WEIGHT) for alias in row["aliases"])):
         yield phrase, weight
-        for ending, other in ENDINGS:
+        for ending, other in INTERCHANGEABLE_ENDINGS:
             if phrase.endswith(ending):
-                yield phrase.removesuffix(ending) + other, min(weight, ALIAS)
-    yield from ((term, TERM) for term in row["terms"])
+                yield phrase.removesuffix(ending) + other, min(weight, ALIAS_WEIGHT)
+    yield from ((term, TERM_WEIGHT) for term in row["terms"])
 
 
-def english(presets: Iterable[Mapping[str, Any]], ours: Mapping[str, Any], people: Mapping[str, Any]) -> Nouns:
+def english_nouns(presets: Iterable[Mapping[str, Any]], ours: Mapping[str, Any], people: Mapping[str, Any]) -> Nouns:
     """All English nouns. The packages' search terms for what is said by hand do not count, nor a few names."""
-    said = sayings(people)
+    said = everyday_nouns(people)
     presets = list(presets)
     by_tags = {
         (row["tags"]["amenity"], row["tags"]["cuisine"]): row["id"]
         for row in presets
         if {"amenity", "cuisine"} == set(row["tags"])
     }
-    for more in (of_food(ours, by_tags), of_faith(ours)):
+    for more in (food_nouns(ours, by_tags), church_nouns(ours)):
         for phrase, rows in more.items():
-            put(said, phrase, rows)
+            add_meanings(said, phrase, rows)
     by_hand = frozenset(said) | frozenset(people["no_terms"])
     never = frozenset(people["never"])
     neither = never | by_hand
     for row in presets:
-        for phrase, weight in of_preset(row):
-            if phrase not in (never if weight > TERM else neither):
-                put(said, phrase.casefold(), {row["id"]: weight})
-    return ordered(said)
+        for phrase, weight in preset_nouns(row):
+            if phrase not in (never if weight > TERM_WEIGHT else neither):
+                add_meanings(said, phrase.casefold(), {row["id"]: weight})
+    return sort_by_weight(said)
 
 
-def foreign(ids: Iterable[str], names: Iterable[str], is_wanted: Callable[[str], bool]) -> Nouns:
+def foreign_nouns(ids: Iterable[str], names: Iterable[str], is_wanted: Callable[[str], bool]) -> Nouns:
     """The nouns of a language that are wanted: by kind its names, and after a tab its aliases, one a line."""
     said: Weights = {}
     for key, row in zip(ids, names, strict=True):
         first, _, more = row.partition("\t")
-        for phrases, weight in ((first, NAME), (more, ALIAS)):
+        for phrases, weight in ((first, NAME_WEIGHT), (more, ALIAS_WEIGHT)):
             for phrase in filter(is_wanted, phrases.casefold().split("\n")):
-                put(said, phrase, {key: weight})
-    return ordered(said)
+                add_meanings(said, phrase, {key: weight})
+    return sort_by_weight(said)
 
 
-def ordered(said: Weights) -> Nouns:
+def sort_by_weight(said: Weights) -> Nouns:
     """The nouns with what is meant most plainly first."""
     return {phrase: tuple(sorted(rows.items(), key=lambda row: (-row[1], row[0]))) for phrase, rows in said.items()}

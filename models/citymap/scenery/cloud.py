@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from models.citymap.scenery.files import Encoded
+from models.citymap.scenery.files import SceneryBlob
 from models.citymap.types import Floats
 
-POINTS_A_PART = 200_000
-UNITS_A_METRE = 10
+POINTS_PER_PART = 200_000
+UNITS_PER_M = 10
 SEED = 0
 
 
-def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[Encoded]:
+def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[SceneryBlob]:
     """Parts of at most POINTS_A_PART points each, drawn at random.
 
     Tensors: "steps" [P, 3], decimetres, each point from the one before it, the first from the origin; "rgb" [P, 3].
@@ -24,12 +24,12 @@ def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[Encoded]
         rgb: [P, 3].
     """
     order = np.random.default_rng(SEED).permutation(len(xyz_m))
-    for start in range(0, max(1, len(order)), POINTS_A_PART):
-        rows = order[start : start + POINTS_A_PART]
-        xyz = np.rint(xyz_m[rows] * UNITS_A_METRE).astype(np.int32)
+    for start in range(0, max(1, len(order)), POINTS_PER_PART):
+        rows = order[start : start + POINTS_PER_PART]
+        xyz = np.rint(xyz_m[rows] * UNITS_PER_M).astype(np.int32)
         by_place = np.lexsort(xyz.T)
         tensors: dict[str, npt.NDArray[Any]] = {
             "steps": np.diff(xyz[by_place], axis=0, prepend=np.zeros((1, 3), np.int32)).astype(np.int32),
             "rgb": np.ascontiguousarray(rgb[rows][by_place]),
         }
-        yield Encoded(tensors, {"kind": "points", "of": str(len(order))})
+        yield SceneryBlob(tensors, {"kind": "points", "of": str(len(order))})

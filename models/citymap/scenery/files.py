@@ -11,19 +11,19 @@ import numpy.typing as npt
 
 from models.files import save_safetensors
 
-LEVEL = 9
+GZIP_LEVEL = 9
 
 
-class Encoded(NamedTuple):
+class SceneryBlob(NamedTuple):
     """A part as a safetensors file holds it.
 
     Attributes:
         tensors: by name.
-        facts: its metadata.
+        metadata: its metadata.
     """
 
     tensors: dict[str, npt.NDArray[Any]]
-    facts: dict[str, str]
+    metadata: dict[str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,15 +39,15 @@ class SceneryPart:
     sha256: str
 
 
-def save_scenery(directory: Path, parts: Iterable[Encoded]) -> None:
+def save_scenery(directory: Path, parts: Iterable[SceneryBlob]) -> None:
     """Write the parts, scenery.0.safetensors.gz and on; no copy of one is in memory."""
     plain = directory / "scenery"
     for number, part in enumerate(parts):
-        save_safetensors(part.tensors, part.facts, plain)
+        save_safetensors(part.tensors, part.metadata, plain)
         with (
             plain.open("rb") as read,
             (directory / file_name(number)).open("wb") as written,
-            gzip.GzipFile("", "wb", LEVEL, written, mtime=0) as packed,
+            gzip.GzipFile("", "wb", GZIP_LEVEL, written, mtime=0) as packed,
         ):
             shutil.copyfileobj(read, packed)
         plain.unlink()

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from safetensors.numpy import load
 
-from models.citymap.scenery.shapes import UNITS_A_METRE, Place
+from models.citymap.scenery.shapes import UNITS_PER_M, NamedPoint
 from models.citymap.types import Floats
 
 LOOK_FILE: Final = Path(__file__).with_name("look.json")
@@ -30,7 +30,7 @@ class Outline:
         width_m: of a line.
         name: if it has one.
         paths: [V, 2] each, metres, map frame.
-        hole: of each path, whether it is a hole of the area before it.
+        is_hole: of each path, whether it is a hole of the area before it.
     """
 
     label: str
@@ -38,11 +38,11 @@ class Outline:
     width_m: float
     name: str | None
     paths: list[Floats]
-    hole: list[bool]
+    is_hole: list[bool]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Drawn:
+class DecodedScenery:
     """What a part of scenery holds: outlines and places, or points.
 
     Attributes:
@@ -53,25 +53,25 @@ class Drawn:
     """
 
     outlines: list[Outline]
-    places: list[Place]
+    places: list[NamedPoint]
     xyz_m: Floats
     rgb: npt.NDArray[np.uint8]
 
 
-def read_scenery(path: Path) -> Drawn:
+def read_scenery(path: Path) -> DecodedScenery:
     """A part, as `Outlines.encode` or `encode_cloud` wrote it and `save_scenery` compressed it."""
     blob = gzip.decompress(path.read_bytes())
     (size,) = struct.unpack("<Q", blob[:8])
     told = json.loads(blob[8 : 8 + size])["__metadata__"]
     tensors = load(blob)
-    walked = tensors["steps"].cumsum(axis=0, dtype=np.int64) / UNITS_A_METRE
+    walked = tensors["steps"].cumsum(axis=0, dtype=np.int64) / UNITS_PER_M
     nothing = np.zeros((0, 3))
     if told["kind"] == "points":
-        return Drawn([], [], walked, tensors["rgb"])
+        return DecodedScenery([], [], walked, tensors["rgb"])
     places = [
-        Place((x / UNITS_A_METRE, y / UNITS_A_METRE), name, kind) for x, y, name, kind in json.loads(told["places"])
+        NamedPoint((x / UNITS_PER_M, y / UNITS_PER_M), name, kind) for x, y, name, kind in json.loads(told["places"])
     ]
-    return Drawn(_outlines(told, tensors, walked), places, nothing, nothing.astype(np.uint8))
+    return DecodedScenery(_outlines(told, tensors, walked), places, nothing, nothing.astype(np.uint8))
 
 
 def _outlines(told: dict[str, str], tensors: dict[str, npt.NDArray[Any]], walked: Floats) -> list[Outline]:
@@ -83,17 +83,17 @@ def _outlines(told: dict[str, str], tensors: dict[str, npt.NDArray[Any]], walked
         Outline(
             label=labels[tensors["label"][n]],
             form=int(tensors["form"][n]),
-            width_m=float(tensors["width"][n]) / UNITS_A_METRE,
+            width_m=float(tensors["width"][n]) / UNITS_PER_M,
             name=names.get(str(n)),
             paths=paths[first:end],
-            hole=hole[first:end],
+            is_hole=hole[first:end],
         )
         for n, (first, end) in enumerate(pairwise([0, *last]))
     ]
 
 
 @cache
-def look() -> dict[str, Any]:
+def load_look() -> dict[str, Any]:
     """Colours of a map, as the page has them: "light" and "dark" by use; "ground", "rising" and "walls" by label."""
     found: dict[str, Any] = json.loads(LOOK_FILE.read_text())
     return found

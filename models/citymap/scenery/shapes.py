@@ -10,28 +10,28 @@ import numpy.typing as npt
 import shapely
 
 from models.citymap.points import ranges
-from models.citymap.scenery.files import Encoded
+from models.citymap.scenery.files import SceneryBlob
 from models.citymap.types import Floats, MapShape
 from models.spool import AT_ONCE, Spool, spooled
 
-UNITS_A_METRE: Final = 10  # what is sent is in decimetres
-SIMPLER_M: Final = 0.3  # how far an outline may be from the one that is mapped
-KINDS: Final = ("node", "way", "relation")
-MAX_HEIGHT: Final = 65535
-OF_PATHS: Final = ("size", "hole")
+UNITS_PER_M: Final = 10  # what is sent is in decimetres
+SIMPLIFY_TOLERANCE_M: Final = 0.3  # how far an outline may be from the one that is mapped
+OSM_TYPES: Final = ("node", "way", "relation")
+MAX_UNITS: Final = 65535
+PATH_COLUMNS: Final = ("size", "hole")
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class NamedPoint:
     """What has a name and is found at one point: a shop, a museum.
 
     Attributes:
-        at_m: x, y, map frame.
+        position_m: x, y, map frame.
         name: the one to show.
         kind: what it is, in a word.
     """
 
-    at_m: tuple[float, float]
+    position_m: tuple[float, float]
     name: str
     kind: str
 
@@ -56,13 +56,13 @@ class Outlines:
     tensors: dict[str, npt.NDArray[Any]]
 
     @classmethod
-    def of(cls, shapes: Sequence[MapShape]) -> "Outlines":
+    def from_shapes(cls, shapes: Sequence[MapShape]) -> "Outlines":
         """Those of what there is, what lies on top of others first; labels keep this order."""
-        drawings = Drawings(dict.fromkeys(shape.label for shape in shapes))
-        drawings.add(Drawing.of(shapes, np.arange(len(shapes))))
-        return drawings.outlines()
+        drawings = OutlinesBuilder(dict.fromkeys(shape.label for shape in shapes))
+        drawings.add(DrawnObjects.from_shapes(shapes, np.arange(len(shapes))))
+        return drawings.build()
 
-    def encode(self, places: Iterable[Place] = ()) -> Encoded:
+    def encode(self, places: Iterable[NamedPoint] = ()) -> SceneryBlob:
         """A part of scenery, with "labels", "names" and "places" [[x, y, name, kind]] as JSON in its facts.
 
         Args:
@@ -71,14 +71,16 @@ class Outlines:
         told: dict[str, Any] = {
             "labels": self.labels,
             "names": self.names,
-            "places": [[*(round(v * UNITS_A_METRE) for v in place.at_m), place.name, place.kind] for place in places],
+            "places": [
+                [*(round(v * UNITS_PER_M) for v in place.position_m), place.name, place.kind] for place in places
+            ],
         }
         words = {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in told.items()}
-        return Encoded(self.tensors, {"kind": "shapes", **words})
+        return SceneryBlob(self.tensors, {"kind": "shapes", **words})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Drawing:
+class DrawnObjects:
     """What is drawn of some objects, O of them.
 
     Attributes:
@@ -92,9 +94,9 @@ class Drawing:
     tensors: dict[str, npt.NDArray[Any]]
 
     @classmethod
-    def of(cls, shapes: Sequence[MapShape], place: npt.NDArray[Any]) -> "Drawing":
+    def from_shapes(cls, shapes: Sequence[MapShape], place: npt.NDArray[Any]) -> "DrawnObjects":
         """That of some shapes that are each at a place [S] among all."""
-        geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLER_M)
+        geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLIFY_TOLERANCE_M)
         drawn = np.flatnonzero(~(shapely.is_missing(geometry) | shapely.is_empty(geometry)))
         shapes, geometry = [shapes[n] for n in drawn.tolist()], geometry[drawn]
         form = shapely.get_dimensions(geometry).astype(np.uint8) if shapes else np.zeros(0, np.uint8)
@@ -102,21 +104,21 @@ class Drawing:
         xy, of_path = shapely.get_coordinates(path, return_index=True)
         tensors = {
             "form": form,
-            "base": _heights([shape.base_m for shape in shapes]),
-            "top": _heights([shape.top_m for shape in shapes]),
-            "width": _heights([shape.width_m for shape in shapes]),
+            "base": _to_units([shape.base_m for shape in shapes]),
+            "top": _to_units([shape.top_m for shape in shapes]),
+            "width": _to_units([shape.width_m for shape in shapes]),
             "paths": np.bincount(owner, minlength=len(shapes)).astype(np.uint32),
-            "source": np.array([_number_of(shape.source_id) for shape in shapes], dtype=np.float64),
+            "source": np.array([_encode_source(shape.source_id) for shape in shapes], dtype=np.float64),
             "size": np.bincount(of_path, minlength=len(path)).astype(np.uint32),
             "hole": hole.astype(np.uint8),
             "place": place[drawn],
             "low": np.nan_to_num(shapely.bounds(geometry))[:, :2],
-            "xy": np.rint(xy * UNITS_A_METRE).astype(np.int32),
+            "xy": np.rint(xy * UNITS_PER_M).astype(np.int32),
         }
         return cls([shape.label for shape in shapes], [shape.name for shape in shapes], tensors)
 
 
-class Drawings:
+class OutlinesBuilder:
     """What is drawn of a map, which grows; it lies on disk.
 
     Args:
@@ -127,36 +129,38 @@ class Drawings:
         self._number = {label: n for n, label in enumerate(labels)}
         self._spool, self._names, self._count = Spool(), dict[int, str](), 0
 
-    def add(self, drawing: Drawing) -> None:
+    def add(self, drawing: DrawnObjects) -> None:
         """Draw some more; there is at least one drawing."""
         self._spool.add({"label": np.array([self._number[of] for of in drawing.labels], np.uint16), **drawing.tensors})
         self._names |= {self._count + n: name for n, name in enumerate(drawing.names) if name}
         self._count += len(drawing.labels)
 
-    def outlines(self) -> Outlines:
+    def build(self) -> Outlines:
         """All of it; nothing is drawn after that."""
         columns = self._spool.columns()
-        order = np.lexsort((columns.pop("place"), _morton(columns.pop("low")), columns["label"]))
+        order = np.lexsort((columns.pop("place"), _morton_codes(columns.pop("low")), columns["label"]))
         place = np.empty_like(order)
         place[order] = np.arange(len(order))
         names = dict(sorted((int(place[row]), name) for row, name in self._names.items()))
-        return Outlines(list(self._number), names, spooled(_in_order(columns, order)))
+        return Outlines(list(self._number), names, spooled(_sorted_tensors(columns, order)))
 
 
-def _in_order(columns: Mapping[str, npt.NDArray[Any]], order: npt.NDArray[Any]) -> Iterator[dict[str, Any]]:
+def _sorted_tensors(columns: Mapping[str, npt.NDArray[Any]], order: npt.NDArray[Any]) -> Iterator[dict[str, Any]]:
     """Tensors of Outlines, some objects at a time, of columns of drawings."""
     ends = {name: np.cumsum(columns[name], dtype=np.int64) for name in ("paths", "size")}
     last = np.zeros((1, 2), np.int32)
     for first in range(0, len(order) or 1, AT_ONCE):
         rows = order[first : first + AT_ONCE]
-        paths = _rows_of(ends["paths"], columns["paths"], rows)
-        xy = columns["xy"][_rows_of(ends["size"], columns["size"], paths)]
-        found = {name: column[paths if name in OF_PATHS else rows] for name, column in columns.items() if name != "xy"}
+        paths = _group_rows(ends["paths"], columns["paths"], rows)
+        xy = columns["xy"][_group_rows(ends["size"], columns["size"], paths)]
+        found = {
+            name: column[paths if name in PATH_COLUMNS else rows] for name, column in columns.items() if name != "xy"
+        }
         yield found | {"steps": np.diff(xy, axis=0, prepend=last).astype(np.int32)}
         last = xy[-1:] if len(xy) else last
 
 
-def _rows_of(ends: npt.NDArray[Any], sizes: npt.NDArray[Any], groups: npt.NDArray[Any]) -> npt.NDArray[Any]:
+def _group_rows(ends: npt.NDArray[Any], sizes: npt.NDArray[Any], groups: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """The rows of some groups, group after group."""
     return ranges(ends[groups] - sizes[groups], ends[groups])
 
@@ -177,17 +181,17 @@ def _paths(geometry: Any, form: npt.NDArray[np.uint8]) -> tuple[Any, npt.NDArray
     return path[order], of_object[order], hole[order]
 
 
-def _heights(values_m: Sequence[float]) -> npt.NDArray[np.uint16]:
-    rounded = np.rint(np.array(values_m, dtype=np.float64) * UNITS_A_METRE)
-    return rounded.clip(0, MAX_HEIGHT).astype(np.uint16)
+def _to_units(values_m: Sequence[float]) -> npt.NDArray[np.uint16]:
+    rounded = np.rint(np.array(values_m, dtype=np.float64) * UNITS_PER_M)
+    return rounded.clip(0, MAX_UNITS).astype(np.uint16)
 
 
-def _number_of(source_id: str | None) -> float:
+def _encode_source(source_id: str | None) -> float:
     kind, _, number = (source_id or "").partition("/")
-    return float(int(number) * 4 + KINDS.index(kind)) if kind in KINDS and number.isdigit() else -1.0
+    return float(int(number) * 4 + OSM_TYPES.index(kind)) if kind in OSM_TYPES and number.isdigit() else -1.0
 
 
-def _morton(low_m: Floats) -> npt.NDArray[np.int64]:
+def _morton_codes(low_m: Floats) -> npt.NDArray[np.int64]:
     """[O] where objects [O, 2] are, so that what is near has near numbers."""
     low = low_m - low_m.min(axis=0, initial=0.0)
     cell = np.minimum(low / 4, 0xFFFFF).astype(np.int64)

@@ -113,7 +113,7 @@ class Lookup:
 
         None of either for a number past the end of the street.
         """
-        of_streets = (name for s in streets for name in self.gazetteer.words[s].names)
+        of_streets = (name for s in streets for name in self.gazetteer.objects[s].names)
         names = dict.fromkeys(" ".join(full_words(plain_words(name))) for name in of_streets)
         known = {n: rows for name in names for n, rows in self._table.numbers.with_prefix(name + BETWEEN)}
         if not known:

@@ -10,7 +10,7 @@ from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
 from models.citymap.gazetteer.gazetteer import Gazetteer
-from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
@@ -54,10 +54,10 @@ class NameTable:
         """That of a gazetteer; arguments as of Lookup."""
         names, numbers, others = PostingsBuilder(), PostingsBuilder(), list[tuple[str, int]]()
         forms = dict[tuple[str, int], float]()
-        for number, words in enumerate(gazetteer.words):
+        for number, words in enumerate(gazetteer.objects):
             for address in _addresses(words):
                 numbers.add(address, number)
-            if words.kinds == (STREET,):
+            if words.kinds == (STREET_KIND,):
                 for form, weight in (form for name in words.names for form in forms_of(name)):
                     key = " ".join(form), number
                     forms[key] = max(weight, forms.get(key, 0.0))
@@ -109,7 +109,7 @@ class NameTable:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
 
-def _addresses(words: Words) -> Iterator[str]:
+def _addresses(words: GazetteerObject) -> Iterator[str]:
     """The keys of an object's house numbers."""
     if words.number and words.street:
         street = " ".join(full_words(plain_words(words.street)))

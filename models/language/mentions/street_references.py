@@ -54,5 +54,5 @@ def _meant(mention: Mention, streets: Sequence[Mention], lookup: Lookup) -> Ment
 
 
 def _kinds(objects: Ints, lookup: Lookup) -> set[str]:
-    names = (name for n in np.asarray(objects)[:20] for name in lookup.gazetteer.words[n].names)
+    names = (name for n in np.asarray(objects)[:20] for name in lookup.gazetteer.objects[n].names)
     return {full_words(plain)[-1] for name in names if (plain := plain_words(name))}

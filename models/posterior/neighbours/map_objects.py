@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.citymap.cells import CellTable, Parts
+from models.citymap.cells import CellTable, PartTable
 from models.citymap.gallery import Gallery
-from models.citymap.map_geometry import PieceBodies
+from models.citymap.map_geometry import PieceGeometry
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.strings import Categorical
@@ -35,13 +35,13 @@ class Things:
     are_parts: bool = False
 
     @classmethod
-    def of_parts(cls, parts: Parts) -> "Things":
+    def of_parts(cls, parts: PartTable) -> "Things":
         """The parts of cells."""
         is_flat = (parts.high_m - parts.low_m)[:, 2] < FLAT_M
         return cls(parts.instance, parts.rgb, np.ones(len(parts.instance), np.int32), is_flat, are_parts=True)
 
     @classmethod
-    def of_instances(cls, bodies: PieceBodies, parts: Parts) -> "Things":
+    def of_instances(cls, bodies: PieceGeometry, parts: PartTable) -> "Things":
         """The instances of a map, with the parts of its cells."""
         instances = len(bodies.rgb)
         high = np.zeros(instances)
@@ -62,7 +62,7 @@ class Things:
             thing = cells.take(rows).parts.instance
         return np.bincount(thing, minlength=len(self.instance)).astype(np.int32)
 
-    def parts_among(self, parts: Parts, kept: npt.NDArray[np.bool_]) -> Ints:
+    def parts_among(self, parts: PartTable, kept: npt.NDArray[np.bool_]) -> Ints:
         """[P] how many of some of the parts are of each thing; none of an instance of which most parts are gone."""
         if self.are_parts:
             return kept.astype(np.int32)

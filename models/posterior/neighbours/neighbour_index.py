@@ -11,8 +11,8 @@ from typing import Protocol
 import numpy as np
 
 from models.citymap.cells import CellTable
-from models.citymap.gallery import Clouds
-from models.citymap.map_geometry import PieceBodies
+from models.citymap.gallery import PointClouds
+from models.citymap.map_geometry import PieceGeometry
 from models.citymap.points import Ints
 from models.citymap.types import Floats, Progress
 from models.posterior.neighbours.map_objects import Things
@@ -79,7 +79,7 @@ class Surroundings(Protocol):
 
 
 def surroundings_of(
-    bodies: Clouds | PieceBodies, cells: CellTable, progress: Progress | None = None, rows: range | None = None
+    bodies: PointClouds | PieceGeometry, cells: CellTable, progress: Progress | None = None, rows: range | None = None
 ) -> Surroundings:
     """The surroundings of a gallery.
 
@@ -89,7 +89,7 @@ def surroundings_of(
         progress: called with what is done and to do.
         rows: the cells that are wanted, one after the other, with the nodes that they own among all; None for all.
     """
-    if not isinstance(bodies, PieceBodies):
+    if not isinstance(bodies, PieceGeometry):
         return ScanSurroundings.of(bodies, cells, progress, rows)
     every = PieceSurroundings.of(bodies, cells)
     return every if rows is None else every.take(np.arange(rows.start, rows.stop), every.things.parts)

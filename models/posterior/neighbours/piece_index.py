@@ -10,12 +10,12 @@ import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
-from models.citymap.cells import CellTable, Parts
-from models.citymap.geometry.closest_points import ways_around
+from models.citymap.cells import CellTable, PartTable
+from models.citymap.geometry.closest_points import closest_instances
 from models.citymap.geometry.cutting import cut_pieces
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.hints import HINT_REACH_M
-from models.citymap.map_geometry import PieceBodies
+from models.citymap.map_geometry import PieceGeometry
 from models.citymap.points import Ints, ranges
 from models.citymap.types import CutRules, Floats
 from models.compiled import compiled
@@ -52,7 +52,7 @@ class PieceSurroundings:
     center_m: Floats
 
     @classmethod
-    def of(cls, bodies: PieceBodies, cells: CellTable) -> "PieceSurroundings":
+    def of(cls, bodies: PieceGeometry, cells: CellTable) -> "PieceSurroundings":
         """Those of a gallery."""
         things, center_m = Things.of_instances(bodies, cells.parts), cells.center_m[:, :2]
         middle = _step_of(center_m)
@@ -105,7 +105,7 @@ class PieceSurroundings:
         cell = self.owner(nodes)
         first = np.flatnonzero(np.diff(cell, prepend=-1))
         starts = np.append(first, len(nodes))
-        node, part, way = ways_around(
+        node, part, way = closest_instances(
             self.pieces,
             self.rules,
             self.center_m[cell[first]],
@@ -119,7 +119,7 @@ class PieceSurroundings:
             node, part, way = node[known], part[known], way[known]
         return Around(node, part, way, np.ones(len(node), np.bool_))
 
-    def cut(self, centers_m: Floats) -> Parts:
+    def cut(self, centers_m: Floats) -> PartTable:
         """What lies in the cubes of some cells around centres [N, 3]."""
         return cut_pieces(self.pieces, self.things.rgb, centers_m, self.rules)
 

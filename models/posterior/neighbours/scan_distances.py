@@ -7,7 +7,7 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from models.citymap.cells import CellTable
-from models.citymap.gallery import Clouds
+from models.citymap.gallery import PointClouds
 from models.citymap.hints import HINT_REACH_M
 from models.citymap.points import Ints
 from models.citymap.types import Floats
@@ -27,7 +27,7 @@ def _of(values: Ints, wanted: int) -> Ints:
 class ScanWays:
     """Clouds and nodes, ready to be measured some instances at a time."""
 
-    bodies: Clouds
+    bodies: PointClouds
     cells: CellTable
     nodes_m: Floats  # [M, 3], at the height of their owners
     trees: dict[int, tuple[Ints, cKDTree]]  # of each scene, its nodes
@@ -36,11 +36,11 @@ class ScanWays:
     shown_starts: Ints
 
     @classmethod
-    def of(cls, bodies: Clouds, cells: CellTable, nodes: Floats, owner: Ints, scene: Ints) -> "ScanWays":
+    def of(cls, bodies: PointClouds, cells: CellTable, nodes: Floats, owner: Ints, scene: Ints) -> "ScanWays":
         """To measure nodes [M, 2] that are owned by some cells [M], which are in some scenes [N]."""
         trees = {int(s): (rows, cKDTree(nodes[rows])) for s in np.unique(scene) if len(rows := _of(scene[owner], s))}
-        shown = np.argsort(bodies.of_part, kind="stable")
-        starts = np.searchsorted(bodies.of_part[shown], np.arange(len(bodies.scene) + 1))
+        shown = np.argsort(bodies.part_instances, kind="stable")
+        starts = np.searchsorted(bodies.part_instances[shown], np.arange(len(bodies.scene) + 1))
         at = np.column_stack([nodes, cells.center_m[owner, 2]])
         return cls(bodies, cells, at, trees, Tiles.of(nodes, owner, cells), shown, starts)
 

@@ -11,7 +11,7 @@ from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 
 from models.citymap.cells import CellTable
-from models.citymap.gallery import Clouds
+from models.citymap.gallery import PointClouds
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats, Progress
 from models.errors import IndexBroken
@@ -51,7 +51,7 @@ class ScanSurroundings:
 
     @classmethod
     def of(
-        cls, bodies: Clouds, cells: CellTable, progress: Progress | None = None, rows: range | None = None
+        cls, bodies: PointClouds, cells: CellTable, progress: Progress | None = None, rows: range | None = None
     ) -> "ScanSurroundings":
         """Measure a gallery's surroundings; in several processes when there is much to do.
 
@@ -75,7 +75,7 @@ class ScanSurroundings:
                 progress("measure surroundings", min(done, tasks), tasks)
         node, instance, way_m, whole, piece = (np.concatenate(column) for column in zip(*found, strict=True))
         way = np.round(way_m / STEP_M).astype(np.int8)
-        part = np.where(piece >= 0, piece, _parts_of(cells, bodies.of_part, owner[node], instance))
+        part = np.where(piece >= 0, piece, _parts_of(cells, bodies.part_instances, owner[node], instance))
         known = part >= 0
         node, part, way, whole = node[known], part[known], way[known], whole[known]
         # nearest first

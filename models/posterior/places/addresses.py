@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from models.citymap.gazetteer.name_columns import Words
+from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.points import Ints
 from models.language.mentions.name_table import BETWEEN
 from models.language.mentions.names import plain_words
@@ -40,7 +40,7 @@ class Addresses:
     by_number: Postings
 
     @classmethod
-    def of(cls, words: Sequence[Words]) -> "Addresses":
+    def of(cls, words: Sequence[GazetteerObject]) -> "Addresses":
         """Those of some objects: without number or street there is none, with several numbers as many."""
         rows = [
             (n, number.replace(" ", ""), some.street)

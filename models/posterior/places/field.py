@@ -12,11 +12,11 @@ import torch
 from cachetools import LRUCache, cachedmethod
 from torch import Tensor
 
-from models.citymap.gazetteer.closest_points import Around, Ways, cut, ways_to
-from models.citymap.gazetteer.distance_raster import Away, Raster
-from models.citymap.gazetteer.gazetteer import WALKED, Gazetteer
+from models.citymap.gazetteer.closest_points import ClosestPoints, PointGroups, find_closest_points, select_objects
+from models.citymap.gazetteer.distance_raster import DistanceRaster, GroupDistances
+from models.citymap.gazetteer.gazetteer import WALKED_KIND, Gazetteer
 from models.citymap.gazetteer.walkways import Walkways
-from models.citymap.points import Ints, corners
+from models.citymap.points import Ints, bounding_corners
 from models.citymap.types import Floats
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
@@ -85,8 +85,10 @@ class PlaceField:
         self._of_ways = WayKernels(kernels)
         self._lately: LRUCache[Mention, tuple[Floats, Ints, npt.NDArray[np.bool_]]] = LRUCache(KEPT)
         self._lock = Lock()  # two threads ask for ways
-        walkways = beside(lambda: Walkways(gazetteer, *corners(centers_m)) if WALKED in gazetteer.by_kind else None)
-        self.raster = Raster(gazetteer, centers_m, spacing_m)
+        walkways = beside(
+            lambda: Walkways(gazetteer, *bounding_corners(centers_m)) if WALKED_KIND in gazetteer.by_kind else None
+        )
+        self.raster = DistanceRaster(gazetteer, centers_m, spacing_m)
         self._walkways = walkways()
 
     @torch.inference_mode()
@@ -113,17 +115,17 @@ class PlaceField:
             weights, away = self._away(mention)
             both = (torch.from_numpy(steps_m) for steps_m in (self.raster.steps_m, self.raster.block_steps_m))
             fits = [self._by_tier(mention, _rough(weights, steps_m.expand(len(weights), -1))) for steps_m in both]
-            mean, most = self.raster.over_cells(away, fits[0].numpy(), fits[1].numpy())
+            mean, most = self.raster.mean_and_max(away, fits[0].numpy(), fits[1].numpy())
             if most < FAINT:
                 continue  # none of it is near the map
             kept.append(mention)
             common.append(torch.tensor(mean).clamp(min=LEAST))
             worth = [self.worth(mention, each, common[-1]).numpy() for each in fits]
-            self.raster.add(total, away, worth[0], worth[1])
+            self.raster.add_best(total, away, worth[0], worth[1])
         places = Places(
             tuple(kept), torch.stack(common) if common else torch.zeros(0), listener_m, listener_wind, is_meeting
         )
-        at_cells = torch.from_numpy(total.ravel()[self.raster.pixel_of])
+        at_cells = torch.from_numpy(total.ravel()[self.raster.cell_pixel])
         at_cells = self.kernels.temper.exp() * at_cells + self.from_listener(places, self._centers_m)
         return Told(self, places, at_cells.double().numpy())
 
@@ -138,13 +140,13 @@ class PlaceField:
         """[M] metres from positions [M, 2] to where people walk; 0 where that is not known or does not matter."""
         if self._walkways is None or places.is_meeting:
             return torch.zeros(len(points_m))
-        return torch.from_numpy(self._walkways.metres(points_m))
+        return torch.from_numpy(self._walkways.distances_m(points_m))
 
     def by_heading(self, places: Places, points_m: Floats, group: Ints) -> Tensor:
         """[M, HEADINGS] log p(T | x, heading)."""
         total = torch.zeros(len(points_m), HEADINGS)
         if places.mentions:
-            around = Around.of(points_m, group)
+            around = PointGroups.from_groups(points_m, group)
             for mention, mean in zip(places.mentions, places.common, strict=True):
                 ways = self.ways_from(mention, around)
                 fits = torch.from_numpy(self._of_ways.fits(mention, ways, ways.point, len(points_m)))
@@ -154,10 +156,10 @@ class PlaceField:
     @torch.inference_mode()
     def explain(self, places: Places, point_m: Floats) -> list[Explained]:
         """What explains each mention at a position [1, 2], in the heading that fits best there."""
-        around, found = Around.of(point_m, np.zeros(1, np.int64)), []
+        around, found = PointGroups.from_groups(point_m, np.zeros(1, np.int64)), []
         ways = [self.ways_from(mention, around) for mention in places.mentions]
         fits = [
-            torch.from_numpy(self._of_ways.fits(mention, each, np.arange(len(each.item)), len(each.item)))
+            torch.from_numpy(self._of_ways.fits(mention, each, np.arange(len(each.target)), len(each.target)))
             for mention, each in zip(places.mentions, ways, strict=True)
         ]
         total = torch.zeros(HEADINGS)
@@ -171,17 +173,17 @@ class PlaceField:
             here = fit[:, heading if fit.shape[1] > 1 else 0]
             best, floor = int(here.argmax()), self._floor(mention)
             told = (1 - floor) * here[best] / mean
-            found.append(Explained(float(told / (told + floor)), int(each.item[best]), each.way_m[best]))
+            found.append(Explained(float(told / (told + floor)), int(each.target[best]), each.offset_m[best]))
         return found
 
-    def ways_from(self, mention: Mention, around: Around) -> Ways:
+    def ways_from(self, mention: Mention, around: PointGroups) -> ClosestPoints:
         """As `ways`, of positions that are grouped already."""
-        return ways_to(around, *self._outline(mention), self._reach_m(mention))
+        return find_closest_points(around, *self._outline(mention), self._reach_m(mention))
 
     @cachedmethod(lambda field: field._lately, lock=lambda field: field._lock)
     def _outline(self, mention: Mention) -> tuple[Floats, Ints, npt.NDArray[np.bool_]]:
         """Segments, starts and `is_area` of what a mention may mean; a text asks for them again and again."""
-        segments, starts, is_area = cut(self.gazetteer, mention.objects)
+        segments, starts, is_area = select_objects(self.gazetteer, mention.objects)
         lines = len(mention.lines_m)
         if lines:
             segments = np.concatenate([segments, mention.lines_m])
@@ -200,17 +202,17 @@ class PlaceField:
     def rough(self, mention: Mention, cells: Ints) -> Rough:
         """How far some cells are from what a mention may mean."""
         weights, away = self._away(mention)
-        return _rough(weights, torch.from_numpy(self.raster.metres(away, cells)))
+        return _rough(weights, torch.from_numpy(self.raster.distances_m(away, cells)))
 
-    def _away(self, mention: Mention) -> tuple[tuple[float, ...], Away]:
+    def _away(self, mention: Mention) -> tuple[tuple[float, ...], GroupDistances]:
         """The weights of tiers of what a mention may mean, and how far cells are from each."""
         tier = np.searchsorted(-np.array(TIERS[1:]), -mention.weights[: len(mention.objects)], side="left")
         tiers = np.unique(tier).tolist()
         groups = [mention.objects[tier == number] for number in tiers]
         weights = tuple(TIERS[number] for number in tiers)
         if not len(mention.lines_m):
-            return weights, self.raster.away(groups)
-        return (1.0, *weights), self.raster.away(groups, mention.lines_m)
+            return weights, self.raster.distances_to(groups)
+        return (1.0, *weights), self.raster.distances_to(groups, mention.lines_m)
 
     def roughly(self, mention: Mention, rough: Rough) -> Tensor:
         """[n] the kernel at cells, without directions."""
@@ -224,18 +226,18 @@ class PlaceField:
         """The mean of the kernel over cells: what is near everywhere tells nothing."""
         return self.roughly(mention, rough).mean().clamp(min=LEAST)
 
-    def fits(self, mention: Mention, ways: Ways, points: int) -> Tensor:
+    def fits(self, mention: Mention, ways: ClosestPoints, points: int) -> Tensor:
         """[M, 1] or [M, HEADINGS] the kernel of the best thing that may be meant, at so many positions; learns."""
         fits = self._fits_of_ways(mention, ways)
         index = torch.from_numpy(ways.point)[:, None].expand_as(fits)
         return torch.zeros(points, fits.shape[1]).scatter_reduce(0, index, fits, "amax")
 
-    def _fits_of_ways(self, mention: Mention, ways: Ways) -> Tensor:
+    def _fits_of_ways(self, mention: Mention, ways: ClosestPoints) -> Tensor:
         """[P, 1] or [P, HEADINGS] the kernel of each way, over all that the angle may be."""
-        metres = torch.from_numpy(ways.metres).float()
-        bearing = torch.from_numpy(np.arctan2(ways.way_m[:, 0], ways.way_m[:, 1])).float()
+        metres = torch.from_numpy(ways.distance_m).float()
+        bearing = torch.from_numpy(np.arctan2(ways.offset_m[:, 0], ways.offset_m[:, 1])).float()
         fits = self._toward(mention, metres, bearing)
-        total = torch.from_numpy(mention.weights[ways.item]).float()[:, None] * fits
+        total = torch.from_numpy(mention.weights[ways.target]).float()[:, None] * fits
         if mention.side is None:
             return total
         # the street lies on the other side of who is on its north side

@@ -12,7 +12,7 @@ from safetensors.numpy import save_file
 from scipy.sparse import csr_array, find
 
 from models.citymap.gazetteer.gazetteer import Gazetteer
-from models.citymap.gazetteer.name_columns import STREET
+from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.compiled import HALVES, compiled
@@ -172,8 +172,8 @@ class Landmarks:
             centers_m: [N, 2] of the cells.
             kinds: beginnings of the kinds of places that people know by their names.
         """
-        words = gazetteer.words
-        roads = gazetteer.by_kind.get(STREET, np.zeros(0, np.int64))
+        words = gazetteer.objects
+        roads = gazetteer.by_kind.get(STREET_KIND, np.zeros(0, np.int64))
         known = np.array([n for n in gazetteer.named.tolist() if words[n].kinds[0].startswith(kinds)], np.int64)
         streets = Spelt.of([words[n].names for n in roads.tolist()], are_streets=True)
         names = Spelt.of([words[n].names for n in known.tolist()], are_streets=False)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 from scipy.spatial import cKDTree
 
-from models.citymap.gazetteer.closest_points import Around, cut, ways_to
+from models.citymap.gazetteer.closest_points import PointGroups, find_closest_points, select_objects
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
@@ -36,7 +36,7 @@ class Chances:
         block = np.floor(centers_m / BLOCK_M).astype(np.int64)
         group = np.unique(block, axis=0, return_inverse=True)[1].ravel()
         self._order = np.argsort(group, kind="stable")
-        self._around = Around.of(centers_m[self._order], group[self._order])
+        self._around = PointGroups.from_groups(centers_m[self._order], group[self._order])
 
     def on_street(self, objects: Ints, streets: Spelt) -> csr_array:
         """[N, S] chance of each street, that who stands in a cell says to be on it."""
@@ -99,11 +99,11 @@ class Chances:
         shape = (len(self._order), max(1, len(names)))
         if not len(objects):
             return csr_array(shape)
-        ways = ways_to(self._around, *cut(self._gazetteer, objects), reach_m)
-        entry = self._order[ways.point] * shape[1] + names.column[ways.item]
+        ways = find_closest_points(self._around, *select_objects(self._gazetteer, objects), reach_m)
+        entry = self._order[ways.point] * shape[1] + names.column[ways.target]
         order = np.argsort(entry, kind="stable")
         first = np.flatnonzero(np.diff(entry[order], prepend=-1))
-        metres = np.minimum.reduceat(ways.metres[order], first) if len(first) else np.zeros(0)
+        metres = np.minimum.reduceat(ways.distance_m[order], first) if len(first) else np.zeros(0)
         cell, name = np.divmod(entry[order[first]], shape[1])
         return csr_array((metres, name, np.searchsorted(cell, np.arange(shape[0] + 1))), shape=shape)
 

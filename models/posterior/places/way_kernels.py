@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 import torch
 
-from models.citymap.gazetteer.closest_points import Ways
+from models.citymap.gazetteer.closest_points import ClosestPoints
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
@@ -34,7 +34,7 @@ class WayKernels:
         self._widths, self._slip = kernels.measured.exp().tolist(), float(kernels.slip.sigmoid())
         self._wind, self._ego = float(kernels.wind.exp()), float(kernels.ego.exp())
 
-    def fits(self, mention: Mention, ways: Ways, point: Ints, points: int) -> Floats:
+    def fits(self, mention: Mention, ways: ClosestPoints, point: Ints, points: int) -> Floats:
         """[M, 1] or [M, HEADINGS] float32 the best of the ways to one mention from each of M points.
 
         Args:
@@ -53,7 +53,7 @@ class WayKernels:
         chances = np.array([p for _, p in angles])
         shape = np.stack([chances, self._scale[kinds], self._tail[kinds], np.equal(kinds, ACROSS)], axis=1)
         found: Floats = _best(
-            point, ways.item, ways.way_m, mention.weights.astype(np.float64), points, HEADINGS if told else 1,
+            point, ways.target, ways.offset_m, mention.weights.astype(np.float64), points, HEADINGS if told else 1,
             shape, np.array(steps), nan if first is None else radians(first), self._ego if told else self._wind,
             self._slip, said, self._across_m, nan if mention.side is None else radians(mention.side), self._side_m,
         )  # fmt: skip

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from models.citymap.cells import cut_cube
+from models.citymap.cells import cut_parts
 from models.citymap.colours import KITTI360_PALETTE
 from models.citymap.hints import Strategy, direction_index, round_robin
 from models.citymap.points import Ints, PointTable
@@ -14,11 +14,11 @@ from models.sources.kitti360.raw import RawScene
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject
 
-CENTER = 0.5  # of a cube, in its own units
+CUBE_CENTER = 0.5  # of a cube, in its own units
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Surroundings:
+class ReachableParts:
     """What is in reach of a position, in units of the cube around it; one row an instance or part, by instance.
 
     Attributes:
@@ -39,21 +39,21 @@ class Surroundings:
         return len(self.instance)
 
 
-class Description(NamedTuple):
+class StrategyDescription(NamedTuple):
     """The hints that one strategy picked."""
 
     strategy: Strategy
     hints: tuple[PublishedHint, ...]
 
 
-class _Nearest(NamedTuple):
+class _NearestObject(NamedTuple):
     """An object of the best cell with its point nearest to the pose, cell units."""
 
     item: PublishedObject
     closest: Floats
 
 
-def look_around(points: PointTable, config: PrepareConfig, positions_m: Floats) -> list[Surroundings]:
+def find_reachable_parts(points: PointTable, config: PrepareConfig, positions_m: Floats) -> list[ReachableParts]:
     """What is in reach of some positions.
 
     Args:
@@ -61,29 +61,29 @@ def look_around(points: PointTable, config: PrepareConfig, positions_m: Floats) 
         config: size of the cube and reach.
         positions_m: [N, 3] world metres.
     """
-    return [_look_around(points, config, position) for position in positions_m]
+    return [_find_reachable_parts(points, config, position) for position in positions_m]
 
 
-def _look_around(points: PointTable, config: PrepareConfig, position_m: Floats) -> Surroundings:
+def _find_reachable_parts(points: PointTable, config: PrepareConfig, position_m: Floats) -> ReachableParts:
     size_m = config.cut.cell_size_m
     low_m = position_m - size_m / 2
-    members = cut_cube(points, position_m, config.cut)
+    members = cut_parts(points, position_m, config.cut)
     closest, center = np.zeros((2, len(members), 3))
     rgb = np.zeros((len(members), 3), dtype=np.float32)
     for part, rows in enumerate(members):
         xyz = (points.xyz[rows] - low_m) / size_m
-        closest[part] = xyz[((xyz - CENTER) ** 2).sum(axis=1).argmin()]
+        closest[part] = xyz[((xyz - CUBE_CENTER) ** 2).sum(axis=1).argmin()]
         center[part] = xyz.mean(axis=0)
         rgb[part] = points.colours(rows).mean(axis=0)
-    distance = np.linalg.norm(closest - CENTER, axis=1)
+    distance = np.linalg.norm(closest - CUBE_CENTER, axis=1)
     near = distance <= config.hint_reach_m / size_m
     instance = points.instance[[rows[0] for rows in members]] if members else np.zeros(0, dtype=np.int32)
-    return Surroundings(instance[near], closest[near], distance[near], center[near], rgb[near])
+    return ReachableParts(instance[near], closest[near], distance[near], center[near], rgb[near])
 
 
-def descriptions(
-    around: Surroundings, raw: RawScene, cell: PublishedCell, pose: Floats, config: PrepareConfig
-) -> list[Description]:
+def describe_pose(
+    around: ReachableParts, raw: RawScene, cell: PublishedCell, pose: Floats, config: PrepareConfig
+) -> list[StrategyDescription]:
     """A description by each strategy; one that mentions the same instances as an earlier one is dropped.
 
     Args:
@@ -93,26 +93,26 @@ def descriptions(
         pose: [3] the position, in units of that cell.
         config: strategies, number of hints.
     """
-    direction = direction_index(CENTER - around.closest, config.on_top_share)
+    direction = direction_index(CUBE_CENTER - around.closest, config.on_top_share)
     label_number = {label: n for n, label in enumerate({i.label: None for i in raw.instances})}
     labels = np.array([label_number[raw.instances[i].label] for i in around.instance])
     keys = {"class": labels, "direction": direction}
-    found: dict[frozenset[int], Description] = {}
+    found: dict[frozenset[int], StrategyDescription] = {}
     for strategy in config.strategies:
         order = round_robin(keys[strategy]) if strategy in keys else np.argsort(around.distance, kind="stable")
         rows = order[: config.num_hints]
         mentioned = frozenset(raw.instances[i].id for i in around.instance[rows])
         if mentioned not in found:
             hints = tuple(_hint(around, int(row), int(direction[row]), raw, cell, pose) for row in rows)
-            found[mentioned] = Description(strategy, hints)
+            found[mentioned] = StrategyDescription(strategy, hints)
     return list(found.values())
 
 
 def _hint(
-    around: Surroundings, row: int, direction: int, raw: RawScene, cell: PublishedCell, pose: Floats
+    around: ReachableParts, row: int, direction: int, raw: RawScene, cell: PublishedCell, pose: Floats
 ) -> PublishedHint:
     instance = raw.instances[around.instance[row]]
-    offset = (CENTER - around.closest[row])[:2]
+    offset = (CUBE_CENTER - around.closest[row])[:2]
     matched = _match(instance.id, offset, cell, pose)
     # The closest point is in units of the best cell if the hint is matched there, else of the cube around the position.
     closest = around.closest[row] if matched is None else matched.closest
@@ -123,7 +123,7 @@ def _hint(
         object_color_rgb=around.rgb[row],
         object_color_text=KITTI360_PALETTE.word(around.rgb[row]) or "",
         direction=DIRECTIONS[direction],
-        offset_center=(CENTER - around.center[row])[:2],
+        offset_center=(CUBE_CENTER - around.center[row])[:2],
         offset_closest=offset,
         closest_point=closest[:2],
         best_offset_center=None if matched is None else (pose - matched.item.xyz.mean(axis=0))[:2],
@@ -132,10 +132,10 @@ def _hint(
     )
 
 
-def _match(instance_id: int, offset: Floats, cell: PublishedCell, pose: Floats) -> _Nearest | None:
+def _match(instance_id: int, offset: Floats, cell: PublishedCell, pose: Floats) -> _NearestObject | None:
     """The part of an instance in a cell whose closest point is seen most nearly at the hint's offset; None if none."""
     nearest = [
-        _Nearest(item, item.xyz[((item.xyz - pose) ** 2).sum(axis=1).argmin()])
+        _NearestObject(item, item.xyz[((item.xyz - pose) ** 2).sum(axis=1).argmin()])
         for item in cell.objects
         if item.instance_id == instance_id
     ]

@@ -20,22 +20,22 @@ from models.errors import DataError
 from models.files import replace_file, sync
 from models.sources.kitti360.prepare import prepare_scene
 from models.sources.kitti360.raw import POSES, TILES, list_raw_scenes, load_raw_scene
-from models.sources.kitti360.record import Recipe, Record, differences, read_record, recipe_of
+from models.sources.kitti360.record import PreparationRecord, Recipe, build_recipe, describe_differences, read_record
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.kitti360pose.direction import find_neighbours, save_direction
 from models.sources.kitti360pose.files import save_scene, select_scenes, short_name
 
-RELEASED = PrepareConfig()
+RELEASED_CONFIG = PrepareConfig()
 # In the order in which they are put in place: readers list scenes by their cells; the record says that all is there.
-PARTS = {"poses": ".pkl", "direction": ".json", "cells": ".pkl", "prepared": ".json"}
-READING, CUTTING = 0.1, 0.8  # shares of a scene's work; the rest is writing
+SCENE_FILES = {"poses": ".pkl", "direction": ".json", "cells": ".pkl", "prepared": ".json"}
+READING_SHARE, CUTTING_SHARE = 0.1, 0.8  # shares of a scene's work; the rest is writing
 
 
 def prepare_data(
     raw: Path,
     out: Path,
     scene: str | None = None,
-    config: PrepareConfig = RELEASED,
+    config: PrepareConfig = RELEASED_CONFIG,
     seed: int = 0,
     progress: Progress | None = None,
 ) -> tuple[str, ...]:
@@ -61,16 +61,16 @@ def prepare_data(
         DataError: no such scene or none at all, `out` cannot be written or holds a chosen scene that was made
             otherwise, or some scenes could not be prepared; file and field are named.
     """
-    recipes = {folder: recipe_of(raw, folder, config, seed) for folder in _choose(raw, scene)}
-    _check_place(raw, out)
+    recipes = {folder: build_recipe(raw, folder, config, seed) for folder in _choose_folders(raw, scene)}
+    _check_output(raw, out)
     pending = [folder for folder, recipe in recipes.items() if not _is_finished(out, recipe)]
-    bar = _Bar(recipes, progress)
+    bar = _ProgressBar(recipes, progress)
     problems = []
     for folder, recipe in recipes.items():
         try:
             if folder in pending:
                 with _locked(out, recipe.scene):
-                    _complete(raw, folder, out, recipe, config, bar)
+                    _complete_scene(raw, folder, out, recipe, config, bar)
         except DataError as error:
             problems.append(str(error))
         except OSError as error:  # what does not let this scene be written will not let the next
@@ -84,7 +84,7 @@ def prepare_data(
     return tuple(recipe.scene for recipe in recipes.values())
 
 
-def _choose(raw: Path, scene: str | None) -> tuple[str, ...]:
+def _choose_folders(raw: Path, scene: str | None) -> tuple[str, ...]:
     """The folders of the scenes to prepare."""
     try:
         available = list_raw_scenes(raw)
@@ -105,7 +105,7 @@ def _choose(raw: Path, scene: str | None) -> tuple[str, ...]:
     return chosen
 
 
-def _check_place(raw: Path, out: Path) -> None:
+def _check_output(raw: Path, out: Path) -> None:
     place, root = out.resolve(), raw.resolve()
     if place == root or any(place.is_relative_to(root / part) for part in (TILES, POSES)):
         raise DataError(f"{out}: is where the raw data is; name another directory to prepare into")
@@ -113,9 +113,9 @@ def _check_place(raw: Path, out: Path) -> None:
         raise DataError(f"{out}: is no directory; name another one to prepare into")
 
 
-def _places(root: Path, scene: str) -> dict[str, Path]:
+def _file_paths(root: Path, scene: str) -> dict[str, Path]:
     """The files of a scene, by part, in the order of PARTS."""
-    return {part: root / part / f"{scene}{ending}" for part, ending in PARTS.items()}
+    return {part: root / part / f"{scene}{ending}" for part, ending in SCENE_FILES.items()}
 
 
 def _is_finished(out: Path, recipe: Recipe) -> bool:
@@ -124,7 +124,7 @@ def _is_finished(out: Path, recipe: Recipe) -> bool:
     Raises:
         DataError: it was made otherwise than the recipe says.
     """
-    places = _places(out, recipe.scene)
+    places = _file_paths(out, recipe.scene)
     if (out / f".placing-{recipe.scene}").is_dir():
         return False
     if not places["prepared"].exists():
@@ -139,7 +139,7 @@ def _is_finished(out: Path, recipe: Recipe) -> bool:
         return False
     advice = f"it is not overwritten: delete {places['cells']} to make the scene again, or name another directory"
     record = read_record(places["prepared"], advice)
-    changed = differences(record, recipe)
+    changed = describe_differences(record, recipe)
     if changed:
         raise DataError(f"{places['prepared']}: the scene was prepared otherwise: {changed}; {advice}")
     files = {out / name: size for name, size in record.files.items()}
@@ -166,24 +166,28 @@ def _locked(out: Path, scene: str) -> Iterator[None]:
             path.unlink(missing_ok=True)
 
 
-def _complete(raw: Path, folder: str, out: Path, recipe: Recipe, config: PrepareConfig, bar: "_Bar") -> None:
+def _complete_scene(
+    raw: Path, folder: str, out: Path, recipe: Recipe, config: PrepareConfig, bar: "_ProgressBar"
+) -> None:
     """Make a scene, or what is left to do of it."""
     making, placing = (out / f".{state}-{recipe.scene}" for state in ("preparing", "placing"))
     if placing.is_dir():
-        _place(placing, out, recipe.scene)
+        _move_into_place(placing, out, recipe.scene)
     if _is_finished(out, recipe):
         return
     shutil.rmtree(making, ignore_errors=True)
     try:
-        _make(raw, folder, making, recipe, config, bar)
+        _write_scene(raw, folder, making, recipe, config, bar)
         making.rename(placing)
         sync(out)
     finally:
         shutil.rmtree(making, ignore_errors=True)
-    _place(placing, out, recipe.scene)
+    _move_into_place(placing, out, recipe.scene)
 
 
-def _make(raw: Path, folder: str, making: Path, recipe: Recipe, config: PrepareConfig, bar: "_Bar") -> None:
+def _write_scene(
+    raw: Path, folder: str, making: Path, recipe: Recipe, config: PrepareConfig, bar: "_ProgressBar"
+) -> None:
     """Write all files of a scene below a directory of its own."""
     raw_scene = load_raw_scene(raw, folder, config.classes, lambda size: bar.read(recipe, size))
     rng = np.random.default_rng([recipe.seed, *raw_scene.name.encode()])
@@ -191,19 +195,19 @@ def _make(raw: Path, folder: str, making: Path, recipe: Recipe, config: PrepareC
         cells, poses = prepare_scene(raw_scene, config, rng, lambda done, total: bar.cut(recipe, done / total))
     except DataError as error:
         raise DataError(f"{raw / TILES / folder}: {error}") from error
-    places = _places(making, recipe.scene)
+    places = _file_paths(making, recipe.scene)
     save_scene(making, recipe.scene, cells, poses)
     save_direction(places["direction"], find_neighbours(cells, config.cut.grid_m))
     files = {
         path.relative_to(making).as_posix(): path.stat().st_size for part, path in places.items() if part != "prepared"
     }
-    record = Record(**recipe.model_dump(), cells=len(cells), poses=len(poses), files=files)
+    record = PreparationRecord(**recipe.model_dump(), cells=len(cells), poses=len(poses), files=files)
     replace_file(places["prepared"], record.model_dump_json(indent=2).encode() + b"\n")
 
 
-def _place(placing: Path, out: Path, scene: str) -> None:
+def _move_into_place(placing: Path, out: Path, scene: str) -> None:
     """Move a scene's files to their places; called again, it carries on where it was interrupted."""
-    made, places = _places(placing, scene), _places(out, scene)
+    made, places = _file_paths(placing, scene), _file_paths(out, scene)
     if made["cells"].exists():
         places["cells"].unlink(missing_ok=True)  # so that no reader finds parts of two preparations
     for part, path in made.items():
@@ -215,7 +219,7 @@ def _place(placing: Path, out: Path, scene: str) -> None:
     shutil.rmtree(placing)
 
 
-class _Bar:
+class _ProgressBar:
     """Counts work over all scenes, in bytes of raw files."""
 
     def __init__(self, recipes: Mapping[str, Recipe], progress: Progress | None) -> None:
@@ -227,11 +231,11 @@ class _Bar:
     def read(self, recipe: Recipe, size: int) -> None:
         """Another file of so many bytes is read."""
         self._read += size
-        self._show(recipe, READING * self._read / self._sizes[recipe.scene])
+        self._show(recipe, READING_SHARE * self._read / self._sizes[recipe.scene])
 
     def cut(self, recipe: Recipe, share: float) -> None:
         """Cells and poses are made up to this share."""
-        self._show(recipe, READING + CUTTING * share)
+        self._show(recipe, READING_SHARE + CUTTING_SHARE * share)
 
     def finish(self, recipe: Recipe) -> None:
         """A scene is complete, or has failed."""

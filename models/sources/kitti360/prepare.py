@@ -6,17 +6,17 @@ from functools import partial
 import numpy as np
 from scipy.spatial import cKDTree
 
-from models.citymap.cells import centers_near, cut_cube
+from models.citymap.cells import centers_within_reach, cut_parts
 from models.citymap.points import Ints, PointTable
 from models.citymap.types import CityMap, Floats
 from models.errors import DataError
 from models.processes import map_forked
-from models.sources.kitti360.describe import descriptions, look_around
+from models.sources.kitti360.describe import describe_pose, find_reachable_parts
 from models.sources.kitti360.raw import RawScene
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.kitti360pose.records import PublishedCell, PublishedObject, PublishedPose
 
-CHUNK = 16  # cubes a task
+CUBES_PER_TASK = 16  # cubes a task
 Progress = Callable[[int, int], None]
 
 
@@ -40,8 +40,8 @@ def prepare_scene(
     points = scene_points(raw, config)
     locations = choose_locations(raw, config)
     centers = grid_centers(raw, locations, config)
-    positions = shifted(locations, config, rng)
-    step = _Steps(len(centers) + len(positions), progress)
+    positions = shift_locations(locations, config, rng)
+    step = _CubeProgress(len(centers) + len(positions), progress)
     cells = cut_cells(raw, points, centers, config, step)
     poses = describe_positions(raw, points, cells, positions, config, step)
     if not poses:
@@ -52,7 +52,7 @@ def prepare_scene(
     return cells, poses
 
 
-class _Steps:
+class _CubeProgress:
     """Counts cubes for a progress bar."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
@@ -67,7 +67,7 @@ class _Steps:
 def scene_points(raw: RawScene, config: PrepareConfig) -> PointTable:
     """The scene's points with their index, for `describe_positions`."""
     city_map = CityMap(raw.name, raw.instances, raw.stuff, raw.trajectory_m, rules=config.cut)
-    return PointTable.of(city_map, config.cut.eps_m)
+    return PointTable.from_map(city_map, config.cut.eps_m)
 
 
 def choose_locations(raw: RawScene, config: PrepareConfig) -> Floats:
@@ -106,10 +106,10 @@ def grid_centers(raw: RawScene, locations_m: Floats, config: PrepareConfig) -> F
             f"scene '{raw.name}': field 'trajectory': its locations span {np.ptp(locations_m[:, :2], axis=0)} m in x "
             "and y; cells need a metre in each"
         )
-    return centers_near(np.column_stack([x.ravel(), y.ravel()]), locations_m, config.cut.reach_m)
+    return centers_within_reach(np.column_stack([x.ravel(), y.ravel()]), locations_m, config.cut.reach_m)
 
 
-def shifted(locations_m: Floats, config: PrepareConfig, rng: np.random.Generator) -> Floats:
+def shift_locations(locations_m: Floats, config: PrepareConfig, rng: np.random.Generator) -> Floats:
     """[L * copies, 3] positions: every location some times, moved by whole metres towards east and north (rule 5)."""
     positions = np.repeat(locations_m, config.copies, axis=0)
     share = rng.random((len(positions), 2))
@@ -126,9 +126,9 @@ def cut_cells(
         DataError: no cell has enough instances.
     """
     cells: list[PublishedCell] = []
-    chunks = [centers_m[i : i + CHUNK] for i in range(0, len(centers_m), CHUNK)]
+    chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)]
     number = 0
-    for members in map_forked(partial(_members, points, config), chunks):
+    for members in map_forked(partial(_cut_chunk, points, config), chunks):
         for parts in members:
             if parts is not None:
                 cells.append(_cell(raw, points, number, centers_m[number], parts, config))
@@ -141,9 +141,9 @@ def cut_cells(
     return cells
 
 
-def _members(points: PointTable, config: PrepareConfig, centers_m: Floats) -> list[list[Ints] | None]:
+def _cut_chunk(points: PointTable, config: PrepareConfig, centers_m: Floats) -> list[list[Ints] | None]:
     """The point rows of the parts of some cubes; None for one with too few parts."""
-    cubes = (cut_cube(points, center, config.cut) for center in centers_m)
+    cubes = (cut_parts(points, center, config.cut) for center in centers_m)
     return [[p.astype(np.int32) for p in parts] if len(parts) >= config.cut.min_instances else None for parts in cubes]
 
 
@@ -185,15 +185,15 @@ def describe_positions(
     distance, best = _best_cells(cells, positions_m, config)
     reachable = np.flatnonzero(distance <= config.best_cell_reach_m)
     step(len(positions_m) - len(reachable))
-    chunks = [reachable[i : i + CHUNK] for i in range(0, len(reachable), CHUNK)]
+    chunks = [reachable[i : i + CUBES_PER_TASK] for i in range(0, len(reachable), CUBES_PER_TASK)]
     poses = []
-    looked = map_forked(partial(look_around, points, config), [positions_m[chunk] for chunk in chunks])
+    looked = map_forked(partial(find_reachable_parts, points, config), [positions_m[chunk] for chunk in chunks])
     for chunk, surroundings in zip(chunks, looked, strict=True):
         for n, around in zip(chunk, surroundings, strict=True):
             if len(around) >= config.num_hints:
                 cell, position = cells[best[n]], positions_m[n]
                 pose = (position - cell.bbox_w[:3]) / cell.cell_size
-                for strategy, hints in descriptions(around, raw, cell, pose, config):
+                for strategy, hints in describe_pose(around, raw, cell, pose, config):
                     poses.append(PublishedPose(pose, position, cell.id, raw.name, strategy, hints))
         step(len(chunk))
     return poses

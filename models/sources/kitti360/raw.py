@@ -27,9 +27,9 @@ from models.sources.kitti360pose.files import short_name
 
 TILES, POSES = "data_3d_semantics", "data_poses"
 PROPERTIES = {"x": "f", "y": "f", "z": "f", "red": "u", "green": "u", "blue": "u", "semantic": "iu", "instance": "iu"}
-KIND_WORDS = {"f": "float", "u": "uchar", "iu": "int"}
+TYPE_NAMES = {"f": "float", "u": "uchar", "iu": "int"}
 HEADER_BYTES = 1 << 16
-FURTHEST_M = 1e7  # no coordinate of a place on Earth is greater
+MAX_COORDINATE_M = 1e7  # no coordinate of a place on Earth is greater
 POSE_COLUMNS = 13  # frame and a 3x4 matrix, row by row
 
 
@@ -61,7 +61,7 @@ class Tile:
 
 
 @dataclass(slots=True, eq=False)
-class _Growing:
+class _PartialInstance:
     """An instance while its tiles are read."""
 
     rule: ClassRule
@@ -99,7 +99,7 @@ def load_raw_scene(
         DataError: no such scene, no tiles, a tile or a trajectory that cannot be read, or no instance in them.
     """
     folder = scene_folder(root, scene)
-    grown: dict[int, _Growing] = {}
+    grown: dict[int, _PartialInstance] = {}
     for path in tile_paths(folder):
         _merge(grown, read_tile(path), classes)
         step(path.stat().st_size)
@@ -150,7 +150,7 @@ def tile_paths(folder: Path) -> list[Path]:
     return [found[name] for name in sorted(found)]
 
 
-def _merge(grown: dict[int, _Growing], tile: Tile, classes: tuple[ClassRule, ...]) -> None:
+def _merge(grown: dict[int, _PartialInstance], tile: Tile, classes: tuple[ClassRule, ...]) -> None:
     """Add a tile's points to the instances they belong to, and thin those."""
     for rule in classes:
         of_class = np.flatnonzero(tile.semantic == rule.semantic)
@@ -162,7 +162,7 @@ def _merge(grown: dict[int, _Growing], tile: Tile, classes: tuple[ClassRule, ...
             if number in grown:
                 xyz = np.concatenate([grown[number].xyz, xyz])
                 rgb = np.concatenate([grown[number].rgb, rgb])
-            merged = grown.setdefault(number, _Growing(rule, xyz, rgb))
+            merged = grown.setdefault(number, _PartialInstance(rule, xyz, rgb))
             kept = slice(None) if merged.rule.voxel_m is None else first_in_voxel(xyz, merged.rule.voxel_m)
             merged.xyz, merged.rgb = xyz[kept], rgb[kept]
 
@@ -175,17 +175,17 @@ def read_tile(path: Path) -> Tile:
             is none; the message names the file and the field.
     """
     try:
-        with _opened(path) as stream:
+        with _open_mappable(path) as stream:
             _check_header(path, stream)
             vertex = plyfile.PlyData.read(stream)["vertex"].data
             xyz = np.column_stack([vertex[axis] for axis in "xyz"]).astype(np.float32)
             rgb = np.column_stack([vertex[channel] for channel in ("red", "green", "blue")])
             semantic, instance = (vertex[name].astype(np.int64) for name in ("semantic", "instance"))
     except (plyfile.PlyParseError, UnicodeDecodeError) as error:
-        raise DataError(f"{path}: field '{_element_of(error)}': {error}") from error
+        raise DataError(f"{path}: field '{_failed_element(error)}': {error}") from error
     except (OSError, EOFError, zlib.error, ValueError, OverflowError, MemoryError) as error:
         raise DataError(f"{path}: cannot be read as PLY: {error}") from error
-    bad = ~(np.abs(xyz) <= FURTHEST_M)
+    bad = ~(np.abs(xyz) <= MAX_COORDINATE_M)
     if bad.any():
         row, axis = np.argwhere(bad)[0]
         raise DataError(f"{path}: field '{'xyz'[axis]}' of vertex {row} is {xyz[row, axis]}, not a position in metres")
@@ -193,7 +193,7 @@ def read_tile(path: Path) -> Tile:
 
 
 @contextmanager
-def _opened(path: Path) -> Iterator[IO[bytes]]:
+def _open_mappable(path: Path) -> Iterator[IO[bytes]]:
     """A file that can be mapped into memory: the file itself, or a temporary one with what is gzipped in it."""
     if path.suffix != ".gz":
         with path.open("rb") as plain:
@@ -226,10 +226,10 @@ def _check_header(path: Path, stream: IO[bytes]) -> None:
             raise DataError(f"{path}: field '{name}' is missing; it has {', '.join(types)}")
         kind = np.dtype(types[name])
         if kind.kind not in kinds or (kinds == "u" and kind.itemsize != 1):
-            raise DataError(f"{path}: field '{name}' is {kind.name}, expected {KIND_WORDS[kinds]}")
+            raise DataError(f"{path}: field '{name}' is {kind.name}, expected {TYPE_NAMES[kinds]}")
 
 
-def _element_of(error: Any) -> str:
+def _failed_element(error: Any) -> str:
     element = getattr(error, "element", None)
     return "header" if element is None else str(element.name)
 
@@ -260,6 +260,6 @@ def _position(path: Path, number: int, line: str) -> list[float]:
         pose = [float(word) for word in words]
     except ValueError as error:
         raise DataError(f"{path}: field 'pose' in line {number}: {error}") from error
-    if not all(abs(value) <= FURTHEST_M for value in pose):
+    if not all(abs(value) <= MAX_COORDINATE_M for value in pose):
         raise DataError(f"{path}: field 'pose' in line {number}: a value is not finite, or not a position in metres")
     return pose[4::4]

@@ -11,8 +11,8 @@ from models.sources.kitti360.raw import POSES, scene_folder, tile_paths
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.kitti360pose.files import file_name
 
-SHOWN = 3  # differences that a message names
-LONGEST = 60  # characters of a value that a message shows
+MAX_SHOWN_DIFFERENCES = 3  # differences that a message names
+MAX_SHOWN_CHARACTERS = 60  # characters of a value that a message shows
 
 
 class RawFile(BaseModel):
@@ -45,7 +45,7 @@ class Recipe(BaseModel):
     raw: dict[str, RawFile]
 
 
-class Record(Recipe):
+class PreparationRecord(Recipe):
     """A scene that is complete.
 
     Attributes:
@@ -58,7 +58,7 @@ class Record(Recipe):
     files: dict[str, int]
 
 
-def recipe_of(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Recipe:
+def build_recipe(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Recipe:
     """What a scene would be made from now.
 
     Args:
@@ -81,7 +81,7 @@ def recipe_of(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Recip
     )
 
 
-def read_record(path: Path, advice: str) -> Record:
+def read_record(path: Path, advice: str) -> PreparationRecord:
     """The record of a prepared scene.
 
     Args:
@@ -92,7 +92,7 @@ def read_record(path: Path, advice: str) -> Record:
         DataError: it cannot be read, is none, or is of another version of this software.
     """
     try:
-        return Record.model_validate_json(path.read_bytes())
+        return PreparationRecord.model_validate_json(path.read_bytes())
     except OSError as error:
         raise DataError(f"{path}: cannot be read: {error.strerror}; {advice}") from error
     except ValidationError as error:
@@ -101,23 +101,23 @@ def read_record(path: Path, advice: str) -> Record:
         raise DataError(f"{path}: field '{field}': {first['msg']}; {advice}") from error
 
 
-def differences(record: Record, recipe: Recipe) -> str:
+def describe_differences(record: PreparationRecord, recipe: Recipe) -> str:
     """What a scene was made from that is not so now, in words; empty if nothing."""
-    found = list(_changes(record.model_dump(include=set(Recipe.model_fields)), recipe.model_dump()))
-    more = f" and {len(found) - SHOWN} more" if len(found) > SHOWN else ""
-    return ", ".join(found[:SHOWN]) + more
+    found = list(_find_changes(record.model_dump(include=set(Recipe.model_fields)), recipe.model_dump()))
+    more = f" and {len(found) - MAX_SHOWN_DIFFERENCES} more" if len(found) > MAX_SHOWN_DIFFERENCES else ""
+    return ", ".join(found[:MAX_SHOWN_DIFFERENCES]) + more
 
 
-def _changes(before: Mapping[str, Any], now: Mapping[str, Any], within: str = "") -> Iterator[str]:
+def _find_changes(before: Mapping[str, Any], now: Mapping[str, Any], within: str = "") -> Iterator[str]:
     for name in dict.fromkeys([*before, *now]):
         old, new = before.get(name), now.get(name)
         if name not in before or name not in now:
             yield f"{within}{name} is {'new' if name in now else 'gone'}"
         elif isinstance(old, dict) and isinstance(new, dict):
-            yield from _changes(old, new, f"{within}{name}.")
+            yield from _find_changes(old, new, f"{within}{name}.")
         elif old != new:
-            yield f"{within}{name} was {_short(old)}, is {_short(new)}"
+            yield f"{within}{name} was {_shorten(old)}, is {_shorten(new)}"
 
 
-def _short(value: Any) -> str:
-    return str(value) if len(str(value)) < LONGEST else "another"
+def _shorten(value: Any) -> str:
+    return str(value) if len(str(value)) < MAX_SHOWN_CHARACTERS else "another"

@@ -20,7 +20,7 @@ from models.sources.kitti360pose.records import PublishedCell
 
 Compass = Literal["east", "west", "north", "south", "northeast", "northwest", "southeast", "southwest"]
 Neighbours = dict[str, dict[Compass, str]]
-STEPS: dict[Compass, tuple[int, int]] = {
+COMPASS_STEPS: dict[Compass, tuple[int, int]] = {
     "east": (1, 0),
     "west": (-1, 0),
     "north": (0, 1),
@@ -30,7 +30,7 @@ STEPS: dict[Compass, tuple[int, int]] = {
     "southeast": (1, -1),
     "southwest": (-1, -1),
 }
-SAME_PLACE_M = 1e-3  # cells of one grid are whole steps apart; what is further off is of another grid
+NEIGHBOUR_TOLERANCE_M = 1e-3  # cells of one grid are whole steps apart; what is further off is of another grid
 ADVICE = "cells and direction must come from one preparation"
 
 
@@ -47,9 +47,9 @@ def find_neighbours(cells: Sequence[PublishedCell], grid_m: float) -> Neighbours
     neighbours: Neighbours = {cell.id: {} for cell in cells}
     corners_m = np.array([cell.bbox_w[:2] for cell in cells])
     tree = cKDTree(corners_m)
-    for point, step in STEPS.items():
+    for point, step in COMPASS_STEPS.items():
         distance, row = tree.query(corners_m + np.array(step) * grid_m)
-        for n in np.flatnonzero(distance <= SAME_PLACE_M).tolist():
+        for n in np.flatnonzero(distance <= NEIGHBOUR_TOLERANCE_M).tolist():
             neighbours[cells[n].id][point] = cells[int(row[n])].id
     return neighbours
 

@@ -11,15 +11,15 @@ import numpy.typing as npt
 from models.citymap.types import DIRECTIONS, Floats
 from models.errors import DataError
 from models.sources.kitti360pose.pickle_reader import ADVICE
-from models.sources.kitti360pose.pickle_values import Record, Refused, StoredArray
+from models.sources.kitti360pose.pickle_values import PickledRecord, RefusedPickle, StoredArray
 from models.sources.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 
-GREATEST = 1e9  # a coordinate beyond it is none: UTM metres stay under 1e7
-LEAST_SIZE_M, GREATEST_SIZE_M = 1e-3, 1e6
+MAX_COORDINATE = 1e9  # a coordinate beyond it is none: UTM metres stay under 1e7
+MIN_SIZE_M, MAX_SIZE_M = 1e-3, 1e6
 
 
 @dataclass(frozen=True, slots=True)
-class Source:
+class PickleFile:
     """The open file that records come from."""
 
     path: Path
@@ -29,7 +29,7 @@ class Source:
         """What to raise for a field of this file."""
         return DataError(f"{self.path}: {field} {problem}; {ADVICE}")
 
-    def records(self, value: Any, field: str, kind: str) -> "list[Fields]":
+    def read_records(self, value: Any, field: str, kind: str) -> "list[Fields]":
         """The records of a list.
 
         Args:
@@ -41,10 +41,10 @@ class Source:
             DataError: it is no list, or holds something else.
         """
         if type(value) is not list:
-            raise self.error(field, f"is no list of {kind}, but {_what(value)}")
+            raise self.error(field, f"is no list of {kind}, but {_describe_type(value)}")
         for n, item in enumerate(value):
-            if not isinstance(item, Record) or item.kind != kind:
-                raise self.error(f"{field}[{n}]", f"is no {kind}, but {_what(item)}")
+            if not isinstance(item, PickledRecord) or item.kind != kind:
+                raise self.error(f"{field}[{n}]", f"is no {kind}, but {_describe_type(item)}")
             if item.is_listed:
                 raise self.error(f"{field}[{n}]", "is the same object as an earlier one")
             item.is_listed = True
@@ -55,13 +55,13 @@ class Source:
 class Fields:
     """The attributes of one record, and where it stands in the file; each method raises DataError."""
 
-    source: Source
+    pickle: PickleFile
     where: str
     fields: dict[str, Any]
 
     def error(self, name: str, problem: str) -> DataError:
         """What to raise for an attribute."""
-        return self.source.error(f"{self.where}.{name}", problem)
+        return self.pickle.error(f"{self.where}.{name}", problem)
 
     def value(self, name: str) -> Any:
         """An attribute as it is."""
@@ -73,44 +73,44 @@ class Fields:
         """A word or name."""
         value = self.value(name)
         if type(value) is not str or not value or not value.isprintable():
-            raise self.error(name, f"is no printable text, but {_what(value)}")
+            raise self.error(name, f"is no printable text, but {_describe_type(value)}")
         return value
 
     def integer(self, name: str) -> int:
         """A number that fits 64 bits."""
         value = self.value(name)
         if type(value) is not int or not -(2**63) <= value < 2**63:
-            raise self.error(name, f"is no whole number of 64 bits, but {_what(value)}")
+            raise self.error(name, f"is no whole number of 64 bits, but {_describe_type(value)}")
         return value
 
     def flag(self, name: str) -> bool:
         """True or False."""
         value = self.value(name)
         if type(value) is not bool:
-            raise self.error(name, f"is neither True nor False, but {_what(value)}")
+            raise self.error(name, f"is neither True nor False, but {_describe_type(value)}")
         return value
 
     def length(self, name: str) -> float:
         """A length in metres."""
         value = self.value(name)
-        if type(value) not in (int, float) or not LEAST_SIZE_M <= value <= GREATEST_SIZE_M:
-            raise self.error(name, f"is no length in metres, but {_what(value)}")
+        if type(value) not in (int, float) or not MIN_SIZE_M <= value <= MAX_SIZE_M:
+            raise self.error(name, f"is no length in metres, but {_describe_type(value)}")
         return float(value)
 
     def array(self, name: str) -> npt.NDArray[Any]:
         """An array of finite numbers, dtype as stored."""
         stored = self.value(name)
         if not isinstance(stored, StoredArray):
-            raise self.error(name, f"is no array, but {_what(stored)}")
+            raise self.error(name, f"is no array, but {_describe_type(stored)}")
         try:
-            values = stored.read(self.source.file)
-        except (Refused, EOFError, OSError) as error:
+            values = stored.read(self.pickle.file)
+        except (RefusedPickle, EOFError, OSError) as error:
             raise self.error(name, "has no values that can be read") from error
         if values.dtype.kind not in "fiu":
             raise self.error(name, f"has dtype {values.dtype}, not numbers")
         # A comparison with NaN is false, so this finds NaN and infinities as well.
-        if not ((values >= -GREATEST) & (values <= GREATEST)).all():
-            raise self.error(name, f"holds a number that is NaN, infinite or beyond {GREATEST:g}")
+        if not ((values >= -MAX_COORDINATE) & (values <= MAX_COORDINATE)).all():
+            raise self.error(name, f"holds a number that is NaN, infinite or beyond {MAX_COORDINATE:g}")
         return values
 
     def vector(self, name: str, sizes: Sequence[int]) -> Floats:
@@ -130,7 +130,7 @@ class Fields:
         values = self.array(name)
         if values.shape != (3,) or values.dtype.kind != "f":
             raise self.error(name, f"has shape {list(values.shape)} and dtype {values.dtype}, not [3] of floats")
-        return self.within_1(name, values)
+        return self.check_unit_range(name, values)
 
     def points(self, name: str) -> Floats:
         """[P, 3] of at least one point, float32 or float64 as stored."""
@@ -141,7 +141,7 @@ class Fields:
             raise self.error(name, "is empty; an instance has at least one point")
         return values
 
-    def within_1(self, name: str, values: Floats) -> Floats:
+    def check_unit_range(self, name: str, values: Floats) -> Floats:
         """Colours, if they are in 0..1."""
         if values.min() < 0 or values.max() > 1:
             raise self.error(name, f"holds {values.min():g}..{values.max():g}; colours are 0..1")
@@ -153,7 +153,7 @@ def read_cell(cell: Fields) -> PublishedCell:
     box = cell.vector("bbox_w", (6,))
     if not (box[:3] < box[3:]).all():
         raise cell.error("bbox_w", "is no box: smallest x y z, then greatest x y z")
-    records = cell.source.records(cell.value("objects"), f"{cell.where}.objects", "Object3d")
+    records = cell.pickle.read_records(cell.value("objects"), f"{cell.where}.objects", "Object3d")
     objects = [read_object(item) for item in records]
     numbers = [item.id for item in objects]
     if len(set(numbers)) != len(numbers):
@@ -165,7 +165,7 @@ def read_cell(cell: Fields) -> PublishedCell:
 
 def read_object(item: Fields) -> PublishedObject:
     """An instance with its points, checked."""
-    xyz, rgb = item.points("xyz"), item.within_1("rgb", item.points("rgb"))
+    xyz, rgb = item.points("xyz"), item.check_unit_range("rgb", item.points("rgb"))
     if len(xyz) != len(rgb):
         raise item.error("rgb", f"has {len(rgb)} points, xyz has {len(xyz)}")
     return PublishedObject(item.integer("id"), item.integer("instance_id"), xyz, rgb, item.text("label"))
@@ -174,7 +174,7 @@ def read_object(item: Fields) -> PublishedObject:
 def read_pose(pose: Fields) -> PublishedPose:
     """A pose with its hints, checked."""
     value = pose.value("descriptions")
-    hints = pose.source.records(value, f"{pose.where}.descriptions", "DescriptionBestCell")
+    hints = pose.pickle.read_records(value, f"{pose.where}.descriptions", "DescriptionBestCell")
     if not hints:
         raise pose.error("descriptions", "is empty; a pose has at least one hint")
     return PublishedPose(
@@ -210,8 +210,8 @@ def read_hint(hint: Fields) -> PublishedHint:
     )
 
 
-def _what(value: Any) -> str:
+def _describe_type(value: Any) -> str:
     """A value in a message: never its contents, which may be long or not printable."""
-    if isinstance(value, Record):
+    if isinstance(value, PickledRecord):
         return f"a {value.kind}"
     return {"NoneType": "None", "StoredArray": "an array"}.get(type(value).__name__, f"a {type(value).__name__}")

@@ -11,7 +11,7 @@ import numpy as np
 from models.citymap.types import Floats
 from models.errors import DataError
 from models.files import open_atomic
-from models.sources.kitti360pose.fields import Fields, Source, read_cell, read_pose
+from models.sources.kitti360pose.fields import Fields, PickleFile, read_cell, read_pose
 from models.sources.kitti360pose.pickle_reader import read_pickle
 from models.sources.kitti360pose.pickle_writer import cell_record, pose_record, write_records
 from models.sources.kitti360pose.records import PublishedCell, PublishedPose
@@ -21,7 +21,7 @@ STANDARD_SPLITS = {
     "val": ("0010",),
     "test": ("0003", "0005", "0009"),
 }
-SAME_PLACE_M = 0.5  # `pose` and `pose_w` say one place twice; further apart, two frames are mixed
+POSE_TOLERANCE_M = 0.5  # `pose` and `pose_w` say one place twice; further apart, two frames are mixed
 DRIVE = re.compile(r"\d{4}_\d{2}_\d{2}_drive_(.+)_sync")
 
 
@@ -124,7 +124,7 @@ def iter_cells(path: Path) -> Iterator[PublishedCell]:
     """
     ids: set[str] = set()
     scene_name = None
-    with _records(path, "cells", "Cell") as records:
+    with _open_records(path, "cells", "Cell") as records:
         for record in records:
             cell = read_cell(record)
             if cell.id in ids:
@@ -145,7 +145,7 @@ def load_poses(path: Path) -> list[PublishedPose]:
         DataError: it is missing, cut short, holds anything but poses, or a pose is not usable; file and field named.
     """
     poses: list[PublishedPose] = []
-    with _records(path, "poses", "Pose") as records:
+    with _open_records(path, "poses", "Pose") as records:
         for record in records:
             poses.append(read_pose(record))
             _check_scene(record, poses[-1].scene_name, poses[0].scene_name)
@@ -166,11 +166,11 @@ def load_scene(root: Path, scene: str) -> Scene:
     cells = load_cells(root / "cells" / f"{name}.pkl")
     path = root / "poses" / f"{name}.pkl"
     poses = load_poses(path)
-    check_poses(path, poses, {cell.id: key_of(cell) for cell in cells})
+    check_poses(path, poses, {cell.id: build_cell_key(cell) for cell in cells})
     return Scene(name, cells, poses)
 
 
-def key_of(cell: PublishedCell) -> CellKey:
+def build_cell_key(cell: PublishedCell) -> CellKey:
     """What `check_poses` needs of a cell."""
     return CellKey(cell.scene_name, cell.bbox_w[:3], cell.cell_size, frozenset(item.id for item in cell.objects))
 
@@ -200,7 +200,7 @@ def _pose_problem(pose: PublishedPose, cells: Mapping[str, CellKey]) -> str | No
     if pose.scene_name != cell.scene_name:
         return f"scene_name: is '{pose.scene_name}', its cell is of scene '{cell.scene_name}'"
     offset_m = pose.pose[:2] * cell.size_m + cell.low_m[:2] - pose.pose_w[:2]
-    if np.abs(offset_m).max() > SAME_PLACE_M:
+    if np.abs(offset_m).max() > POSE_TOLERANCE_M:
         return f"pose_w: lies {np.abs(offset_m).max():.3g} m from where `pose` puts it in cell '{pose.cell_id}'"
     for h, hint in enumerate(pose.descriptions):
         if hint.is_matched and hint.object_id not in cell.objects:
@@ -228,7 +228,7 @@ def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Se
 
     def written() -> Iterator[PublishedCell]:
         for cell in cells:
-            keys[cell.id] = key_of(cell)
+            keys[cell.id] = build_cell_key(cell)
             yield cell
 
     # The inner file first: if the poses are refused, the cells are not put in place either.
@@ -243,7 +243,7 @@ def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Se
 
 
 @contextmanager
-def _records(path: Path, name: str, kind: str) -> Iterator[list[Fields]]:
+def _open_records(path: Path, name: str, kind: str) -> Iterator[list[Fields]]:
     """The records of an open file."""
     try:
         file = path.open("rb")
@@ -252,7 +252,7 @@ def _records(path: Path, name: str, kind: str) -> Iterator[list[Fields]]:
     except OSError as error:
         raise DataError(f"{path}: cannot be opened: {error.strerror}") from error
     with file:
-        records = Source(path, file).records(read_pickle(file, path), name, kind)
+        records = PickleFile(path, file).read_records(read_pickle(file, path), name, kind)
         if not records:
             raise DataError(f"{path}: holds no {name}; delete the file or prepare the scene anew")
         yield records

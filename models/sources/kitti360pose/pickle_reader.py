@@ -13,20 +13,20 @@ from typing import Any, BinaryIO
 
 from models.errors import DataError
 from models.sources.kitti360pose.pickle_values import (
-    GLOBALS,
-    RECORDS,
-    Allowed,
-    Blob,
-    Record,
-    Refused,
+    ALLOWED_GLOBALS,
+    RECORD_CLASSES,
+    AllowedGlobal,
+    PickledRecord,
+    RefusedPickle,
     StoredArray,
+    StoredBytes,
     StoredType,
     fill_array,
 )
 
 ADVICE = "the file is damaged or not of KITTI360Pose; get or prepare it anew"
 LAZY_BYTES = 1024  # longer byte strings stay in the file
-MALFORMED = (struct.error, LookupError, TypeError, ValueError, OverflowError, MemoryError)
+MALFORMED_ERRORS = (struct.error, LookupError, TypeError, ValueError, OverflowError, MemoryError)
 
 
 class DataUnpickler:
@@ -45,13 +45,15 @@ class DataUnpickler:
             Refused: it names a global or an operation that data needs none of.
             MALFORMED: it is cut short or no pickle.
         """
-        read, steps, stop = self._file.read, STEPS, pickle.STOP
+        read, steps, stop = self._file.read, OPERATIONS, pickle.STOP
         while (code := read(1)) != stop:
             step = steps.get(code)
             if step is None:
                 if not code:
                     raise EOFError
-                raise Refused(f"has operation {code!r} at byte {self._file.tell() - 1}, which data has no use for")
+                raise RefusedPickle(
+                    f"has operation {code!r} at byte {self._file.tell() - 1}, which data has no use for"
+                )
             step(self)
         return self._stack.pop()
 
@@ -59,7 +61,7 @@ class DataUnpickler:
         """Put a value on the stack."""
         self._stack.append(value)
 
-    def take(self, size: int) -> bytes:
+    def read(self, size: int) -> bytes:
         """The next bytes; never allocates more than the file holds."""
         if size > LAZY_BYTES and size > self._size - self._file.tell():
             raise EOFError
@@ -70,24 +72,24 @@ class DataUnpickler:
 
     def unsigned(self, width: int) -> int:
         """The next number of `width` bytes."""
-        return int.from_bytes(self.take(width), "little")
+        return int.from_bytes(self.read(width), "little")
 
     def text(self, width: int) -> None:
         """Push a string whose length takes `width` bytes."""
-        self.push(self.take(self.unsigned(width)).decode("utf-8", "surrogatepass"))
+        self.push(self.read(self.unsigned(width)).decode("utf-8", "surrogatepass"))
 
     def data(self, width: int) -> None:
         """Push a byte string whose length takes `width` bytes, or where it is in the file."""
         size = self.unsigned(width)
         if size <= LAZY_BYTES:
-            return self.push(self.take(size))
+            return self.push(self.read(size))
         offset = self._file.tell()
         if size > self._size - offset:
             raise EOFError
         self._file.seek(offset + size)
-        return self.push(Blob(offset, size))
+        return self.push(StoredBytes(offset, size))
 
-    def marked(self) -> list[Any]:
+    def pop_marked(self) -> list[Any]:
         """Take off the stack what lies above the last mark."""
         start = self._marks.pop()
         items = self._stack[start:]
@@ -98,7 +100,7 @@ class DataUnpickler:
         """Mark the stack's height."""
         self._marks.append(len(self._stack))
 
-    def bundle(self, count: int) -> None:
+    def push_tuple(self, count: int) -> None:
         """Make the last values one tuple."""
         items = tuple(self._stack.pop() for _ in range(count))
         self.push(items[::-1])
@@ -106,16 +108,16 @@ class DataUnpickler:
     def extend(self, items: list[Any]) -> None:
         """Add to the list on top."""
         if type(self._stack[-1]) is not list:
-            raise Refused("appends to what is no list")
+            raise RefusedPickle("appends to what is no list")
         self._stack[-1].extend(items)
 
     def update(self, items: list[Any]) -> None:
         """Add keys and values to the dict on top."""
         if type(self._stack[-1]) is not dict or not all(type(key) is str for key in items[::2]):
-            raise Refused("sets names in what is no dict of names")
+            raise RefusedPickle("sets names in what is no dict of names")
         self._stack[-1].update(zip(items[::2], items[1::2], strict=True))
 
-    def keep(self, index: int) -> None:
+    def memoize_at(self, index: int) -> None:
         """Remember the value on top."""
         self._memo[index] = self._stack[-1]
 
@@ -125,12 +127,12 @@ class DataUnpickler:
 
     def memoize(self) -> None:
         """Remember the value on top under the next number."""
-        self.keep(len(self._memo))
+        self.memoize_at(len(self._memo))
 
     def protocol(self) -> None:
         """Check the protocol."""
         if (found := self.unsigned(1)) not in (3, 4, 5):
-            raise Refused(f"has protocol {found}, not 3 to 5")
+            raise RefusedPickle(f"has protocol {found}, not 3 to 5")
 
     def frame(self) -> None:
         """Check a frame's length; frames only say how much to read at once."""
@@ -141,52 +143,57 @@ class DataUnpickler:
         """The next line."""
         return self._file.readline(256).decode("utf-8").removesuffix("\n")
 
-    def named(self, module: Any, name: Any) -> None:
+    def push_global(self, module: Any, name: Any) -> None:
         """Push an allowed global; refuse every other by name."""
-        allowed = GLOBALS.get((module, name)) if type(module) is type(name) is str else None
+        allowed = ALLOWED_GLOBALS.get((module, name)) if type(module) is type(name) is str else None
         if allowed is None:
             asked = f"{module}.{name}" if type(module) is type(name) is str else "a nameless thing"
-            raise Refused(f"asks for {asked[:80]!r}, which no record or array needs")
+            raise RefusedPickle(f"asks for {asked[:80]!r}, which no record or array needs")
         self.push(allowed)
 
     def stack_global(self) -> None:
         """Push the allowed global named by the two strings on top."""
         name, module = self._stack.pop(), self._stack.pop()
-        self.named(module, name)
+        self.push_global(module, name)
 
     def reduce(self) -> None:
         """Call what only builds a stand-in."""
         arguments, function = self._stack.pop(), self._stack.pop()
-        if not isinstance(function, Allowed) or function.call is None or type(arguments) is not tuple:
-            raise Refused("calls what is no array or scalar")
+        if not isinstance(function, AllowedGlobal) or function.call is None or type(arguments) is not tuple:
+            raise RefusedPickle("calls what is no array or scalar")
         self.push(function.call(*arguments))
 
     def new(self) -> None:
         """Push an empty record."""
         arguments, kind = self._stack.pop(), self._stack.pop()
-        if not isinstance(kind, Allowed) or kind.name not in RECORDS or type(arguments) is not tuple or arguments:
-            raise Refused("makes what is no record")
-        self.push(Record(kind.name))
+        if (
+            not isinstance(kind, AllowedGlobal)
+            or kind.name not in RECORD_CLASSES
+            or type(arguments) is not tuple
+            or arguments
+        ):
+            raise RefusedPickle("makes what is no record")
+        self.push(PickledRecord(kind.name))
 
     def build(self) -> None:
         """Give the stand-in on top its state."""
         state, target = self._stack.pop(), self._stack[-1]
-        if isinstance(target, Record) and type(state) is dict:
+        if isinstance(target, PickledRecord) and type(state) is dict:
             target.fields = state
         elif isinstance(target, StoredArray) and type(state) is tuple and len(state) == 5:
             fill_array(target, *state[1:])
         elif isinstance(target, StoredType) and type(state) is tuple and state[1] in ("<", ">", "|", "="):
             target.order = state[1]
         else:
-            raise Refused("sets the state of what is no record or array")
+            raise RefusedPickle("sets the state of what is no record or array")
 
     def integer(self, width: int) -> None:
         """Push a signed number of `width` bytes."""
-        self.push(int.from_bytes(self.take(width), "little", signed=True))
+        self.push(int.from_bytes(self.read(width), "little", signed=True))
 
 
-Step = Callable[[DataUnpickler], object]
-STEPS: dict[bytes, Step] = {
+Operation = Callable[[DataUnpickler], object]
+OPERATIONS: dict[bytes, Operation] = {
     pickle.PROTO: DataUnpickler.protocol,
     pickle.FRAME: DataUnpickler.frame,
     pickle.MARK: DataUnpickler.mark,
@@ -197,7 +204,7 @@ STEPS: dict[bytes, Step] = {
     pickle.BININT1: lambda p: p.push(p.unsigned(1)),
     pickle.BININT2: lambda p: p.push(p.unsigned(2)),
     pickle.LONG1: lambda p: p.integer(p.unsigned(1)),
-    pickle.BINFLOAT: lambda p: p.push(struct.unpack(">d", p.take(8))[0]),
+    pickle.BINFLOAT: lambda p: p.push(struct.unpack(">d", p.read(8))[0]),
     pickle.SHORT_BINUNICODE: lambda p: p.text(1),
     pickle.BINUNICODE: lambda p: p.text(4),
     pickle.BINUNICODE8: lambda p: p.text(8),
@@ -208,20 +215,20 @@ STEPS: dict[bytes, Step] = {
     pickle.EMPTY_LIST: lambda p: p.push([]),
     pickle.EMPTY_TUPLE: lambda p: p.push(()),
     pickle.EMPTY_DICT: lambda p: p.push({}),
-    pickle.TUPLE: lambda p: p.push(tuple(p.marked())),
-    pickle.TUPLE1: lambda p: p.bundle(1),
-    pickle.TUPLE2: lambda p: p.bundle(2),
-    pickle.TUPLE3: lambda p: p.bundle(3),
+    pickle.TUPLE: lambda p: p.push(tuple(p.pop_marked())),
+    pickle.TUPLE1: lambda p: p.push_tuple(1),
+    pickle.TUPLE2: lambda p: p.push_tuple(2),
+    pickle.TUPLE3: lambda p: p.push_tuple(3),
     pickle.APPEND: lambda p: p.extend([p._stack.pop()]),
-    pickle.APPENDS: lambda p: p.extend(p.marked()),
+    pickle.APPENDS: lambda p: p.extend(p.pop_marked()),
     pickle.SETITEM: lambda p: p.update([p._stack.pop(), p._stack.pop()][::-1]),
-    pickle.SETITEMS: lambda p: p.update(p.marked()),
+    pickle.SETITEMS: lambda p: p.update(p.pop_marked()),
     pickle.MEMOIZE: DataUnpickler.memoize,
-    pickle.BINPUT: lambda p: p.keep(p.unsigned(1)),
-    pickle.LONG_BINPUT: lambda p: p.keep(p.unsigned(4)),
+    pickle.BINPUT: lambda p: p.memoize_at(p.unsigned(1)),
+    pickle.LONG_BINPUT: lambda p: p.memoize_at(p.unsigned(4)),
     pickle.BINGET: lambda p: p.recall(p.unsigned(1)),
     pickle.LONG_BINGET: lambda p: p.recall(p.unsigned(4)),
-    pickle.GLOBAL: lambda p: p.named(p.line(), p.line()),
+    pickle.GLOBAL: lambda p: p.push_global(p.line(), p.line()),
     pickle.STACK_GLOBAL: DataUnpickler.stack_global,
     pickle.REDUCE: DataUnpickler.reduce,
     pickle.NEWOBJ: DataUnpickler.new,
@@ -241,9 +248,9 @@ def read_pickle(file: BinaryIO, path: Path) -> Any:
     """
     try:
         return DataUnpickler(file, path.stat().st_size).load()
-    except Refused as error:
+    except RefusedPickle as error:
         raise DataError(f"{path}: the pickle {error}; nothing was run; {ADVICE}") from error
     except EOFError as error:
         raise DataError(f"{path}: the pickle is cut short; {ADVICE}") from error
-    except MALFORMED as error:
+    except MALFORMED_ERRORS as error:
         raise DataError(f"{path}: no pickle, or a broken one ({type(error).__name__}); {ADVICE}") from error

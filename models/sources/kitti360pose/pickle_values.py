@@ -11,16 +11,16 @@ import numpy as np
 import numpy.typing as npt
 
 RECORD_MODULE = "datapreparation.kitti360pose.imports"
-RECORDS = ("Cell", "Object3d", "Pose", "DescriptionBestCell")
-NUMBER = re.compile(r"b1|[iu][1248]|f[48]")  # dtypes of plain numbers, never "O"
+RECORD_CLASSES = ("Cell", "Object3d", "Pose", "DescriptionBestCell")
+NUMBER_DTYPE = re.compile(r"b1|[iu][1248]|f[48]")  # dtypes of plain numbers, never "O"
 
 
-class Refused(ValueError):
+class RefusedPickle(ValueError):
     """What the pickle asks for is not data; the message continues "the pickle ..."."""
 
 
 @dataclass(slots=True, eq=False)
-class Record:
+class PickledRecord:
     """A stand-in for an object of the reference package.
 
     Attributes:
@@ -35,7 +35,7 @@ class Record:
 
 
 @dataclass(frozen=True, slots=True)
-class Blob:
+class StoredBytes:
     """A byte string that was left in the file."""
 
     offset: int
@@ -62,7 +62,7 @@ class StoredArray:
     shape: tuple[int, ...] = ()
     dtype: np.dtype[Any] = field(default_factory=lambda: np.dtype("f8"))
     fortran: bool = False
-    data: bytes | Blob | None = None
+    data: bytes | StoredBytes | None = None
     _alive: "weakref.ref[npt.NDArray[Any]] | None" = None
 
     def read(self, file: BinaryIO) -> npt.NDArray[Any]:
@@ -70,9 +70,9 @@ class StoredArray:
         found = self._alive() if self._alive else None
         if found is None:
             if self.data is None:
-                raise Refused("has an array without values")
+                raise RefusedPickle("has an array without values")
             raw: bytes | bytearray = bytearray(self.data if isinstance(self.data, bytes) else b"")
-            if isinstance(self.data, Blob):
+            if isinstance(self.data, StoredBytes):
                 file.seek(self.data.offset)
                 raw = bytearray(self.data.size)
                 if file.readinto(raw) != len(raw):  # type: ignore[attr-defined]  # every binary file has it
@@ -85,7 +85,7 @@ class StoredArray:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Allowed:
+class AllowedGlobal:
     """A global that a pickle may name, and what calling it makes here."""
 
     name: str
@@ -96,29 +96,29 @@ def fill_array(array: StoredArray, shape: Any, dtype: Any, fortran: Any, data: A
     """Give an array its contents, if they fit together."""
     sized = type(shape) is tuple and len(shape) <= 2 and all(type(n) is int and n >= 0 for n in shape)
     if not sized or not isinstance(dtype, StoredType) or type(fortran) is not bool or array.data is not None:
-        raise Refused("has an array that is not one of plain numbers")
-    size = data.size if isinstance(data, Blob) else len(data) if type(data) is bytes else -1
+        raise RefusedPickle("has an array that is not one of plain numbers")
+    size = data.size if isinstance(data, StoredBytes) else len(data) if type(data) is bytes else -1
     if size != math.prod(shape) * dtype.dtype.itemsize:
-        raise Refused("has an array whose values do not fit its shape")
+        raise RefusedPickle("has an array whose values do not fit its shape")
     array.shape, array.dtype, array.fortran, array.data = shape, dtype.dtype, fortran, data
     return array
 
 
 def _reconstruct(kind: Any, shape: Any, code: Any) -> StoredArray:
     if kind is not NDARRAY or shape != (0,) or code not in (b"b", "b"):
-        raise Refused("has an array that is not one of plain numbers")
+        raise RefusedPickle("has an array that is not one of plain numbers")
     return StoredArray()
 
 
 def _dtype(code: Any, align: Any = False, copy: Any = True) -> StoredType:
-    if not isinstance(code, str) or not NUMBER.fullmatch(code) or align not in (0, 1) or copy not in (0, 1):
-        raise Refused("has a dtype that is not one of plain numbers")
+    if not isinstance(code, str) or not NUMBER_DTYPE.fullmatch(code) or align not in (0, 1) or copy not in (0, 1):
+        raise RefusedPickle("has a dtype that is not one of plain numbers")
     return StoredType(code)
 
 
 def _scalar(dtype: Any, data: Any) -> Any:
     if not isinstance(dtype, StoredType) or type(data) is not bytes or len(data) != dtype.dtype.itemsize:
-        raise Refused("has a scalar that is not a plain number")
+        raise RefusedPickle("has a scalar that is not a plain number")
     return np.frombuffer(data, dtype=dtype.dtype)[0].item()
 
 
@@ -126,12 +126,14 @@ def _frombuffer(data: Any, dtype: Any, shape: Any, order: Any) -> StoredArray:
     return fill_array(StoredArray(), shape, dtype, order == "F", data)
 
 
-NDARRAY = Allowed("numpy.ndarray")
-GLOBALS = {
+NDARRAY = AllowedGlobal("numpy.ndarray")
+ALLOWED_GLOBALS = {
     ("numpy", "ndarray"): NDARRAY,
-    ("numpy", "dtype"): Allowed("numpy.dtype", _dtype),
-    **{(RECORD_MODULE, kind): Allowed(kind) for kind in RECORDS},
-    **{(f"numpy.{core}.multiarray", "_reconstruct"): Allowed("array", _reconstruct) for core in ("core", "_core")},
-    **{(f"numpy.{core}.multiarray", "scalar"): Allowed("scalar", _scalar) for core in ("core", "_core")},
-    **{(f"numpy.{core}.numeric", "_frombuffer"): Allowed("array", _frombuffer) for core in ("core", "_core")},
+    ("numpy", "dtype"): AllowedGlobal("numpy.dtype", _dtype),
+    **{(RECORD_MODULE, kind): AllowedGlobal(kind) for kind in RECORD_CLASSES},
+    **{
+        (f"numpy.{core}.multiarray", "_reconstruct"): AllowedGlobal("array", _reconstruct) for core in ("core", "_core")
+    },
+    **{(f"numpy.{core}.multiarray", "scalar"): AllowedGlobal("scalar", _scalar) for core in ("core", "_core")},
+    **{(f"numpy.{core}.numeric", "_frombuffer"): AllowedGlobal("array", _frombuffer) for core in ("core", "_core")},
 }

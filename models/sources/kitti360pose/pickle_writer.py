@@ -11,37 +11,37 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from models.sources.kitti360pose.pickle_values import RECORD_MODULE, Record
+from models.sources.kitti360pose.pickle_values import RECORD_MODULE, PickledRecord
 from models.sources.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 
 
-def cell_record(cell: PublishedCell) -> Record:
+def cell_record(cell: PublishedCell) -> PickledRecord:
     """A cell as the reference package's `Cell`."""
     objects = [_object_record(item) for item in cell.objects]
     fields = {"scene_name": cell.scene_name, "id": cell.id, "objects": objects}
-    return Record("Cell", {**fields, "cell_size": cell.cell_size, "bbox_w": cell.bbox_w})
+    return PickledRecord("Cell", {**fields, "cell_size": cell.cell_size, "bbox_w": cell.bbox_w})
 
 
-def pose_record(pose: PublishedPose) -> Record:
+def pose_record(pose: PublishedPose) -> PickledRecord:
     """A pose as the reference package's `Pose`."""
     fields = {"pose": pose.pose, "pose_w": pose.pose_w, "cell_id": pose.cell_id}
     hints = [_hint_record(hint) for hint in pose.descriptions]
-    return Record(
+    return PickledRecord(
         "Pose", {**fields, "descriptions": hints, "scene_name": pose.scene_name, "described_by": pose.described_by}
     )
 
 
-def _object_record(item: PublishedObject) -> Record:
+def _object_record(item: PublishedObject) -> PickledRecord:
     names = ("id", "instance_id", "xyz", "rgb", "label")
-    return Record("Object3d", {name: getattr(item, name) for name in names})
+    return PickledRecord("Object3d", {name: getattr(item, name) for name in names})
 
 
-def _hint_record(hint: PublishedHint) -> Record:
+def _hint_record(hint: PublishedHint) -> PickledRecord:
     fields = {name: getattr(hint, name) for name in PublishedHint.__slots__}
-    return Record("DescriptionBestCell", {name: value for name, value in fields.items() if value is not None})
+    return PickledRecord("DescriptionBestCell", {name: value for name, value in fields.items() if value is not None})
 
 
-def write_records(file: BinaryIO, records: Iterable[Record]) -> None:
+def write_records(file: BinaryIO, records: Iterable[PickledRecord]) -> None:
     """Write one pickle, the list of the records; holds no value longer than it takes to write it."""
     file.write(pickle.PROTO + b"\x03" + pickle.EMPTY_LIST)
     for record in records:
@@ -52,10 +52,10 @@ def write_records(file: BinaryIO, records: Iterable[Record]) -> None:
 
 def _operations(value: Any) -> Iterator[bytes]:
     """What makes a value: a record, a list, an array, or a plain one."""
-    if isinstance(value, Record):
-        yield _named(RECORD_MODULE, value.kind) + pickle.EMPTY_TUPLE + pickle.NEWOBJ + pickle.EMPTY_DICT + pickle.MARK
+    if isinstance(value, PickledRecord):
+        yield _global(RECORD_MODULE, value.kind) + pickle.EMPTY_TUPLE + pickle.NEWOBJ + pickle.EMPTY_DICT + pickle.MARK
         for name, item in value.fields.items():
-            yield _plain(name)
+            yield _plain_value(name)
             yield from _operations(item)
         yield pickle.SETITEMS + pickle.BUILD
     elif isinstance(value, list):
@@ -65,18 +65,18 @@ def _operations(value: Any) -> Iterator[bytes]:
         yield pickle.APPENDS
     elif isinstance(value, np.ndarray):
         # As numpy does it, but under the name that every numpy from 1.x to 2.x knows.
-        yield _named("numpy.core.multiarray", "_reconstruct") + _named("numpy", "ndarray")
-        yield _plain((0,)) + _plain(b"b") + pickle.TUPLE3 + pickle.REDUCE
-        yield _plain(value.__reduce__()[2])
+        yield _global("numpy.core.multiarray", "_reconstruct") + _global("numpy", "ndarray")
+        yield _plain_value((0,)) + _plain_value(b"b") + pickle.TUPLE3 + pickle.REDUCE
+        yield _plain_value(value.__reduce__()[2])
         yield pickle.BUILD
     else:
-        yield _plain(value.item() if isinstance(value, np.generic) else value)
+        yield _plain_value(value.item() if isinstance(value, np.generic) else value)
 
 
-def _named(module: str, name: str) -> bytes:
+def _global(module: str, name: str) -> bytes:
     return pickle.GLOBAL + f"{module}\n{name}\n".encode()
 
 
-def _plain(value: Any) -> bytes:
+def _plain_value(value: Any) -> bytes:
     """The operations of a value, without the protocol before and the stop after them."""
     return pickle.dumps(value, protocol=3)[2:-1]

@@ -9,17 +9,17 @@ from typing import Any, Final
 import osmium
 
 from models.errors import MapError
-from models.sources.osm.copy_names import CopyNames, Names
+from models.sources.osm.copy_names import CopyNames, ExtractNames
 from models.sources.osm.map import SUFFIXES
 
-UNITS: Final = 10_000_000  # of a degree, in which OpenStreetMap keeps coordinates
-MARGIN: Final = 1000  # units round the nodes of a file without a box, for what is drawn wider than its line
-LETTERS: Final = {"n": osmium.osm.NODE, "w": osmium.osm.WAY, "r": osmium.osm.RELATION}  # in a file's order
+UNITS_PER_DEGREE: Final = 10_000_000  # of a degree, in which OpenStreetMap keeps coordinates
+BOX_MARGIN_UNITS: Final = 1000  # units round the nodes of a file without a box, for what is drawn wider than its line
+OSM_TYPES: Final = {"n": osmium.osm.NODE, "w": osmium.osm.WAY, "r": osmium.osm.RELATION}  # in a file's order
 Box = tuple[int, int, int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Block:
+class CopyGrid:
     """How copies lie: row by row from south-west, copy 0 where the extract is; the last row may be shorter.
 
     Attributes:
@@ -34,7 +34,7 @@ class Block:
     def columns(self) -> int:
         """Copies in a row, so that the block is as wide as it is high, near enough."""
         width, height = self._size
-        metres = width * cos(radians((self.box[1] + self.box[3]) / 2 / UNITS))
+        metres = width * cos(radians((self.box[1] + self.box[3]) / 2 / UNITS_PER_DEGREE))
         return max(1, min(self.copies, round(sqrt(self.copies * height / metres))))
 
     @property
@@ -57,24 +57,24 @@ class Block:
         """
         west, south, east, north = self.box
         east, north = east + self.shift(self.columns - 1)[0], north + self.shift(self.copies - 1)[1]
-        if east > 180 * UNITS or north > 85 * UNITS:
+        if east > 180 * UNITS_PER_DEGREE or north > 85 * UNITS_PER_DEGREE:
             raise MapError(
                 f"{self.copies} copies side by side reach beyond 180 degrees east or 85 north; "
                 "ask for fewer cells, or give a map further from there"
             )
-        return west / UNITS, south / UNITS, east / UNITS, north / UNITS
+        return west / UNITS_PER_DEGREE, south / UNITS_PER_DEGREE, east / UNITS_PER_DEGREE, north / UNITS_PER_DEGREE
 
-    def folded(self, lat: float, lon: float) -> tuple[float, float]:
+    def to_first_copy(self, lat: float, lon: float) -> tuple[float, float]:
         """A place of the block in degrees as the place of copy 0 that it is a copy of."""
         width, height = self._size
         rows = -(-self.copies // self.columns)
-        column = min(max(int((lon * UNITS - self.box[0]) // width), 0), self.columns - 1)
-        row = min(max(int((lat * UNITS - self.box[1]) // height), 0), rows - 1)
-        return lat - row * height / UNITS, lon - column * width / UNITS
+        column = min(max(int((lon * UNITS_PER_DEGREE - self.box[0]) // width), 0), self.columns - 1)
+        row = min(max(int((lat * UNITS_PER_DEGREE - self.box[1]) // height), 0), rows - 1)
+        return lat - row * height / UNITS_PER_DEGREE, lon - column * width / UNITS_PER_DEGREE
 
 
 @dataclass(frozen=True, slots=True)
-class Extract:
+class CityExtract:
     """What is known of an extract before it is copied.
 
     Attributes:
@@ -87,10 +87,10 @@ class Extract:
     path: Path
     box: Box
     numbers: dict[str, int]
-    names: Names
+    names: ExtractNames
 
     @classmethod
-    def of(cls, path: Path) -> "Extract":
+    def read(cls, path: Path) -> "CityExtract":
         """Read an OpenStreetMap file once.
 
         Raises:
@@ -99,13 +99,13 @@ class Extract:
         if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
             raise MapError(f"{path}: no OpenStreetMap file; give one that ends in {' or '.join(SUFFIXES)} as --map")
         element: Any
-        names, ids, places = Names(), {letter: {0} for letter in LETTERS}, _Corners()
+        names, ids, places = ExtractNames(), {letter: {0} for letter in OSM_TYPES}, _BoundingBox()
         try:
             header = osmium.io.Reader(str(path)).header().box()
             for element in osmium.FileProcessor(str(path)):
                 letter = element.type_str()
                 names.add((letter, element.id), {tag.k: tag.v for tag in element.tags})
-                for kind, number in [(letter, element.id), *_refs(element)]:
+                for kind, number in [(letter, element.id), *_references(element)]:
                     ids[kind].add(number)
                 if letter == "n" and element.location.valid():
                     places.add(element.location)
@@ -114,10 +114,10 @@ class Extract:
         if header.valid():
             places.add(header.bottom_left)
             places.add(header.top_right)
-        box = places.box(path, 0 if header.valid() else MARGIN)
+        box = places.box(path, 0 if header.valid() else BOX_MARGIN_UNITS)
         return cls(path, box, {kind: max(some) - min(some) + 1 for kind, some in ids.items()}, names)
 
-    def write_tiled(self, copies: int, out: Path) -> Block:
+    def write_tiled(self, copies: int, out: Path) -> CopyGrid:
         """Write copies side by side; the file is read again for each, and one element is held at a time.
 
         Copy 0 is the extract as it is. In the others numbers and coordinates are shifted and things renamed, see
@@ -133,20 +133,20 @@ class Extract:
         Raises:
             MapError: the copies do not fit on Earth, or a file cannot be read or written.
         """
-        block, header = Block(self.box, copies), osmium.io.Header()
+        block, header = CopyGrid(self.box, copies), osmium.io.Header()
         header.add_box(osmium.osm.Box(*block.bounds()))
         header.set("sorting", "Type_then_ID")
         try:
             with osmium.SimpleWriter(str(out), header=header) as writer:
-                for letter, entity in LETTERS.items():
+                for letter, entity in OSM_TYPES.items():
                     for copy in range(copies):
                         for element in self._copied(block, copy, entity):
-                            _ADD[letter](writer, element)
+                            _WRITER_METHODS[letter](writer, element)
         except (RuntimeError, ValueError, OSError) as error:
             raise MapError(f"{out}: cannot be written ({error}); make room, or give another map") from error
         return block
 
-    def _copied(self, block: Block, copy: int, entity: Any) -> Iterator[Any]:
+    def _copied(self, block: CopyGrid, copy: int, entity: Any) -> Iterator[Any]:
         """The elements of one sort as they are in a copy."""
         elements = osmium.FileProcessor(str(self.path), entity)
         if not copy:
@@ -155,10 +155,10 @@ class Extract:
         names, shift = self.names.in_copy(copy), block.shift(copy)
         by = {kind: copy * count for kind, count in self.numbers.items()}
         for element in elements:
-            yield _moved(element, names, by, shift)
+            yield _move(element, names, by, shift)
 
 
-class _Corners:
+class _BoundingBox:
     """A box round places."""
 
     def __init__(self) -> None:
@@ -175,7 +175,7 @@ class _Corners:
         return self._west - margin, self._south - margin, self._east + margin, self._north + margin
 
 
-def _refs(element: Any) -> list[tuple[str, int]]:
+def _references(element: Any) -> list[tuple[str, int]]:
     """Letters and numbers of the elements that one names."""
     if element.type_str() == "w":
         return [("n", node.ref) for node in element.nodes]
@@ -184,14 +184,17 @@ def _refs(element: Any) -> list[tuple[str, int]]:
     return []
 
 
-def _moved(element: Any, names: CopyNames, by: dict[str, int], shift: tuple[int, int]) -> Any:
+def _move(element: Any, names: CopyNames, by: dict[str, int], shift: tuple[int, int]) -> Any:
     """An element with other numbers, names and coordinates."""
     letter = element.type_str()
     tags = names.tags((letter, element.id), {tag.k: tag.v for tag in element.tags})
     changed: dict[str, Any] = {"id": element.id + by[letter], "tags": tags}
     if letter == "n" and element.location.valid():
         east, north = shift
-        changed["location"] = ((element.location.x + east) / UNITS, (element.location.y + north) / UNITS)
+        changed["location"] = (
+            (element.location.x + east) / UNITS_PER_DEGREE,
+            (element.location.y + north) / UNITS_PER_DEGREE,
+        )
     elif letter == "w":
         changed["nodes"] = [node.ref + by["n"] for node in element.nodes]
     elif letter == "r":
@@ -199,7 +202,7 @@ def _moved(element: Any, names: CopyNames, by: dict[str, int], shift: tuple[int,
     return element.replace(**changed)
 
 
-_ADD: Final = {
+_WRITER_METHODS: Final = {
     "n": osmium.SimpleWriter.add_node,
     "w": osmium.SimpleWriter.add_way,
     "r": osmium.SimpleWriter.add_relation,

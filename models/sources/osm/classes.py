@@ -43,7 +43,7 @@ def load_classes() -> tuple[OsmClass, ...]:
     return tuple(OsmClass(**{**row, "tags": tuple(row["tags"])}) for row in table["class"])
 
 
-def class_of(tags: Mapping[str, str]) -> tuple[int, OsmClass] | None:
+def find_class(tags: Mapping[str, str]) -> tuple[int, OsmClass] | None:
     """The first row of the table that an element with these tags belongs to, and its number; None if there is none."""
     rows, numbers = load_classes(), _rows_by_key()
     asked = sorted({number for key in tags for number in numbers.get(key, ())})

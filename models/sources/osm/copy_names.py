@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from models.sources.osm.gazetteer import NO_STREETS
+from models.sources.osm.gazetteer import NON_STREET_HIGHWAYS
 
 # Of the keys of an element, the first of these says of what kind it is.
 MAIN_KEYS: Final = (
@@ -17,12 +17,14 @@ MAIN_KEYS: Final = (
     "type",
 )  # fmt: skip
 STREET_RELATIONS: Final = ("street", "associatedStreet")
-STREET_OF: Final = re.compile(r".*:street|addr:place")  # whose values are names of streets
-IN_A_LANGUAGE: Final = re.compile(r"addr:(?:street|place):.+")
-NAMING: Final = re.compile(r"(?:.*[:_])?name(?::.*)?|brand(?::.*)?")
+STREET_KEY: Final = re.compile(r".*:street|addr:place")  # whose values are names of streets
+TRANSLATED_STREET_KEY: Final = re.compile(r"addr:(?:street|place):.+")
+NAME_KEY: Final = re.compile(r"(?:.*[:_])?name(?::.*)?|brand(?::.*)?")
 SYLLABLES: Final = tuple(c + v for c in "bdfghjklmnprstvz" for v in "aeiou")
-LENGTH: Final = 4  # syllables of a made-up name
-STEP: Final = 15_485_863  # has no divisor in common with the number of syllables, so that no two numbers share a name
+SYLLABLES_PER_NAME: Final = 4  # syllables of a made-up name
+NAME_STEP: Final = (
+    15_485_863  # has no divisor in common with the number of syllables, so that no two numbers share a name
+)
 
 Tags = dict[str, str]
 Element = tuple[str, int]  # osmium's letter and the number
@@ -30,7 +32,7 @@ Kind = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Names:
+class ExtractNames:
     """The names of an extract, taken in element by element.
 
     Attributes:
@@ -44,13 +46,13 @@ class Names:
     def add(self, element: Element, tags: Mapping[str, str]) -> None:
         """Take in the names of one element."""
         for key, value in tags.items():
-            if _is_address(key):
+            if _is_street_key(key):
                 self._add_street(value)
-        naming = _naming(tags)
+        naming = _name_tags(tags)
         if naming and is_street(element, tags):
-            self._add_street(_first(naming))
+            self._add_street(_street_name(naming))
         elif naming:
-            self.things.setdefault(_kind(tags), {})[element] = naming
+            self.things.setdefault(_main_tag(tags), {})[element] = naming
 
     def _add_street(self, name: str) -> None:
         self.streets.setdefault(name.casefold(), len(self.streets))
@@ -75,59 +77,59 @@ class CopyNames:
         swapped: the tags that name each thing in this copy.
     """
 
-    names: Names
+    names: ExtractNames
     copy: int
     swapped: dict[Element, Tags]
 
     def tags(self, element: Element, tags: Tags) -> Tags:
         """The tags of an element in this copy; `element` is as in the extract."""
-        naming = _naming(tags)
+        naming = _name_tags(tags)
         found = {
-            key: self.street(value) if _is_address(key) else value
+            key: self.street(value) if _is_street_key(key) else value
             for key, value in tags.items()
-            if key not in naming and not IN_A_LANGUAGE.fullmatch(key)
+            if key not in naming and not TRANSLATED_STREET_KEY.fullmatch(key)
         }
         if naming and is_street(element, tags):
-            return found | {"name": self.street(_first(naming))}
+            return found | {"name": self.street(_street_name(naming))}
         return found | self.swapped[element] if naming else found
 
     def street(self, name: str) -> str:
         """The made-up name of a street of the extract; no other street of any copy has it."""
         number = (self.copy - 1) * len(self.names.streets) + self.names.streets[name.casefold()]
-        return f"{_word(number)} Street"
+        return f"{_made_up_word(number)} Street"
 
 
 def is_street(element: Element, tags: Mapping[str, str]) -> bool:
     """Whether an element with a name is (a piece of) a street or a square, after which addresses are called."""
     if element[0] == "n":
         return False
-    is_way = tags.get("highway", "bus_stop") not in NO_STREETS
+    is_way = tags.get("highway", "bus_stop") not in NON_STREET_HIGHWAYS
     return is_way or tags.get("place") == "square" or tags.get("type") in STREET_RELATIONS
 
 
-def _is_address(key: str) -> bool:
-    return key != "ref:street" and STREET_OF.fullmatch(key) is not None
+def _is_street_key(key: str) -> bool:
+    return key != "ref:street" and STREET_KEY.fullmatch(key) is not None
 
 
-def _naming(tags: Mapping[str, str]) -> Tags:
+def _name_tags(tags: Mapping[str, str]) -> Tags:
     """The tags that say what an element is called, in any language, and of which chain it is."""
-    return {key: value for key, value in tags.items() if NAMING.fullmatch(key)}
+    return {key: value for key, value in tags.items() if NAME_KEY.fullmatch(key)}
 
 
-def _first(naming: Tags) -> str:
+def _street_name(naming: Tags) -> str:
     """The name to know a street by."""
     return naming.get("name") or next(iter(naming.values()))
 
 
-def _kind(tags: Mapping[str, str]) -> Kind:
+def _main_tag(tags: Mapping[str, str]) -> Kind:
     key = next((key for key in MAIN_KEYS if key in tags), "")
     return key, tags.get(key, "")
 
 
-def _word(number: int) -> str:
+def _made_up_word(number: int) -> str:
     """A word that nobody has said; another for every number."""
-    rest, word = number * STEP % len(SYLLABLES) ** LENGTH, ""
-    for _ in range(LENGTH):
+    rest, word = number * NAME_STEP % len(SYLLABLES) ** SYLLABLES_PER_NAME, ""
+    for _ in range(SYLLABLES_PER_NAME):
         rest, syllable = divmod(rest, len(SYLLABLES))
         word += SYLLABLES[syllable]
     return word.capitalize()

@@ -14,7 +14,7 @@ from models.errors import MapError
 from models.sources.osm.map import SUFFIXES
 from models.spool import scratch
 
-FORMS = "give west,south,east,north in degrees, or a GeoJSON file with a polygon"
+REGION_FORMS = "give west,south,east,north in degrees, or a GeoJSON file with a polygon"
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,22 +36,22 @@ class Region:
         """
         path = Path(text)
         try:
-            shape = _of_geojson(path.read_text(encoding="utf-8")) if path.is_file() else _box(text)
+            shape = _parse_geojson(path.read_text(encoding="utf-8")) if path.is_file() else _parse_box(text)
         except (ValueError, OSError, ShapelyError, KeyError, TypeError) as error:
-            raise MapError(f"'{text[:80]}' is no region: {FORMS}") from error
+            raise MapError(f"'{text[:80]}' is no region: {REGION_FORMS}") from error
         if shape.is_empty or not shape.area or not shapely.box(-180, -90, 180, 90).covers(shape):
-            raise MapError(f"'{text[:80]}' encloses nothing on Earth: {FORMS}")
+            raise MapError(f"'{text[:80]}' encloses nothing on Earth: {REGION_FORMS}")
         return cls(shape)
 
 
-def _box(text: str) -> shapely.Geometry:
+def _parse_box(text: str) -> shapely.Geometry:
     west, south, east, north = (float(number) for number in text.split(","))
     if west < east and south < north:
         return shapely.box(west, south, east, north)
     return shapely.Polygon()  # and so where one is no number
 
 
-def _of_geojson(text: str) -> shapely.Geometry:
+def _parse_geojson(text: str) -> shapely.Geometry:
     """All polygons of a GeoJSON object."""
     shapes = shapely.get_parts(shapely.from_geojson(json.dumps(json.loads(text))))
     areas = [shape for shape in shapely.get_parts(shapes) if shapely.get_dimensions(shape) == 2]
@@ -59,7 +59,7 @@ def _of_geojson(text: str) -> shapely.Geometry:
 
 
 @contextmanager
-def extracted(path: Path, region: Region | None) -> Iterator[Path]:
+def extracted_file(path: Path, region: Region | None) -> Iterator[Path]:
     """A file with what of a file lies in a region, until the block ends; the file itself if there is no region.
 
     Raises:

@@ -12,33 +12,33 @@ import shapely
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from models.citymap.geometry.piece_rows import BAND
-from models.citymap.geometry.tiling import Span, band_of
+from models.citymap.geometry.piece_rows import TILE_COLUMNS_PER_BAND
+from models.citymap.geometry.tiling import TileSpan, tile_span
 from models.citymap.points import Ints, ranges
 from models.processes import map_forked
 from models.sources.osm.classes import load_classes
-from models.sources.osm.features import UPRIGHT_MERGE_M, Feature, joins
+from models.sources.osm.features import UPRIGHT_MERGE_M, Feature, find_joins
 from models.spool import spooling
 
-UPRIGHT: Final = "column"
+UPRIGHT_SHAPE: Final = "column"
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class NumberedFeature:
     """A feature among all.
 
     Attributes:
         number: in the order in which they were read.
         feature: what it is.
-        is_here: whether this strip is the first that it reaches into, and so answers for it.
+        is_owned: whether this strip is the first that it reaches into, and so answers for it.
     """
 
     number: int
     feature: Feature
-    is_here: bool
+    is_owned: bool
 
 
-class Strips:
+class FeatureStrips:
     """The N features of a map, each in every strip that it reaches into.
 
     Args:
@@ -70,11 +70,11 @@ class Strips:
         """Add features, numbered from one on, to their strips, which are returned."""
         bounds = shapely.bounds([feature.geometry for feature in features])
         ends = np.stack([bounds[:, 0] - UPRIGHT_MERGE_M, bounds[:, 2] + UPRIGHT_MERGE_M], axis=1)
-        low, high = (column // BAND for column in band_of(ends))
+        low, high = (column // TILE_COLUMNS_PER_BAND for column in tile_span(ends))
         of, strip = np.repeat(np.arange(len(features)), high + 1 - low), ranges(low, high + 1)
         numbers = set(strip.tolist())
         for number in numbers:
-            here = [Placed(first + n, features[n], low[n] == number) for n in of[strip == number].tolist()]
+            here = [NumberedFeature(first + n, features[n], low[n] == number) for n in of[strip == number].tolist()]
             with spooling(), self._path(number).open("ab") as file:
                 pickle.dump(here, file, pickle.HIGHEST_PROTOCOL)
         return numbers
@@ -82,37 +82,37 @@ class Strips:
     def _path(self, number: int) -> Path:
         return self._directory / f"{number}.pickle"
 
-    def read(self, number: int) -> list[Placed]:
+    def read(self, number: int) -> list[NumberedFeature]:
         """The features of a strip, in order of their classes, then as they were read."""
-        found = list[Placed]()
+        found = list[NumberedFeature]()
         with self._path(number).open("rb") as file:
             while file.peek(1):
                 found += pickle.load(file)  # what this job has written
         return sorted(found, key=lambda placed: (placed.feature.order, placed.number))
 
-    def band(self, number: int) -> Span:
+    def band(self, number: int) -> TileSpan:
         """The columns of tiles of a strip."""
-        return number * BAND, (number + 1) * BAND
+        return number * TILE_COLUMNS_PER_BAND, (number + 1) * TILE_COLUMNS_PER_BAND
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Instances:
+class FeatureInstances:
     """Which features of a map are one instance; instances are numbered in order of the first feature of each.
 
     Attributes:
-        of_feature: [N] instance of each feature, by its number; -1 of what is left out.
+        feature_instance: [N] instance of each feature, by its number; -1 of what is left out.
         first: [I] number of the first feature of each.
-        place: [N] of each feature, by its number, in order of classes, then as they were read.
+        rank: [N] of each feature, by its number, in order of classes, then as they were read.
     """
 
-    of_feature: Ints
+    feature_instance: Ints
     first: Ints
-    place: Ints
+    rank: Ints
 
     @classmethod
-    def of(cls, strips: Strips) -> "Instances":
-        """Those of all features; see `joins`."""
-        found = list(map_forked(partial(_joins_in, strips), strips.numbers))
+    def join(cls, strips: FeatureStrips) -> "FeatureInstances":
+        """Those of all features; see `find_joins`."""
+        found = list(map_forked(partial(_find_joins_in, strips), strips.numbers))
         gone = np.concatenate([np.zeros(0, np.int64), *(some for some, _ in found)])
         pairs = np.concatenate([np.zeros((0, 2), np.int64), *(some for _, some in found)])
         count = len(strips.order)
@@ -126,7 +126,7 @@ class Instances:
         group = connected_components(graph, directed=False)[1]
         first = np.full(group.max(initial=-1) + 1, count)
         np.minimum.at(first, group, place)
-        is_upright = np.array([row.shape == UPRIGHT for row in load_classes()])[strips.order]
+        is_upright = np.array([row.shape == UPRIGHT_SHAPE for row in load_classes()])[strips.order]
         is_left = ~is_gone & ~(is_upright & (first[group] != place))  # the first carries the others
         is_first = is_left & (first[group] == place)
         chosen = by_class[is_first[by_class]]
@@ -135,9 +135,9 @@ class Instances:
         return cls(np.where(is_left, number[group], -1), chosen, place)
 
 
-def _joins_in(strips: Strips, number: int) -> tuple[Ints, Ints]:
-    """`joins` of a strip, by numbers of features."""
+def _find_joins_in(strips: FeatureStrips, number: int) -> tuple[Ints, Ints]:
+    """`find_joins` of a strip, by numbers of features."""
     placed = strips.read(number)
     numbers = np.array([each.number for each in placed])
-    gone, pairs = joins([each.feature for each in placed])
+    gone, pairs = find_joins([each.feature for each in placed])
     return numbers[gone], numbers[pairs]

@@ -44,7 +44,7 @@ class Feature:
         return Solid(instance, self.shape, outline, base_m, height_m)
 
 
-def as_feature(
+def build_feature(
     row: OsmClass, order: int, tags: Mapping[str, str], source_id: str, geometry: shapely.Geometry
 ) -> Feature:
     """What an element of a class becomes; `order` is the row of the class in the table, `geometry` in metres."""
@@ -52,7 +52,7 @@ def as_feature(
     materials = (material_colour(tags[key]) for key in MATERIAL_KEYS if key in tags)
     axis, width = None, 0.0
     if row.shape == "ground" and shapely.get_dimensions(geometry) < 2:
-        axis, width = geometry, _metres(tags.get("width", "")) or row.width_m
+        axis, width = geometry, _parse_m(tags.get("width", "")) or row.width_m
         geometry = shapely.buffer(
             geometry, width / 2, quad_segs=4, cap_style="flat" if row.label != "crossing" else "round"
         )
@@ -62,8 +62,8 @@ def as_feature(
         order=order,
         walkable=row.walkable,
         geometry=geometry,
-        height_m=_height(tags, row.height_m),
-        base_m=_metres(tags.get("min_height", "")) or STOREY_M * (_metres(tags.get("building:min_level", "")) or 0.0),
+        height_m=_height_m(tags, row.height_m),
+        base_m=_parse_m(tags.get("min_height", "")) or STOREY_M * (_parse_m(tags.get("building:min_level", "")) or 0.0),
         rgb=next((rgb for rgb in (*colours, *materials) if rgb), None),
         name=tags.get("name:en") or tags.get("name"),
         source_id=source_id,
@@ -72,12 +72,12 @@ def as_feature(
     )
 
 
-def _height(tags: Mapping[str, str], default_m: float) -> float:
-    levels = _metres(tags.get("building:levels", ""))
-    return _metres(tags.get("height", "")) or (STOREY_M * levels if levels else default_m)
+def _height_m(tags: Mapping[str, str], default_m: float) -> float:
+    levels = _parse_m(tags.get("building:levels", ""))
+    return _parse_m(tags.get("height", "")) or (STOREY_M * levels if levels else default_m)
 
 
-def _metres(text: str) -> float | None:
+def _parse_m(text: str) -> float | None:
     """A length as mappers write it ("12", "12 m", "12.5m"); None if it is something else."""
     try:
         value = float(text.lower().removesuffix("m").strip())
@@ -86,7 +86,7 @@ def _metres(text: str) -> float | None:
     return value if 0 < value < 1000 else None
 
 
-def joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
+def find_joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
     """What OpenStreetMap splits, of some features in order of their classes.
 
     Lines and surfaces of one label, name and colour that touch are one (a road in five ways); upright things within a

@@ -8,23 +8,23 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.citymap.geometry.piece_rows import Rows, rows_in
+from models.citymap.geometry.piece_rows import PieceRows, cut_band
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.instances import InstanceTable
 from models.citymap.points import Ints
-from models.citymap.scenery.shapes import Drawing, Drawings, Outlines
+from models.citymap.scenery.shapes import DrawnObjects, Outlines, OutlinesBuilder
 from models.citymap.types import Floats, MapShape
 from models.processes import map_forked
 from models.sources.osm.classes import load_classes
-from models.sources.osm.feature_strips import Instances, Strips
+from models.sources.osm.feature_strips import FeatureInstances, FeatureStrips
 from models.sources.osm.features import Feature
 from models.strings import Categorical
 
-UNKNOWN: Final = (np.nan, np.nan, np.nan)
+UNKNOWN_RGB: Final = (np.nan, np.nan, np.nan)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Strip:
+class _ImportedStrip:
     """What becomes of a strip.
 
     Attributes:
@@ -36,29 +36,29 @@ class _Strip:
         rgb: [n, 3] likewise.
     """
 
-    rows: Rows
-    drawing: Drawing
+    rows: PieceRows
+    drawing: DrawnObjects
     instance: Ints
     names: list[str | None]
     sources: npt.NDArray[np.bytes_]
     rgb: Floats
 
 
-def _taken(strips: Strips, instances: Instances, number: int) -> _Strip:
-    placed = [each for each in strips.read(number) if instances.of_feature[each.number] >= 0]
-    instance = instances.of_feature[[each.number for each in placed]]
+def _import_strip(strips: FeatureStrips, instances: FeatureInstances, number: int) -> _ImportedStrip:
+    placed = [each for each in strips.read(number) if instances.feature_instance[each.number] >= 0]
+    instance = instances.feature_instance[[each.number for each in placed]]
     heights_m = strips.heights_m[instances.first[instance]]
     solids = [each.feature.solid(int(n), *at) for each, n, at in zip(placed, instance, heights_m.tolist(), strict=True)]
-    own = [each for each in placed if each.is_here]
-    place = instances.place[[each.number for each in own]]
-    first = [each for each in own if instances.first[instances.of_feature[each.number]] == each.number]
-    return _Strip(
-        rows=rows_in(solids, strips.band(number)),
-        drawing=Drawing.of([_shape(each.feature) for each in own], place),
-        instance=instances.of_feature[[each.number for each in first]],
+    own = [each for each in placed if each.is_owned]
+    place = instances.rank[[each.number for each in own]]
+    first = [each for each in own if instances.first[instances.feature_instance[each.number]] == each.number]
+    return _ImportedStrip(
+        rows=cut_band(solids, strips.band(number)),
+        drawing=DrawnObjects.from_shapes([_shape(each.feature) for each in own], place),
+        instance=instances.feature_instance[[each.number for each in first]],
         names=[each.feature.name for each in first],
         sources=np.array([each.feature.source_id for each in first], np.bytes_),
-        rgb=np.array([each.feature.rgb or UNKNOWN for each in first], np.float32).reshape(-1, 3),
+        rgb=np.array([each.feature.rgb or UNKNOWN_RGB for each in first], np.float32).reshape(-1, 3),
     )
 
 
@@ -70,7 +70,7 @@ def _shape(feature: Feature) -> MapShape:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Taken:
+class ImportedMap:
     """What a map has.
 
     Attributes:
@@ -86,14 +86,14 @@ class Taken:
     outlines: Outlines
 
     @classmethod
-    def of(cls, strips: Strips) -> "Taken":
+    def from_strips(cls, strips: FeatureStrips) -> "ImportedMap":
         """What becomes of features, in several processes, some strips at a time."""
-        instances, classes = Instances.of(strips), load_classes()
-        lying = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.of_feature >= 0]))
-        found = _Found(strips, instances, Drawings(lying))
-        pieces = PieceTable.joined(found.rows())
+        instances, classes = FeatureInstances.join(strips), load_classes()
+        lying = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.feature_instance >= 0]))
+        found = _StripImporter(strips, instances, OutlinesBuilder(lying))
+        pieces = PieceTable.from_bands(found.rows())
         there = np.unique(pieces.instance)
-        pieces = pieces.of_instances(there)
+        pieces = pieces.renumber_instances(there)
         order = strips.order[instances.first[there]]
         table = InstanceTable(
             Categorical.from_strings([classes[n].label for n in order]),
@@ -103,10 +103,10 @@ class Taken:
             found.rgb[there],
         )
         is_walkable = np.array([row.walkable for row in classes])[order]
-        return cls(table, is_walkable, pieces, found.drawings.outlines())
+        return cls(table, is_walkable, pieces, found.drawings.build())
 
 
-class _Found:
+class _StripImporter:
     """What comes of strips, beside their pieces, as these come.
 
     Args:
@@ -121,16 +121,16 @@ class _Found:
         rgb: [I, 3] likewise.
     """
 
-    def __init__(self, strips: Strips, instances: Instances, drawings: Drawings) -> None:
+    def __init__(self, strips: FeatureStrips, instances: FeatureInstances, drawings: OutlinesBuilder) -> None:
         count = len(instances.first)
         self._strips, self._instances, self.drawings = strips, instances, drawings
         self.names = dict[int, str]()
         self.sources = np.empty(count, "S32")
         self.rgb = np.empty((count, 3), np.float32)
 
-    def rows(self) -> Iterator[Rows]:
+    def rows(self) -> Iterator[PieceRows]:
         """The pieces of one strip after the other."""
-        for strip in map_forked(partial(_taken, self._strips, self._instances), self._strips.numbers):
+        for strip in map_forked(partial(_import_strip, self._strips, self._instances), self._strips.numbers):
             self.drawings.add(strip.drawing)
             self.sources[strip.instance], self.rgb[strip.instance] = strip.sources, strip.rgb
             self.names |= {

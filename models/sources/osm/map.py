@@ -22,18 +22,18 @@ from models.citymap.geometry.tiling import Geometries
 from models.citymap.points import Ints
 from models.citymap.types import CityMap, CutRules, Floats
 from models.errors import MapError
-from models.sources.osm.classes import OsmClass, class_of, load_classes
-from models.sources.osm.feature_strips import Strips
-from models.sources.osm.features import Feature, as_feature
-from models.sources.osm.imported_map import Taken
+from models.sources.osm.classes import OsmClass, find_class, load_classes
+from models.sources.osm.feature_strips import FeatureStrips
+from models.sources.osm.features import Feature, build_feature
+from models.sources.osm.imported_map import ImportedMap
 from models.spool import scratch
 
 STUFF_SHAPES = ("outline", "wall", "ground")
 SUFFIXES = (".osm.pbf", ".pbf", ".osm", ".osm.bz2", ".osm.gz")
 ATTRIBUTION = "© OpenStreetMap contributors, ODbL 1.0"
 MIN_PART_POINTS = 24  # 6 m2 of ground
-AT_ONCE = 20_000  # elements
-LOCATIONS_M = 2.0  # between places to stand, about
+ELEMENTS_PER_BATCH = 20_000  # elements
+LOCATION_SPACING_M = 2.0  # between places to stand, about
 KM_PER_DEGREE: Final = 111.2  # of latitude
 MOST_KM2: Final = 100_000.0  # of a map: its table of tiles takes 13 GB then
 MOST_KM: Final = 1000.0  # from side to side: in a frame, metres are 0.3 % too long 500 km from the middle
@@ -64,9 +64,9 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
     Raises:
         MapError: the file is missing, empty, cut short, no OpenStreetMap, too large, or nothing in it is usable.
     """
-    frame, box = frame_and_box(path)
+    frame, box = read_frame_and_box(path)
     with scratch() as directory:
-        strips = Strips(directory, features_of(path, frame, box))
+        strips = FeatureStrips(directory, read_features(path, frame, box))
         if not strips.numbers:
             raise MapError(
                 f"{path}: nothing of it lies in the box that it names; download it again, or mend its bounds"
@@ -74,44 +74,46 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
         return _city_map(name or path.name.split(".")[0], strips, frame)
 
 
-def frame_and_box(path: Path) -> tuple[Frame, Box | None]:
+def read_frame_and_box(path: Path) -> tuple[Frame, Box | None]:
     """Return the frame of a file's map, and the box that the file says, if it says one that a map can have.
 
     A file with such a box is not read.
     """
-    box = _box(path)
+    box = _read_box(path)
     if box is not None and _is_possible(box):
-        return _middle(box), box
-    bounds = _bounds(_read_elements(path))
+        return _centered_frame(box), box
+    bounds = _total_bounds(_read_elements(path))
     if not _is_possible(bounds):
         raise _too_large(path, bounds)
-    return _middle(bounds), None
+    return _centered_frame(bounds), None
 
 
-def features_of(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Feature]]:
+def read_features(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Feature]]:
     """What a file has in a box, if there is one, in metres, some at a time; errors as `load_osm`."""
     for elements, lon_lat in _read_elements(path):
-        yield list(_features_of(elements, lon_lat, frame, box))
+        yield list(_build_features(elements, lon_lat, frame, box))
 
 
-def _features_of(elements: Sequence[_Element], lon_lat: Geometries, frame: Frame, box: Box | None) -> Iterator[Feature]:
+def _build_features(
+    elements: Sequence[_Element], lon_lat: Geometries, frame: Frame, box: Box | None
+) -> Iterator[Feature]:
     """What of some elements lies in a box, if there is one."""
-    geometries = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
+    geometry_factories = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
     if box:
         west, south, east, north = box
         corners = frame.from_wgs84(np.array([south, north]), np.array([west, east]))
-        geometries = shapely.clip_by_rect(geometries, *corners[0], *corners[1])
-    for e, g in zip(elements, geometries, strict=True):
+        geometry_factories = shapely.clip_by_rect(geometry_factories, *corners[0], *corners[1])
+    for e, g in zip(elements, geometry_factories, strict=True):
         if not shapely.is_empty(g):
-            yield as_feature(e.osm_class, e.order, e.tags, e.source_id, g)
+            yield build_feature(e.osm_class, e.order, e.tags, e.source_id, g)
 
 
-def frame_of(path: Path) -> Frame:
+def read_frame(path: Path) -> Frame:
     """The frame of a file's map, for which a file that says its box is not read; arguments and errors as `load_osm`."""
-    return frame_and_box(path)[0]
+    return read_frame_and_box(path)[0]
 
 
-def _bounds(batches: Iterable[Batch]) -> Box:
+def _total_bounds(batches: Iterable[Batch]) -> Box:
     """Return the box round some geometry."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)  # longitude from -180, longitude from 0, latitude
     for _, geometry in batches:
@@ -155,7 +157,7 @@ def _too_large(path: Path, box: Box) -> MapError:
     )
 
 
-def _middle(box: Box) -> Frame:
+def _centered_frame(box: Box) -> Frame:
     """Return the frame at the middle of a box."""
     west, south, east, north = box
     return Frame(origin_lat=round((south + north) / 2, 7), origin_lon=round(_longitude((west + east) / 2), 7))
@@ -166,7 +168,7 @@ def _longitude(degrees: float) -> float:
     return degrees - 360 if degrees > 180 else degrees
 
 
-def _box(path: Path) -> Box | None:
+def _read_box(path: Path) -> Box | None:
     """Return the box that an extract says, if it says one."""
     if not path.is_file():
         raise MapError(f"{path}: no such file; give the path of an .osm.pbf or .osm file")
@@ -174,7 +176,7 @@ def _box(path: Path) -> Box | None:
         raise MapError(f"{path}: not an OpenStreetMap file by its name; expected one of {', '.join(SUFFIXES)}")
     if path.stat().st_size == 0:
         raise MapError(f"{path}: the file is empty; download it again")
-    with reading(path):
+    with explained_errors(path):
         box = osmium.io.Reader(str(path)).header().box()
     if not box.valid():
         return None
@@ -188,9 +190,9 @@ def _read_elements(path: Path) -> Iterator[Batch]:
     """The elements of the file that belong to a class, some at once."""
     keys = sorted({key for row in load_classes() for key, _ in row.required})
     none = True
-    with reading(path):
+    with explained_errors(path):
         processor = osmium.FileProcessor(str(path)).with_areas().with_filter(osmium.filter.KeyFilter(*keys))
-        for some in batches_of(_classify(processor)):
+        for some in batched(_classify(processor)):
             none = False
             yield some, shapely.from_wkb([element.wkb for element in some])
     if none:
@@ -200,14 +202,14 @@ def _read_elements(path: Path) -> Iterator[Batch]:
         )
 
 
-def batches_of(elements: Iterator[Element]) -> Iterator[list[Element]]:
+def batched(elements: Iterator[Element]) -> Iterator[list[Element]]:
     """Elements of a file, some at once: what is read of all of them would take much room."""
-    while some := list(islice(elements, AT_ONCE)):
+    while some := list(islice(elements, ELEMENTS_PER_BATCH)):
         yield some
 
 
 @contextmanager
-def reading(path: Path) -> Iterator[None]:
+def explained_errors(path: Path) -> Iterator[None]:
     """Say so where a file is broken."""
     try:
         yield
@@ -217,7 +219,7 @@ def reading(path: Path) -> Iterator[None]:
         ) from error
 
 
-def geometries() -> dict[str, Any]:
+def geometry_factories() -> dict[str, Any]:
     """By osmium's letter of an element what makes its geometry: a point, a line or areas."""
     factory = osmium.geom.WKBFactory()
     return {"n": factory.create_point, "w": factory.create_linestring, "a": factory.create_multipolygon}
@@ -231,7 +233,7 @@ def source_id(element: Any, kind: str) -> str:
 
 
 def _classify(processor: Any) -> Iterator[_Element]:
-    create = geometries()
+    create = geometry_factories()
     for element in processor:
         kind = element.type_str()
         if kind not in create:
@@ -241,7 +243,7 @@ def _classify(processor: Any) -> Iterator[_Element]:
         tags = {tag.k: tag.v for tag in element.tags}
         if not _is_visible(tags):
             continue
-        found = class_of(tags)
+        found = find_class(tags)
         if found is None or not _is_wanted(element, kind, found[1], tags):
             continue
         try:
@@ -270,9 +272,11 @@ def _is_wanted(element: Any, kind: str, row: OsmClass, tags: dict[str, str]) -> 
     return not linear or (row.shape != "wall" and not element.from_way())
 
 
-def _city_map(name: str, strips: Strips, frame: Frame) -> CityMap:
-    taken = Taken.of(strips)
-    locations = taken.pieces.lattice(np.flatnonzero(taken.is_walkable[taken.pieces.instance]), LOCATIONS_M)
+def _city_map(name: str, strips: FeatureStrips, frame: Frame) -> CityMap:
+    taken = ImportedMap.from_strips(strips)
+    locations = taken.pieces.ground_lattice(
+        np.flatnonzero(taken.is_walkable[taken.pieces.instance]), LOCATION_SPACING_M
+    )
     taken.pieces.forget()
     if not len(locations):
         raise MapError(f"{name}: no street, path or square in it, so there is no place to stand; take a larger extract")

@@ -15,8 +15,8 @@ from models.sources.store.layout import (
     RGB_POOLS,
     XYZ_POOLS,
     Column,
-    empty,
-    from_bytes,
+    colours_from_bytes,
+    empty_column,
     in_cell_units,
     starts_of,
 )
@@ -41,7 +41,7 @@ class MemorySink:
 
     def columns(self) -> dict[str, Column]:
         """All columns; the sink is empty after this."""
-        return {name: np.concatenate([empty(name), *self._rows.pop(name)]) for name in COLUMNS}
+        return {name: np.concatenate([empty_column(name), *self._rows.pop(name)]) for name in COLUMNS}
 
 
 class DiskSink:
@@ -112,7 +112,7 @@ class ColumnWriter:
 
     def _add_xyz(self, cell: PublishedCell) -> None:
         low, size = cell.bbox_w[:3], cell.cell_size
-        xyz, starts = _joined([item.xyz for item in cell.objects])
+        xyz, starts = _concatenate_points([item.xyz for item in cell.objects])
         world = xyz * size + low
         compact = world.astype(np.float32)
         exact = np.logical_and.reduceat((in_cell_units(compact, low, size) == xyz).all(axis=1), starts[:-1])
@@ -127,9 +127,9 @@ class ColumnWriter:
         self._put("object_closest_m", compact[closest])
 
     def _add_rgb(self, cell: PublishedCell) -> None:
-        rgb, starts = _joined([item.rgb for item in cell.objects])
+        rgb, starts = _concatenate_points([item.rgb for item in cell.objects])
         compact = np.rint(rgb * 255).astype(np.uint8)
-        exact = np.logical_and.reduceat((from_bytes(compact) == rgb).all(axis=1), starts[:-1])
+        exact = np.logical_and.reduceat((colours_from_bytes(compact) == rgb).all(axis=1), starts[:-1])
         is_float32 = np.array([item.rgb.dtype == np.float32 for item in cell.objects])
         kinds = np.where(is_float32, np.where(exact, 0, 1), 2)
         self._add_points(RGB_POOLS, kinds, starts, (compact, rgb, rgb))
@@ -175,7 +175,7 @@ class ColumnWriter:
         return self.words.setdefault(word, len(self.words))
 
 
-def _joined(arrays: list[Floats]) -> tuple[Floats, Ints]:
+def _concatenate_points(arrays: list[Floats]) -> tuple[Floats, Ints]:
     """All points as one float64 array, and where each part begins."""
     joined = np.concatenate(arrays).astype(np.float64, copy=False)
     return joined, starts_of(np.array([len(array) for array in arrays]))

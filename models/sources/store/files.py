@@ -17,9 +17,9 @@ from models.errors import DataError
 from models.files import FileRecord, file_records, new_directory, sha256
 from models.sources.kitti360pose.files import (
     CellKey,
+    build_cell_key,
     check_poses,
     iter_cells,
-    key_of,
     list_scenes,
     load_poses,
     select_scenes,
@@ -45,7 +45,7 @@ class SceneRecord(BaseModel):
     poses: int | None
 
 
-class Manifest(BaseModel):
+class StoreManifest(BaseModel):
     """What a store holds."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -56,7 +56,7 @@ class Manifest(BaseModel):
     files: dict[str, FileRecord]
 
 
-class Strings(BaseModel):
+class StoreStrings(BaseModel):
     """What strings.json holds."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -101,7 +101,7 @@ def convert(data: Path, out: Path, split: str | None = None, progress: Progress 
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise DataError(f"{out}: is there already and not empty; name a new directory")
     names = select_scenes(list_scenes(data), split, data / "cells")
-    step = _bytes_done(data, names, progress) if progress else None
+    step = _byte_counter(data, names, progress) if progress else None
     with new_directory(out) as directory:
         with DiskSink(directory) as sink:
             writer = ColumnWriter(sink)
@@ -127,7 +127,7 @@ def open_store(path: Path) -> PoseStore:
         if not file.is_file() or file.stat().st_size != record.bytes:
             raise DataError(f"{file}: missing or cut short; {ADVICE}")
     try:
-        strings = Strings.model_validate_json((path / STRINGS).read_bytes())
+        strings = StoreStrings.model_validate_json((path / STRINGS).read_bytes())
     except ValidationError as error:
         raise DataError(f"{path / STRINGS}: {error.errors()[0]['msg']}; {ADVICE}") from error
     columns = {name: _map_column(path / f"{name}.npy") for name in COLUMNS}
@@ -162,7 +162,7 @@ def _add_scene(writer: ColumnWriter, data: Path, name: str, number: int, step: S
             raise DataError(
                 f"{path}: cells[{len(keys)}].id '{cell.id}' is taken by another scene; leave one of them out"
             )
-        keys[cell.id] = key_of(cell)
+        keys[cell.id] = build_cell_key(cell)
         writer.add_cell(cell, number)
         if step:
             step(sum(item.xyz.nbytes + item.rgb.nbytes for item in cell.objects))
@@ -176,7 +176,7 @@ def _add_scene(writer: ColumnWriter, data: Path, name: str, number: int, step: S
     return StoredScene(name, scene_name, len(keys), len(poses))
 
 
-def _bytes_done(data: Path, names: tuple[str, ...], progress: Progress) -> Step:
+def _byte_counter(data: Path, names: tuple[str, ...], progress: Progress) -> Step:
     total = sum((data / "cells" / f"{name}.pkl").stat().st_size for name in names)
     done = 0
 
@@ -191,13 +191,13 @@ def _bytes_done(data: Path, names: tuple[str, ...], progress: Progress) -> Step:
 def _write_manifest(directory: Path, scenes: tuple[StoredScene, ...]) -> None:
     """Write what the files of a directory are."""
     records = tuple(SceneRecord(name=s.name, scene_name=s.scene_name, cells=s.cells, poses=s.poses) for s in scenes)
-    manifest = Manifest(scenes=records, files=file_records(directory))
+    manifest = StoreManifest(scenes=records, files=file_records(directory))
     (directory / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
 
 
-def _read_manifest(path: Path) -> Manifest:
+def _read_manifest(path: Path) -> StoreManifest:
     try:
-        manifest = Manifest.model_validate_json((path / MANIFEST).read_bytes())
+        manifest = StoreManifest.model_validate_json((path / MANIFEST).read_bytes())
     except OSError as error:
         raise DataError(f"{path / MANIFEST}: cannot be read: no store here; {ADVICE}") from error
     except ValidationError as error:

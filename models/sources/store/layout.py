@@ -50,7 +50,7 @@ XYZ_POOLS = ("xyz_world", "xyz_f4", "xyz_f8")  # by kind
 RGB_POOLS = ("rgb_u1", "rgb_f4", "rgb_f8")
 
 
-def empty(name: str) -> Column:
+def empty_column(name: str) -> Column:
     """A column without rows."""
     _, dtype, shape = COLUMNS[name]
     return np.zeros((0, *shape), dtype=dtype)
@@ -62,7 +62,7 @@ def in_cell_units(world: Floats, low: Floats, size: float) -> Floats:
     return units
 
 
-def from_bytes(rgb: Column) -> Floats:
+def colours_from_bytes(rgb: Column) -> Floats:
     """[P, 3] float32 0..1 from [P, 3] bytes."""
     return rgb.astype(np.float32) / np.float32(255)
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from models.citymap.cells import CellTable, Parts
-from models.citymap.point_sample import sample_points, samples
+from models.citymap.cells import CellTable, PartTable
+from models.citymap.point_sample import sample_points, stack_samples
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.errors import DataError
@@ -18,7 +18,7 @@ from models.sources.store.layout import (
     RGB_POOLS,
     XYZ_POOLS,
     Column,
-    from_bytes,
+    colours_from_bytes,
     in_cell_units,
     pool_starts,
     starts_of,
@@ -136,7 +136,7 @@ class PoseStore:
             scenes=tuple(self.all_scenes[n].scene_name for n in self.columns["cell_scene"][self.cell_rows]),
             center_m=(box[:, :3] + box[:, 3:]) / 2,
             size_m=float(sizes[0]),
-            content=Parts(
+            content=PartTable(
                 starts=starts_of(self.columns["cell_objects"][self.cell_rows]),
                 instance=np.arange(len(rows), dtype=np.int32),
                 count=self.columns["object_points"][rows],
@@ -164,14 +164,14 @@ class PoseStore:
         hints = ranges(self._hint_starts[rows], self._hint_starts[rows + 1])
         return PoseTable(
             positions_m=c["pose_world_m"][rows],
-            cell=_positions(self.cell_rows, len(c["cell_scene"]))[c["pose_cell"][rows]],
+            cell=_inverse_rows(self.cell_rows, len(c["cell_scene"]))[c["pose_cell"][rows]],
             strategies=tuple(self.words[n] for n in c["pose_strategy"][rows]),
             starts=starts_of(c["pose_hints"][rows]),
             direction=c["hint_direction"][hints],
             label=c["hint_label"][hints],
             colour=c["hint_colour"][hints],
             # One more, so that -1, no instance, stays -1.
-            instance=np.append(_positions(self._object_rows, len(c["object_label"])), -1)[c["hint_object"][hints]],
+            instance=np.append(_inverse_rows(self._object_rows, len(c["object_label"])), -1)[c["hint_object"][hints]],
             words=self.words,
         )
 
@@ -188,7 +188,7 @@ class PoseStore:
         """[R, 256, 6] points of what is in some cells."""
         rows = self.cell_rows[cells]
         objects = ranges(self._cell_starts[rows], self._cell_starts[rows + 1])
-        return samples([sample_points(*self._points(row)) for row in objects.tolist()])
+        return stack_samples([sample_points(*self._points(row)) for row in objects.tolist()])
 
     def _points(self, row: int) -> tuple[Floats, Floats]:
         c = self.columns
@@ -198,7 +198,7 @@ class PoseStore:
         if xyz_kind == 0:
             cell = np.searchsorted(self._cell_starts, row, side="right") - 1
             xyz = in_cell_units(xyz, c["cell_bbox_m"][cell, :3], c["cell_size_m"][cell])
-        return np.array(xyz), from_bytes(rgb) if rgb_kind == 0 else np.array(rgb)
+        return np.array(xyz), colours_from_bytes(rgb) if rgb_kind == 0 else np.array(rgb)
 
     @cached_property
     def _object_rows(self) -> Ints:
@@ -222,7 +222,7 @@ class PoseStore:
         return pool_starts(self.columns["object_rgb_kind"], self.columns["object_points"])
 
 
-def _positions(rows: Ints, size: int) -> Ints:
+def _inverse_rows(rows: Ints, size: int) -> Ints:
     """[size] where each number stands in `rows`; -1 where it does not."""
     positions: npt.NDArray[np.int64] = np.full(size, -1, dtype=np.int64)
     positions[rows] = np.arange(len(rows))

@@ -4,16 +4,16 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from models.citymap.cells import centers_near
+from models.citymap.cells import centers_within_reach
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.synthetic.layout import Land, Node, Plan
 from models.sources.synthetic.shapes import Rng
 
-CAMERA_M = 0.9  # a pose's height above the road
-SMOOTH_M = 9  # corners are driven in an arc of about this length
-CELLS_A_METRE = 0.6  # of street, at most: a band of 60 m, a cell for each 100 square metres
+CAMERA_HEIGHT_M = 0.9  # a pose's height above the road
+SMOOTHING_WINDOW_M = 9  # corners are driven in an arc of about this length
+CELLS_PER_M = 0.6  # of street, at most: a band of 60 m, a cell for each 100 square metres
 
 
 def draw_drive(rng: Rng, plan: Plan, land: Land, cells: float) -> Floats:
@@ -24,23 +24,23 @@ def draw_drive(rng: Rng, plan: Plan, land: Land, cells: float) -> Floats:
         if they do not do.
     """
     walk = Walk(rng, plan)
-    length_m = cells / CELLS_A_METRE
+    length_m = cells / CELLS_PER_M
     while True:
         is_longer = walk.extend(length_m)
-        drive = smooth(np.concatenate(walk.track))
-        end = _end(land.to_world(drive), cells)
+        drive = smooth_track(np.concatenate(walk.track))
+        end = _end_row(land.to_world(drive), cells)
         if end is not None or not is_longer:
             return drive[:end]
         length_m *= 1.15
 
 
-def _end(world_m: Floats, cells: float) -> int | None:
+def _end_row(world_m: Floats, cells: float) -> int | None:
     """How many poses of a drive pass some number of cells, as nearly as can be; None if all pass fewer."""
     config = PrepareConfig()
-    rows = spaced(world_m, config.spacing_m)
+    rows = spaced_rows(world_m, config.spacing_m)
     before = (0, 0)
     for n in range(2, len(rows) + 1):
-        if n * config.spacing_m * CELLS_A_METRE + 30 < cells:
+        if n * config.spacing_m * CELLS_PER_M + 30 < cells:
             continue
         passed = count_cells(world_m[rows[:n]], config)
         if passed >= cells:
@@ -50,7 +50,7 @@ def _end(world_m: Floats, cells: float) -> int | None:
     return None
 
 
-def spaced(world_m: Floats, spacing_m: float) -> Ints:
+def spaced_rows(world_m: Floats, spacing_m: float) -> Ints:
     """[L] rows of the poses that are locations: far enough from all before (docs/formats.md, rule 3)."""
     kept = np.full_like(world_m, np.inf)
     rows: list[int] = []
@@ -66,7 +66,11 @@ def count_cells(locations_m: Floats, config: PrepareConfig) -> int:
     low, high = locations_m[:, :2].min(axis=0).astype(int), locations_m[:, :2].max(axis=0).astype(int)
     axes = (np.arange(a, b, config.cut.grid_m) for a, b in zip(low, high, strict=True))
     x, y = np.meshgrid(*axes, indexing="ij")
-    return len(centers_near(np.column_stack([x.ravel(), y.ravel()]), locations_m, config.cut.reach_m)) if x.size else 0
+    return (
+        len(centers_within_reach(np.column_stack([x.ravel(), y.ravel()]), locations_m, config.cut.reach_m))
+        if x.size
+        else 0
+    )
 
 
 class Walk:
@@ -78,9 +82,9 @@ class Walk:
 
     def __init__(self, rng: Rng, plan: Plan) -> None:
         self._rng, self._plan = rng, plan
-        self._graph = _graph(plan)
-        self._here = _start(plan, self._graph)
-        self._start = plan.place(self._here)
+        self._graph = _street_graph(plan)
+        self._here = _start_node(plan, self._graph)
+        self._start = plan.position_m(self._here)
         self._visited: set[frozenset[Node]] = set()
         self._length_m = 0.0
         self.track = [self._start[None]]
@@ -93,7 +97,7 @@ class Walk:
                 return False
             for there in route:
                 street = frozenset((self._here, there))
-                piece = _in_lane(self._plan, self._here, there)
+                piece = _lane_points(self._plan, self._here, there)
                 self._length_m += len(piece) * (street not in self._visited)
                 self._visited.add(street)
                 self._here = there
@@ -106,7 +110,7 @@ class Walk:
 
     def _cost(self, a: Node, b: Node) -> float:
         """Least for streets near the start, so that the walk stays together."""
-        middle = (self._plan.place(a) + self._plan.place(b)) / 2
+        middle = (self._plan.position_m(a) + self._plan.position_m(b)) / 2
         return float(np.linalg.norm(middle - self._start)) + float(self._rng.uniform(0, 40))
 
     def _next_route(self) -> list[Node]:
@@ -129,19 +133,19 @@ class Walk:
         return route[::-1]
 
 
-def _start(plan: Plan, graph: coo_array) -> Node:
+def _start_node(plan: Plan, graph: coo_array) -> Node:
     """The crossing nearest to the middle of the plan from which most others can be reached."""
     part = connected_components(graph)[1]
     largest = np.flatnonzero(part == np.bincount(part).argmax())
     nodes = [(int(n) // len(plan.north), int(n) % len(plan.north)) for n in largest]
-    return min(nodes, key=lambda node: float(np.linalg.norm(plan.place(node))))
+    return min(nodes, key=lambda node: float(np.linalg.norm(plan.position_m(node))))
 
 
-def _graph(plan: Plan) -> coo_array:
+def _street_graph(plan: Plan) -> coo_array:
     """Lengths of the open streets between neighbouring crossings, which count from south to north, then east."""
     size = len(plan.north)
     rows = [
-        (a[0] * size + a[1], b[0] * size + b[1], float(np.abs(plan.place(a) - plan.place(b)).sum()))
+        (a[0] * size + a[1], b[0] * size + b[1], float(np.abs(plan.position_m(a) - plan.position_m(b)).sum()))
         for a in [(e, n) for e in range(len(plan.east)) for n in range(size)]
         for b in plan.neighbours(a)
     ]
@@ -149,9 +153,9 @@ def _graph(plan: Plan) -> coo_array:
     return coo_array((length, (source, target)), shape=(len(plan.east) * size,) * 2)
 
 
-def _in_lane(plan: Plan, a: Node, b: Node) -> Floats:
+def _lane_points(plan: Plan, a: Node, b: Node) -> Floats:
     """[M, 2] places a metre apart from crossing to crossing, in the right-hand lane."""
-    start, end = plan.place(a), plan.place(b)
+    start, end = plan.position_m(a), plan.position_m(b)
     length = float(np.linalg.norm(end - start))
     ahead = (end - start) / length
     line = plan.north[a[1]] if a[1] == b[1] else plan.east[a[0]]
@@ -160,11 +164,11 @@ def _in_lane(plan: Plan, a: Node, b: Node) -> Floats:
     return start + steps[:, None] * ahead + lane_m * np.array([ahead[1], -ahead[0]])
 
 
-def smooth(track: Floats) -> Floats:
+def smooth_track(track: Floats) -> Floats:
     """[F, 3] a track with its corners rounded, about a metre apart, at the height of the camera."""
     away = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
     even = np.column_stack([np.interp(np.arange(0, away[-1] + 1e-9), away, axis) for axis in track.T])
-    half = SMOOTH_M // 2
+    half = SMOOTHING_WINDOW_M // 2
     padded = np.pad(even, ((half, half), (0, 0)), mode="edge")
-    rounded = np.lib.stride_tricks.sliding_window_view(padded, SMOOTH_M, axis=0).mean(axis=-1)
-    return np.column_stack([rounded, np.full(len(rounded), CAMERA_M)])
+    rounded = np.lib.stride_tricks.sliding_window_view(padded, SMOOTHING_WINDOW_M, axis=0).mean(axis=-1)
+    return np.column_stack([rounded, np.full(len(rounded), CAMERA_HEIGHT_M)])

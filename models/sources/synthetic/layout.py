@@ -21,14 +21,14 @@ class Line(NamedTuple):
     """A street from one end of the plan to the other.
 
     Attributes:
-        place_m: where it crosses the other axis.
+        position_m: where it crosses the other axis.
         road_m: width of its carriageway.
         strip_m: width, on each side, of parking bays or grass.
         sidewalk_m: width, on each side.
         is_main: true for a through street.
     """
 
-    place_m: float
+    position_m: float
     road_m: float
     strip_m: float
     sidewalk_m: float
@@ -62,9 +62,9 @@ class Plan:
             return bool(self.along_u[a[1], min(a[0], b[0])])
         return bool(self.along_v[a[0], min(a[1], b[1])])
 
-    def place(self, node: Node) -> Floats:
+    def position_m(self, node: Node) -> Floats:
         """[2] metres, plan frame."""
-        return np.array([self.east[node[0]].place_m, self.north[node[1]].place_m])
+        return np.array([self.east[node[0]].position_m, self.north[node[1]].position_m])
 
     def neighbours(self, node: Node) -> list[Node]:
         """The crossings to which a street leads from one."""

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from models.citymap.types import Floats
-from models.sources.synthetic.shapes import Rng, blob, box, column, gable, moved, patch, some
+from models.sources.synthetic.shapes import Rng, blob, box, column, gable, patch, shift, subsample
 
 STOREY_M = 3.1
 
@@ -27,8 +27,8 @@ def building(rng: Rng, size: tuple[float, float, float], spacing_m: float, pitch
         parts.append(gable(rng, size, d * float(rng.uniform(0.25, 0.5)), spacing_m * 1.7))
     if rng.random() < 0.3:  # a porch, an oriel or a dormer
         porch = box(rng, (w * float(rng.uniform(0.15, 0.3)), 1.2, min(h, 3.0)), spacing_m)
-        parts.append(moved(porch, w * float(rng.uniform(-0.3, 0.3)), -1.2))
-    return some(rng, np.concatenate(parts), float(rng.uniform(0.75, 1)))
+        parts.append(shift(porch, w * float(rng.uniform(-0.3, 0.3)), -1.2))
+    return subsample(rng, np.concatenate(parts), float(rng.uniform(0.75, 1)))
 
 
 def garage(rng: Rng, spacing_m: float) -> Floats:
@@ -64,7 +64,7 @@ def bush(rng: Rng) -> Floats:
 def hedge(rng: Rng, length_m: float) -> Floats:
     """[P, 3] a hedge along x, from 0."""
     size = (length_m, float(rng.uniform(0.6, 1.4)), float(rng.uniform(0.9, 2.2)))
-    body = moved(box(rng, size, float(rng.uniform(0.22, 0.3)), hidden=1.3), length_m / 2)
+    body = shift(box(rng, size, float(rng.uniform(0.22, 0.3)), hidden=1.3), length_m / 2)
     return body + rng.normal(0, 0.12, body.shape) * (1, 1, 0.5)
 
 
@@ -99,12 +99,12 @@ def guard_rail(rng: Rng, length_m: float) -> Floats:
 def bridge(rng: Rng, span_m: float) -> Floats:
     """[P, 3] a deck over the street, its span along y and centred, with parapets."""
     width, clear, deep = float(rng.uniform(3.5, 9)), float(rng.uniform(4.6, 6)), float(rng.uniform(0.6, 1.3))
-    body = moved(box(rng, (width, span_m, deep), 0.3, z=clear), y=-span_m / 2)
+    body = shift(box(rng, (width, span_m, deep), 0.3, z=clear), y=-span_m / 2)
     under = patch(rng, (-width / 2, -span_m / 2, clear), (width, 0, 0), (0, span_m, 0), 0.3)
     rails = [
         patch(rng, (x, -span_m / 2, clear + deep), (0, span_m, 0), (0, 0, 1.1), 0.28) for x in (-width / 2, width / 2)
     ]
-    feet = [moved(box(rng, (width, 0.8, clear), 0.3), y=side * (span_m / 2 - 0.5) - 0.4) for side in (-1, 1)]
+    feet = [shift(box(rng, (width, 0.8, clear), 0.3), y=side * (span_m / 2 - 0.5) - 0.4) for side in (-1, 1)]
     return np.concatenate([body, under, *rails, *feet])
 
 
@@ -160,7 +160,7 @@ def traffic_light(rng: Rng) -> Floats:
     z, spacing = float(rng.uniform(2.1, 3)), float(rng.uniform(0.07, 0.11))
     parts = [box(rng, (0.3, 0.3, float(rng.uniform(0.7, 1.1))), spacing, z=z)]
     if rng.random() < 0.4:
-        parts.append(moved(box(rng, (0.3, 0.3, 0.9), spacing, z=5.0), y=-float(rng.uniform(1.5, 4))))
+        parts.append(shift(box(rng, (0.3, 0.3, 0.9), spacing, z=5.0), y=-float(rng.uniform(1.5, 4))))
     if rng.random() < 0.6:
         parts.append(column(rng, int(rng.uniform(30, 90)), 0.07, (0, z)))
     return np.concatenate(parts)
@@ -173,7 +173,7 @@ def trash_bin(rng: Rng) -> Floats:
             rng, int(rng.uniform(80, 250)), float(rng.uniform(0.2, 0.35)), (0.2, float(rng.uniform(0.8, 1.3)))
         )
     count, spacing = int(rng.choice([1, 1, 2, 3])), float(rng.uniform(0.09, 0.14))
-    return np.concatenate([moved(box(rng, (0.6, 0.7, 1.1), spacing, hidden=1.3), 0.75 * n) for n in range(count)])
+    return np.concatenate([shift(box(rng, (0.6, 0.7, 1.1), spacing, hidden=1.3), 0.75 * n) for n in range(count)])
 
 
 def vending_machine(rng: Rng) -> Floats:

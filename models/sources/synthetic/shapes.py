@@ -10,11 +10,11 @@ import numpy.typing as npt
 
 from models.citymap.types import Floats
 
-ROUGH_M = 0.015  # how far points lie off the surface that they are of
+SURFACE_NOISE_M = 0.015  # how far points lie off the surface that they are of
 Rng = np.random.Generator
 
 
-class Spot(NamedTuple):
+class LocalFrame(NamedTuple):
     """A place in a town's plan, and a direction there.
 
     Attributes:
@@ -29,16 +29,16 @@ class Spot(NamedTuple):
     sin: float = 0.0
     flip: float = 1.0
 
-    def plan(self, xyz: Floats) -> Floats:
+    def to_plan(self, xyz: Floats) -> Floats:
         """[P, 3] points of this frame in the plan's frame."""
         x, y = xyz[:, 0], xyz[:, 1] * self.flip
         return np.column_stack([self.u + self.cos * x - self.sin * y, self.v + self.sin * x + self.cos * y, xyz[:, 2]])
 
-    def at(self, x: float, y: float, turn: float = 0.0) -> "Spot":
+    def offset(self, x: float, y: float, turn: float = 0.0) -> "LocalFrame":
         """The spot at a place of this frame, turned by an angle in radians."""
-        u, v = self.plan(np.array([[x, y, 0.0]]))[0, :2].tolist()
+        u, v = self.to_plan(np.array([[x, y, 0.0]]))[0, :2].tolist()
         cos, sin = float(np.cos(turn)), float(np.sin(turn)) * self.flip
-        return Spot(u, v, self.cos * cos - self.sin * sin, self.sin * cos + self.cos * sin, self.flip)
+        return LocalFrame(u, v, self.cos * cos - self.sin * sin, self.sin * cos + self.cos * sin, self.flip)
 
 
 def patch(rng: Rng, corner: npt.ArrayLike, along: npt.ArrayLike, up: npt.ArrayLike, spacing_m: float) -> Floats:
@@ -47,7 +47,9 @@ def patch(rng: Rng, corner: npt.ArrayLike, along: npt.ArrayLike, up: npt.ArrayLi
     counts = np.maximum(1, np.round(np.linalg.norm(edges, axis=1) / spacing_m)).astype(int)
     steps = np.indices(tuple(counts)).reshape(2, -1).T
     share = (steps + rng.uniform(0.1, 0.9, steps.shape)) / counts
-    points: Floats = np.asarray(corner, dtype=np.float64) + share @ edges + rng.normal(0, ROUGH_M, (len(steps), 3))
+    points: Floats = (
+        np.asarray(corner, dtype=np.float64) + share @ edges + rng.normal(0, SURFACE_NOISE_M, (len(steps), 3))
+    )
     return points
 
 
@@ -105,13 +107,13 @@ def blob(rng: Rng, count: int, center: npt.ArrayLike, radii: npt.ArrayLike) -> F
     return points
 
 
-def moved(xyz: Floats, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Floats:
+def shift(xyz: Floats, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Floats:
     """[P, 3] the same points elsewhere."""
     shifted: Floats = xyz + np.array([x, y, z])
     return shifted
 
 
-def some(rng: Rng, xyz: Floats, share: float) -> Floats:
+def subsample(rng: Rng, xyz: Floats, share: float) -> Floats:
     """A random share of some points, in their order."""
     kept: Floats = xyz[rng.random(len(xyz)) < share]
     return kept

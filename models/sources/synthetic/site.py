@@ -10,14 +10,14 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.sources.kitti360.rules import CLASSES, GROUND
 from models.sources.synthetic.layout import Land
-from models.sources.synthetic.shapes import Rng, Spot
-from models.sources.synthetic.styles import Habits, draw_shade, speckled
+from models.sources.synthetic.shapes import LocalFrame, Rng
+from models.sources.synthetic.styles import Habits, draw_shade, speckle
 
-REACH_M = 44.0  # what stands further from the drive was not scanned
-RASTER_M = 2.0
-MARGIN_M = 120.0
+SCAN_REACH_M = 44.0  # what stands further from the drive was not scanned
+RASTER_SPACING_M = 2.0
+RASTER_MARGIN_M = 120.0
 CLASS_ROW = {rule.label: row for row, rule in enumerate(CLASSES)}
-NUMBERS = 1000  # instances a class, as KITTI-360 counts them
+INSTANCES_PER_CLASS = 1000  # instances a class, as KITTI-360 counts them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,13 +48,13 @@ class Site:
 
     def __init__(self, rng: Rng, habits: Habits, land: Land, drive_m: Floats) -> None:
         self.rng, self.habits, self._land = rng, habits, land
-        low, high = drive_m[:, :2].min(axis=0) - MARGIN_M, drive_m[:, :2].max(axis=0) + MARGIN_M
-        self._low, counts = low, np.ceil((high - low) / RASTER_M).astype(int)
-        places = low + (np.indices(tuple(counts)).reshape(2, -1).T + 0.5) * RASTER_M
+        low, high = drive_m[:, :2].min(axis=0) - RASTER_MARGIN_M, drive_m[:, :2].max(axis=0) + RASTER_MARGIN_M
+        self._low, counts = low, np.ceil((high - low) / RASTER_SPACING_M).astype(int)
+        places = low + (np.indices(tuple(counts)).reshape(2, -1).T + 0.5) * RASTER_SPACING_M
         away, pose = cKDTree(drive_m[:, :2]).query(places)
-        self._away, self._pose = away.reshape(counts), pose.reshape(counts).astype(np.int32)
+        self._distance, self._pose = away.reshape(counts), pose.reshape(counts).astype(np.int32)
         self._clouds: list[Floats] = []
-        self._of: list[int] = []  # row of `_classes`, for each cloud
+        self._cloud_instance: list[int] = []  # row of `_classes`, for each cloud
         self._classes: list[int] = []  # row of CLASSES, for each instance
         self._chains: dict[tuple[str, str], int] = {}
 
@@ -63,15 +63,17 @@ class Site:
         """Between points of what was scanned well."""
         return self.habits.spacing_m
 
-    def away_m(self, spot: Spot) -> float:
+    def distance_to_drive_m(self, spot: LocalFrame) -> float:
         """From a spot to the drive, to the metre or two."""
-        return float(self._away[self._cells(self._land.to_world(np.array([[spot.u, spot.v, 0.0]])))][0])
+        return float(self._distance[self._raster_cells(self._land.to_world(np.array([[spot.u, spot.v, 0.0]])))][0])
 
-    def _cells(self, world: Floats) -> tuple[Ints, Ints]:
-        cell = np.clip(((world[:, :2] - self._low) / RASTER_M).astype(np.int64), 0, np.array(self._away.shape) - 1)
+    def _raster_cells(self, world: Floats) -> tuple[Ints, Ints]:
+        cell = np.clip(
+            ((world[:, :2] - self._low) / RASTER_SPACING_M).astype(np.int64), 0, np.array(self._distance.shape) - 1
+        )
         return cell[:, 0], cell[:, 1]
 
-    def add(self, label: str, spot: Spot, xyz: Floats, chain: str = "") -> None:
+    def add(self, label: str, spot: LocalFrame, xyz: Floats, chain: str = "") -> None:
         """Put something down, if the drive comes near it.
 
         Args:
@@ -81,11 +83,11 @@ class Site:
             chain: what is added with one name is one instance, until the chain is cut; "" for an instance of its own.
         """
         rule = CLASSES[CLASS_ROW[label]]
-        if not rule.is_stuff and self.away_m(spot) > REACH_M:
+        if not rule.is_stuff and self.distance_to_drive_m(spot) > SCAN_REACH_M:
             return
-        world = self._land.to_world(spot.plan(xyz))
+        world = self._land.to_world(spot.to_plan(xyz))
         if rule.is_stuff:
-            world = world[self._away[self._cells(world)] <= REACH_M]
+            world = world[self._distance[self._raster_cells(world)] <= SCAN_REACH_M]
         if not len(world):
             return
         row = self._chains.get((label, chain)) if chain else None
@@ -95,7 +97,7 @@ class Site:
         if chain:
             self._chains[label, chain] = row
         self._clouds.append(world.astype(np.float32))
-        self._of.append(row)
+        self._cloud_instance.append(row)
 
     def cut_chains(self, share: float = 1.0, label: str | None = None) -> None:
         """End some of the open chains, of a class or of all."""
@@ -120,14 +122,14 @@ class Site:
         for row in range(len(CLASSES)):
             of_class = np.flatnonzero(classes == row)
             nth[of_class] = np.arange(len(of_class))
-        thousands, rest = np.divmod(nth, NUMBERS - 1)
-        number = (semantic + 100 * thousands) * NUMBERS + rest + 1
+        thousands, rest = np.divmod(nth, INSTANCES_PER_CLASS - 1)
+        number = (semantic + 100 * thousands) * INSTANCES_PER_CLASS + rest + 1
         if not own_pieces:
             is_ground = np.array([rule.label in GROUND for rule in CLASSES])[classes]
-            number[is_ground] = semantic[is_ground] * NUMBERS
-        of = np.repeat(self._of, [len(cloud) for cloud in self._clouds])
+            number[is_ground] = semantic[is_ground] * INSTANCES_PER_CLASS
+        of = np.repeat(self._cloud_instance, [len(cloud) for cloud in self._clouds])
         xyz = np.concatenate(self._clouds)
         self._clouds.clear()
-        rgb = np.concatenate([speckled(self.rng, mean[rows], spread[rows]) for rows in np.array_split(of, 16)])
-        pose = np.concatenate([self._pose[self._cells(points)] for points in np.array_split(xyz, 16)])
+        rgb = np.concatenate([speckle(self.rng, mean[rows], spread[rows]) for rows in np.array_split(of, 16)])
+        pose = np.concatenate([self._pose[self._raster_cells(points)] for points in np.array_split(xyz, 16)])
         return Scan(xyz, rgb, semantic[of].astype(np.int32), number[of].astype(np.int32), pose)

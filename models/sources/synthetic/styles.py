@@ -11,7 +11,7 @@ from models.sources.synthetic.shapes import Rng
 
 # How often a class has each centre of the palette:
 # dark-green, gray, gray-green, bright-gray, gray, black, green, beige.
-COLOURS: dict[str, tuple[float, ...]] = {
+COLOUR_WEIGHTS: dict[str, tuple[float, ...]] = {
     "building": (3, 22, 14, 10, 18, 2, 6, 25),
     "pole": (12, 12, 24, 4, 20, 6, 18, 4),
     "traffic light": (26, 5, 20, 2, 8, 20, 19, 2),
@@ -117,7 +117,7 @@ class Habits:
         return usual * self.rates.get(kind, 1.0)
 
 
-RATED = (
+RATED_OBJECTS = (
     *("pole", "smallpole", "lamp", "traffic sign", "trash bin", "vending machine", "box", "stop"),
     *("tree", "hedge", "fence", "wall", "garage", "bush"),
 )
@@ -125,11 +125,11 @@ RATED = (
 
 def draw_habits(rng: Rng, style: Style) -> Habits:
     """The habits of a town of some style."""
-    colours = np.array([COLOURS[rule.label] for rule in CLASSES], dtype=np.float64)
+    colours = np.array([COLOUR_WEIGHTS[rule.label] for rule in CLASSES], dtype=np.float64)
     colours *= rng.gamma(2.5, 1 / 2.5, colours.shape)
     return Habits(
         lots={kind: weight * float(rng.uniform(0.6, 1.4)) for kind, weight in style.lots.items()},
-        rates={kind: float(np.exp(rng.uniform(-0.4, 0.4))) for kind in RATED},
+        rates={kind: float(np.exp(rng.uniform(-0.4, 0.4))) for kind in RATED_OBJECTS},
         spacing_m=float(rng.uniform(0.3, 0.36)),
         colours=colours / colours.sum(axis=1, keepdims=True),
         exposure=float(rng.uniform(0.94, 1.06)),
@@ -152,7 +152,7 @@ def draw_shade(rng: Rng, habits: Habits, class_row: int) -> tuple[Floats, float]
     return np.clip(mean, 6, 249), float(min(rng.uniform(6, 26), mean.mean() / 2.5))
 
 
-def speckled(rng: Rng, mean: Floats, spread: Floats) -> Floats:
+def speckle(rng: Rng, mean: Floats, spread: Floats) -> Floats:
     """[P, 3] uint8 colours of points, given [P, 3] the mean of the instance of each and [P] its spread."""
     light = rng.standard_normal(len(mean), dtype=np.float32) * spread
     grain = rng.standard_normal((len(mean), 3), dtype=np.float32) * 3

@@ -9,7 +9,7 @@ import torch
 from torch import Tensor
 
 from models.citymap.frame import Frame
-from models.citymap.gazetteer.closest_points import Around, Ways
+from models.citymap.gazetteer.closest_points import ClosestPoints, PointGroups
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.points import Ints
@@ -23,7 +23,7 @@ from models.posterior.locate import PLACE_HIT_M
 from models.posterior.places.explanations import Places
 from models.posterior.places.field import PlaceField, Rough
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
-from models.sources.place_texts import SIGMA_M, ToldText
+from models.sources.place_texts import START_SIGMA_M, PlaceText
 
 HARD, NEAR_M, RANDOM = 250, 25.0, 60  # cells that fit the text best, around the truth, and any
 NODE_M = 3.0  # spacing of the nodes in a cell
@@ -55,7 +55,7 @@ class ToldPlace:
     frame: Frame
     centers_m: Floats
     grid_m: float
-    texts: Sequence[ToldText]
+    texts: Sequence[PlaceText]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,7 +65,7 @@ class Case:
     field: PlaceField
     places: Places
     points_m: Floats
-    ways: Sequence[Ways]
+    ways: Sequence[ClosestPoints]
     rough: Sequence[Rough]
     log_prior: Tensor
     walked: Tensor
@@ -147,7 +147,7 @@ def _case(
     lookup: Lookup,
     cues: CueReader,
     place: ToldPlace,
-    told: ToldText,
+    told: PlaceText,
     sample: Ints,
     rng: np.random.Generator,
 ) -> Case | None:
@@ -165,7 +165,7 @@ def _case(
     near = np.flatnonzero(np.hypot(*(centers - goal).T) < NEAR_M)
     cells = np.unique(np.concatenate([np.argsort(-scores)[:HARD], near, rng.choice(len(centers), RANDOM)]))
     points, group = _nodes(centers[cells], place.grid_m)
-    around = Around.of(points, group)
+    around = PointGroups.from_groups(points, group)
     away = ((points - goal) ** 2).sum(axis=1)
     return Case(
         field=field,
@@ -254,7 +254,7 @@ def _answer(case: Case) -> tuple[float, float, float]:
 def _log_prior(points_m: Floats, listener_m: Floats | None) -> Floats:
     if listener_m is None:
         return np.zeros(len(points_m))
-    density: Floats = -((points_m - listener_m) ** 2).sum(axis=1) / (2 * SIGMA_M**2)
+    density: Floats = -((points_m - listener_m) ** 2).sum(axis=1) / (2 * START_SIGMA_M**2)
     return density
 
 

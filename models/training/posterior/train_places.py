@@ -15,7 +15,7 @@ from models.checkpoint import CONFIG_FILE, SHIPPED_WEIGHTS_DIR
 from models.language.mentions.cue_reader import CueReader
 from models.posterior.model import PosteriorModel, load_posterior, save_posterior
 from models.posterior.places.kernels import PlaceKernels
-from models.sources.place_texts import load_told_texts
+from models.sources.place_texts import load_place_texts
 from models.sources.source import open_source
 from models.training.posterior.cue_texts import LABELLED, OTHERS, PEOPLE, CueText, load_labelled
 from models.training.posterior.fit_cues import EPOCHS, accuracy, fit_cues
@@ -36,7 +36,7 @@ def train_places(
     All of it runs on the CPU.
 
     Args:
-        maps: each an OpenStreetMap file, with files of texts about it (`load_told_texts`).
+        maps: each an OpenStreetMap file, with files of texts about it (`load_place_texts`).
         weights: of the posterior whose other parts are kept; None for those that ship with the package.
         out: directory for model.safetensors and config.json; may be that of the weights.
         steps: see `fit_places`; twice as many are spent on calibration.
@@ -72,7 +72,7 @@ def train_places(
 def _told_place(path: Path, files: Sequence[Path]) -> ToldPlace:
     source = open_source(path)
     centers_m = source.data.cells.center_m[:, :2].astype(np.float64)
-    texts = [text for file in files for text in load_told_texts(file)]
+    texts = [text for file in files for text in load_place_texts(file)]
     return ToldPlace(source.gazetteer(), source.data.frame, centers_m, source.data.grid_m, texts)
 
 

@@ -20,7 +20,7 @@ from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
 from models.posterior.neighbours.neighbour_index import Surroundings, surroundings_of
 from models.posterior.posterior import HintPosterior
-from models.sources.source import CHOSEN_BY, SPACING_M, Source
+from models.sources.source import QUERY_SPACING_M, VALIDATION_SEED, Source
 
 READ_AT_ONCE = 16
 SLIPS = 0.15  # share of the texts that say something wrong, as people do
@@ -54,13 +54,13 @@ class Place:
     truth: Ints
 
     @classmethod
-    def of(cls, source: Source, spacing_m: float = SPACING_M) -> "Place":
+    def of(cls, source: Source, spacing_m: float = QUERY_SPACING_M) -> "Place":
         """A source with what is said in it: by who knows the map, and by who looks at it as a scan shows it."""
-        scan, told = source.as_scan(), [source.queries(CHOSEN_BY, spacing_m)]
-        queries = Queries.joined(told if scan is source else [*told, scan.queries(CHOSEN_BY, spacing_m)])
+        scan, told = source.as_scan(), [source.queries(VALIDATION_SEED, spacing_m)]
+        queries = Queries.concatenate(told if scan is source else [*told, scan.queries(VALIDATION_SEED, spacing_m)])
         data, hints = source.data, queries.hints
         assert hints is not None
-        surroundings = surroundings_of(source.bodies(), data.cells)
+        surroundings = surroundings_of(source.geometry(), data.cells)
         labels, label = surroundings.things.labels(data.gallery)
         return cls(
             surroundings=surroundings,

@@ -9,10 +9,10 @@ from pyproj import Geod
 
 from app.benchmark import questions
 from app.benchmark.questions import Question, ask_all, shared_out, take_questions
-from models.sources.osm.city_copies import Block
+from models.sources.osm.city_copies import CopyGrid
 
 BOX = 250_000_000, 600_000_000, 250_100_000, 600_050_000  # 0.01 by 0.005 degrees
-BLOCK = Block(BOX, 4)
+BLOCK = CopyGrid(BOX, 4)
 LAT, LON = 60.0025, 25.0050
 FAR = 0.001  # degrees of latitude, some 111 m
 

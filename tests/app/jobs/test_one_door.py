@@ -7,7 +7,7 @@ from app.jobs.order import Evaluation
 from index.answering.localizer import Localizer
 from index.build.build import build_index
 from index.evaluation.predictions import FILE, Predictions
-from models.sources.source import CHOSEN_BY, open_source
+from models.sources.source import VALIDATION_SEED, open_source
 from models.training.settings import TrainingConfig
 from models.training.training_data import load_training
 
@@ -26,7 +26,7 @@ def test_all_three_come_through_one_door(osm_file, weights_dir, text_encoder, tm
     assert indexed.gallery.cells.ids == trained.gallery.cells.ids == cells.ids == tuple(measured.cell_ids.tolist())
     assert indexed.gallery.labels == trained.gallery.labels
     assert (indexed.gallery.cells.center_m == trained.gallery.cells.center_m).all()
-    queries, chosen_by = source.queries(), source.queries(CHOSEN_BY)
+    queries, chosen_by = source.queries(), source.queries(VALIDATION_SEED)
     assert (measured.positions_m == queries.positions_m).all()
     assert (measured.queried_cells == queries.truth).all()
     assert (trained.queries.positions_m == chosen_by.positions_m).all()

@@ -16,8 +16,8 @@ from index.answering.describing import (
     street_facts,
 )
 from index.answering.query import Query
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.citymap.types import Hint
 from models.language.mentions.cues import WIND_DEGREES
 from models.posterior.neighbours.neighbour_index import surroundings_of
@@ -29,7 +29,7 @@ OFF_M = 1.5  # what is stored of ways is rounded, and of the node beside a posit
 
 @pytest.fixture(scope="module")
 def surroundings(source, cells):
-    return surroundings_of(source.bodies(), cells)
+    return surroundings_of(source.geometry(), cells)
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def bare(surroundings):
 def nameless(source, surroundings):
     """Describes the town as if nothing had a name."""
     data = source.data
-    return Describer(data.gallery, data.palette, data.frame, surroundings, NOTHING_NAMED)
+    return Describer(data.gallery, data.palette, data.frame, surroundings, EMPTY_GAZETTEER)
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +72,7 @@ def test_what_is_said_is_true(localizer, scan, positions):
         for fact in localizer.describe((x, y)).hints:
             way = np.array(fact.at) - (x, y)
             assert np.hypot(*way) == pytest.approx(fact.away_m, abs=0.06)
-            if fact.instance != STREET:
+            if fact.instance != STREET_KIND:
                 assert fact.away_m <= SEEN_M
                 assert np.hypot(*(points[fact.source_id] - fact.at).T).min() <= OFF_M
             if fact.bearing_deg is not None:
@@ -117,7 +117,7 @@ def test_there_is_nothing_to_say_off_the_map(localizer, position):
 
 def test_there_is_nothing_to_say_where_nothing_is_near(source, bare):
     data = source.data
-    empty = Describer(data.gallery, data.palette, data.frame, bare, NOTHING_NAMED)
+    empty = Describer(data.gallery, data.palette, data.frame, bare, EMPTY_GAZETTEER)
     assert empty.describe(data.cells.center_m[0, :2]) is None
 
 
@@ -143,7 +143,7 @@ def test_the_street_and_what_has_a_name():
     at = np.array([215.0, 84.0])
     [street] = street_facts(town, at, 2)
     assert street.text == "I am at the corner of West 25th Street and 10th Avenue."
-    assert (street.instance, street.name, street.at) == (STREET, "West 25th Street", (215.0, 80.0))
+    assert (street.instance, street.name, street.at) == (STREET_KIND, "West 25th Street", (215.0, 80.0))
     facts = NamedSights(town).facts(at, SEEN_M)
     assert [fact.text for fact in facts] == ["Bottino is 8 m to my north.", "Chelsea Park is 29 m to my southeast."]
     assert (facts[0].at, facts[0].away_m, facts[0].bearing_deg) == ((215.0, 92.0), 8.0, 0.0)
@@ -170,7 +170,7 @@ def test_where_on_a_street(at, most_crossing, said):
 
 def named(*objects):
     """A gazetteer of (kind, name, segments)."""
-    words = [Words((kind,), (name,)) for kind, name, _ in objects]
+    words = [GazetteerObject((kind,), (name,)) for kind, name, _ in objects]
     return build_gazetteer(words, [shape for *_, shape in objects], [len(shape) > 1 for *_, shape in objects])
 
 
@@ -189,7 +189,7 @@ def test_a_name_is_told_once_and_never_that_of_a_street():
         ("amenity/cafe", "Elmo", point(0, 20)),
         ("amenity/pub", "ELMO", point(9, 0)),
         ("highway/bus_stop", "Main Street & Elm", point(0, 4)),
-        (STREET, "Main Street", line((-50, 2), (50, 2))[:1]),
+        (STREET_KIND, "Main Street", line((-50, 2), (50, 2))[:1]),
     )
     assert texts(town) == ["ELMO is 9 m to my east."]
 

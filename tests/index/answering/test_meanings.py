@@ -1,8 +1,8 @@
 import pytest
 
 from index.answering.meanings import PHRASES_FILE, VECTORS_FILE, Meanings, meanings_of
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.citymap.gazetteer.name_columns import Words
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
+from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
 from models.language.mentions.cue_reader import CueReader
@@ -22,7 +22,7 @@ THINGS = {
 
 @pytest.fixture(scope="module")
 def lookup() -> Lookup:
-    words = [Words(kinds, names) for kinds, names in THINGS.items()]
+    words = [GazetteerObject(kinds, names) for kinds, names in THINGS.items()]
     gazetteer = build_gazetteer(words, [point(100.0 * n, 0.0) for n in range(len(words))], [False] * len(words))
     return Lookup(gazetteer, load_vocabulary(), is_common)
 
@@ -104,5 +104,5 @@ def test_what_is_said_again_is_not_embedded_again(meanings, text_encoder, tmp_pa
 
 
 def test_a_map_without_names_means_nothing(text_encoder, tmp_path) -> None:
-    made(Lookup(NOTHING_NAMED, load_vocabulary(), is_common), text_encoder).save(tmp_path)
+    made(Lookup(EMPTY_GAZETTEER, load_vocabulary(), is_common), text_encoder).save(tmp_path)
     assert Meanings.load(tmp_path, text_encoder.embed).like("the baby shop") is None

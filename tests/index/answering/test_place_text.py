@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from index.answering.place_text import place_text
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from tests.models.citymap.gazetteer.made_town import line, made_gazetteer, point
 
 
@@ -49,32 +49,35 @@ def test_beside_a_named_thing(town, at, beside) -> None:
 
 def test_a_thing_without_a_street(town) -> None:
     text = place_text(
-        build_gazetteer([Words(("amenity/cafe",), ("Café Zoë",))], [point(0, 0)], [False]), np.array([0.0, 30.0])
+        build_gazetteer([GazetteerObject(("amenity/cafe",), ("Café Zoë",))], [point(0, 0)], [False]),
+        np.array([0.0, 30.0]),
     )
     assert text == "30 m north of Café Zoë"
 
 
 def test_what_is_large_is_beside_its_edge() -> None:
     corners = [(0.0, 0.0), (600.0, 0.0), (600.0, 600.0), (0.0, 600.0), (0.0, 0.0)]
-    park = build_gazetteer([Words(("leisure/park",), ("Great Park",))], [line(*corners)], [True])
+    park = build_gazetteer([GazetteerObject(("leisure/park",), ("Great Park",))], [line(*corners)], [True])
     assert place_text(park, np.array([300.0, -20.0])) == "20 m south of Great Park"
     assert place_text(park, np.array([300.0, -80.0])) is None
 
 
 def test_nothing_is_named_far_out_and_on_an_empty_map(town) -> None:
     assert place_text(town, np.array([9000.0, 9000.0])) is None
-    assert place_text(NOTHING_NAMED, np.zeros(2)) is None
+    assert place_text(EMPTY_GAZETTEER, np.zeros(2)) is None
 
 
 def test_things_without_names_are_not_told(town) -> None:
     nameless = build_gazetteer(
-        [Words(("amenity/bench",)), Words(("building",), (), "5", "Main")], [point(0, 0)] * 2, [False] * 2
+        [GazetteerObject(("amenity/bench",)), GazetteerObject(("building",), (), "5", "Main")],
+        [point(0, 0)] * 2,
+        [False] * 2,
     )
     assert place_text(nameless, np.zeros(2)) is None
 
 
 def test_the_nearest_street_is_told() -> None:
-    streets = [Words((STREET,), (name,)) for name in ("Main Street", "Side Road")]
+    streets = [GazetteerObject((STREET_KIND,), (name,)) for name in ("Main Street", "Side Road")]
     town = build_gazetteer(streets, [line((0, 0), (90, 0)), line((0, 20), (90, 20))], [False] * 2)
     assert place_text(town, np.array([40.0, 6.0])) == "on Main Street"
     assert place_text(town, np.array([40.0, 16.0])) == "on Side Road"

@@ -47,7 +47,7 @@ def posterior_model(text_encoder):
 def posterior(posterior_model, model, source):
     data = source.data
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
-    return PosteriorLocalizer.of_map(posterior_model, data, ranker, surroundings_of(source.bodies(), data.cells))
+    return PosteriorLocalizer.of_map(posterior_model, data, ranker, surroundings_of(source.geometry(), data.cells))
 
 
 @pytest.fixture(scope="module")

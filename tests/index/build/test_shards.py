@@ -14,7 +14,7 @@ from index.build.build import IndexJob
 from index.build.shard import Shard
 from index.build.shard_data import FILE, Part
 from index.build.shard_store import PARTS
-from models.citymap.cells import BLOCK
+from models.citymap.cells import CELLS_PER_BLOCK
 from models.errors import DataError, IndexBroken
 from models.files import TEMP_PREFIX
 from tests.index_facts import told
@@ -56,8 +56,8 @@ def rows_of(job, shard):
 
 
 def test_shards_give_the_bytes_of_the_whole(deep_index, job) -> None:
-    assert rows_of(job, FIRST) == [0, BLOCK]
-    assert rows_of(job, SECOND)[1] > rows_of(job, SECOND)[0] == BLOCK
+    assert rows_of(job, FIRST) == [0, CELLS_PER_BLOCK]
+    assert rows_of(job, SECOND)[1] > rows_of(job, SECOND)[0] == CELLS_PER_BLOCK
     version = job.merge(2)
     whole = told(deep_index)
     assert told(job.out_dir) == whole

@@ -10,7 +10,7 @@ from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate, grow, rescore
 from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.scoring import score
-from models.citymap.hints import hint_table
+from models.citymap.hints import build_hint_table
 from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS
 from models.errors import DataError
@@ -119,7 +119,7 @@ def test_another_scene_is_never_a_hit(run_dir) -> None:
 def test_a_query_far_from_every_cell_is_asked_and_missed(asked, vectors) -> None:
     data, queries = asked
     positions = queries.positions_m[:2] + np.array([[0, 0], [1e4, 0]])
-    own = Queries.of_text(queries.sentences[:2], positions, data.cells)
+    own = Queries.from_text(queries.sentences[:2], positions, data.cells)
     assert own.truth.tolist() == [queries.truth[0], -1]
     found = evaluate(data, own, vectors)
     assert found["queries_without_cell"] == 1
@@ -146,7 +146,7 @@ def test_exact_matching_against_a_naive_count(osm_file) -> None:
     data, queries = val.data, val.queries()
     assert queries.hints
     hints, truths = queries.hints[::9], queries.truth[::9]
-    table = hint_table(data.palette, data.cells.parts, data.cells.center_m)
+    table = build_hint_table(data.palette, data.cells.parts, data.cells.center_m)
     words = (*data.palette.words, None)
     true_at = [
         {

@@ -3,7 +3,7 @@ import json
 import pytest
 
 from index.evaluation.place_texts import evaluate_told, told_tables
-from models.sources.place_texts import ToldText
+from models.sources.place_texts import PlaceText
 
 
 @pytest.fixture
@@ -11,9 +11,9 @@ def texts(localizer):
     goals = [localizer.gallery.cells.center_m[n, :2] for n in (10, 200, 400)]
     where = [tuple(float(v) for v in localizer.frame.to_wgs84(goal)) for goal in goals]
     return [
-        ToldText("I'm on East Street 2, a bench on my left", where[0]),
-        ToldText("Meet me at the corner of East Street 1 and North Path 1, north of you", where[1], where[0]),
-        ToldText("hello", where[2]),
+        PlaceText("I'm on East Street 2, a bench on my left", where[0]),
+        PlaceText("Meet me at the corner of East Street 1 and North Path 1, north of you", where[1], where[0]),
+        PlaceText("hello", where[2]),
     ]
 
 

@@ -13,7 +13,7 @@ LABELS = ("tree", "bench", "bollard", "building")
 
 @pytest.fixture(scope="module")
 def truth(source):
-    return Truth(source.bodies(), source.data.gallery, source.data.palette, source.gazetteer())
+    return Truth(source.geometry(), source.data.gallery, source.data.palette, source.gazetteer())
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def in_town(source, monkeypatch):
     """(x, y, seed) -> a person in the made-up town of names who errs in nothing."""
     for name in ("WRONG", "DO_NOT_KNOW", "IDEAS"):
         monkeypatch.setattr(measured, name, 0.0)
-    town = Truth(source.bodies(), source.data.gallery, source.data.palette, made_gazetteer())
+    town = Truth(source.geometry(), source.data.gallery, source.data.palette, made_gazetteer())
     return lambda x, y, seed=0: Person(town, 0, np.array([x, y]), np.random.default_rng(seed))
 
 

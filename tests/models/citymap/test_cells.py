@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from sklearn.cluster import DBSCAN
 
-from models.citymap.cells import cut_cube, cut_cubes, grid_centers
-from models.citymap.map_geometry import bodies_of, cut_cells
+from models.citymap.cells import cut_cubes, cut_parts, grid_centers
+from models.citymap.map_geometry import build_geometry, cut_cells
 from models.citymap.points import PointTable
 from models.citymap.types import CityMap, CutRules, Instance
 from models.errors import MapError
@@ -31,7 +31,7 @@ def test_cutting_equals_the_rules_read_literally(scan, points, n) -> None:
     center = np.random.default_rng(n).uniform(-140, 140, 3) * [1, 1, 0]
     mine = [
         (int(points.instance[rows[0]]), frozenset((rows - points.starts[points.instance[rows[0]]]).tolist()))
-        for rows in cut_cube(points, center, scan.rules)
+        for rows in cut_parts(points, center, scan.rules)
     ]
     assert sorted(mine, key=repr) == sorted(naive_parts(scan, center), key=repr)
     assert len(mine) > 3
@@ -49,11 +49,11 @@ def ragged_city(seed: int) -> CityMap:
 @pytest.mark.parametrize("seed", range(6))
 def test_ragged_stuff_is_split_as_scikit_learn_does(seed) -> None:
     city = ragged_city(seed)
-    points = PointTable.of(city, city.rules.eps_m)
+    points = PointTable.from_map(city, city.rules.eps_m)
     center = np.array([13.0, 12.0, 0.0])  # most of the clouds are outside
     mine = [
         (int(points.instance[rows[0]]), frozenset((rows - points.starts[points.instance[rows[0]]]).tolist()))
-        for rows in cut_cube(points, center, city.rules)
+        for rows in cut_parts(points, center, city.rules)
     ]
     assert mine == naive_parts(city, center)
 
@@ -61,7 +61,7 @@ def test_ragged_stuff_is_split_as_scikit_learn_does(seed) -> None:
 def test_the_summary_of_parts(scan, points) -> None:
     center = np.array([[7.0, -12.0, 0.0]])
     parts = cut_cubes(points, center, scan.rules)
-    members_of = cut_cube(points, center[0], scan.rules)
+    members_of = cut_parts(points, center[0], scan.rules)
     assert len(members_of) == len(parts.instance) > 3
     for row, members in zip(np.argsort(parts.instance, kind="stable"), members_of, strict=True):
         xyz = points.xyz[members]
@@ -75,7 +75,7 @@ def test_the_summary_of_parts(scan, points) -> None:
 def test_processes_give_what_one_gives(scan, points, monkeypatch) -> None:
     centers = grid_centers(scan.locations_m, scan.rules)
     many = cut_cubes(points, centers, scan.rules)
-    monkeypatch.setattr("models.citymap.cells.CHUNK", 10**6)
+    monkeypatch.setattr("models.citymap.cells.CUBES_PER_TASK", 10**6)
     one = cut_cubes(points, centers, scan.rules)
     for name in ("starts", "instance", "count", "low_m", "closest_m", "rgb"):
         assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)
@@ -86,9 +86,9 @@ def test_colours_of_points_are_averaged_over_the_part() -> None:
     city = ragged_city(0)
     clouds = tuple(Instance(i.id, i.label, i.points_m, rgb) for i in city.instances[:1])
     city = CityMap("c", clouds, city.stuff, city.locations_m, rules=city.rules)
-    points = PointTable.of(city, 0.75)
+    points = PointTable.from_map(city, 0.75)
     parts = cut_cubes(points, np.zeros((1, 3)), city.rules)
-    members = cut_cube(points, np.zeros(3), city.rules)
+    members = cut_parts(points, np.zeros(3), city.rules)
     assert parts.rgb[0] == pytest.approx(rgb[members[0]].mean(axis=0), abs=1e-5)
 
 
@@ -101,7 +101,7 @@ def test_the_grid_is_regular_and_within_reach(city) -> None:
 
 def test_a_grid_is_the_same_however_much_of_it_is_looked_at_together(city, monkeypatch) -> None:
     whole = grid_centers(city.locations_m, city.rules)
-    monkeypatch.setattr("models.citymap.cells.AT_ONCE", 7)
+    monkeypatch.setattr("models.citymap.cells.GRID_POINTS_PER_BLOCK", 7)
     assert np.array_equal(grid_centers(city.locations_m, city.rules), whole)
 
 
@@ -134,4 +134,4 @@ def test_a_map_too_poor_for_cells_says_so() -> None:
     city = ragged_city(0)
     poor = CityMap("poor", city.instances[:2], city.stuff, city.locations_m)
     with pytest.raises(MapError, match="has 6 instances"):
-        cut_cells(poor, bodies_of(poor))
+        cut_cells(poor, build_geometry(poor))

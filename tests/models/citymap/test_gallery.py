@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from models.citymap.gallery import CELLS_FILE, NAMES_FILE, Gallery, Numbered
+from models.citymap.gallery import CELLS_FILE, NAMES_FILE, Gallery, NumberedCellIds
 from models.errors import IndexBroken
 
 
@@ -17,7 +17,7 @@ def test_a_gallery_comes_back(source, tmp_path) -> None:
 
 
 def test_numbered_names_are_found_without_a_list_of_them() -> None:
-    names = Numbered("town", 100_002)
+    names = NumberedCellIds("town", 100_002)
     assert (len(names), names[7], names[-1], names[1:3]) == (
         100_002,
         "town_00007",
@@ -40,9 +40,9 @@ def test_numbered_names_are_found_without_a_list_of_them() -> None:
             names.index(name)
     with pytest.raises(IndexError):
         names[100_002]
-    assert Numbered("town", 2) == ("town_00000", "town_00001") == Numbered("town", 2)
-    assert Numbered("town", 2) != Numbered("town", 3)
-    assert Numbered("town", 2) != ("town_00000", "town_00002")
+    assert NumberedCellIds("town", 2) == ("town_00000", "town_00001") == NumberedCellIds("town", 2)
+    assert NumberedCellIds("town", 2) != NumberedCellIds("town", 3)
+    assert NumberedCellIds("town", 2) != ("town_00000", "town_00002")
 
 
 def test_names_that_are_no_numbers_of_one_scene_come_back_too(source, tmp_path) -> None:

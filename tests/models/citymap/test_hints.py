@@ -2,7 +2,14 @@ import numpy as np
 import pytest
 import shapely
 
-from models.citymap.hints import STRATEGIES, choose_hints, describe_poses, direction_index, hint_table, sample_positions
+from models.citymap.hints import (
+    STRATEGIES,
+    build_hint_table,
+    choose_hints,
+    describe_poses,
+    direction_index,
+    sample_positions,
+)
 from models.citymap.regions import split_regions
 from models.citymap.types import DIRECTIONS
 
@@ -69,7 +76,7 @@ def test_descriptions_of_a_position_differ(poses) -> None:
 
 def test_strategies_against_a_naive_round_robin(city, bodies) -> None:
     positions = sample_positions(city.locations_m, 60.0, np.random.default_rng(1))
-    table = hint_table(city.palette, bodies.cut(positions), positions)
+    table = build_hint_table(city.palette, bodies.cut(positions), positions)
     labels = np.unique([i.label for i in city.instances], return_inverse=True)[1]
     assert table.distance_m.max() <= 15
     for n in range(len(positions)):

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import cdist
 
-from models.citymap.points import PointTable, corners, first_in_voxel
+from models.citymap.points import PointTable, bounding_corners, first_in_voxel
 from models.citymap.types import CityMap, Instance
 
 
@@ -17,7 +17,7 @@ def test_the_first_point_of_a_voxel_stays(seed) -> None:
 
 def test_corners_are_the_lowest_and_the_highest_of_each_column() -> None:
     points = np.random.default_rng(0).normal(size=(50, 3)).astype(np.float32)
-    low, high = corners(points)
+    low, high = bounding_corners(points)
     assert np.array_equal(low, points.min(axis=0))
     assert np.array_equal(high, points.max(axis=0))
 
@@ -28,8 +28,8 @@ def test_neighbours_do_not_depend_on_how_many_are_found_at_once(monkeypatch, blo
     labels = ["road", "pole", "road", "wall"]
     clouds = [(rng.normal(size=(500, 3)) * [3, 3, 0.3]).astype(np.float32) for _ in labels]
     instances = tuple(Instance(n, label, cloud) for n, (label, cloud) in enumerate(zip(labels, clouds, strict=True)))
-    monkeypatch.setattr("models.citymap.points.PAIR_BLOCK", block)
-    points = PointTable.of(CityMap("clouds", instances, frozenset({"road", "wall"}), np.zeros((1, 3))), 0.75)
+    monkeypatch.setattr("models.citymap.points.POINTS_PER_PAIR_BLOCK", block)
+    points = PointTable.from_map(CityMap("clouds", instances, frozenset({"road", "wall"}), np.zeros((1, 3))), 0.75)
     source = np.repeat(np.arange(len(points.xyz)), np.diff(points.pair_starts))
     stuff = np.flatnonzero(points.is_stuff[points.instance])
     near = cdist(points.xyz[stuff], points.xyz[stuff]) <= 0.75

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from models.citymap.point_sample import NUM_POINTS, sample_points
+from models.citymap.point_sample import POINTS_PER_PART, sample_points
 from models.errors import WeightsError
 from models.paper.instance_encoder import DEFAULT_INPUTS, CellFeatures
 from models.paper.level_table import LevelTable, encode_gallery
@@ -14,7 +14,7 @@ from models.paper.point_encoder import POINT_WIDTH, PointEncoder, farthest_point
 
 @pytest.fixture(scope="module")
 def clouds():
-    return torch.randn(3, NUM_POINTS, 6, generator=torch.Generator().manual_seed(0)) / 3
+    return torch.randn(3, POINTS_PER_PART, 6, generator=torch.Generator().manual_seed(0)) / 3
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +44,7 @@ def test_a_ball_holds_the_nearest_within_its_radius(clouds) -> None:
 def test_features_do_not_depend_on_the_order_of_the_points(clouds) -> None:
     torch.manual_seed(0)
     encoder = PointEncoder()
-    order = torch.cat([torch.zeros(1, dtype=torch.long), 1 + torch.randperm(NUM_POINTS - 1)])
+    order = torch.cat([torch.zeros(1, dtype=torch.long), 1 + torch.randperm(POINTS_PER_PART - 1)])
     with torch.inference_mode():
         seen, again = encoder(clouds), encoder(clouds[:, order])
     assert seen.shape == (3, POINT_WIDTH)
@@ -62,7 +62,7 @@ def test_a_sample_is_a_shape_whatever_the_unit() -> None:
     rng = np.random.default_rng(0)
     xyz, rgb = rng.normal(size=(40, 3)), np.full((40, 3), np.nan)
     found = sample_points(xyz, rgb)
-    assert found.shape == (NUM_POINTS, 6)
+    assert found.shape == (POINTS_PER_PART, 6)
     assert np.linalg.norm(found[:, :3], axis=1).max() == pytest.approx(1, abs=1e-6)
     assert (found[:, 3:] == -1).all()
     assert np.allclose(found, sample_points(xyz * 30 + 100, rgb), atol=1e-5)
@@ -78,7 +78,7 @@ def test_samples_belong_to_their_parts(city, cells) -> None:
     assert len(found) == len(parts.count)
     extent = found[..., :3].max(axis=1) - found[..., :3].min(axis=1)
     size = parts.high_m - parts.low_m
-    whole = parts.count <= NUM_POINTS  # all of their points are in the sample
+    whole = parts.count <= POINTS_PER_PART  # all of their points are in the sample
     assert whole.any()
     known = ~np.isnan(parts.rgb).any(axis=1)
     assert ((found[..., 3:] >= 0).all(axis=(1, 2)) == known).all()

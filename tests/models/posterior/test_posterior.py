@@ -12,7 +12,7 @@ from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
 from models.posterior.node_batch import colour_words
 from models.posterior.posterior import HintPosterior
-from models.sources.source import CHOSEN_BY
+from models.sources.source import VALIDATION_SEED
 from models.training.posterior.fit_likelihood import Texts, around_cells, fit_likelihood, surprise
 from models.training.posterior.training_sites import Place
 
@@ -47,7 +47,7 @@ def town(source) -> Town:
 
 
 def test_a_map_is_told_of_as_it_is_and_as_a_scan_shows_it(town, source) -> None:
-    told = [each.queries(CHOSEN_BY, 25.0) for each in (source, source.as_scan())]
+    told = [each.queries(VALIDATION_SEED, 25.0) for each in (source, source.as_scan())]
     assert town.place.hints == [hints for queries in told for hints in queries.hints]
 
 

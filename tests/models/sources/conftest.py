@@ -17,7 +17,7 @@ from models.sources.kitti360 import job as kitti360_job
 from models.sources.kitti360.job import prepare_data
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.kitti360pose.files import Scene, save_scene
-from models.sources.kitti360pose.pickle_values import RECORD_MODULE, RECORDS, Record
+from models.sources.kitti360pose.pickle_values import RECORD_CLASSES, RECORD_MODULE, PickledRecord
 from models.sources.kitti360pose.pickle_writer import write_records
 from models.sources.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 from models.sources.store.pose_store import PoseStore
@@ -37,7 +37,7 @@ class Anything:
 
 def oracle(data: bytes, names: set[tuple[str, str]] | None = None):
     """A plain unpickle that trusts its input, to compare with."""
-    kinds = {kind: type(kind, (Anything,), {}) for kind in RECORDS}
+    kinds = {kind: type(kind, (Anything,), {}) for kind in RECORD_CLASSES}
 
     class Permissive(pickle.Unpickler):
         def find_class(self, module: str, name: str):
@@ -146,7 +146,7 @@ def root(tmp_path: Path) -> Path:
     return tmp_path / "data"
 
 
-def dump(path: Path, records: list[Record]) -> Path:
+def dump(path: Path, records: list[PickledRecord]) -> Path:
     with path.open("wb") as file:
         write_records(file, records)
     return path
@@ -156,7 +156,7 @@ def reference_pickle(cell: PublishedCell, protocol: int) -> bytes:
     """A cell as the reference package pickles it: its classes, numpy scalars, arrays in any order of bytes and axes."""
     names = ["datapreparation", "datapreparation.kitti360pose", RECORD_MODULE]
     modules = {name: types.ModuleType(name) for name in names}
-    kinds = {kind: type(kind, (), {"__module__": RECORD_MODULE}) for kind in RECORDS}
+    kinds = {kind: type(kind, (), {"__module__": RECORD_MODULE}) for kind in RECORD_CLASSES}
     modules[RECORD_MODULE].__dict__.update(kinds)
 
     def made(kind: str, source: object, **changes: object):

@@ -4,7 +4,7 @@ import json
 import pytest
 
 from models.errors import DataError
-from models.sources.place_texts import ToldText, load_told_texts
+from models.sources.place_texts import PlaceText, load_place_texts
 
 ROWS = [
     {"text": "At 25th and 10th", "goal": [40.75, -74.0], "start": [40.76, -73.99], "id": 5},
@@ -12,9 +12,9 @@ ROWS = [
     {"text": "北京", "goal": [-90.0, -180.0], "start": None},
 ]
 EXPECTED = [
-    ToldText("At 25th and 10th", (40.75, -74.0), (40.76, -73.99)),
-    ToldText("Кафе Пушкин", (0.0, 180.0)),
-    ToldText("北京", (-90.0, -180.0)),
+    PlaceText("At 25th and 10th", (40.75, -74.0), (40.76, -73.99)),
+    PlaceText("Кафе Пушкин", (0.0, 180.0)),
+    PlaceText("北京", (-90.0, -180.0)),
 ]
 GOOD = json.dumps(ROWS[0])
 
@@ -27,13 +27,13 @@ def test_texts_are_read_from_plain_and_packed_files(tmp_path) -> None:
     plain, packed = tmp_path / "texts.jsonl", tmp_path / "texts.jsonl.gz"
     plain.write_bytes(lines(*ROWS))
     packed.write_bytes(gzip.compress(lines(*ROWS)))
-    assert load_told_texts(plain) == load_told_texts(packed) == EXPECTED
+    assert load_place_texts(plain) == load_place_texts(packed) == EXPECTED
 
 
 def test_blank_lines_are_left_out(tmp_path) -> None:
     path = tmp_path / "texts.jsonl"
     path.write_bytes(b"\n" + lines(ROWS[0]) + b"\r\n\n  \n" + lines(ROWS[1]) + b"\n")
-    assert load_told_texts(path) == EXPECTED[:2]
+    assert load_place_texts(path) == EXPECTED[:2]
 
 
 @pytest.mark.parametrize(
@@ -66,7 +66,7 @@ def test_a_wrong_line_is_named_by_its_number(tmp_path, line) -> None:
     path = tmp_path / "texts.jsonl"
     path.write_text(f"{GOOD}\n\n{line}\n{GOOD}\n")
     with pytest.raises(DataError, match=r"texts\.jsonl, line 3: .*'goal'"):
-        load_told_texts(path)
+        load_place_texts(path)
 
 
 @pytest.mark.parametrize("content", [b"", b"\n\n  \n"])
@@ -74,7 +74,7 @@ def test_a_file_without_texts_is_refused(tmp_path, content) -> None:
     for name, packed in (("a.jsonl", content), ("a.jsonl.gz", gzip.compress(content))):
         (tmp_path / name).write_bytes(packed)
         with pytest.raises(DataError, match="no texts"):
-            load_told_texts(tmp_path / name)
+            load_place_texts(tmp_path / name)
 
 
 def flipped(packed: bytes) -> bytes:
@@ -96,9 +96,9 @@ def test_files_that_cannot_be_read_are_refused(tmp_path, name, content) -> None:
     if content is not None:
         (tmp_path / name).write_bytes(content)
     with pytest.raises(DataError, match="cannot be read"):
-        load_told_texts(tmp_path / name)
+        load_place_texts(tmp_path / name)
 
 
 def test_a_folder_is_no_file(tmp_path) -> None:
     with pytest.raises(DataError):
-        load_told_texts(tmp_path)
+        load_place_texts(tmp_path)

@@ -6,7 +6,7 @@ import pytest
 from models.citymap.queries import Queries
 from models.errors import DataError, MapError
 from models.sources.kitti360.job import prepare_data
-from models.sources.source import CHOSEN_BY, VOXEL_M, MapSource, open_source, open_sources
+from models.sources.source import VALIDATION_SEED, VOXEL_M, MapSource, open_source, open_sources
 from models.sources.store.files import convert
 from tests.models.sources.raw_scenes import write_town
 
@@ -40,16 +40,16 @@ def test_queries_are_true_and_in_their_region(source, regions) -> None:
         assert (away.argmin(axis=1) == queries.truth).all()
         west, east = part.facts["regions"][part.data.split]
         assert ((queries.positions_m[:, 0] >= west) & (queries.positions_m[:, 0] < east)).all()
-    chosen_by = source.queries(CHOSEN_BY).positions_m
+    chosen_by = source.queries(VALIDATION_SEED).positions_m
     assert not np.array_equal(chosen_by[:9], whole.positions_m[:9]), "not what it is measured at"
 
 
 def test_as_a_scan_shows_it_a_map_is_told_of_with_other_winds(source, prepared) -> None:
-    known, seen = (each.queries(CHOSEN_BY) for each in (source, source.as_scan()))
+    known, seen = (each.queries(VALIDATION_SEED) for each in (source, source.as_scan()))
     alike = _nearest_told(known)
     differ = [said != alike[xy] for xy, said in _nearest_told(seen).items() if xy in alike]
     assert 0.02 < np.mean(differ) < 0.5
-    both = Queries.joined([known, seen])
+    both = Queries.concatenate([known, seen])
     assert len(both) == len(known) + len(seen)
     assert both.take(np.array([len(known)])).hints == seen.take(np.array([0])).hints
     data = open_source(prepared)
@@ -81,7 +81,7 @@ def test_a_scan_looks_like_its_points(prepared) -> None:
     source = open_source(prepared)
     (part,) = (part.tensors for part in source.scenery(source.gazetteer()))
     xyz = part["steps"].cumsum(axis=0) / 10
-    bodies = source.bodies().xyz
+    bodies = source.geometry().xyz
     assert 0.5 * len(bodies) < len(xyz) <= len(bodies) + 1, "one point a cube, whatever cells it is in"
     assert np.abs(xyz.min(axis=0) - bodies.min(axis=0)).max() < VOXEL_M
     assert part["rgb"].std() > 0
@@ -91,7 +91,7 @@ def test_scenes_without_poses_can_be_indexed_but_not_asked(prepared, tmp_path) -
     (tmp_path / "cells").symlink_to(prepared / "cells")
     cells_only = open_source(tmp_path)
     assert len(cells_only.data.cells)
-    assert len(cells_only.bodies().scene)
+    assert len(cells_only.geometry().scene)
     for ask in (cells_only.queries, lambda: cells_only.statements(10.0, np.random.default_rng(0))):
         with pytest.raises(DataError, match=rf"has no poses/{SCENE}\.pkl, only cells; add it"):
             ask()

@@ -4,7 +4,7 @@ import torch
 
 from models.paper.checkpoint import METHODS
 from models.paper.retriever import Retriever
-from models.sources.source import CHOSEN_BY
+from models.sources.source import VALIDATION_SEED
 from models.training.validation import Encoded, Validation, calibrate, most_likely
 
 
@@ -51,14 +51,14 @@ def test_the_global_level_has_a_temperature_of_its_own(model, region_queries, mo
 
 @pytest.fixture(scope="module")
 def region_queries(source, model):
-    return Validation(source.data.gallery, source.queries(CHOSEN_BY, 40.0), model)
+    return Validation(source.data.gallery, source.queries(VALIDATION_SEED, 40.0), model)
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_many_texts_at_a_time_get_the_scores_of_each_alone(source, text_encoder, method, monkeypatch) -> None:
     torch.manual_seed(0)
     retriever = METHODS[method](text_encoder, METHODS[method].config_type(width=32)).eval()
-    asked = Validation(source.data.gallery, source.queries(CHOSEN_BY, 40.0), retriever)
+    asked = Validation(source.data.gallery, source.queries(VALIDATION_SEED, 40.0), retriever)
     rng = np.random.default_rng(0)
     texts = [list(hints)[: int(rng.integers(1, 7))] for hints in asked.descriptions]
     gallery, recall = Encoded(retriever, asked.features), asked.recall(retriever)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from models.citymap.gazetteer.gazetteer import ADDRESS, Gazetteer, build_gazetteer
-from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, Gazetteer, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 
 EAST_WEST = {"West 24th Street": 0.0, "West 25th Street": 80.0, "West 26th Street": 160.0}
 NORTH_SOUTH = {"11th Avenue": 0.0, "10th Avenue": 200.0, "9th Avenue": 400.0}
@@ -47,23 +47,27 @@ def made_gazetteer() -> Gazetteer:
     """The town."""
     words, segments, is_area = [], [], []
 
-    def add(some: Words, shape: np.ndarray, area: bool = False) -> int:
+    def add(some: GazetteerObject, shape: np.ndarray, area: bool = False) -> int:
         words.append(some)
         segments.append(shape)
         is_area.append(area)
         return len(words) - 1
 
     for name, (at, kinds) in POINTS.items():
-        add(Words(kinds, (name,)), point(*at))
-    add(Words(("leisure/park",), ("Chelsea Park",)), ring(*PARK), True)
-    add(Words(("shop/supermarket", "shop"), ("Whole Foods Market", "Whole Foods")), ring(*MARKET), True)
+        add(GazetteerObject(kinds, (name,)), point(*at))
+    add(GazetteerObject(("leisure/park",), ("Chelsea Park",)), ring(*PARK), True)
+    add(GazetteerObject(("shop/supermarket", "shop"), ("Whole Foods Market", "Whole Foods")), ring(*MARKET), True)
     for number, at in NUMBERS.items():
-        add(Words((ADDRESS,), (), number, "West 25th Street"), point(*at))
+        add(GazetteerObject((ADDRESS_KIND,), (), number, "West 25th Street"), point(*at))
     for at in BENCHES:
-        add(Words(("amenity/bench",)), point(*at))
-    rows = {name: add(Words((STREET,), (name,)), line((-50, y), (450, y))) for name, y in EAST_WEST.items()}
-    columns = {name: add(Words((STREET,), (name,)), line((x, -50), (x, 210))) for name, x in NORTH_SOUTH.items()}
-    add(Words((STREET,), ("Harlem Road",)), line((-50, HARLEM_ROAD_Y), (450, HARLEM_ROAD_Y)))
+        add(GazetteerObject(("amenity/bench",)), point(*at))
+    rows = {
+        name: add(GazetteerObject((STREET_KIND,), (name,)), line((-50, y), (450, y))) for name, y in EAST_WEST.items()
+    }
+    columns = {
+        name: add(GazetteerObject((STREET_KIND,), (name,)), line((x, -50), (x, 210))) for name, x in NORTH_SOUTH.items()
+    }
+    add(GazetteerObject((STREET_KIND,), ("Harlem Road",)), line((-50, HARLEM_ROAD_Y), (450, HARLEM_ROAD_Y)))
     pairs = [(row, column) for row in rows.values() for column in columns.values()]
     places = [(x, y) for y in EAST_WEST.values() for x in NORTH_SOUTH.values()]
     corners = (np.array(pairs, dtype=np.int64), np.array(places, dtype=np.float32))
@@ -72,12 +76,12 @@ def made_gazetteer() -> Gazetteer:
 
 def numbered(gazetteer: Gazetteer, name: str) -> int:
     """The object of a name or, without one of that name, of a house number."""
-    return next(n for n, words in enumerate(gazetteer.words) if name in (*words.names, words.number))
+    return next(n for n, words in enumerate(gazetteer.objects) if name in (*words.names, words.number))
 
 
 def called(gazetteer: Gazetteer, objects: np.ndarray) -> set[str]:
     """What some objects are called."""
-    of = [gazetteer.words[n] for n in objects]
+    of = [gazetteer.objects[n] for n in objects]
     return {words.names[0] if words.names else words.number or words.kinds[0] for words in of}
 
 

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import shapely
 
-from models.citymap.gazetteer.closest_points import Around, cut, ways_to
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, Gazetteer, build_gazetteer
-from models.citymap.gazetteer.name_columns import Words
+from models.citymap.gazetteer.closest_points import PointGroups, find_closest_points, select_objects
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer, build_gazetteer
+from models.citymap.gazetteer.name_columns import GazetteerObject
 from tests.models.citymap.gazetteer.made_town import line, point, ring
 
 BOX = ring(10, 10, 30, 20)
@@ -14,9 +14,9 @@ FAR = 1e4
 
 def way(shape: np.ndarray, at: tuple[float, float], area: bool = False, reach: float = FAR) -> list[float] | None:
     """The way from a position to one object."""
-    around = Around.of(np.array([at], dtype=float), np.zeros(1, np.int64))
-    found = ways_to(around, shape, np.array([0, len(shape)]), np.array([area]), reach)
-    return found.way_m[0].tolist() if len(found.item) else None
+    around = PointGroups.from_groups(np.array([at], dtype=float), np.zeros(1, np.int64))
+    found = find_closest_points(around, shape, np.array([0, len(shape)]), np.array([area]), reach)
+    return found.offset_m[0].tolist() if len(found.target) else None
 
 
 @pytest.mark.parametrize(
@@ -48,11 +48,15 @@ def test_what_is_beyond_reach_is_left_out() -> None:
 
 def test_an_area_is_no_way_off_for_those_inside_only_of_a_wide_group() -> None:
     points = np.array([(-300.0, 0.0), (0.0, 0.0), (300.0, 0.0)])
-    found = ways_to(
-        Around.of(points, np.zeros(3, np.int64)), ring(-200, -9, 200, 9), np.array([0, 4]), np.array([True]), 150
+    found = find_closest_points(
+        PointGroups.from_groups(points, np.zeros(3, np.int64)),
+        ring(-200, -9, 200, 9),
+        np.array([0, 4]),
+        np.array([True]),
+        150,
     )
     assert found.point.tolist() == [0, 1, 2]
-    assert found.way_m == pytest.approx(np.array([(100, 0), (0, 0), (-100, 0)]))
+    assert found.offset_m == pytest.approx(np.array([(100, 0), (0, 0), (-100, 0)]))
 
 
 def random_town(rng: np.random.Generator) -> tuple[Gazetteer, list[shapely.Geometry]]:
@@ -75,7 +79,7 @@ def random_town(rng: np.random.Generator) -> tuple[Gazetteer, list[shapely.Geome
             shapes.append(shapely.Polygon(outer))
             segments.append(line(*outer, outer[0]))
         is_area.append(n % 3 == 2)
-    return build_gazetteer([Words(("x",))] * len(shapes), segments, is_area), shapes
+    return build_gazetteer([GazetteerObject(("x",))] * len(shapes), segments, is_area), shapes
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -86,28 +90,30 @@ def test_ways_are_those_of_shapely(seed, groups) -> None:
     points = rng.uniform(-100, 700, (80, 2))
     group = np.sort(rng.integers(groups, size=80))
     objects = rng.permutation(len(town))[:40]
-    found = ways_to(Around.of(points, group), *cut(town, objects), 120.0)
+    found = find_closest_points(PointGroups.from_groups(points, group), *select_objects(town, objects), 120.0)
     truth = np.array([[shapely.distance(shapes[o], at) for o in objects] for at in shapely.points(points)])
     measured = np.full(truth.shape, np.inf)
-    measured[found.point, found.item] = found.metres
-    assert len(found.item) == len(set(zip(found.point.tolist(), found.item.tolist(), strict=True))), "each pair once"
+    measured[found.point, found.target] = found.distance_m
+    assert len(found.target) == len(set(zip(found.point.tolist(), found.target.tolist(), strict=True))), (
+        "each pair once"
+    )
     assert np.allclose(np.where(truth <= 119.99, truth, 0), np.where(truth <= 119.99, measured, 0), atol=1e-3)
     assert np.isinf(measured[truth > 120.01]).all()
-    ends = points[found.point] + found.way_m
-    off = [shapely.distance(shapes[objects[o]], shapely.Point(at)) for o, at in zip(found.item, ends, strict=True)]
+    ends = points[found.point] + found.offset_m
+    off = [shapely.distance(shapes[objects[o]], shapely.Point(at)) for o, at in zip(found.target, ends, strict=True)]
     assert np.max(off) < 1e-3, "a way ends at the object"
 
 
 def test_no_objects_and_no_points_have_no_ways() -> None:
-    around = Around.of(np.zeros((1, 2)), np.zeros(1, np.int64))
-    assert not len(ways_to(around, *cut(NOTHING_NAMED, np.zeros(0, np.int64)), FAR).item)
-    town = build_gazetteer([Words(("x",))], [point(0, 0)], [False])
-    assert not len(ways_to(around, *cut(town, np.zeros(0, np.int64)), FAR).item)
+    around = PointGroups.from_groups(np.zeros((1, 2)), np.zeros(1, np.int64))
+    assert not len(find_closest_points(around, *select_objects(EMPTY_GAZETTEER, np.zeros(0, np.int64)), FAR).target)
+    town = build_gazetteer([GazetteerObject(("x",))], [point(0, 0)], [False])
+    assert not len(find_closest_points(around, *select_objects(town, np.zeros(0, np.int64)), FAR).target)
 
 
 def test_groups_hold_their_points() -> None:
     points = np.array([(0.0, 0.0), (6.0, 8.0), (100.0, 0.0), (50.0, 50.0), (50.0, 51.0)])
-    around = Around.of(points, np.array([0, 0, 3, 5, 5]))
+    around = PointGroups.from_groups(points, np.array([0, 0, 3, 5, 5]))
     assert around.starts.tolist() == [0, 2, 3, 5]
     assert around.centers_m.tolist() == [[3, 4], [100, 0], [50, 50.5]]
     assert around.radius_m == 5.0

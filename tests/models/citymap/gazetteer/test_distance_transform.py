@@ -5,11 +5,11 @@ import pytest
 from scipy.ndimage import distance_transform_edt
 
 from models.citymap.gazetteer.distance_transform import (
-    MOST_REACH,
-    MOST_SQUARED,
-    columns_away,
-    pixels_away,
-    squares_away,
+    MAX_REACH_PX,
+    MAX_SQUARED_REACH_PX,
+    column_distances,
+    pixel_distances,
+    squared_distances,
 )
 
 
@@ -21,26 +21,26 @@ def test_distances_of_pixels_are_those_of_a_distance_transform(drawn) -> None:
     empty.ravel()[pixels] = False
     truth = distance_transform_edt(empty).ravel() if drawn else np.full(empty.size, np.inf)
     asked = rng.permutation(empty.size)[:900]
-    found = pixels_away(columns_away(pixels, shape, reach), asked, reach)
+    found = pixel_distances(column_distances(pixels, shape, reach), asked, reach)
     near = truth[asked] <= reach
     assert found[near] == pytest.approx(truth[asked][near])
     assert np.isinf(found[~near]).all()
-    squares = squares_away(columns_away(pixels, shape, reach), reach).ravel()
+    squares = squared_distances(column_distances(pixels, shape, reach), reach).ravel()
     near = truth <= reach
     assert squares[near].tolist() == np.round(truth[near] ** 2).tolist()
     assert (squares[~near] > reach**2).all()
 
 
 def test_the_largest_reach_does_not_overflow() -> None:
-    away = columns_away(np.array([0]), (600, 2), MOST_REACH)
-    found = pixels_away(away, np.array([0, 2 * MOST_REACH, 2 * (MOST_REACH + 1), 2 * 599]), MOST_REACH)
-    assert found.tolist() == [0, MOST_REACH, np.inf, np.inf]
-    squares = squares_away(columns_away(np.array([0]), (600, 400), MOST_SQUARED), MOST_SQUARED)
-    assert squares[[0, MOST_SQUARED, 0, 3], [0, 0, MOST_SQUARED, 4]].tolist() == [
+    away = column_distances(np.array([0]), (600, 2), MAX_REACH_PX)
+    found = pixel_distances(away, np.array([0, 2 * MAX_REACH_PX, 2 * (MAX_REACH_PX + 1), 2 * 599]), MAX_REACH_PX)
+    assert found.tolist() == [0, MAX_REACH_PX, np.inf, np.inf]
+    squares = squared_distances(column_distances(np.array([0]), (600, 400), MAX_SQUARED_REACH_PX), MAX_SQUARED_REACH_PX)
+    assert squares[[0, MAX_SQUARED_REACH_PX, 0, 3], [0, 0, MAX_SQUARED_REACH_PX, 4]].tolist() == [
         0,
-        MOST_SQUARED**2,
-        MOST_SQUARED**2,
+        MAX_SQUARED_REACH_PX**2,
+        MAX_SQUARED_REACH_PX**2,
         25,
     ]
-    assert (squares[MOST_SQUARED + 1 :] > MOST_SQUARED**2).all()
-    assert (squares[:, MOST_SQUARED + 1 :] > MOST_SQUARED**2).all()
+    assert (squares[MAX_SQUARED_REACH_PX + 1 :] > MAX_SQUARED_REACH_PX**2).all()
+    assert (squares[:, MAX_SQUARED_REACH_PX + 1 :] > MAX_SQUARED_REACH_PX**2).all()

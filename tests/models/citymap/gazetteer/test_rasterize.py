@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from models.citymap.gazetteer.closest_points import is_inside
-from models.citymap.gazetteer.rasterize import Grid, draw_areas, draw_lines, pixels_of
+from models.citymap.gazetteer.rasterize import PixelGrid, draw_areas, draw_lines, pixels_at
 from tests.models.citymap.gazetteer.made_town import line, point
 
-GRID = Grid(100.0, -50.0, 10.0, 3, 4)
-FINE = Grid(-40.0, -40.0, 0.5, 161, 161)
+GRID = PixelGrid(100.0, -50.0, 10.0, 3, 4)
+FINE = PixelGrid(-40.0, -40.0, 0.5, 161, 161)
 
 
 def test_points_fall_on_the_nearest_pixel_or_outside() -> None:
     points = np.array([(100, -50), (104.9, -50), (105.1, -50), (124.9, -15.1), (94.9, -50), (125.1, -20), (100, -14.9)])
-    assert pixels_of(GRID, points).tolist() == [0, 0, 4, 11, -1, -1, -1]
-    assert pixels_of(GRID, np.zeros((0, 2))).tolist() == []
+    assert pixels_at(GRID, points).tolist() == [0, 0, 4, 11, -1, -1, -1]
+    assert pixels_at(GRID, np.zeros((0, 2))).tolist() == []
 
 
 def test_lines_are_drawn_object_by_object_where_they_are_inside() -> None:
@@ -42,7 +42,7 @@ def test_lines_have_the_pixels_of_points_no_farther_apart_than_was_said(seed) ->
     points = np.concatenate(
         [start + dense * (end - start) for start, end in segments.astype(np.float64).reshape(-1, 2, 2)]
     )
-    reached = np.unique(pixels_of(FINE, points))
+    reached = np.unique(pixels_at(FINE, points))
     found = np.unique(pixels)
     assert np.isin(found, reached).mean() > 0.99, "nothing else, but for pixels that a corner of is met"
     assert np.isin(reached, found).mean() > 0.9
@@ -64,6 +64,6 @@ def test_areas_have_the_points_of_a_lattice_that_are_inside_one_by_one(seed) -> 
     low, high = (edge(ends.reshape(-1, 2), axis=0) for edge in (np.min, np.max))
     xs, ys = (np.arange(low[axis] + apart_m / 2, high[axis], apart_m) for axis in (0, 1))
     naive = np.array([(x, y) for x in xs for y in ys if is_inside(x, y, ends)])
-    assert found.tolist() == pixels_of(FINE, naive).tolist()
+    assert found.tolist() == pixels_at(FINE, naive).tolist()
     assert len(naive) > 50
     assert until.tolist() == [0, len(naive), len(naive)], "the other is outside"

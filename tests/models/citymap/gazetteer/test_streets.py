@@ -1,31 +1,36 @@
 import numpy as np
 import pytest
 
-from models.citymap.gazetteer.name_columns import STREET, Words
-from models.citymap.gazetteer.streets import ONE_CORNER_M, Pieces, Streets, Ways, join_streets
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
+from models.citymap.gazetteer.streets import CORNER_MERGE_M, StreetPiece, StreetPieces, Streets, join_streets
 from tests.models.citymap.gazetteer.made_town import line
 
 FIRST = 10
 
 
-def piece(name: str | tuple[str, ...], nodes: tuple[int, ...], *xy: tuple[float, float], number: int = 1) -> Ways:
+def piece(
+    name: str | tuple[str, ...], nodes: tuple[int, ...], *xy: tuple[float, float], number: int = 1
+) -> StreetPiece:
     names = (name,) if isinstance(name, str) else name
-    return Ways(
-        Words((STREET,), names, source_id=f"way/{number}"), np.array(nodes), line(*xy), np.array(xy, dtype=float)
+    return StreetPiece(
+        GazetteerObject((STREET_KIND,), names, source_id=f"way/{number}"),
+        np.array(nodes),
+        line(*xy),
+        np.array(xy, dtype=float),
     )
 
 
-def joined_of(ways: list[Ways]) -> Streets:
-    pieces = Pieces()
+def joined_of(ways: list[StreetPiece]) -> Streets:
+    pieces = StreetPieces()
     for some in (ways[:1], ways[1:]):
         pieces.add(some)
     return join_streets(pieces, FIRST)
 
 
-def corners(pieces: list[Ways]) -> list[tuple[set[str], list[float]]]:
+def corners(pieces: list[StreetPiece]) -> list[tuple[set[str], list[float]]]:
     joined = joined_of(pieces)
     return [
-        ({joined.words[n - FIRST].names[0] for n in pair}, at.tolist())
+        ({joined.objects[n - FIRST].names[0] for n in pair}, at.tolist())
         for pair, at in zip(joined.corner_streets, joined.corners_m, strict=True)
     ]
 
@@ -38,8 +43,8 @@ def test_pieces_of_one_name_are_one_street() -> None:
             piece(("MAIN STREET", "Main St"), (2, 3), (50, 0), (90, 0), number=6),
         ]
     )
-    main, side = joined.words
-    assert main.kinds == (STREET,)
+    main, side = joined.objects
+    assert main.kinds == (STREET_KIND,)
     assert main.names == ("Main Street", "Hauptstrasse", "MAIN STREET", "Main St")
     assert main.source_id == "way/4"
     assert joined.segments_m[0].tolist() == [[0, 0, 50, 0], [50, 0, 90, 0]]
@@ -65,7 +70,7 @@ def test_streets_side_by_side_have_no_corner() -> None:
 
 
 def test_carriageways_make_one_corner() -> None:
-    far = ONE_CORNER_M - 10
+    far = CORNER_MERGE_M - 10
     pieces = [
         piece("Main Street", (1, 2), (0, 0), (90, 0)),
         piece("Main Street", (3, 4), (0, far), (90, far)),
@@ -108,5 +113,5 @@ def test_streets_on_top_of_each_other_have_a_finite_corner() -> None:
 
 def test_a_town_without_streets() -> None:
     joined = joined_of([])
-    assert joined.words == []
+    assert joined.objects == []
     assert joined.corner_streets.shape == joined.corners_m.shape == (0, 2)

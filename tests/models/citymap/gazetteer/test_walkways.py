@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from models.citymap.gazetteer.gazetteer import WALKED, build_gazetteer
-from models.citymap.gazetteer.name_columns import Words
-from models.citymap.gazetteer.walkways import FARTHEST_M, Walkways
+from models.citymap.gazetteer.gazetteer import WALKED_KIND, build_gazetteer
+from models.citymap.gazetteer.name_columns import GazetteerObject
+from models.citymap.gazetteer.walkways import MAX_DISTANCE_M, Walkways
 from tests.models.citymap.gazetteer.made_town import line, ring
 
 LOW, HIGH = np.array([0.0, 0.0]), np.array([200.0, 200.0])
@@ -12,7 +12,11 @@ LOW, HIGH = np.array([0.0, 0.0]), np.array([200.0, 200.0])
 @pytest.fixture
 def walkways() -> Walkways:
     town = build_gazetteer(
-        [Words((WALKED,)), Words(("highway/pedestrian_area",)), Words(("leisure/park",), ("Park",))],
+        [
+            GazetteerObject((WALKED_KIND,)),
+            GazetteerObject(("highway/pedestrian_area",)),
+            GazetteerObject(("leisure/park",), ("Park",)),
+        ],
         [line((0.0, 20.0), (200.0, 20.0)), ring(100, 100, 140, 140), ring(0, 150, 40, 190)],
         [False, True, True],
     )
@@ -21,12 +25,19 @@ def walkways() -> Walkways:
 
 @pytest.mark.parametrize(
     ("at", "metres"),
-    [((50, 20), 0), ((50, 30), 10), ((120, 120), 0), ((150, 120), 10), ((20, 170), FARTHEST_M), ((1e6, 0), FARTHEST_M)],
+    [
+        ((50, 20), 0),
+        ((50, 30), 10),
+        ((120, 120), 0),
+        ((150, 120), 10),
+        ((20, 170), MAX_DISTANCE_M),
+        ((1e6, 0), MAX_DISTANCE_M),
+    ],
 )
 def test_metres_to_lines_and_squares(walkways, at, metres) -> None:
-    assert walkways.metres(np.array([at], dtype=float))[0] == pytest.approx(metres, abs=1.5)
+    assert walkways.distances_m(np.array([at], dtype=float))[0] == pytest.approx(metres, abs=1.5)
 
 
 def test_many_positions_at_once(walkways) -> None:
-    assert walkways.metres(np.zeros((0, 2))).shape == (0,)
-    assert walkways.metres(np.random.default_rng(0).uniform(-500, 500, (1000, 2))).max() == FARTHEST_M
+    assert walkways.distances_m(np.zeros((0, 2))).shape == (0,)
+    assert walkways.distances_m(np.random.default_rng(0).uniform(-500, 500, (1000, 2))).max() == MAX_DISTANCE_M

@@ -5,7 +5,7 @@ import pytest
 import shapely
 from scipy.cluster.hierarchy import DisjointSet
 
-from models.citymap.geometry.closest_points import LEAST, ways_around
+from models.citymap.geometry.closest_points import MIN_GROUP_SHARE, closest_instances
 from models.citymap.geometry.cutting import THING
 from models.citymap.geometry.segments import STEP_M
 from models.citymap.geometry.solids import crown_reach_m
@@ -51,7 +51,9 @@ def naive_groups(table, rules, center):
     return [
         np.array(some)
         for n, some in enumerate(joined)
-        if is_thing[some[0]] or table.worth[some].sum() >= LEAST * rules.min_part_points or alone[n] == 1
+        if is_thing[some[0]]
+        or table.point_count[some].sum() >= MIN_GROUP_SHARE * rules.min_part_points
+        or alone[n] == 1
     ]
 
 
@@ -61,7 +63,9 @@ def test_ways_are_those_of_shapely_to_what_hangs_together(city, cells, seed) -> 
     rows = rng.choice(len(cells), 3, replace=False)
     points = np.concatenate([cells.center_m[row, :2] + rng.uniform(-5, 5, (4, 2)) for row in rows])
     starts = np.array([0, 4, 8, 12])
-    point, instance, way = ways_around(table, city.rules, cells.center_m[rows], points, starts, REACH_M, WAY_STEP_M)
+    point, instance, way = closest_instances(
+        table, city.rules, cells.center_m[rows], points, starts, REACH_M, WAY_STEP_M
+    )
     assert (np.diff(point) >= 0).all()
     for n, row in enumerate(rows):
         groups = naive_groups(table, city.rules, cells.center_m[row, :2])
@@ -85,5 +89,7 @@ def test_ways_are_those_of_shapely_to_what_hangs_together(city, cells, seed) -> 
 
 
 def test_no_position_has_nothing_around_it(city, cells) -> None:
-    found = ways_around(city.pieces, city.rules, cells.center_m[:2], np.zeros((0, 2)), np.zeros(3, int), 15.0, 0.1)
+    found = closest_instances(
+        city.pieces, city.rules, cells.center_m[:2], np.zeros((0, 2)), np.zeros(3, int), 15.0, 0.1
+    )
     assert [len(some) for some in found] == [0, 0, 0]

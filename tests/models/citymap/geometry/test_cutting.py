@@ -7,7 +7,7 @@ from scipy.cluster.hierarchy import DisjointSet
 
 from models.citymap.geometry.solids import GROUND_SPACING_M, crown_reach_m
 from models.citymap.geometry.tiling import TOUCHING_M
-from models.citymap.map_geometry import ScannedBodies, bodies_of
+from models.citymap.map_geometry import ScannedPieceGeometry, build_geometry
 
 
 def naive_parts(city, center):
@@ -23,12 +23,12 @@ def naive_parts(city, center):
         size = shapely.area(geometry) + shapely.length(geometry) * (shapely.area(geometry) == 0)
         share = (shapely.area(inside) + shapely.length(inside) * (shapely.area(geometry) == 0)) / np.maximum(size, 1e-9)
         share = np.where(size > 0, share, ~shapely.is_empty(inside))
-        worth = pieces.worth[mine] * share
+        worth = pieces.point_count[mine] * share
         if instance.label not in city.stuff:
-            if worth.sum() and worth.sum() >= rules.thing_share * pieces.worth[mine].sum():
+            if worth.sum() and worth.sum() >= rules.thing_share * pieces.point_count[mine].sum():
                 metres = shapely.distance(geometry, at).min()
                 crown = crown_reach_m(np.array([metres]), pieces.crown_m[mine[:1]])[0]
-                found.append((i, pieces.worth[mine].sum(), None, metres - crown))
+                found.append((i, pieces.point_count[mine].sum(), None, metres - crown))
             continue
         there = np.flatnonzero(worth > 0)
         sets = DisjointSet(there.tolist())
@@ -69,7 +69,7 @@ def test_cubes_are_what_shapely_cuts(city, bodies, seed):
 
 def test_the_town_as_geometry_is_nearly_the_town_as_points(city, scan, bodies, cells):
     rows = np.arange(0, len(cells), 5)
-    one, other = bodies.cut(cells.center_m[rows]), bodies_of(scan).cut(cells.center_m[rows])
+    one, other = bodies.cut(cells.center_m[rows]), build_geometry(scan).cut(cells.center_m[rows])
     assert len(one.instance) == pytest.approx(len(other.instance), rel=0.02)
     shared = 0.0
     for n in range(len(rows)):
@@ -83,7 +83,7 @@ def test_the_town_as_geometry_is_nearly_the_town_as_points(city, scan, bodies, c
 
 def test_processes_give_what_one_gives(bodies, cells, monkeypatch):
     many = bodies.cut(cells.center_m)
-    monkeypatch.setattr("models.citymap.geometry.cutting.CHUNK", 64)
+    monkeypatch.setattr("models.citymap.geometry.cutting.CUBES_PER_TASK", 64)
     one = bodies.cut(cells.center_m)
     for name in ("starts", "instance", "count", "low_m", "high_m", "closest_m", "rgb"):
         assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)
@@ -109,7 +109,7 @@ def test_no_cube_and_empty_cubes_have_no_parts(bodies):
 
 def test_what_is_nearest_in_a_scan_is_one_of_its_points(bodies, cells):
     centers = cells.center_m[[3, 40, 7]]
-    known, seen = bodies.cut(centers), ScannedBodies(bodies).cut(centers)
+    known, seen = bodies.cut(centers), ScannedPieceGeometry(bodies).cut(centers)
     assert (seen.instance == known.instance).all()
     metres = [np.linalg.norm((parts.closest_m - centers[parts.cube])[:, :2], axis=1) for parts in (known, seen)]
     flat = seen.low_m[:, 2] == seen.high_m[:, 2]

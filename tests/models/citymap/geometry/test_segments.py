@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from models.citymap.geometry.pieces import PieceTable
-from models.citymap.geometry.segments import STEP_M, geometry_of, ring_starts, segments_of, snapped
+from models.citymap.geometry.segments import STEP_M, ring_starts, snap, to_geometry, to_segments
 
 
 def test_pieces_are_put_together_again_from_their_segments(city) -> None:
@@ -20,7 +20,7 @@ def test_pieces_are_put_together_again_from_their_segments(city) -> None:
     assert np.allclose(shapely.bounds(found[area]), table.bounds_m[pieces][area], atol=2 * STEP_M)
     for geometry, piece in zip(found, pieces.tolist(), strict=True):
         of = slice(*table.segment_starts[[piece, piece + 1]])
-        segments = segments_of(np.array([geometry]), table.tile[[piece]])[1]
+        segments = to_segments(np.array([geometry]), table.tile[[piece]])[1]
         assert sorted(_undirected(segments)) == sorted(_undirected(table.segments[of]))
 
 
@@ -34,7 +34,7 @@ def test_a_table_of_a_file_finds_the_same_tiles(city) -> None:
 
 def test_instances_are_numbered_anew(city) -> None:
     numbers = np.unique(city.pieces.instance)
-    table = replace(city.pieces, instance=2 * city.pieces.instance + 7).of_instances(2 * numbers + 7)
+    table = replace(city.pieces, instance=2 * city.pieces.instance + 7).renumber_instances(2 * numbers + 7)
     assert np.array_equal(table.instance, city.pieces.instance)
     assert np.array_equal(table.tile, city.pieces.tile)
 
@@ -44,9 +44,9 @@ def _undirected(segments: np.ndarray) -> list[tuple[tuple[int, int], ...]]:
 
 
 def again(*polygons: shapely.Polygon) -> np.ndarray:
-    geometry = snapped(np.array(polygons, dtype=object))
+    geometry = snap(np.array(polygons, dtype=object))
     tile, pieces = np.zeros((len(polygons), 2), np.int64), np.arange(len(polygons))
-    return geometry_of(*segments_of(geometry, tile), tile, shapely.get_dimensions(geometry), pieces)
+    return to_geometry(*to_segments(geometry, tile), tile, shapely.get_dimensions(geometry), pieces)
 
 
 def test_rings_that_meet_where_they_begin_are_two() -> None:
@@ -60,7 +60,7 @@ def test_rings_that_meet_where_they_begin_are_two() -> None:
 
 def test_what_is_thinner_than_a_step_is_nothing_and_spoils_nothing() -> None:
     sliver = shapely.Polygon([(0, 0), (3, 0), (0, STEP_M / 9)])
-    assert shapely.is_empty(snapped(np.array([sliver])))[0]
+    assert shapely.is_empty(snap(np.array([sliver])))[0]
     house = shapely.MultiPolygon([sliver, shapely.box(1, 1, 3, 3)])
     [found] = again(house)
     assert found.area == pytest.approx(4)

@@ -3,8 +3,8 @@ import pytest
 import shapely
 
 from models.citymap.geometry.pieces import PieceTable
-from models.citymap.geometry.solids import Solid, points_on
-from models.citymap.geometry.tiling import EVERYWHERE, TILE_M, clip_to_tiles, take_apart, uncovered
+from models.citymap.geometry.solids import Solid, sample_solid
+from models.citymap.geometry.tiling import ALL_TILES, TILE_M, clip_to_tiles, split_connected, subtract_covers
 
 
 def array(*geometries):
@@ -26,7 +26,7 @@ def test_what_is_in_the_tiles_is_what_there_was(seed):
         shapely.Point(3, 4),
         shapely.Polygon([(-20, -20), (20, -20), (20, 20), (-20, 20)], [[(-9, -9), (9, -9), (9, 9)]]),
     ]
-    cut = clip_to_tiles(array(*shapes), EVERYWHERE)
+    cut = clip_to_tiles(array(*shapes), ALL_TILES)
     middle = np.stack([cut.column, cut.row], axis=1) * TILE_M
     bounds = shapely.bounds(cut.geometry) - np.tile(middle, 2)
     assert np.abs(bounds).max() <= TILE_M / 2 + 1e-9
@@ -44,7 +44,7 @@ def test_what_comes_first_covers_what_comes_later(seed):
     rng = np.random.default_rng(seed)
     tile = np.repeat(np.arange(5), rng.integers(1, 6, 5))
     areas = array(*(blob(rng, 30) for _ in tile))
-    seen = uncovered(tile, areas)
+    seen = subtract_covers(tile, areas)
     for n in range(len(tile)):
         above = [areas[m] for m in range(n) if tile[m] == tile[n]]
         naive = areas[n].difference(shapely.union_all(above)) if above else areas[n]
@@ -55,10 +55,10 @@ def test_what_comes_first_covers_what_comes_later(seed):
 def test_parts_that_nearly_touch_hang_together():
     square = shapely.box(0, 0, 2, 2)
     near, far = shapely.box(2.5, 0, 3, 2), shapely.box(6, 0, 7, 2)
-    of, pieces = take_apart(array(shapely.MultiPolygon([far, square, near]), square, shapely.Polygon()), 2)
+    of, pieces = split_connected(array(shapely.MultiPolygon([far, square, near]), square, shapely.Polygon()), 2)
     assert of.tolist() == [0, 0, 1]
     assert sorted(shapely.area(pieces[:2]).tolist()) == [2.0, 5.0]
-    assert take_apart(array(shapely.Point(0, 0)), 2)[0].tolist() == []
+    assert split_connected(array(shapely.Point(0, 0)), 2)[0].tolist() == []
 
 
 def test_pieces_of_one_instance_are_linked_across_borders_where_they_touch():
@@ -66,7 +66,7 @@ def test_pieces_of_one_instance_are_linked_across_borders_where_they_touch():
     side = Solid(0, "ground", shapely.box(-30, 4, 30, 5.5))  # the same instance, as KITTI-360 numbers ground
     other = Solid(1, "ground", shapely.box(-30, -6, 30, -2))
     fence = Solid(2, "wall", shapely.LineString([(-30, 8), (30, 8)]), 0.0, 1.5)
-    table = PieceTable.of([road, side, other, fence])
+    table = PieceTable.from_solids([road, side, other, fence])
     middle = (table.bounds_m[:, :2] + table.bounds_m[:, 2:]) / 2
     for k in range(len(table.instance)):
         linked = table.links[table.link_starts[k] : table.link_starts[k + 1]]
@@ -91,8 +91,8 @@ def test_pieces_of_one_instance_are_linked_across_borders_where_they_touch():
 def test_solids_are_worth_their_points(shape, geometry, height):
     solid = Solid(0, shape, geometry, 0.0, height)
     size = geometry.area if solid.form == "area" else geometry.length if solid.form == "line" else 1.0
-    points = points_on(solid)
-    assert solid.worth * size == pytest.approx(len(points), rel=0.12)
+    points = sample_solid(solid)
+    assert solid.point_density * size == pytest.approx(len(points), rel=0.12)
     assert points[:, 2].max() == pytest.approx(solid.top_m if shape != "crown" else 9.0, abs=0.3)
     reach = shapely.distance(shapely.points(points[:, :2]), geometry).max()
     assert reach <= solid.radius_m * 1.5 + 1e-6
@@ -103,11 +103,11 @@ def test_pieces_of_some_columns_at_a_time_hang_together_as_all_do(columns, monke
     rng = np.random.default_rng(columns)
     solids = [Solid(n % 3, "ground", blob(rng, 30), 0.0, 0.0) for n in range(9)]
     solids += [Solid(3 + n % 2, "wall", shapely.LineString(rng.uniform(-80, 80, (6, 2))), 0.0, 2.0) for n in range(4)]
-    whole = PieceTable.of(solids)
+    whole = PieceTable.from_solids(solids)
     assert whole.shape[0] > 6
     assert len(whole.links)
-    monkeypatch.setattr("models.citymap.geometry.pieces.COLUMNS", columns)
-    some = PieceTable.of(solids)
+    monkeypatch.setattr("models.citymap.geometry.pieces.TILE_COLUMNS_PER_BLOCK", columns)
+    some = PieceTable.from_solids(solids)
     assert np.array_equal(some.link_starts, whole.link_starts)
     assert np.array_equal(some.links, whole.links)
 
@@ -115,11 +115,11 @@ def test_pieces_of_some_columns_at_a_time_hang_together_as_all_do(columns, monke
 @pytest.mark.parametrize("at_once", [1, 5, 17])
 def test_places_to_stand_are_the_same_however_many_areas_are_looked_at_together(at_once, monkeypatch) -> None:
     rng = np.random.default_rng(at_once)
-    table = PieceTable.of([Solid(n, "ground", blob(rng, 25), 0.0, 0.0) for n in range(6)])
+    table = PieceTable.from_solids([Solid(n, "ground", blob(rng, 25), 0.0, 0.0) for n in range(6)])
     rows = np.flatnonzero(table.dimension == 2)
-    whole = table.lattice(rows, 2.0)
+    whole = table.ground_lattice(rows, 2.0)
     block = np.floor(whole[:, :2] / 2.0)
     assert not whole[:, 2].any()
     assert len(np.unique(block, axis=0)) == len(whole) > 500
-    monkeypatch.setattr("models.citymap.geometry.pieces.AT_ONCE", at_once)
-    assert np.array_equal(table.lattice(rows, 2.0), whole)
+    monkeypatch.setattr("models.citymap.geometry.pieces.PIECES_PER_BLOCK", at_once)
+    assert np.array_equal(table.ground_lattice(rows, 2.0), whole)

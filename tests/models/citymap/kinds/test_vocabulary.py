@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from models.citymap.kinds import make, vocabulary
-from models.citymap.kinds.brands import plain
+from models.citymap.kinds.brands import normalize_name
 from models.citymap.kinds.vocabulary import HERE, Vocabulary, load_vocabulary
-from models.citymap.kinds.words import sayings
+from models.citymap.kinds.words import everyday_nouns
 from models.errors import DataError
 
 
@@ -170,13 +170,13 @@ def test_brands_by_any_spelling(kinds):
     assert "amenity/bicycle_rental" in kinds.brand("citi bike")
     assert kinds.brand("Nobody's Own Little Place") == ()
     assert kinds.spellings("Nobody's Own Little Place") == ()
-    assert plain("Café  du Nord!") == "cafedunord"
-    assert plain("L_Epi & d'Or") == "lepianddor"
+    assert normalize_name("Café  du Nord!") == "cafedunord"
+    assert normalize_name("L_Epi & d'Or") == "lepianddor"
 
 
 def test_hand_written_words_name_kinds_that_are(kinds):
     ids = {kind.id for kind in kinds.kinds}
-    said = sayings(tomllib.loads((HERE / "people.toml").read_text()))
+    said = everyday_nouns(tomllib.loads((HERE / "people.toml").read_text()))
     assert {kind for rows in said.values() for kind in rows} <= ids
     ours = tomllib.loads((HERE / "ours.toml").read_text())
     assert {*ours["same"].values(), *ours["names"]} <= ids
@@ -185,7 +185,7 @@ def test_hand_written_words_name_kinds_that_are(kinds):
 
 
 def test_the_vendored_files_are_small_and_say_whence(kinds):
-    assert sum((HERE / file).stat().st_size for file in vocabulary.FILES) <= 1_000_000
+    assert sum((HERE / file).stat().st_size for file in vocabulary.VOCABULARY_FILES) <= 1_000_000
     assert kinds.version.startswith("id-tagging-schema ")
     assert ", name-suggestion-index " in kinds.version
     licences = (HERE / "LICENCES.md").read_text()
@@ -244,8 +244,8 @@ def packages(tmp_path):
 def test_making_is_deterministic_and_keeps_what_is_selected(packages, tmp_path):
     first, second = tmp_path / "first", tmp_path / "second"
     for out in (first, second):
-        make.make(*packages, out)
-    assert {path.name for path in first.iterdir()} == set(vocabulary.FILES)
+        make.write_vocabulary(*packages, out)
+    assert {path.name for path in first.iterdir()} == set(vocabulary.VOCABULARY_FILES)
     for path in first.iterdir():
         assert path.read_bytes() == (second / path.name).read_bytes()
     made = Vocabulary(first)
@@ -269,4 +269,4 @@ def test_what_cannot_be_read_is_named(packages, tmp_path):
     schema, brands = packages
     (schema / "dist" / "presets.min.json").write_text("[")
     with pytest.raises(DataError, match=r"presets\.min\.json"):
-        make.make(schema, brands, tmp_path / "out")
+        make.write_vocabulary(schema, brands, tmp_path / "out")

@@ -5,7 +5,7 @@ from models.citymap.scenery.cloud import encode_cloud
 
 
 def test_every_part_shows_all_of_the_map(monkeypatch) -> None:
-    monkeypatch.setattr(cloud, "POINTS_A_PART", 400)
+    monkeypatch.setattr(cloud, "POINTS_PER_PART", 400)
     rng = np.random.default_rng(0)
     xyz, rgb = rng.uniform(-500, 500, (1000, 3)), rng.integers(0, 256, (1000, 3)).astype(np.uint8)
     parts = [part.tensors for part in encode_cloud(xyz, rgb)]

@@ -4,8 +4,8 @@ import shapely
 
 from models.citymap.scenery.cloud import encode_cloud
 from models.citymap.scenery.files import file_name, save_scenery
-from models.citymap.scenery.reading import AREA, LINE, POINT, look, read_scenery
-from models.citymap.scenery.shapes import Outlines, Place
+from models.citymap.scenery.reading import AREA, LINE, POINT, load_look, read_scenery
+from models.citymap.scenery.shapes import NamedPoint, Outlines
 from models.citymap.types import MapShape
 
 
@@ -16,7 +16,7 @@ def test_shapes_are_read_as_they_were_written(tmp_path) -> None:
         MapShape("building", yard, name="Kauppahalli"),
         MapShape("road", shapely.MultiLineString([[(0, 0), (100, 1)], [(200, 5), (300, 5)]]), width_m=6.5),
     ]
-    save_scenery(tmp_path, [Outlines.of(shapes).encode([Place((1.0, -2.0), "Café Ö", "amenity/cafe")])])
+    save_scenery(tmp_path, [Outlines.from_shapes(shapes).encode([NamedPoint((1.0, -2.0), "Café Ö", "amenity/cafe")])])
     drawn = read_scenery(tmp_path / file_name(0))
     assert [(o.label, o.form, o.name, o.width_m) for o in drawn.outlines] == [
         ("tree", POINT, None, 0.0),
@@ -25,16 +25,16 @@ def test_shapes_are_read_as_they_were_written(tmp_path) -> None:
     ]
     tree, house, road = drawn.outlines
     assert tree.paths[0].tolist() == [[-3.2, 4.0]]
-    assert house.hole == [False, True]
+    assert house.is_hole == [False, True]
     assert shapely.Polygon(house.paths[0], [house.paths[1]]).equals(yard)
     assert [path.tolist() for path in road.paths] == [[[0, 0], [100, 1]], [[200, 5], [300, 5]]]
-    assert drawn.places == [Place((1.0, -2.0), "Café Ö", "amenity/cafe")]
+    assert drawn.places == [NamedPoint((1.0, -2.0), "Café Ö", "amenity/cafe")]
 
 
 def test_a_map_of_nothing_and_points_are_read(tmp_path) -> None:
     xyz = np.random.default_rng(0).uniform(-50, 50, (20, 3)).round(1)
     rgb = np.arange(60, dtype=np.uint8).reshape(20, 3)
-    save_scenery(tmp_path, [Outlines.of([]).encode(), *encode_cloud(xyz, rgb)])
+    save_scenery(tmp_path, [Outlines.from_shapes([]).encode(), *encode_cloud(xyz, rgb)])
     assert read_scenery(tmp_path / file_name(0)).outlines == []
     drawn = read_scenery(tmp_path / file_name(1))
     order, read = np.lexsort(xyz.T), np.lexsort(drawn.xyz_m.T)
@@ -43,7 +43,7 @@ def test_a_map_of_nothing_and_points_are_read(tmp_path) -> None:
 
 
 def test_every_paint_of_a_label_has_a_colour_in_light_and_dark() -> None:
-    given = look()
+    given = load_look()
     assert set(given["light"]) == set(given["dark"])
     for kind in ("ground", "rising", "walls"):
         assert set(given[kind].values()) <= set(given["light"])

@@ -5,7 +5,7 @@ import pytest
 import shapely
 import shapely.affinity
 
-from models.citymap.scenery.shapes import KINDS, Drawing, Drawings, Outlines, Place
+from models.citymap.scenery.shapes import OSM_TYPES, DrawnObjects, NamedPoint, Outlines, OutlinesBuilder
 from models.citymap.types import MapShape
 from models.sources.osm.map import load_osm
 
@@ -22,7 +22,7 @@ def decoded(part):
 
 
 def test_shapes_are_what_was_encoded() -> None:
-    outlines = Outlines.of(
+    outlines = Outlines.from_shapes(
         [
             MapShape("tree", shapely.Point(-3.21, 4), top_m=8.06, source_id="node/7"),
             MapShape("building", HOUSE, 3, 21.5, name="Kauppahalli", source_id="relation/9"),
@@ -30,7 +30,7 @@ def test_shapes_are_what_was_encoded() -> None:
             MapShape("tree", shapely.Point(), source_id="node/8"),
         ]
     )
-    told, tensors, objects = decoded(outlines.encode([Place((1.04, -2.0), "Café Ö", "amenity/cafe")]))
+    told, tensors, objects = decoded(outlines.encode([NamedPoint((1.04, -2.0), "Café Ö", "amenity/cafe")]))
     assert told["labels"] == ["tree", "building", "road"]
     assert [told["labels"][n] for n in tensors["label"]] == ["tree", "building", "road"], (
         "what has no place is left out"
@@ -51,7 +51,7 @@ def test_shapes_are_what_was_encoded() -> None:
 
 def test_what_a_clip_leaves_over_is_not_drawn() -> None:
     left_over = shapely.GeometryCollection([HOUSE, shapely.Point(50, 50), shapely.LineString([(0, 0), (9, 9)])])
-    _, tensors, objects = decoded(Outlines.of([MapShape("building", left_over)]).encode())
+    _, tensors, objects = decoded(Outlines.from_shapes([MapShape("building", left_over)]).encode())
     assert tensors["paths"].tolist() == [2]
     assert shapely.Polygon(objects[0][0]).area == 200
 
@@ -59,7 +59,7 @@ def test_what_a_clip_leaves_over_is_not_drawn() -> None:
 def test_neighbours_stand_together() -> None:
     rng = np.random.default_rng(0)
     trees = [MapShape("tree", shapely.Point(*rng.uniform(-900, 900, 2))) for _ in range(500)]
-    _, tensors, _ = decoded(Outlines.of(trees).encode())
+    _, tensors, _ = decoded(Outlines.from_shapes(trees).encode())
     apart = np.hypot(*tensors["steps"][1:].T / 10)
     assert np.median(apart) < 100, "in the order in which they came it is 900 m"
 
@@ -73,12 +73,12 @@ def test_what_is_drawn_a_part_at_a_time_is_the_same(at_once, monkeypatch) -> Non
         for label, geometry in (("tree", shapely.Point(at)), ("building", shapely.affinity.translate(HOUSE, *at)))
     ]
     shapes.sort(key=lambda shape: shape.label)
-    expected = Outlines.of(shapes)
+    expected = Outlines.from_shapes(shapes)
     monkeypatch.setattr("models.citymap.scenery.shapes.AT_ONCE", at_once)
-    drawings, order = Drawings(["building", "tree"]), rng.permutation(len(shapes))
+    drawings, order = OutlinesBuilder(["building", "tree"]), rng.permutation(len(shapes))
     for some in np.array_split(order, 5):
-        drawings.add(Drawing.of([shapes[n] for n in some], some))
-    found = drawings.outlines()
+        drawings.add(DrawnObjects.from_shapes([shapes[n] for n in some], some))
+    found = drawings.build()
     assert (found.labels, found.names) == (expected.labels, expected.names)
     assert list(found.names) == sorted(found.names)
     for name, column in expected.tensors.items():
@@ -87,7 +87,7 @@ def test_what_is_drawn_a_part_at_a_time_is_the_same(at_once, monkeypatch) -> Non
 
 
 def test_nothing_is_a_map_too() -> None:
-    told, tensors, _ = decoded(Outlines.of([]).encode())
+    told, tensors, _ = decoded(Outlines.from_shapes([]).encode())
     assert told["labels"] == []
     assert len(tensors["steps"]) == 0
 
@@ -100,7 +100,7 @@ def test_a_map_from_openstreetmap_has_its_geometry(osm_file, label, form) -> Non
     of_label = tensors["label"] == city_map.outlines.labels.index(label)
     assert set(tensors["form"][of_label].tolist()) == {form}
     ids = {i.source_id for i in city_map.instances if i.label == label and i.source_id}
-    numbers = {4 * int(number) + KINDS.index(kind) for kind, number in (of.split("/") for of in ids)}
+    numbers = {4 * int(number) + OSM_TYPES.index(kind) for kind, number in (of.split("/") for of in ids)}
     assert numbers <= set(tensors["source"][of_label].tolist())
     if label == "road":
         assert (tensors["width"][of_label] > 0).all()

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from models.citymap.gazetteer.gazetteer import ADDRESS, NOTHING_NAMED, build_gazetteer
-from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, EMPTY_GAZETTEER, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.mentions.lookup import KEPT, Lookup
 from models.language.mentions.names import plain_words
@@ -84,14 +84,16 @@ def test_no_such_street(lookup) -> None:
 
 def test_a_short_form_may_mean_several_streets() -> None:
     names = ("East 25th Street", "West 25th Street", "25th Avenue")
-    town = build_gazetteer([Words((STREET,), (n,)) for n in names], [line((0, 0), (9, 0))] * 3, [False] * 3)
+    town = build_gazetteer(
+        [GazetteerObject((STREET_KIND,), (n,)) for n in names], [line((0, 0), (9, 0))] * 3, [False] * 3
+    )
     several = Lookup(town, load_vocabulary(), is_common)
     assert called(town, several.street(("25th",)).objects) == set(names)
     assert called(town, several.street(("25th", "street")).objects) == set(names[:2])
 
 
 def test_a_misspelt_street(town) -> None:
-    town = build_gazetteer([Words((STREET,), ("Broadway",))], [line((0, 0), (9, 0))], [False])
+    town = build_gazetteer([GazetteerObject((STREET_KIND,), ("Broadway",))], [line((0, 0), (9, 0))], [False])
     lookup = Lookup(town, load_vocabulary(), is_common)
     assert called(town, lookup.street_like("brodway").objects) == {"Broadway"}
     assert lookup.street_like("bway") is None
@@ -151,7 +153,9 @@ def test_a_street_without_numbers(lookup) -> None:
 
 
 def numbers(*given: str) -> Lookup:
-    some = [Words((ADDRESS,), (), number, "Main St") for number in given] + [Words((STREET,), ("Main Street",))]
+    some = [GazetteerObject((ADDRESS_KIND,), (), number, "Main St") for number in given] + [
+        GazetteerObject((STREET_KIND,), ("Main Street",))
+    ]
     shapes = [*(point(10.0 * n, 0) for n in range(len(given))), line((0, 0), (90, 0))]
     return Lookup(build_gazetteer(some, shapes, [False] * len(some)), load_vocabulary(), is_common)
 
@@ -168,8 +172,8 @@ def test_odd_house_numbers_of_the_map_do_no_harm() -> None:
 
 
 def test_a_map_without_names_knows_kinds_alone() -> None:
-    bare = build_gazetteer([Words(("amenity/bench",))], [point(0, 0)], [False])
-    for town in (NOTHING_NAMED, bare):
+    bare = build_gazetteer([GazetteerObject(("amenity/bench",))], [point(0, 0)], [False])
+    for town in (EMPTY_GAZETTEER, bare):
         lookup = Lookup(town, load_vocabulary(), is_common)
         assert lookup.named(("bottino",)) is None
         assert lookup.misspelt(("bottino",)) is None
@@ -184,7 +188,7 @@ def test_a_map_without_names_knows_kinds_alone() -> None:
     [("Kentucky Fried Chicken", [0]), ("Chicken", None), ("KFC", [0]), ("Mobile", None), ("Hotel", None)],
 )
 def test_a_chain_is_found_by_its_other_names(text, found) -> None:
-    given = [Words(("amenity/fast_food",), ("KFC",)), Words(("amenity/fuel",), ("Mobil",))]
+    given = [GazetteerObject(("amenity/fast_food",), ("KFC",)), GazetteerObject(("amenity/fuel",), ("Mobil",))]
     shops = build_gazetteer(given, [np.zeros((1, 4)), np.ones((1, 4))], [False, False])
     match = Lookup(shops, load_vocabulary(), lambda word: word in ("mobile", "chicken")).named(words(text))
     assert (match.objects.tolist() if match else None) == found

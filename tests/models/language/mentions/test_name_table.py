@@ -1,6 +1,6 @@
 import pytest
 
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
 from models.language.mentions.lookup import Lookup
@@ -49,8 +49,8 @@ def test_the_phrases_are_the_same(lookup, opened) -> None:
 
 
 def test_a_table_of_nothing(tmp_path) -> None:
-    NameTable.of(NOTHING_NAMED, load_vocabulary(), is_common).save(tmp_path)
-    nothing = Lookup(NOTHING_NAMED, load_vocabulary(), is_common, NameTable.load(tmp_path))
+    NameTable.of(EMPTY_GAZETTEER, load_vocabulary(), is_common).save(tmp_path)
+    nothing = Lookup(EMPTY_GAZETTEER, load_vocabulary(), is_common, NameTable.load(tmp_path))
     assert nothing.named(("a",)) is None
     assert nothing.street(("a",)) is None
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, build_gazetteer
-from models.citymap.gazetteer.name_columns import Words
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
+from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.reader import MOST_OBJECTS, find_mentions, is_meeting, listener_wind, with_goal
@@ -111,7 +111,7 @@ def test_any_text_can_be_read(lookup, cues, text) -> None:
 
 
 def test_a_map_without_names(lookup, cues) -> None:
-    bare = Lookup(NOTHING_NAMED, load_vocabulary(), is_common)
+    bare = Lookup(EMPTY_GAZETTEER, load_vocabulary(), is_common)
     found = find_mentions("I'm at 25th and 10th, Bottino on my left, a bench behind me, at 5 Main Street", bare, cues)
     assert all(not len(m.objects) and not len(m.lines_m) for m in found)
     assert all(m.form == "unknown" for m in found)
@@ -119,7 +119,7 @@ def test_a_map_without_names(lookup, cues) -> None:
 
 def test_what_so_many_things_may_be_is_left_out(cues) -> None:
     count = MOST_OBJECTS + 1
-    town = build_gazetteer([Words(("amenity/bench",))] * count, [point(0, 0)] * count, [False] * count)
+    town = build_gazetteer([GazetteerObject(("amenity/bench",))] * count, [point(0, 0)] * count, [False] * count)
     assert find_mentions("a bench", Lookup(town, load_vocabulary(), is_common), cues) == []
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from models.citymap.map_geometry import bodies_of, cut_cells
+from models.citymap.map_geometry import build_geometry, cut_cells
 from models.errors import IndexBroken
 from models.posterior.neighbours.neighbour_index import load_surroundings, surroundings_of
 from models.posterior.neighbours.neighbours import STEP_M
@@ -13,15 +13,15 @@ from models.sources.source import MapSource, open_source
 @pytest.fixture(scope="module")
 def scanned(osm_file, scan, cells):
     """The town's cells, and what lies around them, from points."""
-    bodies = bodies_of(scan)
+    bodies = build_geometry(scan)
     cells = cut_cells(scan, bodies)
-    clouds = MapSource(osm_file, scan, bodies, cells).bodies()
+    clouds = MapSource(osm_file, scan, bodies, cells).geometry()
     return cells, clouds, ScanSurroundings.of(clouds, cells)
 
 
 @pytest.fixture(scope="module")
 def around(source, cells):
-    bodies = source.bodies()
+    bodies = source.geometry()
     return cells, bodies, surroundings_of(bodies, cells)
 
 
@@ -72,7 +72,7 @@ def test_the_middle_of_a_cell_is_its_node_nearest_to_the_centre(kind, request) -
 def test_ways_are_those_of_a_naive_search(scanned, scan) -> None:
     cells, bodies, s = scanned
     owner = np.repeat(np.arange(len(cells)), np.diff(s.cell_starts))
-    shown = set(bodies.of_part.tolist())
+    shown = set(bodies.part_instances.tolist())
     for node in np.random.default_rng(0).choice(len(s.nodes_m), 12, replace=False):
         at = np.array([*s.nodes_m[node], cells.center_m[owner[node], 2]])
         naive = {}
@@ -86,7 +86,7 @@ def test_ways_are_those_of_a_naive_search(scanned, scan) -> None:
                 whole = not (bodies.is_thing[i] and large) or inside >= scan.rules.thing_share * len(xyz)
                 naive[i] = np.hypot(*way), whole
         rows = slice(s.starts[node], s.starts[node + 1])
-        instances = bodies.of_part[s.part[rows]].tolist()
+        instances = bodies.part_instances[s.part[rows]].tolist()
         assert sorted(instances) == sorted(naive)
         for i, way, whole in zip(instances, s.way[rows], s.whole[rows], strict=True):
             assert np.hypot(*(way * STEP_M)) == pytest.approx(naive[i][0], abs=STEP_M)
@@ -102,9 +102,9 @@ def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(scanned) -
         radius = (s.way[rows].astype(int) ** 2).sum(axis=1)
         key = list(zip((~s.whole[rows]).tolist(), radius.tolist(), strict=True))
         assert key == sorted(key)
-        in_owner = set(bodies.of_part[cube == owner[node]].tolist())
+        in_owner = set(bodies.part_instances[cube == owner[node]].tolist())
         for part in s.part[rows]:
-            assert cube[part] == owner[node] or bodies.of_part[part] not in in_owner
+            assert cube[part] == owner[node] or bodies.part_instances[part] not in in_owner
 
 
 @pytest.mark.parametrize("kind", ["around", "scanned"])
@@ -160,9 +160,9 @@ def test_what_is_around_nodes_does_not_depend_on_which_are_asked_for(around) -> 
 
 def test_a_data_set_has_the_points_that_its_cells_show(streets) -> None:
     source = open_source(streets, "train")
-    cells, bodies = source.data.cells, source.bodies()
+    cells, bodies = source.data.cells, source.geometry()
     for part in range(0, len(cells.parts.instance), 17):
-        i = bodies.of_part[part]
+        i = bodies.part_instances[part]
         xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]]
         gap = np.linalg.norm(xyz - cells.parts.closest_m[part], axis=1).min()
         assert gap < 0.4, "one point a voxel of 0.2 m is kept"

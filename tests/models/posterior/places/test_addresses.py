@@ -1,20 +1,20 @@
 import pytest
 
-from models.citymap.gazetteer.name_columns import Words
+from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.posterior.places.addresses import Addresses
 
 HOUSES = [
-    Words(("building",), (), "12", "Bulevardi"),
-    Words(("shop",), ("Kiosk",), "12", "Bulevardi"),
-    Words(("building",), (), "14 A;14 B", "Bulevardi"),
-    Words(("building",), (), "20", "Bulevardi"),
-    Words(("building",), (), "350", "5th Avenue"),
-    Words(("building",), (), "350", "West 42nd Street"),
-    Words(("building",), (), "352", "West 42nd Street"),
-    Words(("building",), (), "12", "2. linja"),
-    Words(("building",), (), "s/n", "Bulevardi"),
-    Words(("shop",), ("No number",), None, "Bulevardi"),
-    Words(("shop",), ("No street",), "7", None),
+    GazetteerObject(("building",), (), "12", "Bulevardi"),
+    GazetteerObject(("shop",), ("Kiosk",), "12", "Bulevardi"),
+    GazetteerObject(("building",), (), "14 A;14 B", "Bulevardi"),
+    GazetteerObject(("building",), (), "20", "Bulevardi"),
+    GazetteerObject(("building",), (), "350", "5th Avenue"),
+    GazetteerObject(("building",), (), "350", "West 42nd Street"),
+    GazetteerObject(("building",), (), "352", "West 42nd Street"),
+    GazetteerObject(("building",), (), "12", "2. linja"),
+    GazetteerObject(("building",), (), "s/n", "Bulevardi"),
+    GazetteerObject(("shop",), ("No number",), None, "Bulevardi"),
+    GazetteerObject(("shop",), ("No street",), "7", None),
 ]
 
 
@@ -60,5 +60,5 @@ def test_houses_of_one_address_share_a_column(addresses):
 
 
 def test_a_map_without_numbers_has_none():
-    assert len(Addresses.of([Words(("shop",), ("A",))])) == 0
+    assert len(Addresses.of([GazetteerObject(("shop",), ("A",))])) == 0
     assert not len(Addresses.of([]).find("12 Bulevardi"))

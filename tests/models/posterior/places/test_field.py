@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import torch
 
-from models.citymap.gazetteer.closest_points import Around
-from models.citymap.gazetteer.gazetteer import NOTHING_NAMED, WALKED, build_gazetteer
-from models.citymap.gazetteer.name_columns import STREET, Words
+from models.citymap.gazetteer.closest_points import PointGroups
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, WALKED_KIND, build_gazetteer
+from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.posterior.places.field import PlaceField, Told
@@ -79,7 +79,7 @@ def test_an_angle_that_is_not_sure_is_summed_over(field) -> None:
     for cue in (Cue(angle=-90.0), Cue(angle=90.0), either):
         places = field.told([thing("Elmo", cue=cue), thing("T-Optik", cue=Cue("at"))]).places
         with torch.inference_mode():
-            ways = field.ways_from(places.mentions[0], Around.of(at, np.zeros(1, np.int64)))
+            ways = field.ways_from(places.mentions[0], PointGroups.from_groups(at, np.zeros(1, np.int64)))
             shares.append(field.fits(places.mentions[0], ways, 1)[0])
     assert places.mentions[0].objects.tolist() == [elmo]
     assert torch.allclose(shares[2], 0.6 * shares[0] + 0.4 * shares[1], atol=1e-6)
@@ -87,7 +87,7 @@ def test_an_angle_that_is_not_sure_is_summed_over(field) -> None:
 
 def test_people_stand_where_they_walk() -> None:
     town = build_gazetteer(
-        [Words(("amenity/bench",)), Words((WALKED,))],
+        [GazetteerObject(("amenity/bench",)), GazetteerObject((WALKED_KIND,))],
         [point(100.0, 100.0), line((0.0, 110.0), (200.0, 110.0))],
         [False, False],
     )
@@ -115,7 +115,7 @@ def test_a_distance_is_a_ring(field) -> None:
 
 
 def test_rare_things_tell_more_than_common_ones(field) -> None:
-    benches = np.array([n for n, words in enumerate(TOWN.words) if words.kinds == ("amenity/bench",)])
+    benches = np.array([n for n, words in enumerate(TOWN.objects) if words.kinds == ("amenity/bench",)])
     assert len(benches) == len(BENCHES)
     bench = Mention("bench", 0, 1, "thing", benches, np.ones(len(benches)), kinds=("amenity/bench",), cue=Cue("near"))
     common, rare = (field.told([some]).at(NODES, ANYWHERE) for some in (bench, thing("Elmo", cue=Cue("near"))))
@@ -126,7 +126,7 @@ def test_rare_things_tell_more_than_common_ones(field) -> None:
 def test_what_is_everywhere_tells_nothing() -> None:
     grid = NODES[::5]
     everywhere = build_gazetteer(
-        [Words(("natural/tree",))] * len(grid), [point(*at) for at in grid], [False] * len(grid)
+        [GazetteerObject(("natural/tree",))] * len(grid), [point(*at) for at in grid], [False] * len(grid)
     )
     field = PlaceField(PlaceKernels(), everywhere, CENTERS, GRID_M)
     tree = Mention("tree", 0, 1, "thing", np.arange(len(grid)), np.ones(len(grid)), kinds=("natural/tree",))
@@ -172,7 +172,7 @@ def test_no_mentions_and_unknown_ones_leave_everything_even(field) -> None:
 
 
 def test_a_map_where_nothing_is_named() -> None:
-    field = PlaceField(PlaceKernels(), NOTHING_NAMED, CENTERS, GRID_M)
+    field = PlaceField(PlaceKernels(), EMPTY_GAZETTEER, CENTERS, GRID_M)
     told = field.told([corner(200, 80)])
     assert np.hypot(*(best(told) - (200, 80))) < 6
 
@@ -252,7 +252,7 @@ def test_which_kernel(mention, kind) -> None:
 
 
 def test_a_long_street_is_near_along_all_of_it() -> None:
-    town = build_gazetteer([Words((STREET,), ("Main Street",))], [line((-50, 80), (450, 80))], [False])
+    town = build_gazetteer([GazetteerObject((STREET_KIND,), ("Main Street",))], [line((-50, 80), (450, 80))], [False])
     told = PlaceField(PlaceKernels(), town, CENTERS, GRID_M).told(
         [Mention("m", 0, 1, "street", np.array([0]), np.ones(1))]
     )
@@ -263,7 +263,7 @@ def test_a_long_street_is_near_along_all_of_it() -> None:
 
 @pytest.mark.parametrize(("one", "other"), [(0.0, 90.0), (-90.0, 45.0), (180.0, None), (None, -135.0)])
 def test_angles_that_are_not_sure_are_summed_over(field, one, other) -> None:
-    around = Around.of(np.array([[120.0, 120.0], [131.0, 124.0]]), np.zeros(2, np.int64))
+    around = PointGroups.from_groups(np.array([[120.0, 120.0], [131.0, 124.0]]), np.zeros(2, np.int64))
 
     def fits(cue):
         mention = thing("Elmo", cue=cue)
@@ -278,7 +278,7 @@ def test_cells_have_what_they_would_have_if_each_were_looked_at(field) -> None:
     """In a town that is wide against what is looked at cell by cell."""
     rng = np.random.default_rng(2)
     centers = np.stack(np.meshgrid(np.arange(0, 3000, GRID_M), np.arange(0, 1500, GRID_M)), axis=-1).reshape(-1, 2)
-    words = [Words(("shop",), (name,)) for name in ("One", "Other", "Third")]
+    words = [GazetteerObject(("shop",), (name,)) for name in ("One", "Other", "Third")]
     town = build_gazetteer(words, [point(*at) for at in rng.uniform((0, 0), (3000, 1500), (3, 2))], [False] * 3)
     wide = PlaceField(PlaceKernels(), town, centers, GRID_M)
     cues = Cue(), Cue(relation="near"), Cue(distance_m=100.0)

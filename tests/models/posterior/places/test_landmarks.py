@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from models.citymap.gazetteer.gazetteer import build_gazetteer
-from models.citymap.gazetteer.name_columns import Words
+from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.errors import IndexBroken
 from models.posterior.places.landmarks import FILE, Landmarks
 from models.posterior.places.name_probabilities import ON_STREET_M
@@ -51,7 +51,7 @@ def test_of_one_name_the_nearest_counts():
     here, there = point(8.0, 0.0), point(25.0, 0.0)
     chances = []
     for places in ([here, there], [there, here], [here], [there]):
-        words = [Words(("shop/bakery", "shop"), ("Rossi Bakery",))] * len(places)
+        words = [GazetteerObject(("shop/bakery", "shop"), ("Rossi Bakery",))] * len(places)
         town = Landmarks.of(build_gazetteer(words, places, [False] * len(places)), np.zeros((1, 2)), ("shop",))
         chances.append(chance_of(town.said, town.names, "Rossi Bakery")[0])
     assert chances[0] == chances[1] == chances[2] > chances[3] > 0

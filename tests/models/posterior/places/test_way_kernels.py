@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from models.citymap.gazetteer.closest_points import Ways
+from models.citymap.gazetteer.closest_points import ClosestPoints
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.posterior.places.field import PlaceField
@@ -30,12 +30,12 @@ def kernels() -> PlaceKernels:
     return fitted
 
 
-def ways(rng, items: int) -> Ways:
+def ways(rng, items: int) -> ClosestPoints:
     """Ways from most points to some things, the first without any length."""
     point = np.sort(rng.integers(1, POINTS, 400))
     way_m = rng.normal(0, 40, (400, 2))
     way_m[0] = 0
-    return Ways(point, rng.integers(0, items, 400), way_m)
+    return ClosestPoints(point, rng.integers(0, items, 400), way_m)
 
 
 @pytest.mark.parametrize("cue", CUES)

@@ -10,7 +10,7 @@ import pytest
 
 from models.errors import DataError
 from models.sources.kitti360pose.files import load_cells, load_poses, load_scene, save_scene
-from models.sources.kitti360pose.pickle_values import Record
+from models.sources.kitti360pose.pickle_values import PickledRecord
 from models.sources.kitti360pose.pickle_writer import cell_record, pose_record
 from tests.models.sources.conftest import LONG, dump, make_cell, make_hint, make_pose, oracle
 
@@ -89,7 +89,7 @@ def test_a_bad_pose_is_refused_by_file_and_field(message: str, tmp_path: Path) -
     assert f"{path}: poses[1].{message}" in str(error.value)
 
 
-def _set(record: Record, name: str, value: object) -> None:
+def _set(record: PickledRecord, name: str, value: object) -> None:
     if value is ...:
         del record.fields[name]
     else:

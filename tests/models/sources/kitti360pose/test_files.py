@@ -18,7 +18,7 @@ from models.sources.kitti360pose.files import (
     select_scenes,
     short_name,
 )
-from models.sources.kitti360pose.pickle_values import RECORD_MODULE, RECORDS
+from models.sources.kitti360pose.pickle_values import RECORD_CLASSES, RECORD_MODULE
 from models.sources.kitti360pose.pickle_writer import pose_record
 from tests.models.sources.conftest import (
     LONG,
@@ -82,7 +82,7 @@ def test_the_reference_code_would_load_what_is_written(root: Path) -> None:
     assert [pose.cell_id for pose in poses] == [cell.id for cell in cells]
     # numpy._core is not there before numpy 1.26, which researchers' environments have.
     numpy_names = {("numpy.core.multiarray", "_reconstruct"), ("numpy", "ndarray"), ("numpy", "dtype")}
-    assert names == {(RECORD_MODULE, kind) for kind in RECORDS} | numpy_names
+    assert names == {(RECORD_MODULE, kind) for kind in RECORD_CLASSES} | numpy_names
     assert all(opcode.proto <= 4 for part in data for opcode, _, _ in pickletools.genops(part))
 
 

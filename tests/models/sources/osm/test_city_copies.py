@@ -8,9 +8,9 @@ import osmium
 import pytest
 
 from models.citymap.frame import Frame
-from models.citymap.gazetteer.name_columns import STREET
+from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.errors import MapError
-from models.sources.osm.city_copies import Block, Extract
+from models.sources.osm.city_copies import CityExtract, CopyGrid
 from models.sources.osm.gazetteer import load_gazetteer
 from models.sources.osm.map import load_osm
 
@@ -51,7 +51,7 @@ def town(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def extract(town):
-    return Extract.of(town)
+    return CityExtract.read(town)
 
 
 @pytest.fixture(scope="module")
@@ -159,13 +159,13 @@ def test_things_of_a_kind_swap_names_with_all_that_belongs_to_them(by_copy) -> N
 
 
 def test_the_same_names_come_again(town, tiled, tmp_path) -> None:
-    Extract.of(town).write_tiled(COPIES, tmp_path / "again.osm.pbf")
+    CityExtract.read(town).write_tiled(COPIES, tmp_path / "again.osm.pbf")
     assert elements(tmp_path / "again.osm.pbf") == elements(tiled)
 
 
 def test_a_tiled_city_is_read_with_as_many_times_the_streets(osm_file, city, tmp_path) -> None:
     out = tmp_path / "city.osm.pbf"
-    block = Extract.of(osm_file).write_tiled(4, out)
+    block = CityExtract.read(osm_file).write_tiled(4, out)
     found = load_osm(out)
     names = Counter(instance.label for instance in city.instances if instance.name)
     assert names
@@ -174,13 +174,13 @@ def test_a_tiled_city_is_read_with_as_many_times_the_streets(osm_file, city, tmp
     )
     assert len({i.name for i in found.instances}) - 1 == 4 * (len({i.name for i in city.instances}) - 1)
     own = [load_gazetteer(path, map_.frame) for path, map_ in ((osm_file, city), (out, found))]
-    streets, corners = ([len(g.by_kind[STREET]) for g in own], [len(g.corners_m) for g in own])
+    streets, corners = ([len(g.by_kind[STREET_KIND]) for g in own], [len(g.corners_m) for g in own])
     assert streets[1] == 4 * streets[0]
     assert corners[1] > 3 * corners[0], "streets that end on another one's line meet it or not, by rounding"
     assert len(found.locations_m) == pytest.approx(4 * len(city.locations_m), rel=0.15)
     lat, lon = city.frame.to_wgs84(city.locations_m[:1])
     shifted = lat[0] + block.shift(3)[1] / 1e7, lon[0] + block.shift(3)[0] / 1e7
-    assert block.folded(*shifted) == pytest.approx((lat[0], lon[0]), abs=1e-9)
+    assert block.to_first_copy(*shifted) == pytest.approx((lat[0], lon[0]), abs=1e-9)
     near = found.frame.from_wgs84(*map(np.array, shifted))
     assert np.hypot(*(found.locations_m[:, :2] - near).T).min() < 2.5
 
@@ -190,7 +190,7 @@ def test_a_block_is_as_wide_as_high(copies, columns) -> None:
     side_m = 1000
     frame = Frame("map", 0.0, 25.0)
     (south, north), (west, east) = frame.to_wgs84(np.array([[0, 0], [side_m, side_m]]))
-    block = Block(tuple(round(1e7 * each) for each in (west, south, east, north)), copies)
+    block = CopyGrid(tuple(round(1e7 * each) for each in (west, south, east, north)), copies)
     assert block.columns == columns
     assert len({block.shift(copy) for copy in range(copies)}) == copies
 
@@ -199,12 +199,12 @@ def test_what_does_not_fit_on_earth_and_what_is_no_map_is_said(extract, tmp_path
     with pytest.raises(MapError, match="fewer cells"):
         extract.write_tiled(300_000_000, tmp_path / "a.osm.pbf")
     with pytest.raises(MapError, match="as --map"):
-        Extract.of(tmp_path / "nothing.osm.pbf")
+        CityExtract.read(tmp_path / "nothing.osm.pbf")
     (tmp_path / "bad.osm.pbf").write_bytes(b"no" * 100)
     with pytest.raises(MapError, match="download it again"):
-        Extract.of(tmp_path / "bad.osm.pbf")
+        CityExtract.read(tmp_path / "bad.osm.pbf")
     (tmp_path / "empty.osm").write_text("<?xml version='1.0'?><osm version='0.6'></osm>")
     with pytest.raises(MapError, match="no place in it"):
-        Extract.of(tmp_path / "empty.osm")
+        CityExtract.read(tmp_path / "empty.osm")
     with pytest.raises(MapError, match="cannot be written"):
         extract.write_tiled(2, tmp_path / "no" / "such.osm.pbf")

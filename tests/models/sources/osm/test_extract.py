@@ -7,7 +7,7 @@ import pytest
 
 import models
 from models.errors import MapError
-from models.sources.osm.extract import Region, extract, extracted
+from models.sources.osm.extract import Region, extract, extracted_file
 from models.sources.osm.map import load_osm
 
 SHIPPED_PATH = Path(models.__file__).parent / "maps" / "helsinki.osm.pbf"
@@ -69,7 +69,7 @@ def test_a_polygon_leaves_out_what_is_beside_it(taken, tmp_path) -> None:
     file.write_text(json.dumps(feature))
     region = Region.parse(str(file))
     assert region.shape.bounds == pytest.approx((west, south, east, north))
-    with extracted(SHIPPED_PATH, region) as path:
+    with extracted_file(SHIPPED_PATH, region) as path:
         assert path.name == "helsinki.osm.pbf"
         some, all_of = elements(path), elements(taken)
     assert set(some) < set(all_of)
@@ -107,10 +107,13 @@ def test_a_file_without_a_polygon_is_no_region(content, tmp_path) -> None:
 
 
 def test_where_nothing_is_and_what_is_no_map_is_said(tmp_path) -> None:
-    with pytest.raises(MapError, match="nothing of it"), extracted(SHIPPED_PATH, Region.parse("1,1,2,2")):
+    with pytest.raises(MapError, match="nothing of it"), extracted_file(SHIPPED_PATH, Region.parse("1,1,2,2")):
         pass
-    with pytest.raises(MapError, match="OpenStreetMap file alone"), extracted(tmp_path, Region.parse("1,1,2,2")):
+    with pytest.raises(MapError, match="OpenStreetMap file alone"), extracted_file(tmp_path, Region.parse("1,1,2,2")):
         pass
     (tmp_path / "bad.osm.pbf").write_bytes(b"no" * 100)
-    with pytest.raises(MapError, match="download it again"), extracted(tmp_path / "bad.osm.pbf", Region.parse(BOX)):
+    with (
+        pytest.raises(MapError, match="download it again"),
+        extracted_file(tmp_path / "bad.osm.pbf", Region.parse(BOX)),
+    ):
         pass

@@ -7,9 +7,9 @@ import pytest
 import shapely
 
 from models.sources.osm.classes import load_classes
-from models.sources.osm.feature_strips import Instances, Strips
+from models.sources.osm.feature_strips import FeatureInstances, FeatureStrips
 from models.sources.osm.features import Feature
-from models.sources.osm.imported_map import Taken
+from models.sources.osm.imported_map import ImportedMap
 from models.sources.osm.map import load_osm
 
 
@@ -19,15 +19,15 @@ def feature(label, geometry, source, height_m=0.0):
 
 
 def filed(tmp_path, features, monkeypatch, band):
-    monkeypatch.setattr("models.sources.osm.feature_strips.BAND", band)
-    return Strips(tmp_path, [features[:2], [], features[2:]])
+    monkeypatch.setattr("models.sources.osm.feature_strips.TILE_COLUMNS_PER_BAND", band)
+    return FeatureStrips(tmp_path, [features[:2], [], features[2:]])
 
 
 @pytest.mark.parametrize("band", [1, 2, 7])
 def test_a_map_is_the_same_in_strips_of_any_width(band, osm_file, monkeypatch) -> None:
-    monkeypatch.setattr("models.sources.osm.feature_strips.BAND", 10_000)
+    monkeypatch.setattr("models.sources.osm.feature_strips.TILE_COLUMNS_PER_BAND", 10_000)
     whole = load_osm(osm_file)
-    monkeypatch.setattr("models.sources.osm.feature_strips.BAND", band)
+    monkeypatch.setattr("models.sources.osm.feature_strips.TILE_COLUMNS_PER_BAND", band)
     some = load_osm(osm_file)
     assert len(some.instances) == len(whole.instances) > 20
     for one, other in zip(some.instances, whole.instances, strict=True):
@@ -40,7 +40,7 @@ def test_a_map_is_the_same_in_strips_of_any_width(band, osm_file, monkeypatch) -
         assert np.array_equal(getattr(some.pieces, field.name), getattr(whole.pieces, field.name)), field.name
     assert np.array_equal(some.locations_m, whole.locations_m)
     drawn, wanted = some.outlines.encode(), whole.outlines.encode()
-    assert drawn.facts == wanted.facts
+    assert drawn.metadata == wanted.metadata
     assert [*drawn.tensors] == [*wanted.tensors]
     for name, tensor in drawn.tensors.items():
         assert tensor.tobytes() == wanted.tensors[name].tobytes(), name
@@ -60,9 +60,9 @@ def test_what_is_one_instance_is_so_across_strips(band, tmp_path, monkeypatch) -
         feature("street lamp", shapely.Point(204.8, 20), "node/8"),
         feature("street lamp", shapely.Point(209, 20), "node/9"),
     ]
-    found = Instances.of(filed(tmp_path, features, monkeypatch, band))
+    found = FeatureInstances.join(filed(tmp_path, features, monkeypatch, band))
     alike = {}
-    for number, instance in enumerate(found.of_feature.tolist()):
+    for number, instance in enumerate(found.feature_instance.tolist()):
         alike.setdefault(instance, []).append(number)
     upright = sorted([6, 7], key=lambda n: features[n].order)[0]  # carries the other
     left_out = sorted({4, 6, 7} - {upright})
@@ -70,7 +70,7 @@ def test_what_is_one_instance_is_so_across_strips(band, tmp_path, monkeypatch) -
     assert sorted(alike.values()) == sorted([[0, 1], [2], [3], [5], [upright], [8]])
     order = [features[n].order for n in found.first]
     assert order == sorted(order)
-    assert [features[n].order for n in np.argsort(found.place)] == sorted(each.order for each in features)
+    assert [features[n].order for n in np.argsort(found.rank)] == sorted(each.order for each in features)
 
 
 @pytest.mark.parametrize("band", [1, 100])
@@ -79,7 +79,7 @@ def test_an_instance_is_as_high_as_its_first_feature_in_every_strip(band, tmp_pa
         feature("wall", shapely.LineString([(200, 0), (300, 0)]), "way/1", 3.0),
         feature("wall", shapely.LineString([(0, 0), (200, 0)]), "way/2", 1.5),
     ]
-    found = Taken.of(filed(tmp_path, features, monkeypatch, band))
+    found = ImportedMap.from_strips(filed(tmp_path, features, monkeypatch, band))
     assert len(found.instances) == 1
     assert len(found.pieces.heights_m) == 31
     assert np.ptp(found.pieces.heights_m[:, 1]) == 0
@@ -93,5 +93,5 @@ def test_what_is_drawn_side_by_side_is_in_order_across_strips(band, tmp_path, mo
     features = [
         feature("tree", shapely.Point(x, 5), f"node/{n}", 8.0) for n, x in enumerate([106.3, 105.7, 106.1, 105.9], 1)
     ]
-    found = Taken.of(filed(tmp_path, features, monkeypatch, band))
+    found = ImportedMap.from_strips(filed(tmp_path, features, monkeypatch, band))
     assert found.outlines.tensors["source"].tolist() == [4, 8, 12, 16]

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from models.citymap.frame import Frame
-from models.citymap.gazetteer.gazetteer import ADDRESS, WALKED, Gazetteer
-from models.citymap.gazetteer.name_columns import STREET
+from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, WALKED_KIND, Gazetteer
+from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.errors import MapError
-from models.sources.osm.gazetteer import MOST_NAMES, load_gazetteer
+from models.sources.osm.gazetteer import MAX_NAMES, load_gazetteer
 
 FRAME = Frame("map", 60.0, 25.0)
 LAT_M, LON_M = 1 / 111_412.0, 1 / 55_800.0  # degrees a metre, near enough at 60 degrees
@@ -62,7 +62,7 @@ def segments(gazetteer: Gazetteer, number: int) -> np.ndarray:
 
 
 def names(gazetteer: Gazetteer) -> list[str]:
-    return [words.names[0] for words in gazetteer.words if words.names]
+    return [words.names[0] for words in gazetteer.objects if words.names]
 
 
 @pytest.fixture
@@ -79,7 +79,7 @@ def test_streets_that_share_a_node_meet_there(tmp_path) -> None:
     osm.way([osm.node((0, 0)), middle, osm.node((100, 0))], highway="residential", name="Main Street")
     osm.way([osm.node((50, -60)), middle, osm.node((50, 60))], highway="secondary", name="Oak Avenue")
     found = osm.load(tmp_path)
-    assert [words.kinds for words in found.words] == [(STREET,), (STREET,), (WALKED,)]
+    assert [words.kinds for words in found.objects] == [(STREET_KIND,), (STREET_KIND,), (WALKED_KIND,)]
     assert names(found) == ["Main Street", "Oak Avenue"]
     assert found.corner_streets.tolist() == [[0, 1]]
     assert found.corners_m[0] == pytest.approx([50, 0], abs=0.3)
@@ -107,19 +107,19 @@ def test_a_street_in_pieces_is_one_object(tmp_path, osm) -> None:
 def test_a_named_shop_has_its_kinds_and_its_place(tmp_path, osm) -> None:
     osm.node((40, 880), shop="bakery", name="Rossi")
     found = osm.load(tmp_path)
-    shop = found.words[0]
+    shop = found.objects[0]
     assert shop.names == ("Rossi",)
     assert shop.kinds[0] == "shop/bakery"
     assert "shop" in shop.kinds
     assert shop.source_id == f"node/{len(osm.nodes)}"
     assert segments(found, 0)[0] == pytest.approx([40, 880, 40, 880], abs=0.5)
-    assert found.by_kind[STREET].tolist() == [1], "streets come last"
+    assert found.by_kind[STREET_KIND].tolist() == [1], "streets come last"
 
 
 def test_a_building_with_a_house_number_has_its_address(tmp_path, osm) -> None:
     way = osm.ring(20, 40, building="yes", addr__housenumber="12a", addr__street="High Street")
     found = osm.load(tmp_path)
-    house = found.words[0]
+    house = found.objects[0]
     assert (house.number, house.street, house.names) == ("12a", "High Street", ())
     assert house.kinds == ("building",)
     assert house.source_id == f"way/{way}"
@@ -131,16 +131,16 @@ def test_a_node_with_a_house_number_alone_is_an_address(tmp_path, osm) -> None:
     osm.node((5, 5), addr__housenumber="7", addr__street="High Street")
     osm.node((9, 9), addr__housenumber="8")
     found = osm.load(tmp_path)
-    kinds = [words.kinds for words in found.words]
-    assert kinds == [(ADDRESS,), (STREET,), (WALKED,)], "a number without a street is no address"
+    kinds = [words.kinds for words in found.objects]
+    assert kinds == [(ADDRESS_KIND,), (STREET_KIND,), (WALKED_KIND,)], "a number without a street is no address"
 
 
 def test_a_multipolygon_park_keeps_its_hole(tmp_path, osm) -> None:
     outer, inner = osm.ring(100, 300), osm.ring(150, 250)
     relation = osm.relation({outer: "outer", inner: "inner"}, type="multipolygon", leisure="park", name="Green Park")
     found = osm.load(tmp_path)
-    assert found.words[0].source_id == f"relation/{relation}"
-    assert "leisure/park" in found.words[0].kinds
+    assert found.objects[0].source_id == f"relation/{relation}"
+    assert "leisure/park" in found.objects[0].kinds
     assert found.is_area[0]
     assert len(segments(found, 0)) == 8
     assert np.ptp(segments(found, 0)[:, 0]) == pytest.approx(200, abs=1)
@@ -161,13 +161,13 @@ def test_a_multipolygon_park_keeps_its_hole(tmp_path, osm) -> None:
 )
 def test_all_names_of_a_thing(tmp_path, osm, tags, expected) -> None:
     osm.node((1, 1), amenity="cafe", **tags)
-    assert osm.load(tmp_path).words[0].names == expected
+    assert osm.load(tmp_path).objects[0].names == expected
 
 
 def test_names_are_not_without_end(tmp_path, osm) -> None:
     osm.node((1, 1), amenity="cafe", name=";".join(f"Name {n}" for n in range(90)))
-    found = osm.load(tmp_path).words[0].names
-    assert len(found) == MOST_NAMES
+    found = osm.load(tmp_path).objects[0].names
+    assert len(found) == MAX_NAMES
     assert found[0] == "Name 0"
 
 
@@ -193,8 +193,8 @@ def test_a_way_with_an_operator_alone_is_no_street(tmp_path, osm) -> None:
 def test_steps_without_a_name_are_kept_as_a_kind(tmp_path, osm) -> None:
     osm.line((0, 0), (10, 0), highway="steps")
     found = osm.load(tmp_path)
-    assert found.words[0].kinds[0] == "highway/steps"
-    assert found.words[0].names == ()
+    assert found.objects[0].kinds[0] == "highway/steps"
+    assert found.objects[0].names == ()
     assert not found.is_area[0]
 
 
@@ -227,7 +227,7 @@ def test_a_round_street_is_a_line_and_a_square_an_area(tmp_path, osm) -> None:
     osm.ring(0, 60, highway="residential", name="Ring Street")
     osm.ring(100, 160, place="square", name="Old Square")
     found = osm.load(tmp_path)
-    area = {w.names[0]: bool(is_area) for w, is_area in zip(found.words, found.is_area, strict=True) if w.names}
+    area = {w.names[0]: bool(is_area) for w, is_area in zip(found.objects, found.is_area, strict=True) if w.names}
     assert area == {"Old Square": True, "High Street": False, "Ring Street": False}
 
 
@@ -251,9 +251,9 @@ def test_all_that_people_walk_on_is_one_object(tmp_path, osm) -> None:
     osm.line((0, 30), (50, 30), highway="motorway")
     osm.line((0, 60), (50, 60), highway="footway", indoor="yes")
     found = osm.load(tmp_path)
-    [walked] = found.by_kind[WALKED]
+    [walked] = found.by_kind[WALKED_KIND]
     assert sorted(segments(found, walked)[:, 1].round().tolist()) == [0, 900], "the footway and the street"
-    assert not found.words[walked].names
+    assert not found.objects[walked].names
 
 
 def test_a_map_without_streets(tmp_path) -> None:
@@ -275,7 +275,7 @@ def test_files_that_cannot_be_read_are_refused(tmp_path, content) -> None:
 
 def test_the_made_up_town_has_its_streets(osm_file, city) -> None:
     found = load_gazetteer(osm_file, city.frame)
-    streets = {found.words[n].names[0] for n in found.by_kind[STREET]}
+    streets = {found.objects[n].names[0] for n in found.by_kind[STREET_KIND]}
     assert streets == {f"East Street {n}" for n in range(6)} | {f"North Path {n}" for n in range(6)}
     assert 16 <= len(found.corner_streets) <= 36, "those at the edge may miss each other by a millimetre"
     assert {"amenity/bench", "highway/street_lamp", "natural/tree"} <= found.by_kind.keys()

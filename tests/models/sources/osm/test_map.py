@@ -8,8 +8,8 @@ import shapely
 
 from models.citymap.colours import parse_colour
 from models.errors import MapError
-from models.sources.osm.classes import OsmClass, class_of, load_classes
-from models.sources.osm.map import frame_of, load_osm
+from models.sources.osm.classes import OsmClass, find_class, load_classes
+from models.sources.osm.map import load_osm, read_frame
 
 HEADER = "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>"
 STREET = (
@@ -63,9 +63,9 @@ BOX = '<bounds minlat="59.999" minlon="24.999" maxlat="60.005" maxlon="25.003"/>
 def test_the_frame_is_known_before_the_map_is_read(tmp_path, box) -> None:
     path = tmp_path / "map.osm"
     path.write_text(HEADER + box + STREET + "</osm>")
-    assert frame_of(path) == load_osm(path).frame
-    assert frame_of(path).origin_lat == pytest.approx(60.002 if box else 60.0)
-    assert frame_of(path).origin_lon == pytest.approx(25.001 if box else 25.0005)
+    assert read_frame(path) == load_osm(path).frame
+    assert read_frame(path).origin_lat == pytest.approx(60.002 if box else 60.0)
+    assert read_frame(path).origin_lon == pytest.approx(25.001 if box else 25.0005)
 
 
 def test_a_map_beside_its_box_is_refused(tmp_path) -> None:
@@ -318,6 +318,6 @@ def test_the_class_of_tags_is_the_first_row_that_they_match() -> None:
         some = [conditions[n] for n in rng.integers(len(conditions), size=rng.integers(6))]
         tags = {key: str(rng.choice(sorted(values or {"yes"}))) for key, values in some}
         expected = next(((n, row) for n, row in enumerate(rows) if row.matches(tags)), None)
-        assert class_of(tags) == expected
+        assert find_class(tags) == expected
         found.add(expected and expected[0])
     assert len(found) > len(rows) / 2

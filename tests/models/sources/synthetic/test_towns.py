@@ -12,11 +12,11 @@ from models.sources.kitti360.raw import list_raw_scenes, load_raw_scene
 from models.sources.kitti360.rules import CLASSES, GROUND, PrepareConfig
 from models.sources.kitti360pose.files import STANDARD_SPLITS, short_name
 from models.sources.synthetic import towns as synthetic
-from models.sources.synthetic.drive import count_cells, draw_drive, spaced
+from models.sources.synthetic.drive import count_cells, draw_drive, spaced_rows
 from models.sources.synthetic.layout import draw_land, draw_plan
 from models.sources.synthetic.objects import FURNITURE
-from models.sources.synthetic.shapes import Spot, box, patch
-from models.sources.synthetic.styles import COLOURS, STYLES
+from models.sources.synthetic.shapes import LocalFrame, box, patch
+from models.sources.synthetic.styles import COLOUR_WEIGHTS, STYLES
 from models.sources.synthetic.towns import SCALES, SIZES, TOWN_STYLES, build_town, write_town, write_towns
 
 LABELS = {rule.label for rule in CLASSES}
@@ -142,7 +142,7 @@ def test_a_drive_bends_and_ends_when_it_has_passed_enough_cells(style):
     plan, land = draw_plan(rng, STYLES[style], 400), draw_land(rng, STYLES[style])
     drive = land.to_world(draw_drive(rng, plan, land, 400))
     config = PrepareConfig()
-    assert abs(count_cells(drive[spaced(drive, config.spacing_m)], config) - 400) <= 12
+    assert abs(count_cells(drive[spaced_rows(drive, config.spacing_m)], config) - 400) <= 12
     heading = np.arctan2(*np.gradient(drive[:, :2], axis=0).T)
     assert len(np.unique(np.round(heading / (np.pi / 8)) % 16)) >= 8
     assert np.ptp(drive[:, 2]) > 0.5
@@ -199,7 +199,7 @@ def test_scales_cover_the_standard_split_at_the_published_size():
     assert sum(SIZES["demo"]["train"]) == 2000
     for sizes in (*SIZES.values(), TOWN_STYLES):
         assert {split: len(of) for split, of in sizes.items()} == {s: len(of) for s, of in STANDARD_SPLITS.items()}
-    assert COLOURS.keys() == LABELS
+    assert COLOUR_WEIGHTS.keys() == LABELS
 
 
 def test_bodies_lie_where_they_should():
@@ -215,10 +215,10 @@ def test_bodies_lie_where_they_should():
 
 @pytest.mark.parametrize("flip", [1.0, -1.0])
 def test_spots_nest(flip):
-    spot = Spot(3, 4, np.cos(0.7), np.sin(0.7), flip)
-    nested = spot.at(2, 1, np.pi / 2)
+    spot = LocalFrame(3, 4, np.cos(0.7), np.sin(0.7), flip)
+    nested = spot.offset(2, 1, np.pi / 2)
     inner = np.array([[1.0, 0.0, 0.0]])  # a metre along the turned x axis is a metre along the outer y axis
-    np.testing.assert_allclose(nested.plan(inner), spot.plan(np.array([[2.0, 2.0, 0.0]])), atol=1e-12)
+    np.testing.assert_allclose(nested.to_plan(inner), spot.to_plan(np.array([[2.0, 2.0, 0.0]])), atol=1e-12)
 
 
 @pytest.mark.parametrize("label", FURNITURE)

@@ -6,7 +6,7 @@ from models.citymap.frame import Frame
 from models.errors import TrainingError
 from models.posterior.model import load_posterior
 from models.posterior.places.kernels import PlaceKernels
-from models.sources.place_texts import ToldText
+from models.sources.place_texts import PlaceText
 from models.training.posterior.fit_places import Case, ToldPlace, calibrate_places, fit_places, read_cases
 from tests.models.citymap.gazetteer.made_town import is_common, made_gazetteer
 
@@ -36,7 +36,7 @@ def told(texts: dict[str, tuple[float, float]]) -> ToldPlace:
         return float(lat), float(lon)
 
     start = degrees((380, 0))
-    rows = [ToldText(text, degrees(at), start if "you" in text else None) for text, at in texts.items()]
+    rows = [PlaceText(text, degrees(at), start if "you" in text else None) for text, at in texts.items()]
     return ToldPlace(made_gazetteer(), FRAME, CENTERS, GRID_M, rows)
 
 
