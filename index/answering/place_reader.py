@@ -14,6 +14,7 @@ from index.answering.result import pair
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.types import Floats
+from models.language.measures import Measure, compass_name, distance_in_text
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
@@ -21,7 +22,7 @@ from models.language.mentions.mentions import Mention
 from models.language.mentions.name_table import NameTable
 from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, with_goal
 from models.language.mentions.spans import PASSED, STOP
-from models.language.parsed_hint import WINDS, ParsedHint
+from models.language.parsed_hint import ParsedHint
 from models.language.text_encoder import TextEncoder
 from models.posterior.distribution import Located
 from models.posterior.places.explanations import Explained
@@ -186,7 +187,7 @@ def without(mention: Mention, left_out: frozenset[str]) -> Mention | None:
     cue = replace(
         cue,
         wind=None if "wind" in left_out else cue.wind,
-        distance_m=None if "distance" in left_out else cue.distance_m,
+        measure=None if "distance" in left_out else cue.measure,
     )
     return replace(mention, cue=cue, side=None if "side" in left_out else mention.side)
 
@@ -225,6 +226,27 @@ def near_hints(
     return kept, places
 
 
+def with_one_owner(
+    text: str, hints: Sequence[ParsedHint], mentions: Sequence[Mention]
+) -> tuple[list[ParsedHint], list[Mention]]:
+    """Return hints and mentions of a text, each measure with only the nearest of those that claim it."""
+    hints, mentions = list(hints), list(mentions)
+    for m, mention in enumerate(mentions):
+        measure = mention.cue.measure
+        for n, hint in enumerate(hints):
+            if measure is None or hint.measure is None or not _overlap(measure, hint.measure):
+                continue
+            if distance_in_text(text, hint.measure, hint) < distance_in_text(text, measure, mention):
+                mentions[m] = replace(mention, cue=replace(mention.cue, measure=None))
+                break
+            hints[n] = replace(hint, measure=None)
+    return hints, mentions
+
+
+def _overlap(one: Measure, other: Measure) -> bool:
+    return one.start < other.end and other.start < one.end
+
+
 def _bytes_of(mentions: Sequence[Mention]) -> int:
     """About what they take in memory."""
     return 2000 + sum(1000 + m.objects.nbytes + m.weights.nbytes + m.lines_m.nbytes for m in mentions)
@@ -260,7 +282,7 @@ def _unexplained(mention: Mention) -> Evidence:
 def _relation(mention: Mention) -> str:
     cue = mention.cue
     if cue.wind is not None:
-        return WINDS[round(((cue.wind + 180) % 360) / 45) % 8]
+        return compass_name(cue.wind + 180)
     if cue.angle is not None:
         side = "left" if cue.angle < 0 else "right"
         return next(words.format(side) for most, words in _EGO if abs(cue.angle) <= most)

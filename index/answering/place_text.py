@@ -9,7 +9,7 @@ from models.citymap.gazetteer.closest_points import ClosestPoints, PointGroups, 
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.parsed_hint import WINDS
+from models.language.measures import compass_name
 
 ON_STREET_M: Final = 30.0
 AT_CORNER_M: Final = 18.0
@@ -79,7 +79,7 @@ def _may_be_near(middles_m: Floats, reach_m: Floats, position: Floats, apart_m: 
 def wind_of(way_m: Floats) -> str:
     """The wind in which a way [2] (east, north) leads."""
     east, north = way_m
-    return WINDS[round(float(np.degrees(np.arctan2(east, north))) / 45) % 8]
+    return compass_name(float(np.degrees(np.arctan2(east, north))))
 
 
 def ways_from(gazetteer: Gazetteer, objects: Ints, position: Floats, reach_m: float) -> ClosestPoints:

@@ -11,7 +11,7 @@ import numpy as np
 from index.answering.answers import Evidence, Method, ModelName, Question
 from index.answering.filters import log_prior, where_inside
 from index.answering.meanings import Meanings
-from index.answering.place_reader import PlaceReader, may_be_near, near_hints
+from index.answering.place_reader import PlaceReader, may_be_near, near_hints, with_one_owner
 from index.answering.place_text import place_text
 from index.answering.query import Query
 from index.answering.ranking import Ranker
@@ -212,8 +212,9 @@ class PosteriorLocalizer:
         reading = self.binding.reading(hints) if hints else None
         trust = [] if reading is None else reading.label.amax(dim=1).tolist()
         near, mentions = near_hints(hints, trust, mentions)
+        hints, mentions = with_one_owner(text, [hints[n] for n in near], mentions)
         told = self.places.told(mentions, query.description, listener_m)
-        return [hints[n] for n in near], reading.take(near) if reading and near else None, mentions, told
+        return hints, self.binding.reading(hints) if hints else None, mentions, told
 
     def _located(
         self,

@@ -60,5 +60,5 @@ def _shifted(pieces: Sequence[str], read: Mapping[str, Sequence[ParsedHint]]) ->
     """The hints of the pieces of a text, with their places in the whole."""
     before = 0
     for piece in pieces:
-        yield from (replace(hint, start=hint.start + before, end=hint.end + before) for hint in read[piece])
+        yield from (hint.moved(before) for hint in read[piece])
         before += len(piece) + 1

@@ -7,17 +7,16 @@ from typing import Final
 
 from torch import Tensor
 
+from models.language.measures import COMPASS, Measure, measures_in, numbers_in
+
 # Where the speaker is, seen from the thing: the eight winds, right at it, or not said.
-WINDS: Final = ("north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest")
-RELATIONS: Final = (*WINDS, "on-top", "near")
+RELATIONS: Final = (*COMPASS, "on-top", "near")
 BEFORE = 40  # characters before a plural in which its number stands
 MOST = 4  # hints that a plural is taken for
-_NUMBERS: Final = {
-    **dict.fromkeys(("two", "2", "pair", "couple", "both", "twin", "either"), 2),
-    **dict.fromkeys(("three", "3", "trio", "triple"), 3),
-    **dict.fromkeys(("four", "4", "five", "5", "six", "6"), MOST),
-}
-_NUMBER = re.compile(rf"\b({'|'.join(_NUMBERS)})\b", re.I)
+COUNTED: Final = range(2, 7)  # numbers that may count a plural; others are seldom told
+_COLLECTIVES: Final = {"pair": 2, "couple": 2, "both": 2, "twin": 2, "either": 2, "trio": 3, "triple": 3}
+_COLLECTIVE = re.compile(rf"\b({'|'.join(_COLLECTIVES)})\b", re.I)
+_CLAUSE_END = re.compile(r"[.;:!?\n]")
 _MEASURE = re.compile(
     r"\b(?:area|bit|bunch|clump|cluster|expanse|length|line|patch|piece|plot|row|section|stretch|strip)(?:e?s)?$", re.I
 )
@@ -43,7 +42,7 @@ class ParsedHint:
         relation: [10] probability of each of RELATIONS: where the speaker is, seen from it.
         colour: [C + 1] probability of each of COLOURS; the last, that none is said.
         absent: probability that the text says there is none.
-        distance_m: said distance, None if none is.
+        measure: the distance that is said; None if none is.
     """
 
     noun: str
@@ -52,7 +51,19 @@ class ParsedHint:
     relation: Tensor
     colour: Tensor
     absent: float
-    distance_m: float | None
+    measure: Measure | None = None
+
+    def moved(self, characters: int) -> "ParsedHint":
+        """Return the hint of a text that stands so far behind the begin of another."""
+        measure = self.measure and replace(
+            self.measure, start=self.measure.start + characters, end=self.measure.end + characters
+        )
+        return replace(self, start=self.start + characters, end=self.end + characters, measure=measure)
+
+    @property
+    def distance_m(self) -> float | None:
+        """The distance that is said; None if none is."""
+        return None if self.measure is None else self.measure.metres
 
 
 def resolve(text: str, things: Sequence[ParsedHint], kinds: Sequence[str]) -> list[ParsedHint]:
@@ -96,8 +107,8 @@ def _once_each(text: str, things: Sequence[ParsedHint], kinds: Sequence[str]) ->
         follows = text[thing.end : things[n + 1].start] if n + 1 < len(things) else ""
         if _MEASURE.search(thing.noun) and _OF.match(follows):
             again.add(n)
-            if things[n + 1].distance_m is None:
-                merged[n + 1] = replace(things[n + 1], distance_m=thing.distance_m)
+            if things[n + 1].measure is None:
+                merged[n + 1] = replace(things[n + 1], measure=thing.measure)
         elif kinds[n] == "noun" and _DEFINITE.search(text, max(0, thing.start - 6), thing.start):
             same = [m for m in range(n) if m not in again and kinds[m] == "noun" and _is_like(things[m], thing)]
             if same and (both := _merged(merged[same[-1]], merged[n], placed[same[-1]], placed[n])):
@@ -121,7 +132,7 @@ def _merged(first: ParsedHint, later: ParsedHint, first_placed: bool, later_plac
         first,
         relation=(later if later_placed else first).relation,
         colour=(later if coloured[1] else first).colour,
-        distance_m=first.distance_m if later.distance_m is None else later.distance_m,
+        measure=later.measure or first.measure,
     )
 
 
@@ -134,6 +145,13 @@ def _says_where(text: str, thing: ParsedHint) -> bool:
 
 def _count(text: str, thing: ParsedHint) -> int:
     """How many a plural names: the last number before it in its clause, else one hint's worth."""
-    before = re.split(r"[.;:!?\n]", text[max(0, thing.start - BEFORE) : thing.start])[-1]
-    said = _NUMBER.findall(before)
-    return _NUMBERS[said[-1].lower()] if said else 1
+    clause = _CLAUSE_END.split(text[max(0, thing.start - BEFORE) : thing.start])[-1]
+    measures = measures_in(clause)
+    said = [(number.start, number.value) for number in numbers_in(clause) if not number.is_vague]
+    said += [(found.start(), _COLLECTIVES[found[1].lower()]) for found in _COLLECTIVE.finditer(clause)]
+    counts = [
+        int(value)
+        for start, value in sorted(said)
+        if value in COUNTED and not any(measure.start <= start < measure.end for measure in measures)
+    ]
+    return min(counts[-1], MOST) if counts else 1

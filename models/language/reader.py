@@ -3,6 +3,7 @@
 import copy
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 from typing import Final
 
@@ -12,7 +13,8 @@ from torch import Tensor, nn
 
 from models.language.int8 import PackedLayer, may_pack, run_packed
 from models.language.lexicon.lexicon import load_lexicon
-from models.language.parsed_hint import RELATIONS, SENTENCE_END, ParsedHint, resolve
+from models.language.measures import measures_in, nearest_facts
+from models.language.parsed_hint import RELATIONS, ParsedHint, resolve
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures, run_layers
 
 # Of tokens: outside, further token of what is named; first token of a noun, of a plural, of what stands for a thing.
@@ -22,17 +24,6 @@ COLOURS: Final = (
     "yellow", "blue", "purple", "pink",
 )  # fmt: skip
 REACH = 5  # tokens that a convolution sees
-FARTHEST_M = 1e5  # no map is so wide: what is said to be farther off is no distance
-_UNITS = {"m": 1.0, "met": 1.0, "ft": 0.3048, "f": 0.3048, "y": 0.9144, "s": 0.75, "p": 0.75}
-_WORDS = (
-    "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve",
-    "thirteen", "fourteen", "fifteen",
-)  # fmt: skip
-_NUMBERS = {word: n for n, word in enumerate(_WORDS)} | {"twenty": 20, "thirty": 30, "forty": 40, "fifty": 50}
-_DISTANCE = re.compile(
-    rf"(?<![\w.])(\d+(?:[.,]\d+)?|{'|'.join(_NUMBERS)})\s*-?\s*(m|met(?:re|er)s?|ft|feet|foot|yards?|steps?|paces?)\b",
-    re.I,
-)
 _LOOSE_END = re.compile(r"(?<=\w)\s+(?:of|with|along|down|up|by|in|on|at|and|to)$", re.I)
 
 
@@ -117,11 +108,10 @@ class Reader(OnTextEncoder):
             pooled = torch.stack([features[n, a:b].mean(dim=0) for a, b, _ in spans])
             relation, colour, absent = self.attributes(pooled)
             places = [_place(text, int(characters[n, a, 0]), int(characters[n, b - 1, 1])) for a, b, _ in spans]
-            distances = said_distances(text, places)
-            rows = zip(
-                places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), distances, strict=True
-            )
+            rows = zip(places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), strict=True)
             things = [ParsedHint(_noun(text, a, b), a, b, *rest) for (a, b), *rest in rows]
+            measures = nearest_facts(text, measures_in(text), things)
+            things = [replace(thing, measure=measures.get(number)) for number, thing in enumerate(things)]
             found.append(resolve(text, things, [TAGS[tag] for *_, tag in spans]))
         return found
 
@@ -185,30 +175,3 @@ def _sizes() -> re.Pattern[str]:
 def _noun(text: str, start: int, end: int) -> str:
     size = _sizes().search(text[max(0, start - 40) : start])
     return f"{size[1]} {text[start:end]}" if size else text[start:end]
-
-
-def said_distances(text: str, places: Sequence[tuple[int, int]]) -> list[float | None]:
-    """The distance said of each noun: of a sentence's measures, each goes to the noun that is nearest to it.
-
-    Args:
-        text: the description.
-        places: characters of each noun.
-    """
-    distances: list[float | None] = [None] * len(places)
-    ends = [m.start() for m in SENTENCE_END.finditer(text)]
-    for found in _DISTANCE.finditer(text):
-        low = max((e for e in ends if e < found.start()), default=-1)
-        high = min((e for e in ends if e >= found.end()), default=len(text))
-        inside = [n for n, (a, b) in enumerate(places) if low < a and b <= high]
-        if inside:
-            nearest = min(inside, key=lambda n: max(places[n][0] - found.end(), found.start() - places[n][1]))
-            number = found[1].lower()
-            value = _NUMBERS[number] if number in _NUMBERS else float(number.replace(",", "."))
-            metres = value * _metres(found[2])
-            distances[nearest] = metres if metres <= FARTHEST_M else None
-    return distances
-
-
-def _metres(unit: str) -> float:
-    key = max((k for k in _UNITS if unit.lower().startswith(k)), key=len)
-    return _UNITS[key]

@@ -1,7 +1,6 @@
 """The likelihood of hints about what is near a position (docs/method.md, near hints)."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -34,10 +33,6 @@ class Reading:
     colour: Tensor
     distance_m: Tensor
     absent: Tensor
-
-    def take(self, rows: Sequence[int]) -> "Reading":
-        """Some of the hints."""
-        return Reading(*(getattr(self, f.name)[list(rows)] for f in fields(self)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

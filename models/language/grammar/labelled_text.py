@@ -3,12 +3,12 @@
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from models.language.parsed_hint import WINDS
+from models.language.measures import COMPASS
 
 
 def opposite(wind: str) -> str:
     """The other end of the compass."""
-    return WINDS[(WINDS.index(wind) + 4) % 8]
+    return COMPASS[(COMPASS.index(wind) + 4) % 8]
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,7 @@ from models.language.grammar.labelled_text import Fact, LabelledText, Mention, o
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.typos import spoil
 from models.language.lexicon.lexicon import Names
-from models.language.parsed_hint import WINDS
+from models.language.measures import COMPASS
 
 PASSAGES, TRIES = 0.5, 16  # share of the times that a passage is looked for, and among how many; first of all among
 # those with plurals, if there are several things of a class
@@ -106,7 +106,7 @@ class Wording:
 
     def _choose(self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator) -> tuple[str, list[int]]:
         """A kind of phrase, and the facts that it takes."""
-        plain = [n for n in left if facts[n].is_simple and facts[n].relation in WINDS]
+        plain = [n for n in left if facts[n].is_simple and facts[n].relation in COMPASS]
         return (self._choose_plain if left[0] in plain else self._choose_other)(facts, left, plain, rng)
 
     def _choose_other(
@@ -223,10 +223,10 @@ class Wording:
 def _kind_alone(fact: Fact) -> str:
     """The kind of phrase for a fact that is more than a thing and a direction."""
     if fact.name is not None:
-        return "named" if fact.relation in WINDS else "named_near"
+        return "named" if fact.relation in COMPASS else "named_near"
     if fact.absent:
         return "absent"
-    if fact.relation in WINDS:
+    if fact.relation in COMPASS:
         return "far_one"
     return "on_top" if fact.relation == "on-top" else "near"
 

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Final
 
+from models.language.measures import compass_name
 from models.language.mentions.mentions import Mention
-from models.language.parsed_hint import WINDS
 
 OPPOSITE: Final = 135.0  # degrees between what is said twice, from which on both cannot be true
 FEW: Final = 4  # objects of one name that are one place; of a chain there may be one on the left and one on the right
@@ -47,4 +47,4 @@ def _ego(degrees: float) -> Said:
 
 
 def _name(degrees: float) -> str:
-    return WINDS[round((degrees % 360) / 45) % 8]
+    return compass_name(degrees)

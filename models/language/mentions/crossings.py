@@ -9,6 +9,7 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.language.measures import measures_in
 from models.language.mentions.cues import Cue
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention
@@ -21,17 +22,16 @@ _LOOSELY, _BETWEEN = _W.pattern("streets", "loosely"), _W.pattern("streets", "be
 _SURELY = re.compile(r"\b(?:and|at|meets|crosses|corner of)\b|[&/@]", re.IGNORECASE)
 _AT_END = re.compile(r"\s*(?:$|[.,;!?\n]|corner\b|crossing\b|intersection\b)", re.IGNORECASE)
 _NUMBER = re.compile(r"(?<![\w.])(?:number |no\.? |#)?(\d{1,5}[a-z]?)\s+$", re.IGNORECASE)
-_NUMBER_AFTER = re.compile(
-    r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?!\w|\.\d|\s*(?:m|met|feet|ft|yards|steps|min|blocks?|doors?|and|/)\b)",
-    re.IGNORECASE,
-)
+_NUMBER_AFTER = re.compile(r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?!\w|\.\d|\s*(?:and|/)\b)", re.IGNORECASE)
 
 
 def with_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> list[Mention]:
     """Streets with a house number before or behind them become addresses."""
-    found = []
+    found, measures = [], measures_in(text)
     for mention in mentions:
         before, after = _NUMBER.search(text[: mention.start]), _NUMBER_AFTER.match(text, mention.end)
+        if after and any(measure.start <= after.start(1) < measure.end for measure in measures):
+            after = None
         told = before or after
         if mention.form != "street" or told is None:
             found.append(mention)

@@ -9,8 +9,10 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.language.measures import COMPASS_WORD, Bearing, Measure, bearing_of, bearings_in, measures_in, nearest_facts
+from models.language.measures import Span as Placed
 from models.language.mentions.cue_reader import CueReader, ReadCue
-from models.language.mentions.cues import SEEN, WIND_WORD, Cue, Said, distances_of, wind_of, winds_of
+from models.language.mentions.cues import SEEN, Cue
 from models.language.mentions.names import Word
 from models.language.mentions.spans import Form, Span
 from models.language.mentions.word_lists import english
@@ -63,17 +65,14 @@ class Mention:
 
 
 _SIDE = re.compile(
-    rf"\b({WIND_WORD})(?:ern|most)?\s+(?:side|end|corner|edge|part|half|bank)(?:\s+(?:of|on))?\b", re.IGNORECASE
+    rf"\b({COMPASS_WORD})(?:ern|most)?\s+(?:side|end|corner|edge|part|half|bank)(?:\s+(?:of|on))?\b", re.IGNORECASE
 )
 _THE_STREET = re.compile(r"\s+(?:the|that|this)\s+(?:same\s+)?(?:street|road|avenue|ave|st)\b", re.IGNORECASE)
 _ABSENT = english().pattern("cues", "absent", r"\b(?:{})\s+(?:[a-z]+\s+){{0,2}}$")
 _GREETING = english().pattern("cues", "greeting", r"\W*(?:{})[ ,]+")
 _HERE = re.compile(r"\s+here\b", re.IGNORECASE)
-_SENTENCE = re.compile(r"[.;!?\n]\s")
 _THE = re.compile(r"\b(?:the|this|that|our|my)\s+$", re.IGNORECASE)
 _ON_TOP = re.compile(r"\bon[\s-]top of\s+(?:[a-z-]+\s+){0,3}$", re.IGNORECASE)
-_PAUSE = re.compile(r"\s*[,)]|\s+and\b", re.IGNORECASE)
-_FARTHEST = 80  # characters between a distance, a wind or a side and what it is said of
 
 
 def with_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[Mention]:
@@ -85,14 +84,14 @@ def with_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list
         for mention, cue in zip(mentions, read, strict=True)
         if cue.is_meant and not _ABSENT.search(text[: mention.start]) and not _is_greeted(text, mention)
     ]
-    sides = [Said(m.start(), m.end(), wind_of(m[1]) or 0.0) for m in _SIDE.finditer(text)]
-    winds = _apart(winds_of(text), [*mentions, *sides])  # the east of East 53rd Street is none
-    far = _shared(text, distances_of(text), [mention for mention, _ in kept])
-    toward = _shared(text, winds, [mention if cue.has_wind else None for mention, cue in kept])
+    sides = [Bearing(m.start(), m.end(), bearing_of(m[1]) or 0.0) for m in _SIDE.finditer(text)]
+    winds = _apart(bearings_in(text), [*mentions, *sides])  # the east of East 53rd Street is none
+    far = nearest_facts(text, measures_in(text), [mention for mention, _ in kept])
+    toward = nearest_facts(text, winds, [mention if cue.has_wind else None for mention, cue in kept])
     beside = _sides(text, _apart(sides, mentions), kept)
     said = [_cue(text, mention, cue, far.get(n), toward.get(n)) for n, (mention, cue) in enumerate(kept)]
     return [
-        replace(mention, cue=said[n], side=beside[n].value if n in beside else None)
+        replace(mention, cue=said[n], side=beside[n].degrees if n in beside else None)
         for n, (mention, _) in enumerate(kept)
     ]
 
@@ -114,16 +113,17 @@ def _is_again(text: str, mention: Mention, before: Sequence[Mention]) -> bool:
     return any(one.form == "thing" and one.text.lower().endswith(words) and not one.is_exact for one in before)
 
 
-def _apart(said: Sequence[Said], others: Sequence[Said | Mention]) -> list[Said]:
+def _apart(said: Sequence[Bearing], others: Sequence[Placed]) -> list[Bearing]:
     """Those that stand in none of the others."""
     return [one for one in said if not any(one.start < other.end and other.start < one.end for other in others)]
 
 
-def _cue(text: str, mention: Mention, read: ReadCue, far: Said | None, wind: Said | None) -> Cue:
+def _cue(text: str, mention: Mention, read: ReadCue, far: Measure | None, wind: Bearing | None) -> Cue:
     degrees = None
     if wind is not None:
         # who is north of it has it in the south
-        degrees = (wind.value + 180.0) % 360.0 if wind.is_of and wind.start < mention.start else wind.value
+        is_from_it = wind.is_of and wind.start < mention.start
+        degrees = (wind.degrees + 180.0) % 360.0 if is_from_it else wind.degrees
     relation = (
         mention.cue.relation if mention.cue != SEEN else read.relation
     )  # of corners and spans: by their own words
@@ -131,15 +131,14 @@ def _cue(text: str, mention: Mention, read: ReadCue, far: Said | None, wind: Sai
         relation = "on"
     elif relation == "block" and degrees is not None and "block" not in text.lower():
         relation = "wind"
-    metres, is_loose = (far.value, far.is_loose) if far is not None else (None, False)
     if degrees is not None:
-        return Cue(relation, None, degrees, metres, is_loose)
-    return Cue(relation, read.angle, None, metres, is_loose, read.angles)
+        return Cue(relation, None, degrees, far)
+    return Cue(relation, read.angle, None, far, read.angles)
 
 
-def _sides(text: str, sides: Sequence[Said], kept: Sequence[tuple[Mention, ReadCue]]) -> dict[int, Said]:
+def _sides(text: str, sides: Sequence[Bearing], kept: Sequence[tuple[Mention, ReadCue]]) -> dict[int, Bearing]:
     """Of each street the side that is said: "the north side of the street" is that of the street it lies on."""
-    found: dict[int, Said] = {}
+    found: dict[int, Bearing] = {}
     for side in sides:
         if _THE_STREET.match(text, side.end):
             before = [
@@ -153,30 +152,4 @@ def _sides(text: str, sides: Sequence[Said], kept: Sequence[tuple[Mention, ReadC
         mention if mention.form in ("street", "span", "corner") and n not in found else None
         for n, (mention, _) in enumerate(kept)
     ]
-    return found | _shared(text, rest, streets)
-
-
-def _shared(text: str, said: Sequence[Said], mentions: Sequence[Mention | None]) -> dict[int, Said]:
-    """Of each mention the distance, wind or side that is nearest to it in the text; each is of one mention."""
-    pairs = sorted(
-        (_gap(text, one, mention), k, n)
-        for k, one in enumerate(said)
-        for n, mention in enumerate(mentions)
-        if mention is not None
-    )
-    found: dict[int, Said] = {}
-    given: set[int] = set()
-    for gap, k, n in pairs:
-        if gap < _FARTHEST and n not in found and k not in given:
-            found[n] = said[k]
-            given.add(k)
-    return found
-
-
-def _gap(text: str, said: Said, mention: Mention) -> int:
-    """Characters between the two; more over the end of a sentence or clause, and back from what is "north of" more."""
-    is_before = said.start < mention.start
-    start, end = (said.end, mention.start) if is_before else (mention.end, said.start)
-    is_far = _SENTENCE.search(text, start, max(start, end)) is not None or (said.is_of and not is_before)
-    is_over = is_before and _PAUSE.match(text, said.end) is not None
-    return max(0, end - start) + (_FARTHEST // 2 if is_far else 0) + (_FARTHEST // 4 if is_over else 0)
+    return found | nearest_facts(text, rest, streets)

@@ -6,52 +6,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
+from models.language.measures import ONES, ORDINALS, TENS, ordinal
+
 _WORD = re.compile(r"\d+(?:[-/]\d+)?\w*|[^\W\d_](?:['’`´]?[\w\u0300-\u036f])*|&|@|\+|/")  # noqa: RUF001  # a typeset apostrophe
 _APOSTROPHE = re.compile(r"['’`´]")  # noqa: RUF001
 _OWNED = re.compile(r"['’`´]s$", re.I)  # noqa: RUF001
 ARTICLES: Final = frozenset(("the", "a", "an"))
-WINDS: Final = {
-    "n": "north", "e": "east", "s": "south", "w": "west", "ne": "northeast", "nw": "northwest",
-    "se": "southeast", "sw": "southwest",
-}  # fmt: skip
-_ONES = (
-    "", "first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth", "eleventh",
-    "twelfth", "thirteenth", "fourteenth", "fifteenth", "sixteenth", "seventeenth", "eighteenth", "nineteenth",
-)  # fmt: skip
-_TENS = {"twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "sixty": 60, "seventy": 70, "eighty": 80, "ninety": 90}
-_ORDINALS: Final = {word: n for n, word in enumerate(_ONES) if word} | {
-    f"{word[:-1]}ieth": n for word, n in _TENS.items()
-}
 _SIMPLE: Final = re.compile(r"[a-z]+(?: [a-z]+)*")
-_SPELT: Final = frozenset(_ORDINALS) | frozenset(_TENS)  # of which "forty second" is made
-_CARDINALS: Final = {
-    word: n
-    for n, word in enumerate(
-        [
-            "zero",
-            "one",
-            "two",
-            "three",
-            "four",
-            "five",
-            "six",
-            "seven",
-            "eight",
-            "nine",
-            "ten",
-            "eleven",
-            "twelve",
-            "thirteen",
-            "fourteen",
-            "fifteen",
-            "sixteen",
-            "seventeen",
-            "eighteen",
-            "nineteen",
-        ]
-    )
-}
-NUMBERS: Final = _CARDINALS | _TENS | {"a": 1, "an": 1, "couple": 2, "few": 3, "half": 0.5}
+_SPELT: Final = frozenset(ORDINALS) | frozenset(TENS)  # of which "forty second" is made
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,11 +46,11 @@ def words_of(text: str) -> list[Word]:
     joined: list[Word] = []
     for word in found:
         last = joined[-1] if joined else None
-        ones = _ORDINALS.get(word.plain, 0) or _CARDINALS.get(word.plain, 0)
-        if last and last.plain in _TENS and 0 < ones < 10 and word.start - last.end == 1:
-            joined[-1] = Word(_ordinal(_TENS[last.plain] + ones), last.start, word.end, last.is_capital)
-        elif word.plain in _ORDINALS:
-            joined.append(Word(_ordinal(_ORDINALS[word.plain]), word.start, word.end, word.is_capital))
+        ones = ORDINALS.get(word.plain, 0) or ONES.get(word.plain, 0)
+        if last and last.plain in TENS and 0 < ones < 10 and word.start - last.end == 1:
+            joined[-1] = Word(ordinal(TENS[last.plain] + ones), last.start, word.end, last.is_capital)
+        elif word.plain in ORDINALS:
+            joined.append(Word(ordinal(ORDINALS[word.plain]), word.start, word.end, word.is_capital))
         else:
             joined.append(word)
     return joined
@@ -99,7 +61,7 @@ def _owner(word: str) -> str:
     if bare == word or not bare:
         return ""
     plain = plain_word(bare)
-    return _ordinal(_ORDINALS[plain]) if plain in _ORDINALS else plain
+    return ordinal(ORDINALS[plain]) if plain in ORDINALS else plain
 
 
 @lru_cache(maxsize=4096)
@@ -122,9 +84,3 @@ def plain_word(word: str) -> str:
     folded = unicodedata.normalize("NFKD", bare).casefold()
     letters = unicodedata.normalize("NFKD", folded)
     return "".join(c for c in letters if not unicodedata.combining(c))
-
-
-def _ordinal(number: int) -> str:
-    if 10 < number % 100 < 14:
-        return f"{number}th"
-    return f"{number}{ {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th') }"

@@ -1,12 +1,13 @@
 """From a text to its mentions."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
+from models.language.measures import COMPASS_WORD, bearing_of, measures_in
 from models.language.mentions.crossings import with_addresses, with_corners
 from models.language.mentions.cue_reader import CueReader
-from models.language.mentions.cues import wind_of
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention, with_cues
@@ -17,7 +18,8 @@ from models.language.mentions.word_lists import english
 
 MOST_OBJECTS: Final = 2500  # what so many things may be tells nothing
 _W = english()
-_OF_YOU, _GOES = _W.pattern("listener", "of_you"), _W.pattern("listener", "goes")
+_LISTENER = (_W.text("listener", name).replace("<compass>", COMPASS_WORD) for name in ("of_you", "goes"))
+_OF_YOU, _GOES = (re.compile(pattern, re.IGNORECASE) for pattern in _LISTENER)
 _MEETING = _W.pattern("listener", "meeting")
 
 
@@ -43,7 +45,7 @@ def find_mentions(
         words, spans = find_spans(text, lookup, language)
         mentions = with_addresses([Mention.of(span, words, text) for span in spans], text, lookup)
         return [mention for mention in mentions if len(mention.objects) <= MOST_OBJECTS]
-    text = _OF_YOU.sub(lambda found: " " * len(found[0]), text)
+    text = _without_listener(text)
     words, spans = find_spans(text, lookup)
     if like is not None:
         spans = with_meant(spans, words, nouns, text, lookup, like)
@@ -52,6 +54,16 @@ def find_mentions(
     streets = [mention for mention in mentions if mention.form == "street"]
     told = with_cues(text, with_again(text, with_corners(text, mentions, lookup)), cues)
     return resolved(told, streets, lookup)
+
+
+def _without_listener(text: str) -> str:
+    """Return a text with blanks for what it says of the listener's place: "two blocks north of you"."""
+    measures = {measure.end: measure.start for measure in measures_in(text)}
+    for found in _OF_YOU.finditer(text):
+        end = len(text[: found.start()].rstrip())
+        start = measures.get(end, found.start())
+        text = text[:start] + " " * (found.end() - start) + text[found.end() :]
+    return text
 
 
 def with_goal(mentions: Sequence[Mention]) -> list[Mention]:
@@ -77,6 +89,6 @@ def listener_wind(text: str) -> float | None:
     """Degrees from the listener to the speaker ("north of you", "head southwest"); None if the text tells none."""
     found = _OF_YOU.search(text)
     if found:
-        return wind_of(found[0])
+        return bearing_of(found[0])
     goes = _GOES.search(text)
-    return wind_of(goes[1]) if goes else None
+    return bearing_of(goes[1]) if goes else None

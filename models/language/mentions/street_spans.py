@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from typing import Final
 
+from models.language.measures import COMPASS_OF_LETTERS, ordinal
 from models.language.mentions.lookup import Lookup, Match
-from models.language.mentions.names import WINDS, Word
-from models.language.mentions.streets import KINDS, ORDINAL, TYPES, ordinal
+from models.language.mentions.names import Word
+from models.language.mentions.streets import KINDS, ORDINAL, TYPES
 from models.language.mentions.word_lists import english
 
 STREET, TYPED, PER_WORD = 5.0, 2.0, 3.0  # what streets are worth beside names
@@ -46,7 +47,7 @@ def _is_told(words: Sequence[Word], first: int, last: int, match: Match, has_typ
     plain = [word.owner or word.plain for word in words[first : last + 1]]
     is_ordinal = ORDINAL.fullmatch(plain[-1]) is not None
     is_capital = words[first].is_capital or words[first].begins
-    has_wind = last > first and is_ordinal and plain[0] in WINDS.keys() | WINDS.values()
+    has_wind = last > first and is_ordinal and plain[0] in COMPASS_OF_LETTERS.keys() | COMPASS_OF_LETTERS.values()
     whole = match.is_exact and (last > first or words[first].is_capital or not lookup.is_common(plain[-1]))
     follower = words[last + 1] if last + 1 < len(words) else None
     if not has_type and not has_wind and not (whole and not is_ordinal):

@@ -4,7 +4,8 @@ import re
 from collections.abc import Iterator
 from typing import Final
 
-from models.language.mentions.names import WINDS, plain_words
+from models.language.measures import COMPASS_OF_LETTERS
+from models.language.mentions.names import plain_words
 
 # What a street's kind is written as; libpostal's English, German and Finnish short forms that people type.
 TYPES: Final = {
@@ -30,7 +31,7 @@ KINDS: Final = frozenset(
         "damm",
     )
 )
-_WINDS: Final = frozenset(WINDS.values())
+_COMPASS: Final = frozenset(COMPASS_OF_LETTERS.values())
 _SHORT: Final = {"lexington": "lex", "madison": "mad", "broadway": "bway", "americas": "americas"}
 _COMPOUND: Final = re.compile(r"(strasse|str)$")
 ORDINAL: Final = re.compile(r"\d+(?:st|nd|rd|th)")
@@ -38,9 +39,8 @@ ORDINAL: Final = re.compile(r"\d+(?:st|nd|rd|th)")
 
 def full_words(words: tuple[str, ...]) -> tuple[str, ...]:
     """Words of a street with winds and kinds written out; a leading "st" is a saint."""
-    found = [
-        WINDS.get(word, word) if n in (0, len(words) - 1) and len(words) > 1 else word for n, word in enumerate(words)
-    ]
+    ends = (0, len(words) - 1) if len(words) > 1 else ()
+    found = [COMPASS_OF_LETTERS.get(word, word) if n in ends else word for n, word in enumerate(words)]
     found = [TYPES.get(word, word) if n else ("saint" if word == "st" else word) for n, word in enumerate(found)]
     return tuple(_COMPOUND.sub("strasse", word) if len(word) > 6 else word for word in found)
 
@@ -53,7 +53,7 @@ def forms_of(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
         if full and full[0] in _SHORT:
             yield (_SHORT[full[0]],), 0.9
         return
-    winded = full[0] in _WINDS and len(full) > 2
+    winded = full[0] in _COMPASS and len(full) > 2
     rest = full[1:] if winded else full
     if winded:
         yield rest, 0.95
@@ -61,7 +61,7 @@ def forms_of(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
         rest[-1]
         if rest[-1] in KINDS
         else rest[-2]
-        if len(rest) > 2 and rest[-1] in _WINDS and rest[-2] in KINDS
+        if len(rest) > 2 and rest[-1] in _COMPASS and rest[-2] in KINDS
         else None
     )
     if kind is None:
@@ -69,16 +69,9 @@ def forms_of(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
     if rest[-1] != kind:
         yield rest[:-1], 0.85  # "Hudson Boulevard" of its east side
     bare = tuple(word for word in rest if word != kind)
-    if bare and not set(bare) <= _WINDS and bare != ("the",):
+    if bare and not set(bare) <= _COMPASS and bare != ("the",):
         yield bare, 0.9
         if winded:
             yield (full[0], *bare), 0.95
         if len(bare) == 1 and bare[0] in _SHORT:
             yield (_SHORT[bare[0]],), 0.9
-
-
-def ordinal(number: int) -> str:
-    """42 is "42nd"."""
-    if 10 < number % 100 < 14:
-        return f"{number}th"
-    return f"{number}" + {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")

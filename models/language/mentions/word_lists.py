@@ -17,6 +17,10 @@ class Words:
         """A list of words."""
         return frozenset(self._said["words"][name].split())
 
+    def table(self, name: str) -> dict[str, Any]:
+        """Return a table as it is written."""
+        return dict(self._said[name])
+
     @cached_property
     def metres(self) -> dict[str, float]:
         """Metres of a unit."""

@@ -11,7 +11,8 @@ from torch import Tensor, nn
 from models.language.grammar.files import Grammar
 from models.language.grammar.labelled_text import Fact, LabelledText, Mention
 from models.language.grammar.wording import Wording
-from models.language.parsed_hint import RELATIONS, WINDS
+from models.language.measures import COMPASS
+from models.language.parsed_hint import RELATIONS
 from models.language.reader import COLOURS, TAGS, Reader
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
@@ -21,7 +22,7 @@ LIKE_LENGTH = 8  # a batch is drawn from so many batches' worth of texts, neighb
 WHOLE = 0.4  # share of the texts that are one long passage
 PUBLISHED = 0.3  # share of the others in the benchmark's words, of those that it can say
 ALIKE = (0.3, 0.25, 0.2)  # how often a fact has the class, the direction, the colour of an earlier one
-CARDINAL = (0, 2, 4, 6)  # of WINDS; people and the benchmark say them most
+CARDINAL = (0, 2, 4, 6)  # of COMPASS; people and the benchmark say them most
 # Names are made of these, so that the reader learns how a name is used and no name by heart.
 NAME_WORDS = (
     "Stockmann", "Esplanadi", "Lidl", "Kamp", "Alexa", "Galeria", "Sokos", "Karl", "Tesco", "Roma", "Aroma", "Nine",
@@ -67,7 +68,7 @@ def _alike(fact: Fact, other: Fact, rng: np.random.Generator) -> Fact:
 def _draw_simple(labels: Sequence[str], rng: np.random.Generator) -> Fact:
     label = labels[int(rng.integers(len(labels)))]
     colour = COLOURS[int(rng.integers(len(COLOURS)))] if rng.random() < 0.65 else None
-    wind = WINDS[CARDINAL[int(rng.integers(4))]] if rng.random() < 0.85 else WINDS[int(rng.integers(8))]
+    wind = COMPASS[CARDINAL[int(rng.integers(4))]] if rng.random() < 0.85 else COMPASS[int(rng.integers(8))]
     return Fact(label, wind, colour)
 
 
@@ -79,8 +80,8 @@ def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> Fact:
     if special < 0.06:
         return Fact(label, absent=True, colour=colour)
     if special < 0.12:
-        return Fact(label, relation if relation in WINDS else "near", name=_draw_name(rng))
-    distance = float(rng.integers(2, 40)) if special > 0.86 and relation in WINDS else None
+        return Fact(label, relation if relation in COMPASS else "near", name=_draw_name(rng))
+    distance = float(rng.integers(2, 40)) if special > 0.86 and relation in COMPASS else None
     return Fact(label, relation, colour, distance)
 
 

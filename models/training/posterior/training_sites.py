@@ -14,7 +14,7 @@ from models.citymap.types import DIRECTIONS, Floats, Hint
 from models.language.grammar.files import Grammar
 from models.language.grammar.labelled_text import Fact
 from models.language.grammar.wording import Wording
-from models.language.parsed_hint import WINDS
+from models.language.measures import compass_name
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
@@ -119,7 +119,7 @@ class Place:
         facts = []
         for n in rng.permutation(others)[: int(rng.integers(1, 3))]:
             hint = self.hints[n][int(rng.integers(len(self.hints[n])))]
-            wind = WINDS[round(float(np.degrees(np.arctan2(*way[n]))) / 45) % 8]
+            wind = compass_name(float(np.degrees(np.arctan2(*way[n]))))
             said = float(metres[n].round()) if rng.random() < MEASURED else None
             facts.append(Fact(hint.label, wind, hint.colour, distance_m=said))
         return facts

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.answering.place_reader import constructions, near_hints, without
+from index.answering.place_reader import constructions, near_hints, with_one_owner, without
 from index.answering.query import Prior, Query
+from models.language.measures import measures_in
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.language.mentions.reader import find_mentions
@@ -157,6 +158,26 @@ def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(local
         mentions = posterior.places.read(text, "en", to_listener=False)
         near, places = near_hints(hints, trust, mentions)
         assert (len(near), len(places)) == (kept, 1 - kept)
+
+
+@pytest.mark.parametrize(("hint", "mention"), [("bench", "Kiosk"), ("Kiosk", "bench")])
+def test_a_measure_that_both_claim_is_of_the_nearer(localizer, hint, mention) -> None:
+    text = "A bench is 20 m to my west, and there is a Kiosk."
+    [measure] = measures_in(text)
+    [read] = localizer.posterior.texts.parse(["The pose is south of a bench."])[0]
+    at, other = text.index(hint), text.index(mention)
+    noticed = replace(read, start=at, end=at + len(hint), measure=measure)
+    named = Mention(mention, other, other + len(mention), "thing", cue=Cue(measure=measure))
+    [kept], [place] = with_one_owner(text, [noticed], [named])
+    assert (kept.measure, place.cue.measure) == ((measure, None) if hint == "bench" else (None, measure))
+    apart = replace(named, cue=Cue(measure=replace(measure, start=0, end=1)))
+    assert with_one_owner(text, [noticed], [apart]) == ([noticed], [apart])
+
+
+def test_a_measure_is_of_one_hint_or_mention_of_an_answer(localizer) -> None:
+    found = answer(localizer, "I'm on East Street 2, twenty-five meters from a bench, and a tree is west of me.")
+    assert [hint.text for hint in found.evidence if hint.distance_m is not None] == ["bench"]
+    assert {hint.distance_m for hint in found.evidence} == {25.0, None}
 
 
 def test_a_class_that_the_gazetteer_lacks_stays_a_hint(localizer) -> None:

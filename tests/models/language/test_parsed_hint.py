@@ -3,6 +3,7 @@ from dataclasses import replace
 import pytest
 import torch
 
+from models.language.measures import Measure
 from models.language.parsed_hint import ParsedHint, resolve
 
 TEXT = "Two garages by the bridge, one gray and north, the other south. A tree is east and another west."
@@ -25,6 +26,10 @@ def things(text, words):
             ["bridge", "garages", "garages", "tree", "tree"],
         ),
         ("Three gray poles are north.", ["poles"], ["plural"], ["poles"] * 3),
+        ("I am two metres from poles.", ["poles"], ["plural"], ["poles"]),
+        ("A couple of metres ahead are poles.", ["poles"], ["plural"], ["poles"]),
+        ("Two metres north are three poles.", ["poles"], ["plural"], ["poles"] * 3),
+        ("Half a dozen poles are north.", ["poles"], ["plural"], ["poles"] * 4),
         ("There are bushes north. And two cars", ["bushes"], ["plural"], ["bushes"]),
         ("One is north of me, a lamp south.", ["One", "lamp"], ["stand-in", "noun"], ["lamp"]),
     ],
@@ -92,5 +97,5 @@ def test_what_is_named_again_is_one_thing(text, said, hints):
 def test_what_is_measured_by_the_patch_keeps_its_distance():
     text = "10 m north of me is a patch of green grass"
     found = things(text, ["patch", "grass"])
-    kept = resolve(text, [replace(found[0], distance_m=10.0), found[1]], ["noun", "noun"])
+    kept = resolve(text, [replace(found[0], measure=Measure(0, 4, 10.0)), found[1]], ["noun", "noun"])
     assert [(thing.noun, thing.distance_m) for thing in kept] == [("grass", 10.0)]

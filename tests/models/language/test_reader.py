@@ -5,13 +5,13 @@ from torch import nn
 from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.grammar.labelled_text import Fact
 from models.language.grammar.wording import Wording
+from models.language.measures import Measure
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import (
     COLOURS,
     TAGS,
     Reader,
     ReaderConfig,
-    said_distances,
 )
 from models.posterior.binding import Binding, colour_table
 from models.posterior.model import load_posterior
@@ -124,25 +124,6 @@ def test_facts_are_varied():
 
 
 @pytest.mark.parametrize(
-    ("text", "noun", "metres"),
-    [
-        ("About ten metres north of a bench.", "bench", 10.0),
-        ("A bench is 12.5 m to my east, a pole is north.", "bench", 12.5),
-        ("A bench is to my east. The pole is 20 feet away.", "pole", 6.096),
-        ("The bench is 5 steps from me.", "bench", 3.75),
-        ("Some 30 yards from the bench", "bench", 27.432),
-        ("A bench on line M10 near me.", "bench", None),
-        ("There are 3 more minutes to the bench.", "bench", None),
-    ],
-)
-def test_said_distances_go_to_the_nearest_noun(text, noun, metres):
-    places = [(text.index(word), text.index(word) + len(word)) for word in ("bench", "pole") if word in text]
-    found = dict(zip([text[a:b] for a, b in places], said_distances(text, places), strict=True))
-    assert found[noun] == (pytest.approx(metres) if metres else None)
-    assert all(value is None for word, value in found.items() if word != noun)
-
-
-@pytest.mark.parametrize(
     ("text", "nouns"),
     [
         ("I am east of a small dark green pole.", ["small pole"]),
@@ -191,7 +172,10 @@ def test_a_binding_reads_what_was_noticed(matcher):
     sure = torch.eye(10)[2]
     grey = torch.eye(len(COLOURS) + 1)[COLOURS.index("gray")]
     reading = binding.reading(
-        [ParsedHint("lamp post", 0, 9, sure, grey, 0.0, 4.0), ParsedHint("tree", 0, 4, sure, grey, 1.0, None)]
+        [
+            ParsedHint("lamp post", 0, 9, sure, grey, 0.0, Measure(0, 3, 4.0)),
+            ParsedHint("tree", 0, 4, sure, grey, 1.0, None),
+        ]
     )
     assert KITTI[int(reading.label[0].argmax())] == "lamp"
     assert KITTI[int(reading.label[1].argmax())] == "vegetation"

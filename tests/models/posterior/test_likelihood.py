@@ -169,15 +169,6 @@ def test_the_order_of_hints_does_not_matter(model):
     )
 
 
-def test_some_hints_of_a_reading_are_those_alone():
-    said = reading(np.random.default_rng(0), hints=4, labels=3, absent=0.3, distance=7.0)
-    some = said.take([3, 1])
-    for name in ("relation", "label", "colour", "distance_m", "absent"):
-        assert torch.equal(getattr(some, name)[0], getattr(said, name)[3]), name
-        assert torch.equal(getattr(some, name)[1], getattr(said, name)[1]), name
-        assert len(getattr(some, name)) == 2
-
-
 def test_the_winds_share_the_compass(model):
     one = torch.eye(len(RELATIONS))
     said = Reading(one, torch.ones(10, 1), torch.ones(10, WORDS + 1), torch.full((10,), math.nan), torch.zeros(10))

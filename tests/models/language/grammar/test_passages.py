@@ -8,7 +8,7 @@ from models.language.grammar.files import load_grammar
 from models.language.grammar.labelled_text import Fact
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.wording import Wording
-from models.language.parsed_hint import WINDS
+from models.language.measures import COMPASS
 
 FACTS = [
     Fact("lamp", "north", "black"),
@@ -115,7 +115,7 @@ def test_opposites_are_no_words_and_a_direction_with_an_ending_is_the_plain_word
 
 @pytest.mark.parametrize("grammar", ["train", "val", "test"])
 def test_every_passage_tells_facts_that_are_made_to_suit_it(grammar) -> None:
-    drawn = [Fact(f"thing {n}", WINDS[n], None if n % 2 else "gray") for n in range(6)]
+    drawn = [Fact(f"thing {n}", COMPASS[n], None if n % 2 else "gray") for n in range(6)]
     passages = [Passage(phrase) for phrase in load_grammar(grammar).phrases["passages"]]
     for passage in passages:
         assert passage.problem() is None, passage.phrase
@@ -125,7 +125,7 @@ def test_every_passage_tells_facts_that_are_made_to_suit_it(grammar) -> None:
 
 def test_a_whole_description_tells_its_facts() -> None:
     wording, rng = Wording("train"), np.random.default_rng(0)
-    drawn = [Fact("lamp", wind) for wind in WINDS]
+    drawn = [Fact("lamp", wind) for wind in COMPASS]
     for _ in range(50):
         facts, said = wording.whole(drawn, rng)
         assert len(facts) >= 4

@@ -12,7 +12,8 @@ from models.language.grammar.labelled_text import Fact, opposite
 from models.language.grammar.passages import Passage
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
-from models.language.parsed_hint import RELATIONS, WINDS
+from models.language.measures import COMPASS
+from models.language.parsed_hint import RELATIONS
 
 GRAMMARS = ("train", "val", "test")
 FACTS = [
@@ -111,7 +112,7 @@ def test_all_grammars_can_say_all_directions_and_kitti_classes() -> None:
     assert len(classes) > 100
     for grammar in GRAMMARS:
         wording = Wording(grammar)
-        assert set(wording.compass) == set(WINDS)
+        assert set(wording.compass) == set(COMPASS)
         for relation in RELATIONS:
             assert wording.write([Fact("pole", relation, "gray")], np.random.default_rng(0)).text
 

@@ -125,6 +125,12 @@ def test_a_distance_is_of_what_it_is_measured_from(lookup, cues, text, metres) -
     assert {mention.text: mention.cue.distance_m for mention in find_mentions(text, lookup, cues)} == metres
 
 
+@pytest.mark.parametrize("measure", ["20 metres", "4 km", "410 paces", "twenty-five feet"])
+def test_a_measure_behind_a_street_is_no_house_number(lookup, cues, measure) -> None:
+    [found] = find_mentions(f"I'm on 25th Street {measure} up.", lookup, cues)
+    assert (found.form, found.text) == ("street", "25th Street")
+
+
 def test_the_side_of_the_street_is_of_the_street_it_lies_on(lookup, cues) -> None:
     text = "I'm on 25th, at a bar that I have never seen before, with a friend of mine and two dogs. Bottino is near. "
     found = find_mentions(text + "It's on the north side of the street.", lookup, cues)

@@ -172,6 +172,12 @@ def test_where_the_listener_is_to_look(text, degrees) -> None:
     assert listener_wind(text) == degrees
 
 
+@pytest.mark.parametrize("text", ["I'm at Bottino, two blocks north of you.", "I'm 300 m to your west, at Bottino."])
+def test_a_measure_from_the_listener_is_not_one_from_the_speaker(lookup, cues, text) -> None:
+    (mention,) = find_mentions(text, lookup, cues)
+    assert (mention.cue.measure, mention.cue.wind) == (None, None)
+
+
 def test_the_wind_from_the_listener_is_not_one_from_the_speaker(lookup, cues) -> None:
     (mention,) = find_mentions("I'm at Bottino, north of you", lookup, cues)
     assert mention.cue.wind is None

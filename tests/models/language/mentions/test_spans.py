@@ -44,6 +44,11 @@ def test_what_is_found(lookup, text, expected) -> None:
     assert spans(text, lookup) == expected
 
 
+def test_a_measure_is_no_street(lookup) -> None:
+    assert spans("Bottino is nearly twenty-five metres ahead", lookup) == [("thing", "Bottino")]
+    assert ("street", "twenty fifth") in spans("Bottino is nearly at twenty fifth", lookup)
+
+
 @pytest.mark.parametrize("text", ["402 W 25th", "Bottino, W 25th", "the bakery W 25th"])
 def test_a_wind_before_an_ordinal_tells_of_a_street(lookup, text) -> None:
     assert "street" in [form for form, _ in spans(text, lookup)]

@@ -1,7 +1,7 @@
 import pytest
 
 from models.language.mentions.names import plain_words
-from models.language.mentions.streets import forms_of, full_words, ordinal
+from models.language.mentions.streets import forms_of, full_words
 
 
 @pytest.mark.parametrize(
@@ -52,26 +52,6 @@ def test_the_whole_name_is_the_surest_form() -> None:
 
 def test_all_spellings_of_a_name_have_the_same_forms() -> None:
     assert len({tuple(forms_of(name)) for name in ("West 25th Street", "W. 25th St.", "west twenty-fifth st")}) == 1
-
-
-@pytest.mark.parametrize(
-    ("number", "text"),
-    [
-        (1, "1st"),
-        (2, "2nd"),
-        (3, "3rd"),
-        (4, "4th"),
-        (11, "11th"),
-        (12, "12th"),
-        (13, "13th"),
-        (21, "21st"),
-        (42, "42nd"),
-        (111, "111th"),
-        (123, "123rd"),
-    ],
-)
-def test_ordinals(number, text) -> None:
-    assert ordinal(number) == text
 
 
 def test_a_german_street_goes_without_its_kind() -> None:

@@ -5,6 +5,7 @@ import torch
 from models.citymap.gazetteer.closest_points import PointGroups
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, WALKED_KIND, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
+from models.language.measures import Measure
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.posterior.places.field import PlaceField, Told
@@ -107,7 +108,7 @@ def test_a_wind_tells_the_side(field) -> None:
 
 
 def test_a_distance_is_a_ring(field) -> None:
-    told = field.told([thing("Elmo", cue=Cue(distance_m=50.0))])
+    told = field.told([thing("Elmo", cue=Cue(measure=Measure(0, 4, 50.0)))])
     at = np.array([(120.0, 143.0), (120.0, 98.0), (120.0, 18.0)])
     near, there, far = told.at(at, np.zeros(3, np.int64))
     assert there > near
@@ -281,7 +282,7 @@ def test_cells_have_what_they_would_have_if_each_were_looked_at(field) -> None:
     words = [GazetteerObject(("shop",), (name,)) for name in ("One", "Other", "Third")]
     town = build_gazetteer(words, [point(*at) for at in rng.uniform((0, 0), (3000, 1500), (3, 2))], [False] * 3)
     wide = PlaceField(PlaceKernels(), town, centers, GRID_M)
-    cues = Cue(), Cue(relation="near"), Cue(distance_m=100.0)
+    cues = Cue(), Cue(relation="near"), Cue(measure=Measure(0, 5, 100.0))
     mentions = [
         Mention(name, 0, 1, "thing", np.array(objects), np.linspace(1.0, 0.3, len(objects)), cue=cue, is_exact=True)
         for name, objects, cue in zip("abc", ([0], [1], [0, 2]), cues, strict=True)

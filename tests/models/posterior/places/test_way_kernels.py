@@ -5,6 +5,7 @@ import pytest
 import torch
 
 from models.citymap.gazetteer.closest_points import ClosestPoints
+from models.language.measures import Measure
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.posterior.places.field import PlaceField
@@ -14,8 +15,9 @@ from tests.models.posterior.places.test_field import CENTERS, GRID_M, TOWN
 
 POINTS = 50
 CUES = (
-    Cue(), Cue("across"), Cue("wind", wind=110.0), Cue(angle=90.0), Cue(distance_m=40.0),
-    Cue(distance_m=2.0, is_loose=True, angle=180.0), Cue(angle=-45.0, angles=((-45.0, 0.7), (None, 0.1), (135.0, 0.2))),
+    Cue(), Cue("across"), Cue("wind", wind=110.0), Cue(angle=90.0), Cue(measure=Measure(0, 4, 40.0)),
+    Cue(measure=Measure(0, 4, 2.0, is_loose=True), angle=180.0),
+    Cue(angle=-45.0, angles=((-45.0, 0.7), (None, 0.1), (135.0, 0.2))),
     Cue(angle=None, angles=((None, 0.6), (22.0, 0.4))),
 )  # fmt: skip
 

@@ -13,7 +13,7 @@ from models.language.grammar.files import load_grammar
 from models.language.grammar.labelled_text import LabelledText
 from models.language.grammar.wording import Wording
 from models.language.lexicon.lexicon import load_lexicon
-from models.language.parsed_hint import WINDS
+from models.language.measures import COMPASS
 from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
 from models.training.posterior import fit_posterior
@@ -140,7 +140,7 @@ def test_a_slip_changes_one_fact_to_what_is_not_true(monkeypatch) -> None:
         (*colour, label), (*now_colour, now_label) = was[1].split(), is_now[1].split()
         changes = {"relation": was[0] != is_now[0], "colour": colour != now_colour, "label": label != now_label}
         seen.add(frozenset(name for name, is_changed in changes.items() if is_changed))
-        assert is_now[0] in (*WINDS, was[0])
+        assert is_now[0] in (*COMPASS, was[0])
         assert len(colour) == len(now_colour)
     assert len(texts) == 20
     assert seen == {frozenset({"label"}), frozenset({"relation"}), frozenset({"relation", "colour"})}

@@ -1,0 +1,352 @@
+"""The one parser of numbers, measures and compass directions in English text.
+
+Hints, mentions and plurals share it. Its words and units are data: tables of `mentions/english.toml`.
+"""
+
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final, Protocol, TypeVar
+
+from models.language.mentions.word_lists import english
+
+FARTHEST_M: Final = 1e5  # no map is wider, so a longer measure tells nothing
+GREATEST_GAP: Final = 80  # characters between a measure and what it belongs to
+FEW_OF_MEASURED: Final = 3.0  # "a few metres" are so many times as many as "a few blocks"
+COMPASS: Final = ("north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest")
+COMPASS_OF_LETTERS: Final = {
+    "n": "north", "e": "east", "s": "south", "w": "west", "ne": "northeast", "nw": "northwest",
+    "se": "southeast", "sw": "southwest",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number in a text.
+
+    Attributes:
+        start, end: its characters.
+        value: the number.
+        is_vague: whether a word such as "few" says it.
+        is_article: whether it is the "a" of "a block".
+    """
+
+    start: int
+    end: int
+    value: float
+    is_vague: bool = False
+    is_article: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """A distance in a text.
+
+    Attributes:
+        start, end: its characters.
+        metres: how far.
+        is_loose: whether its number is vague, or its unit is none of length: blocks, doors, minutes.
+        is_of: whether what it is measured from follows: "30 m short of" it.
+    """
+
+    start: int
+    end: int
+    metres: float
+    is_loose: bool = False
+    is_of: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Bearing:
+    """A compass direction in a text.
+
+    Attributes:
+        start, end: its characters.
+        degrees: clockwise from north.
+        is_of: whether it is "north of" something.
+    """
+
+    start: int
+    end: int
+    degrees: float
+    is_of: bool = False
+
+
+class Span(Protocol):
+    """Anything that stands in a text."""
+
+    @property
+    def start(self) -> int:
+        """Its first character."""
+
+    @property
+    def end(self) -> int:
+        """The character behind its last."""
+
+
+Fact = TypeVar("Fact", Measure, Bearing)
+
+_W = english()
+_NUMBERS = _W.table("numbers")
+ONES: Final[dict[str, int]] = {word: n for n, word in enumerate(_NUMBERS["ones"].split())}
+TENS: Final[dict[str, int]] = {word: 10 * n for n, word in enumerate(_NUMBERS["tens"].split(), 2)}
+ORDINALS: Final[dict[str, int]] = {word: n for n, word in enumerate(_NUMBERS["ordinals"].split(), 1)} | {
+    f"{word[:-1]}ieth": n for word, n in TENS.items()
+}
+_VAGUE: Final[Mapping[str, float]] = _NUMBERS["vague"]
+_SCALES: Final = {"dozen": 12, "hundred": 100, "thousand": 1000}
+_PARTS: Final = {"half": 2, "quarter": 4} | {word: n for word, n in ORDINALS.items() if n > 2}
+
+
+def _any_of(words: Iterable[str]) -> str:
+    return rf"(?:{'|'.join(sorted(words, key=len, reverse=True))})\b"
+
+
+# Numbers in words: from 1 to 9, below 100, below 1000, and all.
+_GAP = r"[\s-]+"
+_ONE = _any_of(word for word, n in ONES.items() if 0 < n < 10)
+_BELOW_100 = rf"(?:{_any_of(TENS)}(?:{_GAP}{_ONE})?|{_any_of(word for word, n in ONES.items() if n)})"
+_AND = rf"{_GAP}(?:and{_GAP})?"
+_BELOW_1000 = rf"(?:(?:(?:an?|{_BELOW_100}){_GAP})?hundred\b(?:{_AND}{_BELOW_100})?|{_BELOW_100})"
+_DOZENS = rf"(?:(?:half{_GAP}an?|an?|{_BELOW_100}){_GAP})?dozen\b"
+_SPOKEN = rf"{_DOZENS}|(?:(?:an?|{_BELOW_1000}){_GAP})?thousand\b(?:{_AND}{_BELOW_1000})?|{_BELOW_1000}|zero\b"
+# Numbers in digits: thousands in groups, or a decimal comma or point.
+_GROUP_MARK = re.compile(r"[,\u00a0\u202f\u2009]")
+_GROUPED = rf"\d{{1,3}}(?:{_GROUP_MARK.pattern}\d{{3}})+(?![\d,])(?:\.\d+)?"
+_FRACTION = r"(?:[1-8]/[2-9](?![\d/])|[¼½¾⅓⅔])"
+_PART = rf"(?:half|quarters?)\b|{_any_of(f'{word}s?' for word in _PARTS)}(?={_GAP}of{_GAP}an?\b)"
+_NUMBER = re.compile(
+    rf"(?<!\w)(?<!\d[.,/])(?:"
+    rf"(?P<vague>(?:an?{_GAP})?(?P<few>{_any_of(_VAGUE)})(?:{_GAP}of\b)?(?:{_GAP}(?P<scale>{_any_of(_SCALES)}))?)"
+    rf"|(?!{_DOZENS})(?:(?P<parts>an?|{_ONE}){_GAP})?(?P<part>{_PART})(?:{_GAP}of)?(?:{_GAP}an?\b)?"
+    rf"|(?P<fraction>{_FRACTION})(?:{_GAP}of)?(?:{_GAP}an?\b)?"
+    rf"|(?P<words>{_SPOKEN})(?:{_GAP}point(?P<decimals>(?:{_GAP}(?:zero\b|{_ONE}))+))?"
+    rf"|(?:(?P<grouped>{_GROUPED})|(?P<digits>\d+(?:[.,]\d+)?))(?:[\s-]?(?P<rest>{_FRACTION}))?"
+    rf"|(?P<article>an?)(?=[\s-]))"
+    rf"(?:{_GAP}and{_GAP}(?P<more>an?|{_ONE}){_GAP}(?P<share>half|quarters?|thirds?)\b)?",
+    re.IGNORECASE,
+)
+# Measures: a unit behind a number, and what tells a distance from a size, a time or a thing.
+_MEASURES = _W.table("measures")
+_LOOSE, _MINUTES = _W.list("loose_units"), frozenset(("minute", "min"))
+_THINGS, _COUNTED = frozenset(_MEASURES["things"].split()), frozenset(_MEASURES["counted"].split())
+_RANGE = re.compile(r"\s*[-–—]\s*|\s+(?:to|or|of)\s+|(?P<and>\s+and\s+)")  # noqa: RUF001  # dashes of print
+_BETWEEN = re.compile(r"\bbetween\s+$", re.IGNORECASE)
+_UNIT = re.compile(
+    rf"(?:(?:(?<=[\d¼½¾⅓⅔])[\s-]*|{_GAP})(?:{_any_of(_MEASURES['fillers'].split(','))}{_GAP})?"
+    rf"(?P<unit>{'|'.join(sorted(_W.metres, key=len, reverse=True))})e?s?(?!\w)"
+    r"|(?<=\d)(?P<foot>['′’])(?![\w'’]))"  # noqa: RUF001  # signs of feet
+    r"(?:\s+and\s+an?\s+(?P<half>half|quarter)\b|\s+or\s+(?P<or>two|three)\b)?",
+    re.IGNORECASE,
+)
+_AWAY, _WALK, _SIZE, _FROM = (
+    _W.pattern("measures", name, r"['\u2019]?[\s-]+(?:{})\b") for name in ("away", "walk", "size", "from")
+)
+_WITHIN = _W.pattern("measures", "within", r"\b(?:{})\s+(?:[a-z]+\s+)?$")
+_INSIDE = re.compile(r"\b(?:in|into|inside|across|through)\s+$", re.IGNORECASE)  # a yard, say
+_OF = re.compile(r"\s+of\b", re.IGNORECASE)
+_STRIDES: Final = frozenset(("step", "pace"))
+_SENTENCE_END = re.compile(r"[.;!?\n]\s")
+_PAUSE = re.compile(r"\s*[,)]|\s+and\b", re.IGNORECASE)
+_QUOTE = re.compile(r"(?<!\w)['‘’]\w")  # noqa: RUF001
+_CLAUSE_END = re.compile(r"\s*(?:[.,;:!?)]|$)")
+# Compass directions: 16 points in words, and in letters where they are no part of a street's name.
+_POINTS = ["n", "nne", "ne", "ene", "e", "ese", "se", "sse", "s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw"]
+_SIDE = re.compile("north|south|east|west", re.IGNORECASE)
+_SIDES = {"n": "north", "e": "east", "s": "south", "w": "west"}
+
+
+def _point_in_words(letters: str) -> str:
+    words = [_SIDES[letter] for letter in letters]
+    return rf"{words[0]}[\s-]{words[1]}[\s-]?{words[2]}" if len(words) == 3 else r"[\s-]?".join(words)
+
+
+COMPASS_WORD: Final = "|".join(_point_in_words(letters) for letters in sorted(_POINTS, key=len, reverse=True))
+_LETTERS = "|".join(letters.upper() for letters in sorted(_POINTS, key=len, reverse=True) if len(letters) > 1)
+_BEARING = re.compile(
+    rf"\b(?P<words>(?i:{COMPASS_WORD}))(?i:ern|erly|wards?|bound)?\b"
+    rf"|\b(?P<letters>(?:{_LETTERS})\b(?!\.?\s+[A-Z\d])"
+    rf"|[NESW]\b(?=\s+of\b)"
+    rf"|(?:(?<=\bdue )|(?<=\bthe )|(?<=\bmy )|(?<=\d m ))[NESW]\b"
+    rf"(?=\s+(?:and|side|end|corner)\b|{_CLAUSE_END.pattern}))"
+)
+_OF_A_PLACE = re.compile(
+    r"(?:\s+(?:side|end|corner))?\s+(?:of|from|to)\b(?!\s+(?:me|us|it|here|this|you|there|where|that)\b)", re.IGNORECASE
+)
+
+
+def numbers_in(text: str) -> list[Number]:
+    """Return the numbers that a text says, also "a few", "half a" and the "a" of "a block"."""
+    return [
+        Number(found.start(), found.end(), _value(found), bool(found["vague"]), bool(found["article"]))
+        for found in _NUMBER.finditer(text)
+    ]
+
+
+@lru_cache(maxsize=256)  # hints, streets, addresses and cues of a text ask in turn
+def measures_in(text: str) -> tuple[Measure, ...]:
+    """Return the distances that a text says; sizes, times, house numbers and names are none."""
+    found, numbers = list[Measure](), numbers_in(text)
+    for n, number in enumerate(numbers):
+        unit = _UNIT.match(text, number.end)
+        if unit is None or not _is_distance(text, number, unit):
+            continue
+        low = _low_end(text, numbers[n - 1], number) if n else number
+        name = (unit["unit"] or "ft").lower()
+        count = (low.value + number.value) / 2
+        count += 1 / _PARTS[unit["half"].lower()] if unit["half"] else 0.0
+        count = (count + ONES[unit["or"].lower()]) / 2 if unit["or"] else count
+        if number.is_vague and number.value < 12 and name not in _LOOSE and name not in _STRIDES:
+            count *= FEW_OF_MEASURED
+        metres = count * _W.metres[name]
+        if metres <= FARTHEST_M:
+            is_of = _FROM.match(text, unit.end()) is not None
+            found.append(Measure(low.start, unit.end(), metres, number.is_vague or name in _LOOSE, is_of))
+    return tuple(found)
+
+
+def bearings_in(text: str) -> list[Bearing]:
+    """Return the compass directions that a text says."""
+    return [
+        Bearing(found.start(), found.end(), _degrees(found), _OF_A_PLACE.match(text, found.end()) is not None)
+        for found in _BEARING.finditer(text)
+    ]
+
+
+def bearing_of(words: str) -> float | None:
+    """Return the degrees of the first compass direction in some words; None if there is none."""
+    found = bearings_in(words)
+    return found[0].degrees if found else None
+
+
+def compass_name(degrees: float) -> str:
+    """Return the nearest of the eight compass directions."""
+    return COMPASS[round((degrees % 360) / 45) % 8]
+
+
+def ordinal(number: int) -> str:
+    """Return a number as an ordinal: 42 is "42nd"."""
+    if 10 < number % 100 < 14:
+        return f"{number}th"
+    return f"{number}" + {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+
+
+def nearest_facts(text: str, facts: Sequence[Fact], spans: Sequence[Span | None]) -> dict[int, Fact]:
+    """Return which fact belongs to which span, by the number of the span: the nearest; each belongs to one at most.
+
+    A fact inside a span is a part of a name; a span inside a fact is its unit.
+
+    Args:
+        text: the description.
+        facts: its measures or bearings.
+        spans: what they may belong to; None for what they may not.
+    """
+    pairs = sorted(
+        (distance_in_text(text, fact, span), k, n)
+        for k, fact in enumerate(facts)
+        if not any(span.start <= fact.start and fact.end <= span.end for span in spans if span is not None)
+        for n, span in enumerate(spans)
+        if span is not None and not (fact.start <= span.start and span.end <= fact.end)
+    )
+    found: dict[int, Fact] = {}
+    given: set[int] = set()
+    for gap, k, n in pairs:
+        if gap < GREATEST_GAP and n not in found and k not in given:
+            found[n] = facts[k]
+            given.add(k)
+    return found
+
+
+def distance_in_text(text: str, fact: Measure | Bearing, span: Span) -> int:
+    """Return the characters between a fact and a span.
+
+    More over the end of a sentence or a clause, and back from what is measured from something that follows.
+    """
+    is_before = fact.start < span.start
+    start, end = (fact.end, span.start) if is_before else (span.end, fact.start)
+    is_far = _SENTENCE_END.search(text, start, max(start, end)) is not None or (fact.is_of and not is_before)
+    is_over = is_before and _PAUSE.match(text, fact.end) is not None
+    return max(0, end - start) + (GREATEST_GAP // 2 if is_far else 0) + (GREATEST_GAP // 4 if is_over else 0)
+
+
+def _value(found: re.Match[str]) -> float:
+    """Return the value of a match of _NUMBER."""
+    more = _count(found["more"]) / _PARTS[_singular(found["share"])] if found["more"] else 0.0
+    if found["vague"]:
+        return _VAGUE[found["few"].lower()] * (_SCALES[found["scale"].lower()] if found["scale"] else 1) + more
+    if found["part"]:
+        return _count(found["parts"] or "a") / _PARTS[_singular(found["part"])] + more
+    if found["fraction"]:
+        return _share(found["fraction"]) + more
+    if found["words"]:
+        tenths = "".join(str(ONES[word]) for word in re.findall(r"[a-z]+", (found["decimals"] or "").lower()))
+        return _in_words(found["words"]) + float(f"0.{tenths or 0}") + more
+    digits = _GROUP_MARK.sub("", found["grouped"]) if found["grouped"] else (found["digits"] or "1").replace(",", ".")
+    return float(digits) + (_share(found["rest"]) if found["rest"] else 0.0) + more
+
+
+def _count(word: str) -> int:
+    return ONES.get(word.lower(), 1)
+
+
+def _singular(word: str) -> str:
+    return word.lower().removesuffix("s")
+
+
+def _share(fraction: str) -> float:
+    over, slash, under = fraction.partition("/")
+    return int(over) / int(under) if slash else unicodedata.numeric(fraction)
+
+
+def _in_words(words: str) -> float:
+    """Return the value of a number in words."""
+    thousands, rest = 0.0, 0.0
+    for word in re.findall(r"[a-z]+", words.lower()):
+        if word == "half":
+            rest = 0.5
+        elif word in _SCALES:
+            rest = (rest or 1.0) * _SCALES[word]
+            if word == "thousand":
+                thousands, rest = rest, 0.0
+        else:
+            rest += ONES.get(word, TENS.get(word, 0))
+    return thousands + rest
+
+
+def _low_end(text: str, before: Number, number: Number) -> Number:
+    """Return the number that begins a range: 10 of "10 to 15 metres"; the number itself if there is none."""
+    to = _RANGE.fullmatch(text, before.end, number.start)
+    is_range = to is not None and (to["and"] is None or _BETWEEN.search(text, 0, before.start) is not None)
+    return before if is_range and 0 < before.value < number.value <= 10 * before.value else number
+
+
+def _is_distance(text: str, number: Number, unit: re.Match[str]) -> bool:
+    """Return whether a number and a unit are a distance: no size, time, thing or name."""
+    end, name = unit.end(), (unit["unit"] or "ft").lower()
+    if name in _MINUTES:
+        return _WALK.match(text, end) is not None
+    if unit["foot"] is not None and not _is_foot(text, number):
+        return False
+    if _SIZE.match(text, end) or (_OF.match(text, end) and _WITHIN.search(text[: number.start]) is None):
+        return False
+    is_away = _AWAY.match(text, end) is not None or unit["or"] is not None
+    if len(name) > 2 and unit["unit"][0].isupper() and unit["unit"][1:].islower():  # a Foot Locker, 2 Miles Gallery
+        ends = text[number.start].isdecimal() and _CLAUSE_END.match(text, end) is not None
+        return is_away or ends or _BEARING.match(text, end + 1) is not None
+    if number.is_article and ((len(name) < 3 and name != "km") or _INSIDE.search(text, 0, number.start) is not None):
+        return False
+    is_some = number.is_article or text[number.start : number.end].lower() == "some"
+    return is_away or not (name in _COUNTED or (is_some and name in _THINGS))
+
+
+def _is_foot(text: str, number: Number) -> bool:
+    """Return whether a sign of feet behind a number is one, and neither one of a degree nor the end of a quotation."""
+    is_degree = text[: number.start].rstrip().endswith("°") or not text[number.start : number.end].isdecimal()
+    return not is_degree and _QUOTE.search(text, 0, number.start) is None
+
+
+def _degrees(found: re.Match[str]) -> float:
+    letters = found["letters"] or "".join(side[0] for side in _SIDE.findall(found["words"]))
+    return 360.0 / len(_POINTS) * _POINTS.index(letters.lower())
