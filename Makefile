@@ -91,7 +91,7 @@ towns: install  ## the made-up towns that weights are trained on, with KITTI-360
 		$(BIN)/hereabouts prepare --raw data/raw-$$towns --out data/towns-$$towns || exit 1; \
 	done
 
-train: towns  ## make the shipped weights again (west of Helsinki, made-up towns, people's texts)
+train: towns  ## make the shipped weights again (west of Helsinki, made-up towns, texts about real places)
 	$(BIN)/hereabouts train --method mncl $(TRAINED_ON) --out models/weights/retriever \
 		--set model.width=128 --set training.batch_size=64 --set training.steps=2200
 	$(BIN)/hereabouts train --method regressor $(TRAINED_ON) --out models/weights/regressor

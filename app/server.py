@@ -67,7 +67,7 @@ def serve(app: FastAPI, settings: Settings) -> None:
         log.warning("no key", host=settings.host, remedy="whoever reaches this host can ask: set HEREABOUTS_READ_KEY")
     if settings.log_descriptions:
         log.warning(
-            "descriptions are logged", remedy="people's texts are in this log: unset HEREABOUTS_LOG_DESCRIPTIONS"
+            "descriptions are logged", remedy="the log holds what users write: unset HEREABOUTS_LOG_DESCRIPTIONS"
         )
     config = uvicorn.Config(
         app,

@@ -28,7 +28,7 @@ def evaluate(
         Path | None,
         typer.Option(
             help=f"{DATA_HELP}; or, asked of --index, a .json file with the queries of a POST /evaluate, "
-            "or people's texts as .jsonl: "
+            "or texts about places as .jsonl: "
             "text, goal [lat, lon] and perhaps start [lat, lon]"
         ),
     ] = None,
@@ -76,7 +76,7 @@ def evaluate(
 
 
 def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> None:
-    """People's texts, asked of an index."""
+    """Evaluate an index on texts about places."""
     from app.cli.progress import stage_bars
     from index.answering.localizer import Localizer
     from index.evaluation.place_texts import evaluate_told, told_tables

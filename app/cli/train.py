@@ -24,7 +24,7 @@ def train(
         str,
         typer.Option(
             help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), points: the point "
-            "encoder that either may take, posterior, or places: its reader of cues and kernels for people's texts"
+            "encoder that either may take, posterior, or places: its reader of cues and kernels of places"
         ),
     ] = "mncl",
     change: Annotated[

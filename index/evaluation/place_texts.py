@@ -1,4 +1,4 @@
-"""Measuring on texts that people wrote about places: errors on Earth, radii, and what each construction is worth."""
+"""Evaluation on texts about real places: errors, radii, and what each construction is worth."""
 
 import json
 from collections.abc import Sequence
@@ -55,7 +55,7 @@ def evaluate_told(
 
     Args:
         localizer: of an index with a georeference.
-        texts: as people wrote them.
+        texts: with their places.
         report_dir: where told.json and told.md go; None to write nothing.
         progress: called as the work goes on.
 

@@ -18,7 +18,7 @@ class PosteriorConfig(ReaderConfig):
 
     Attributes:
         radius_held: what radii must hold of the distribution to hold .5 and .9 of the truths; from validation data.
-        place_scale: what the radii of texts that name places are multiplied with; fitted on people's own texts.
+        place_scale: factor on the radii of texts that name places; fitted on texts by language models and by people.
         meeting_scale: the same for texts that tell somebody where to come.
         grammar_sha256: of the phrases that the reader was trained on.
     """

@@ -1,4 +1,4 @@
-"""Texts that people wrote about places, with where that was: what is read of a .jsonl file."""
+"""Reader of .jsonl files: texts about places, each with the place."""
 
 import gzip
 import json

@@ -13,9 +13,9 @@ from models.errors import TrainingError
 from models.language.mentions.cue_reader import ANGLES, FORMS, RELATIONS
 
 LABELLED: Final = Path(__file__).parents[2] / "language" / "mentions" / "labelled"
-PEOPLE: Final = "people"  # of them the kernels of places are fitted to some, so that they are read by halves
+REAL_PLACES: Final = "real_places"  # the kernels of places are fitted to some of these, so they are read by halves
 OTHERS: Final = ("invented", "meeting")
-TRAINED_ON: Final = (PEOPLE, *OTHERS)
+TRAINED_ON: Final = (REAL_PLACES, *OTHERS)
 MIRRORED, SPOILT, LEFT_OUT = 0.5, 0.4, 0.15  # shares of texts
 RENAMED, RENAMED_TRIES = 0.4, 3  # so often, and so many times, a thing or street gets another's name
 _SIDES = re.compile(r"\b(left|right)\b", re.IGNORECASE)

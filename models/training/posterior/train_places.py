@@ -1,4 +1,4 @@
-"""Training everything that reads and places people's texts: the reader of cues, then the kernels."""
+"""Training of what reads texts about real places: the reader of cues, then the kernels."""
 
 import json
 from collections.abc import Callable, Sequence
@@ -17,7 +17,7 @@ from models.posterior.model import PosteriorModel, load_posterior, save_posterio
 from models.posterior.places.kernels import PlaceKernels
 from models.sources.place_texts import load_place_texts
 from models.sources.source import open_source
-from models.training.posterior.cue_texts import LABELLED, OTHERS, PEOPLE, CueText, load_labelled
+from models.training.posterior.cue_texts import LABELLED, OTHERS, REAL_PLACES, CueText, load_labelled
 from models.training.posterior.fit_cues import EPOCHS, accuracy, fit_cues
 from models.training.posterior.fit_places import ToldPlace, calibrate_places, fit_places, read_cases
 
@@ -30,7 +30,7 @@ def train_places(
     seed: int,
     progress: Callable[[str, int, int, float], None] | None = None,
 ) -> dict[str, float]:
-    """Train the reader of cues, fit and calibrate the kernels on maps with people's texts, save it all.
+    """Train the reader of cues, fit and calibrate the kernels on maps with texts about them, save it all.
 
     The kernels are fitted to texts as a reader reads them that was not trained on these: of two, each on half of them.
     All of it runs on the CPU.
@@ -83,16 +83,16 @@ def _train_readers(
     rng: np.random.Generator,
     progress: Callable[[str, int, int, float], None] | None,
 ) -> tuple[Callable[[str], CueReader], dict[str, float]]:
-    """Train the model's reader of cues on all labelled texts, and one on each half of the people's, at the same time.
+    """Train the model's reader of cues on all labelled texts, and one on each half of those about real places.
 
     Returns:
         For a text a reader that was not trained on it, and shares of what those two read right of the other half.
     """
-    people = load_labelled(LABELLED / f"{PEOPLE}.jsonl")
+    real = load_labelled(LABELLED / f"{REAL_PLACES}.jsonl")
     others = [text for name in OTHERS for text in load_labelled(LABELLED / f"{name}.jsonl")]
-    half = rng.permutation(len(people)) % 2
-    halves = [[text for text, side in zip(people, half, strict=True) if side == n] for n in (0, 1)]
-    trained_on = [[*some, *others] for some in (*halves, people)]
+    half = rng.permutation(len(real)) % 2
+    halves = [[text for text, side in zip(real, half, strict=True) if side == n] for n in (0, 1)]
+    trained_on = [[*some, *others] for some in (*halves, real)]
     losses = [0.0] * len(trained_on)
     readers = [_new_reader(model) for _ in trained_on]
     with ProcessPoolExecutor(len(readers), get_context("spawn")) as pool:

@@ -1,4 +1,4 @@
-"""People's words on a map with names: the tiny town has streets from west to east and paths from south to north."""
+"""Free descriptions on a map with names: the tiny town has streets from west to east and paths from south to north."""
 
 from dataclasses import replace
 

@@ -21,7 +21,7 @@ def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypat
     monkeypatch.setattr(where + "LABELLED", tmp_path)
     monkeypatch.setattr(where + "EPOCHS", 1)
     mention = {"start": 0, "end": 5, "form": "thing", "relation": "seen", "angle": 90}
-    for name in ("people", "invented", "meeting"):
+    for name in ("real_places", "invented", "meeting"):
         rows = [{"text": f"bank{n} on my right", "mentions": [mention]} for n in range(4)]
         (tmp_path / f"{name}.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
     texts, out = tmp_path / "said.jsonl", tmp_path / "weights"
