@@ -14,7 +14,7 @@ from models.errors import DataError, TrainingError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from models.training.experiments import Run, Scale
+    from models.training.experiments import TrainingRun, TrainingScale
 
 MADE_UP = ("demo", "full")  # scales of `models.sources.synthetic.towns.write_towns`
 TOWN_SEED = 0
@@ -45,13 +45,13 @@ def reproduce(
     from index.evaluation.reproduction.report import write_reproduction
     from index.evaluation.reproduction.reproduce import chosen, figure_3_of, in_epochs
     from index.evaluation.reproduction.reproduce import reproduce as run
-    from models.training.experiments import POINTS, SCALES, Run, runs_of
+    from models.training.experiments import POINTS, SCALES, TrainingRun, required_runs
 
     if steps and epochs:
         raise DataError("--steps and --epochs both say how long to train; give one of them")
     numbers, experiments = _numbers(seeds), chosen(tables)
     scale = _changed(SCALES["demo" if data == "demo" else "full"], config, steps, device)
-    at_once = _checked(scale, (*runs_of(experiments, every_seed=False), Run(POINTS)), config)
+    at_once = _checked(scale, (*required_runs(experiments, every_seed=False), TrainingRun(POINTS)), config)
     with stage_bars() as show:
         store = _store(_towns(data, out, show) if data in MADE_UP else Path(data), out, show)
         scale = in_epochs(scale, store, epochs) if epochs else scale
@@ -62,7 +62,7 @@ def reproduce(
     typer.echo(f"the report is {directory / 'report.md'}")
 
 
-def _changed(scale: "Scale", config: Path | None, steps: int | None, device: str | None) -> "Scale":
+def _changed(scale: "TrainingScale", config: Path | None, steps: int | None, device: str | None) -> "TrainingScale":
     """A scale with what a configuration file and the options say, the latter last."""
     told = _read(config) if config else {}
     lasts = (f"training.steps={steps}", f"training.validate_every={max(1, steps // 20)}") if steps else ()
@@ -73,7 +73,7 @@ def _changed(scale: "Scale", config: Path | None, steps: int | None, device: str
     return replace(scale, **parts)
 
 
-def _checked(scale: "Scale", runs: "Sequence[Run]", config: Path | None) -> int:
+def _checked(scale: "TrainingScale", runs: "Sequence[TrainingRun]", config: Path | None) -> int:
     """How many can be trained at once; what cannot be trained with is said before any work."""
     import torch
 

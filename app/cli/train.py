@@ -107,9 +107,9 @@ def _train_places(
 
 def _loader(data: list[Path], splits: tuple[str, str], config: Any) -> "Callable[..., Any]":
     """Reads what to train on, given a text encoder and a generator."""
-    from models.training.training_data import load_training
+    from models.training.training_data import load_training_data
 
-    return lambda encoder, rng: [load_training(path, splits, encoder, config, rng) for path in data]
+    return lambda encoder, rng: [load_training_data(path, splits, encoder, config, rng) for path in data]
 
 
 def _train_retriever(
@@ -142,9 +142,9 @@ def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: A
 def _train_points(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
     """Train the point encoder; its figures in words."""
     from models.training.fit_points import train_points
-    from models.training.training_data import load_cells
+    from models.training.training_data import load_training_cells
 
-    figures = train_points([load_cells(path, splits) for path in data], where[0], config, *where[1:])
+    figures = train_points([load_training_cells(path, splits) for path in data], where[0], config, *where[1:])
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 

@@ -1,4 +1,4 @@
-"""Tables and curves as runs to make: what is trained, in which variants, and how much."""
+"""The training runs behind the tables and curves of the reproduction."""
 
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -7,64 +7,64 @@ from models.paper.instance_encoder import PAPER_INPUTS
 
 Changes = tuple[tuple[str, Any], ...]
 Metric = Literal["retrieval", "localization"]
-# What an instance is seen by: a name, and the fields that say so.
+# Instance inputs by name, as changes of a configuration.
 VARIANTS: dict[str, Changes] = {"our inputs": (), "the paper's inputs": (("inputs", PAPER_INPUTS),)}
 POINTS = "points"  # the method name of the point encoder
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
-    """One training.
+class TrainingRun:
+    """One training run.
 
     Attributes:
         method: key of METHODS or FINE_METHODS, or POINTS.
-        changes: fields of its configuration that differ from its defaults, by name.
+        changes: configuration fields that differ from the defaults, sorted by name.
     """
 
     method: str
     changes: Changes = ()
 
-    def changed(self, changes: Changes) -> "Run":
-        """The same with further fields."""
-        return Run(self.method, tuple(sorted((dict(self.changes) | dict(changes)).items())))
+    def with_changes(self, changes: Changes) -> "TrainingRun":
+        """Return the run with further changes."""
+        return TrainingRun(self.method, tuple(sorted((dict(self.changes) | dict(changes)).items())))
 
     @property
     def name(self) -> str:
-        """A name for its directory: the method and what differs."""
+        """Name of the run's directory: the method and the changes."""
         parts = [f"{key}={'+'.join(value) if isinstance(value, tuple) else value}" for key, value in self.changes]
         return "-".join([self.method, *parts])
 
     @property
     def settings(self) -> tuple[str, ...]:
-        """What differs, as `load_settings` takes it."""
+        """The changes in the form that `load_settings` takes."""
         return tuple(
             f"model.{key}={','.join(value) if isinstance(value, tuple) else value}" for key, value in self.changes
         )
 
     @property
-    def sees_points(self) -> bool:
-        """Whether it needs the point encoder."""
+    def needs_points(self) -> bool:
+        """Whether the run needs the point encoder."""
         return "points" in dict(self.changes).get("inputs", ())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Row:
+class TableRow:
     """A row of a table, or a point of a curve.
 
     Attributes:
-        name: as the paper calls it.
-        run: what is trained for it.
-        published: figures by column, on the test split; those that the paper has.
-        validation: the same on the validation split.
-        fine: its fine stage, in tables of localization.
-        only: the variant that it is made of; None for all that its table has.
+        name: name of the row in the paper.
+        run: the training run.
+        published: published figures by column, on the test split.
+        validation: published figures on the validation split.
+        fine: the fine stage, in localization tables.
+        only: the one variant to compute; None for all variants of the table.
     """
 
     name: str
-    run: Run
+    run: TrainingRun
     published: dict[str, str] = field(default_factory=dict)
     validation: dict[str, str] = field(default_factory=dict)
-    fine: Run | None = None
+    fine: TrainingRun | None = None
     only: str | None = None
 
 
@@ -73,50 +73,50 @@ class Experiment:
     """A table or a curve.
 
     Attributes:
-        key: "1" to "4", "4a", "4b", or a word for what the paper does not have.
-        title: which one, and of what.
-        rows: rows, or points in order.
-        metric: what is measured.
-        variants: names of VARIANTS, each of which is made of every row.
-        every_seed: whether it is made with every seed, as the tables are, or with the first alone.
-        note: what a reader must know of it.
-        best: name of the row that is best in the paper, of curves without figures.
+        key: "1" to "4", "4a", "4b", or a word for an experiment that is not in the paper.
+        title: number and subject.
+        rows: the rows, or the points of the curve in order.
+        metric: the measured task.
+        variants: the VARIANTS that are computed for each row.
+        every_seed: whether to run every seed, as for the tables, or the first only.
+        note: text for the report.
+        best: name of the row that is best in the paper, for curves without published figures.
     """
 
     key: str
     title: str
-    rows: tuple[Row, ...]
+    rows: tuple[TableRow, ...]
     metric: Metric = "retrieval"
     variants: tuple[str, ...] = tuple(VARIANTS)
     every_seed: bool = True
     note: str = ""
     best: str | None = None
 
-    def made(self) -> list[tuple[Row, str]]:
-        """Its rows with the variant of each."""
+    def row_variants(self) -> list[tuple[TableRow, str]]:
+        """Return each row with each of its variants."""
         return [(row, variant) for row in self.rows for variant in self.variants if row.only in (None, variant)]
 
-    def orders(self) -> list[tuple[Row, Row]]:
-        """(worse, better) of each two rows whose order the paper has, by their first figures."""
+    def published_orders(self) -> list[tuple[TableRow, TableRow]]:
+        """Return the pairs (worse, better) of rows whose order the paper publishes, by their first figures."""
         if self.best:
             best = next(row for row in self.rows if row.name == self.best)
             return [(row, best) for row in self.rows if row is not best]
-        told = [row for row in self.rows if row.published or row.validation]
-        on_test = all(row.published for row in told)
+        published = [row for row in self.rows if row.published or row.validation]
+        on_test = all(row.published for row in published)
         figure = {
             row: float(next(iter((row.published if on_test else row.validation).values())).split("/")[0])
-            for row in told
+            for row in published
         }
-        return [(worse, better) for better in told for worse in told if figure[worse] < figure[better]]
+        return [(worse, better) for better in published for worse in published if figure[worse] < figure[better]]
 
 
 @dataclass(frozen=True, slots=True)
-class Scale:
-    """How much is trained, and how far a gallery grows.
+class TrainingScale:
+    """The extent of a reproduction.
 
     Attributes:
-        retriever, fine, points: settings that differ from those in configs/, as `load_settings` takes them.
-        growth_radii_m: of figure 5.
+        retriever, fine, points: changes of the settings in configs/, in the form that `load_settings` takes.
+        growth_radii_m: radii of the growing gallery of figure 5.
     """
 
     retriever: tuple[str, ...]
@@ -128,13 +128,13 @@ class Scale:
 _ALL = ("training.batch_size=64", "training.wording=published")
 _RETRIEVER = (*_ALL, "training.cluster=1")
 SCALES = {
-    "demo": Scale(
+    "demo": TrainingScale(
         (*_RETRIEVER, "model.width=128", "training.steps=400", "training.validate_every=100"),
         (*_ALL, "training.steps=400", "training.validate_every=100"),
         (80.0, 110.0, 140.0, 200.0),
     ),
     # 32 epochs of KITTI360Pose's 28,807 training poses.
-    "full": Scale(
+    "full": TrainingScale(
         (*_RETRIEVER, "training.steps=14400", "training.validate_every=450"),
         (*_ALL, "training.steps=14400", "training.validate_every=450"),
         (200.0, 300.0, 400.0, 500.0),
@@ -142,25 +142,25 @@ SCALES = {
 }
 
 
-def made_of(run: Run, variant: str) -> Run:
-    """A run of a variant; a run that says its inputs itself stays as it is."""
-    return run if "inputs" in dict(run.changes) else run.changed(VARIANTS[variant])
+def apply_variant(run: TrainingRun, variant: str) -> TrainingRun:
+    """Return the run with the inputs of a variant; a run with inputs of its own is unchanged."""
+    return run if "inputs" in dict(run.changes) else run.with_changes(VARIANTS[variant])
 
 
-def pairs_of(experiments: tuple[Experiment, ...]) -> tuple[tuple[Run, Run], ...]:
-    """(retriever, fine stage) of each row of localization, each once."""
-    found = [
-        (made_of(row.run, variant), made_of(row.fine, variant))
+def fine_pairs(experiments: tuple[Experiment, ...]) -> tuple[tuple[TrainingRun, TrainingRun], ...]:
+    """Return the distinct pairs (retriever, fine stage) of the localization rows."""
+    pairs = [
+        (apply_variant(row.run, variant), apply_variant(row.fine, variant))
         for experiment in experiments
-        for row, variant in experiment.made()
+        for row, variant in experiment.row_variants()
         if row.fine is not None
     ]
-    return tuple(dict.fromkeys(found))
+    return tuple(dict.fromkeys(pairs))
 
 
-def runs_of(experiments: tuple[Experiment, ...], every_seed: bool) -> tuple[Run, ...]:
-    """The trainings that experiments need, each once, methods first; those of the first seed also make the figures."""
-    wanted = [experiment for experiment in experiments if experiment.every_seed or not every_seed]
-    runs = [made_of(row.run, variant) for experiment in wanted for row, variant in experiment.made()]
-    fine = [stage for _, stage in pairs_of(tuple(wanted))]
+def required_runs(experiments: tuple[Experiment, ...], every_seed: bool) -> tuple[TrainingRun, ...]:
+    """Return the distinct training runs of experiments; with `every_seed`, of those that run every seed."""
+    selected = [experiment for experiment in experiments if experiment.every_seed or not every_seed]
+    runs = [apply_variant(row.run, variant) for experiment in selected for row, variant in experiment.row_variants()]
+    fine = [stage for _, stage in fine_pairs(tuple(selected))]
     return tuple(dict.fromkeys([*runs, *fine]))

@@ -13,7 +13,7 @@ from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.paper.fine.checkpoint import FINE_METHODS, save_fine
 from models.paper.fine.fine_model import FineConfig, FineModel, FineTargets
 from models.training.engine import distributed
-from models.training.engine.devices import lent_to
+from models.training.engine.devices import on_device
 from models.training.engine.loop import History, Progress, pick_device, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
 from models.training.fit_points import look_at_points
@@ -46,7 +46,7 @@ class FineTask:
     @cached_property
     def validations(self) -> list[FineValidation]:
         """Of each source; the first process alone asks for them."""
-        return [FineValidation.of(source.gallery, source.queries, self.model) for source in self.sources]
+        return [FineValidation.from_queries(source.gallery, source.queries, self.model) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
         """Which source, and examples of it."""
@@ -59,12 +59,12 @@ class FineTask:
         training.to(device)
         hints = hint_features(self.model, training.vocabulary, examples)
         instances = self.model.embed_instances(examples.cells.to(device), training.label_embeddings)
-        truth = FineTargets(examples.truth.offset.to(device), examples.truth.match.to(device))
-        return self.model.loss(hints, examples.hint_mask.to(device), instances, truth)
+        targets = FineTargets(examples.targets.offset.to(device), examples.targets.match.to(device))
+        return self.model.loss(hints, examples.hint_mask.to(device), instances, targets)
 
     def validate(self) -> dict[str, float]:
-        """`FineValidation.figures`, the mean over the sources."""
-        return _mean([validation.figures(self.model) for validation in self.validations])
+        """`FineValidation.metrics`, the mean over the sources."""
+        return _mean([validation.metrics(self.model) for validation in self.validations])
 
 
 def hint_features(model: FineModel, vocabulary: HintVocabulary, batch: FineBatch) -> Tensor:
@@ -111,7 +111,7 @@ def train_fine(
     rng = np.random.default_rng(config.seed)
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
-    with lent_to(pick_device(config.device), encoder):
+    with on_device(pick_device(config.device), encoder):
         sources = load(encoder, rng)
         fine = FINE_METHODS[method](encoder, model)
         task = FineTask(fine, sources, config.batch_size, config.pmc)
@@ -127,7 +127,7 @@ def _finish(
 ) -> dict[str, float]:
     """Measure, save; the figures that `train_fine` returns."""
     fine, validations = task.model, task.validations
-    figures = [validation.figures(fine) for validation in validations]
+    figures = [validation.metrics(fine) for validation in validations]
     residuals = np.concatenate([validation.residuals_m(fine)[:, 0].ravel() for validation in validations])
     fine.config = fine.config.model_copy(update={"error_m": float(np.sqrt(np.mean(residuals**2)))})
     training = {
@@ -141,7 +141,7 @@ def _finish(
 
 
 def _facts(source: TrainingData, validation: FineValidation, figures: dict[str, float]) -> dict[str, Any]:
-    measured = {"queries": len(validation.rows), "cell_center": validation.center_figures()} | figures
+    measured = {"queries": len(validation.rows), "cell_center": validation.center_metrics()} | figures
     return source.facts | {"positions": len(source.training), "validation": measured}
 
 

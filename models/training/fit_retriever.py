@@ -15,7 +15,7 @@ from models.paper.checkpoint import save_retriever
 from models.paper.levels import Levels
 from models.paper.retriever import Retriever, RetrieverConfig
 from models.training.engine import distributed
-from models.training.engine.devices import lent_to
+from models.training.engine.devices import on_device
 from models.training.engine.loop import History, Progress, pick_device, run_training
 from models.training.fit_points import look_at_points
 from models.training.retrieval_data import Batch, HintVocabulary
@@ -140,7 +140,7 @@ def train_retriever(
     rng = np.random.default_rng(config.seed)
     torch.manual_seed(config.seed)
     encoder = load_text_encoder(model.text_encoder)
-    with lent_to(pick_device(config.device), encoder):
+    with on_device(pick_device(config.device), encoder):
         sources = load(encoder, rng)
         retriever = method(encoder, model)
         task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)

@@ -1,4 +1,4 @@
-"""Recall by the protocol of docs/formats.md. NumPy only."""
+"""Recall by the protocol of docs/formats.md, with NumPy only."""
 
 from typing import Any
 
@@ -12,21 +12,21 @@ Hits = npt.NDArray[np.bool_]
 
 
 def retrieval_hits(ranked: npt.NDArray[Any], truth: npt.NDArray[Any]) -> dict[int, Hits]:
-    """[Q] whether a query's true cell is among the first k, for each k.
+    """Return whether the true cell of each query [Q] is among the first k, for each k.
 
     Args:
-        ranked: [Q, K] cells, best first; -1 where there is none.
-        truth: [Q] the best cell of each query; -1 if it has none, which no candidate hits.
+        ranked: [Q, K] cells, best first; -1 for no cell.
+        truth: [Q] true cell of each query; -1 for none, which is never a hit.
     """
     hits = (ranked == truth[:, None]) & (truth[:, None] >= 0)
     return {k: hits[:, :k].any(axis=1) for k in RETRIEVAL_KS}
 
 
 def localization_hits(errors_m: npt.NDArray[np.floating[Any]]) -> dict[int, dict[int, Hits]]:
-    """[Q] whether one of the first k predictions lies within 5, 10 and 15 m, for each k and radius.
+    """Return whether one of the first k predictions of each query [Q] lies within 5, 10 and 15 m, for each k.
 
     Args:
-        errors_m: [Q, K] distance in the plane of each candidate's prediction to the truth, best candidate first;
+        errors_m: [Q, K] horizontal distance of each candidate's prediction to the truth, best candidate first;
             infinite for a candidate of another scene.
     """
     return {
@@ -35,12 +35,13 @@ def localization_hits(errors_m: npt.NDArray[np.floating[Any]]) -> dict[int, dict
 
 
 def retrieval_recall(ranked: npt.NDArray[Any], truth: npt.NDArray[Any]) -> dict[int, float]:
-    """Share of queries whose true cell is among the first k; arguments as `retrieval_hits`."""
+    """Return the share of queries whose true cell is among the first k; arguments as `retrieval_hits`."""
     return {k: float(hits.mean()) for k, hits in retrieval_hits(ranked, truth).items()}
 
 
 def localization_recall(errors_m: npt.NDArray[np.floating[Any]]) -> dict[int, dict[int, float]]:
-    """Share of queries with one of the first k predictions within 5, 10 and 15 m; arguments as `localization_hits`."""
+    """Return the share of queries with a hit for each k and radius; arguments as `localization_hits`."""
     return {
-        k: {radius: float(hits.mean()) for radius, hits in by.items()} for k, by in localization_hits(errors_m).items()
+        k: {radius: float(hits.mean()) for radius, hits in by_radius.items()}
+        for k, by_radius in localization_hits(errors_m).items()
     }

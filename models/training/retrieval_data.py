@@ -155,16 +155,18 @@ class TrainingSet:
     def batch(self, positions: npt.NDArray[np.intp], rng: np.random.Generator) -> Batch:
         """Examples at some positions, with hints, wording and orientation drawn at random."""
         symmetry = rng.integers(len(SYMMETRIES), size=len(positions))
-        said = self.say(positions, symmetry, rng)
+        said = self.draw_hints(positions, symmetry, rng)
         best = self.best[positions]
         return Batch(
-            cells=reflect(self.features.batch(best), torch.from_numpy(SYMMETRIES[symmetry])),
+            cells=reflect_cells(self.features.batch(best), torch.from_numpy(SYMMETRIES[symmetry])),
             sentences=torch.from_numpy(said.sentences),
             hint_mask=torch.from_numpy(said.mask),
             cell=torch.from_numpy(best.astype(np.int64)),
         )
 
-    def say(self, positions: npt.NDArray[np.intp], symmetry: npt.NDArray[Any], rng: np.random.Generator) -> DrawnHints:
+    def draw_hints(
+        self, positions: npt.NDArray[np.intp], symmetry: npt.NDArray[Any], rng: np.random.Generator
+    ) -> DrawnHints:
         """Hints at some positions, each position turned by one of SYMMETRIES, worded as `wording` says."""
         varied = self.wording == "varied"
         hints = np.zeros((len(positions), MAX_HINTS), dtype=np.int64)
@@ -192,7 +194,7 @@ class TrainingSet:
         return np.arange(start, min(end, start + NUM_HINTS))
 
 
-def reflect(batch: CellBatch, matrix: Tensor) -> CellBatch:
+def reflect_cells(batch: CellBatch, matrix: Tensor) -> CellBatch:
     """Cells seen under a symmetry of the compass; what a point encoder made of their points stays as it is.
 
     Args:

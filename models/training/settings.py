@@ -1,4 +1,4 @@
-"""The settings of a training: a TOML file a method in configs/, single values overridden on the command line."""
+"""Training settings: one TOML file per method in configs/, with overrides from the command line."""
 
 import tomllib
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from models.training.retrieval_data import Wording
 
 
 class PointsConfig(BaseModel):
-    """The point encoder has no settings."""
+    """The model settings of the point encoder, which has none."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -28,22 +28,21 @@ CONFIG_TYPES: dict[str, type[BaseModel]] = {
     PosteriorModel.method: PosteriorConfig,
     "points": PointsConfig,
 }
-CONFIGS = Path(__file__).parent / "configs"
+CONFIG_DIR = Path(__file__).parent / "configs"
 C = TypeVar("C", bound=BaseModel)
-EXAMPLE = "--set training.steps=500"
 
 
 class TrainingConfig(LoopConfig):
-    """How to train a retriever or a fine stage.
+    """Training settings of a retriever or a fine stage.
 
     Attributes:
-        cluster: of the descriptions of a batch, how many lie near each other (hard negatives).
-        spacing_m: of an OpenStreetMap file: one training position a square of this size.
-        wording: "varied" teaches any number of hints in many words; "published" those of the benchmark alone.
-        pmc: of the fine stage: prototype-based map cloning (Text2Loc): half of the time the cell is not the best one
-            but another that contains the position.
-        points: directory of a point encoder that `hereabouts train --method points` made, for models that take points;
-            None trains one first.
+        cluster: number of descriptions of a batch that lie near each other (hard negatives).
+        spacing_m: spacing of the training positions in an OpenStreetMap file.
+        wording: "varied" draws the number of hints and their wording; "published" is that of the benchmark.
+        pmc: for the fine stage, prototype-based map cloning (Text2Loc): half of the examples use another cell that
+            contains the position instead of the best one.
+        points: directory of a point encoder from `hereabouts train --method points`, for models with points among their
+            inputs; None trains one first.
     """
 
     cluster: int = Field(default=4, ge=1)
@@ -54,26 +53,26 @@ class TrainingConfig(LoopConfig):
 
 
 def settings_record(method: str, model: BaseModel, config: TrainingConfig) -> dict[str, Any]:
-    """Settings as a run's config.json says them: what it depends on, wherever it is done and its files are."""
+    """Return the settings for the config.json of a run, without the device and paths."""
     training = config.model_dump(mode="json", exclude={"device", "points"})
     return {"method": method, "model": model.model_dump(mode="json"), "training": training}
 
 
 def load_settings(method: str, changes: Sequence[str] = ()) -> tuple[BaseModel, TrainingConfig]:
-    """Settings of a method: (of its `config_type`, how to train it).
+    """Load the settings of a method: its model configuration, and how to train it.
 
     Args:
         method: key of METHODS or of FINE_METHODS.
-        changes: "model.FIELD=VALUE" or "training.FIELD=VALUE"; lists are separated by commas, "none" is no value;
-            a later one wins.
+        changes: "model.FIELD=VALUE" or "training.FIELD=VALUE", with commas in lists and "none" for no value; later
+            changes override earlier ones.
 
     Raises:
-        TrainingError: there is no such method or field, or a value does not fit.
+        TrainingError: the method or a field does not exist, or a value is invalid.
     """
     if method not in CONFIG_TYPES:
-        raise TrainingError(f"there is no method '{method}'; take one of {', '.join(CONFIG_TYPES)}")
+        raise TrainingError(f"there is no method '{method}'; use one of {', '.join(CONFIG_TYPES)}")
     types: dict[str, type[BaseModel]] = {"model": CONFIG_TYPES[method], "training": TrainingConfig}
-    tables = tomllib.loads((CONFIGS / f"{method}.toml").read_text())
+    tables = tomllib.loads((CONFIG_DIR / f"{method}.toml").read_text())
     for change in changes:
         part, field, value = _parse(change, types)
         tables.setdefault(part, {})[field] = value
@@ -82,11 +81,13 @@ def load_settings(method: str, changes: Sequence[str] = ()) -> tuple[BaseModel, 
 
 
 def _parse(change: str, types: dict[str, type[BaseModel]]) -> tuple[str, str, Any]:
-    """(part, field, value) of "part.field=value"."""
+    """Parse "part.field=value" into (part, field, value)."""
     name, equals, text = change.partition("=")
     part, _, field = name.strip().partition(".")
     if not equals or part not in types or not field:
-        raise TrainingError(f"--set {change}: give it as model.NAME=VALUE or training.NAME=VALUE, as in {EXAMPLE}")
+        raise TrainingError(
+            f"--set {change}: write model.NAME=VALUE or training.NAME=VALUE, for example training.steps=500"
+        )
     fields = types[part].model_fields
     if field not in fields:
         raise TrainingError(f"--set {change}: {part} has no '{field}'; it has {', '.join(fields) or 'no settings'}")
@@ -98,15 +99,15 @@ def _value(text: str, field: FieldInfo) -> Any:
         return [item.strip() for item in text.split(",") if item.strip()]
     if text.lower() == "none" and type(None) in get_args(field.annotation):
         return None
-    return text  # pydantic reads numbers and truth values out of it
+    return text  # pydantic converts numbers and booleans
 
 
 def _validated(config_type: type[C], table: dict[str, Any], part: str) -> C:
     try:
         return config_type.model_validate(table)
     except ValidationError as error:
-        wrong = "; ".join(
+        problems = "; ".join(
             f"{'.'.join([part, *map(str, e['loc'])])}={e['input']!r}: {e['msg'][0].lower() + e['msg'][1:]}"
             for e in error.errors()
         )
-        raise TrainingError(f"settings cannot be trained with: {wrong}") from error
+        raise TrainingError(f"invalid settings: {problems}") from error

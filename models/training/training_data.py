@@ -1,4 +1,4 @@
-"""What is trained on and what is chosen by: two parts of a map or a data set that share no cell."""
+"""Training and validation data: two parts of a map or a data set that share no cell."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,12 +17,12 @@ from models.training.settings import TrainingConfig
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrainingCells:
-    """Cells of one map or data set, all that a point encoder is trained on.
+    """Cells of one map or data set, for the training of a point encoder.
 
     Attributes:
-        training: of the one part.
-        validation: of the other; for choosing.
-        facts: what it is, for the record beside the weights.
+        training: cells of the training part.
+        validation: cells of the validation part.
+        facts: description of the data, for the config.json of the weights.
     """
 
     training: CellFeatures
@@ -30,9 +30,9 @@ class TrainingCells:
     facts: dict[str, Any]
 
     @classmethod
-    def of(cls, taught: Source, asked: Source) -> "TrainingCells":
-        """Of two sources, see `TrainingData.of`."""
-        return cls(_features(taught.data.gallery), _features(asked.data.gallery), _facts(taught, asked))
+    def from_sources(cls, training: Source, validation: Source) -> "TrainingCells":
+        """Return the cells of a training and a validation source."""
+        return cls(_features(training.data.gallery), _features(validation.data.gallery), _facts(training, validation))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,9 +40,9 @@ class TrainingData:
     """One map or data set to train on.
 
     Attributes:
-        training: the one part.
-        gallery, queries: cells of the other, and what they are asked; for choosing.
-        facts: what it is, for the record beside the weights.
+        training: positions of the training part.
+        gallery, queries: cells and queries of the validation part.
+        facts: description of the data, for the config.json of the weights.
     """
 
     training: TrainingSet
@@ -51,44 +51,52 @@ class TrainingData:
     facts: dict[str, Any]
 
     @classmethod
-    def of(
-        cls, taught: Source, asked: Source, encoder: TextEncoder, config: TrainingConfig, rng: np.random.Generator
+    def from_sources(
+        cls,
+        training: Source,
+        validation: Source,
+        encoder: TextEncoder,
+        config: TrainingConfig,
+        rng: np.random.Generator,
     ) -> "TrainingData":
-        """Of two sources.
+        """Return the data of a training and a validation source.
 
         Args:
-            taught: what is trained on.
-            asked: what is chosen by.
+            training: the training source.
+            validation: the validation source.
             encoder: the frozen text encoder.
-            config: says how densely a map is described, and in which words.
+            config: spacing of the positions and wording of the hints.
             rng: draws positions in a map.
         """
-        training = TrainingSet(taught.statements(config.spacing_m, rng), encoder, config.wording)
-        return cls(training, asked.data.gallery, asked.queries(VALIDATION_SEED), _facts(taught, asked))
+        training_set = TrainingSet(training.statements(config.spacing_m, rng), encoder, config.wording)
+        gallery, queries = validation.data.gallery, validation.queries(VALIDATION_SEED)
+        return cls(training_set, gallery, queries, _facts(training, validation))
 
     @property
     def cells(self) -> TrainingCells:
-        """Its cells alone."""
+        """The cells alone."""
         return TrainingCells(self.training.features, _features(self.gallery), self.facts)
 
 
-def load_training(
+def load_training_data(
     path: Path, splits: tuple[str, str], encoder: TextEncoder, config: TrainingConfig, rng: np.random.Generator
 ) -> TrainingData:
-    """Open a map or a data set and take two splits of it; the rest as `open_sources` and `TrainingData.of`."""
-    taught, asked = open_sources(path, splits)
-    return TrainingData.of(taught, asked, encoder, config, rng)
+    """Load two splits of a map or a data set; see `open_sources` and `TrainingData.from_sources`."""
+    training, validation = open_sources(path, splits)
+    return TrainingData.from_sources(training, validation, encoder, config, rng)
 
 
-def load_cells(path: Path, splits: tuple[str, str]) -> TrainingCells:
-    """The cells of what `load_training` opens; nothing is said about them, so no text encoder is needed."""
-    return TrainingCells.of(*open_sources(path, splits))
+def load_training_cells(path: Path, splits: tuple[str, str]) -> TrainingCells:
+    """Load the cells alone, which need no text encoder; see `load_training_data`."""
+    return TrainingCells.from_sources(*open_sources(path, splits))
 
 
 def _features(gallery: Gallery) -> CellFeatures:
     return CellFeatures.from_cells(gallery.cells, np.array(gallery.labels))
 
 
-def _facts(taught: Source, asked: Source) -> dict[str, Any]:
-    """Of both."""
-    return {name: fact | asked.facts[name] if isinstance(fact, dict) else fact for name, fact in taught.facts.items()}
+def _facts(training: Source, validation: Source) -> dict[str, Any]:
+    """Return the facts of the training source, with the dictionaries of both sources merged."""
+    return {
+        name: fact | validation.facts[name] if isinstance(fact, dict) else fact for name, fact in training.facts.items()
+    }

@@ -1,4 +1,4 @@
-"""Validation of a retriever: its scores for queries with known answers, and what makes probabilities of them."""
+"""Validation of a retriever, and calibration of its scores to probabilities."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -18,30 +18,30 @@ from models.training.metrics import RETRIEVAL_KS, retrieval_recall
 
 
 class Validation:
-    """Queries with known answers against a gallery.
+    """Validation queries of a gallery.
 
     Args:
         gallery: the cells.
-        asked: the queries.
-        retriever: that will be asked, with a point encoder that does not change.
+        queries: the queries.
+        retriever: the retriever to validate; its point encoder must not change.
     """
 
-    def __init__(self, gallery: Gallery, asked: Queries, retriever: Retriever) -> None:
+    def __init__(self, gallery: Gallery, queries: Queries, retriever: Retriever) -> None:
         self.features = retriever.with_point_features(CellFeatures.from_cells(gallery.cells, np.array(gallery.labels)))
-        self.descriptions, self.truth = asked.sentences, asked.truth
+        self.descriptions, self.truth = queries.sentences, queries.truth
 
     def scores(self, retriever: Retriever) -> npt.NDArray[np.float32]:
-        """[Q, N] scores by which cells are ranked."""
-        return retriever.combine(Encoded(retriever, self.features).level_scores(self.descriptions))
+        """Return the scores [Q, N] of all cells."""
+        return retriever.combine(EncodedGallery(retriever, self.features).level_scores(self.descriptions))
 
     def recall(self, retriever: Retriever) -> dict[int, float]:
-        """Retrieval recall@k."""
+        """Return the retrieval recall@k."""
         ranked = np.argsort(-self.scores(retriever), axis=1, kind="stable")[:, : max(RETRIEVAL_KS)]
         return retrieval_recall(ranked, self.truth)
 
 
-class Encoded:
-    """A gallery at all levels of a retriever.
+class EncodedGallery:
+    """The vectors of a gallery at all levels of a retriever.
 
     Args:
         retriever: the model.
@@ -53,73 +53,73 @@ class Encoded:
         self.vectors, self.table = encode_gallery(retriever, features)
 
     def level_scores(self, descriptions: Sequence[Sequence[str]]) -> dict[Level, npt.NDArray[np.float32]]:
-        """[Q, N] similarities of descriptions with all cells, by level."""
+        """Return the similarities [Q, N] of descriptions with all cells, by level."""
         texts = self.retriever.encode_texts_padded(descriptions)
-        whole = np.concatenate([text.global_vectors.numpy() for text in texts]) @ self.vectors.T
-        return {**self.table.scores(texts, np.arange(len(self.vectors))), "global": whole}
+        scores = np.concatenate([text.global_vectors.numpy() for text in texts]) @ self.vectors.T
+        return {**self.table.scores(texts, np.arange(len(self.vectors))), "global": scores}
 
 
 def mean_recall(recalls: Sequence[dict[int, float]]) -> dict[int, float]:
-    """The mean over sources, for each k."""
+    """Return the mean over sources, for each k."""
     return {k: float(np.mean([recall[k] for recall in recalls])) for k in RETRIEVAL_KS}
 
 
-QUERIES = 500  # of each source
+CALIBRATION_QUERIES = 500  # per source
 ScoredQueries = tuple[int, npt.NDArray[np.floating[Any]], npt.NDArray[np.intp]]
 
 
 def calibrate(retriever: Retriever, validations: Sequence[Validation], rng: np.random.Generator) -> dict[str, Any]:
-    """The fields of a retriever's configuration that make probabilities of its scores.
+    """Fit the configuration fields that turn the scores of a retriever into probabilities.
 
     Args:
-        retriever: trained.
-        validations: their queries are asked whole, and cut down to fewer hints drawn at random.
-        rng: draws them.
+        retriever: a trained retriever.
+        validations: their queries are used with all hints, and with fewer hints drawn at random.
+        rng: draws the hints.
 
     Returns:
-        "temperature", "temperature_decay", and, if there is more than one level, "level_weights" and
+        "temperature", "temperature_decay", and, for more than one level, "level_weights" and
         "global_temperature", "global_temperature_decay".
     """
-    asked = [part for validation in validations for part in _ask(retriever, validation, rng)]
-    weights, temperature, decay = most_likely(asked)
-    found: dict[str, Any] = {"temperature": temperature, "temperature_decay": decay}
+    scored = [part for validation in validations for part in _score_queries(retriever, validation, rng)]
+    weights, temperature, decay = fit_weights(scored)
+    fields: dict[str, Any] = {"temperature": temperature, "temperature_decay": decay}
     if len(weights) == 1:
-        return found
-    _, temperature, decay = most_likely([(count, scores[:1], truth) for count, scores, truth in asked])
-    return found | {"level_weights": weights, "global_temperature": temperature, "global_temperature_decay": decay}
+        return fields
+    _, temperature, decay = fit_weights([(count, scores[:1], truth) for count, scores, truth in scored])
+    return fields | {"level_weights": weights, "global_temperature": temperature, "global_temperature_decay": decay}
 
 
-def most_likely(asked: Sequence[ScoredQueries]) -> tuple[tuple[float, ...], float, float]:
-    """(weights of the levels, temperature, decay) that give the true cells most likelihood.
+def fit_weights(scored: Sequence[ScoredQueries]) -> tuple[tuple[float, ...], float, float]:
+    """Return (weights of the levels, temperature, decay) with the maximum likelihood of the true cells.
 
     The probability of a cell is the softmax over the gallery of (sum over levels of w * similarity) / T, with
-    T = temperature * number of hints ** -decay; the first level's weight is 1.
+    T = temperature * number of hints ** -decay; the weight of the first level is 1.
 
     Args:
-        asked: a number of hints, similarities [L, Q, N] of queries with that many, and their true cells [Q].
+        scored: for each number of hints, similarities [L, Q, N] of queries with that many, and their true cells [Q].
     """
-    levels = len(asked[0][1])
+    levels = len(scored[0][1])
 
     def loss(parameters: npt.NDArray[np.float64]) -> float:
         weights, total = np.exp([0.0, *parameters[2:]]), 0.0
-        for count, scores, truth in asked:
+        for count, scores, truth in scored:
             temperature = np.exp(parameters[0]) * count ** -parameters[1]
             logits = np.tensordot(weights.astype(scores.dtype), scores, axes=1) / temperature
             total += float((logsumexp(logits, axis=1) - logits[np.arange(len(truth)), truth]).mean())
         return total
 
-    found = minimize(loss, x0=[np.log(0.2), 1.0, *[0.0] * (levels - 1)], method="Nelder-Mead").x
-    weights = tuple(float(weight) for weight in np.exp([0.0, *found[2:]]))
-    return weights, float(np.exp(found[0])), float(found[1])
+    optimum = minimize(loss, x0=[np.log(0.2), 1.0, *[0.0] * (levels - 1)], method="Nelder-Mead").x
+    weights = tuple(float(weight) for weight in np.exp([0.0, *optimum[2:]]))
+    return weights, float(np.exp(optimum[0])), float(optimum[1])
 
 
-def _ask(retriever: Retriever, validation: Validation, rng: np.random.Generator) -> list[ScoredQueries]:
-    gallery = Encoded(retriever, validation.features)
-    longest = min(len(hints) for hints in validation.descriptions)
-    rows = np.arange(0, len(validation.truth), max(1, len(validation.truth) // QUERIES))
-    asked: list[ScoredQueries] = []
-    for count in range(1, longest + 1):
+def _score_queries(retriever: Retriever, validation: Validation, rng: np.random.Generator) -> list[ScoredQueries]:
+    gallery = EncodedGallery(retriever, validation.features)
+    max_hints = min(len(hints) for hints in validation.descriptions)
+    rows = np.arange(0, len(validation.truth), max(1, len(validation.truth) // CALIBRATION_QUERIES))
+    scored: list[ScoredQueries] = []
+    for count in range(1, max_hints + 1):
         texts = [rng.permutation(list(validation.descriptions[int(row)]))[:count].tolist() for row in rows]
         by_level = gallery.level_scores(texts)
-        asked.append((count, np.stack([by_level[level] for level in retriever.levels]), validation.truth[rows]))
-    return asked
+        scored.append((count, np.stack([by_level[level] for level in retriever.levels]), validation.truth[rows]))
+    return scored

@@ -29,13 +29,13 @@ from models.paper.retriever import Retriever
 from models.sources.source import VALIDATION_SEED, open_sources
 from models.training.engine.loop import pick_device
 from models.training.engine.run_dir import METRICS_FILE
-from models.training.experiments import POINTS, VARIANTS, Run, Scale, made_of
+from models.training.experiments import POINTS, VARIANTS, TrainingRun, TrainingScale, apply_variant
 from models.training.fit_fine import train_fine
 from models.training.fit_points import train_points
 from models.training.fit_retriever import train_retriever
 from models.training.paper_tables import GROWTH, MNCL
 from models.training.settings import load_settings
-from models.training.training_data import load_cells, load_training
+from models.training.training_data import load_training_cells, load_training_data
 
 _FORMAT = 1  # of results; counted up when what a training or a measurement does changes
 RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
@@ -44,8 +44,8 @@ MEASURED = TEST, VALIDATION = "test", "val"
 _TAUGHT = "train", VALIDATION
 ALONE, LISTED, ALL = "global level alone", f"global, then all levels on {RERANKED}", "all levels on all cells"
 Z_SCORES = "all levels on all cells, by z-scores (the code)"
-GROWN = [made_of(run, variant) for run, _ in GROWTH.values() for variant in VARIANTS]
-RANKED = [made_of(MNCL, variant) for variant in VARIANTS]
+GROWN = [apply_variant(run, variant) for run, _ in GROWTH.values() for variant in VARIANTS]
+RANKED = [apply_variant(MNCL, variant) for variant in VARIANTS]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,22 +61,22 @@ class Job:
         key: of everything that the result depends on.
     """
 
-    run: Run
+    run: TrainingRun
     seed: int
     data: Path
     out: Path
-    scale: Scale
+    scale: TrainingScale
     key: str
 
     @classmethod
-    def of(cls, run: Run, seed: int, data: Path, out: Path, scale: Scale) -> "Job":
+    def of(cls, run: TrainingRun, seed: int, data: Path, out: Path, scale: TrainingScale) -> "Job":
         """A job in `out`."""
         model, training = settings_of(run, seed, scale)
         settings = [model.model_dump(mode="json"), training.model_dump(mode="json", exclude={"device"})]
         facts = [_FORMAT, run.method, *settings, pick_device(training.device).type]
         facts += _files_of(getattr(model, "text_encoder", DEFAULT_TEXT_ENCODER))
-        if run.sees_points:
-            facts.append(Job.of(Run(POINTS), POINTS_SEED, data, out, scale).key)
+        if run.needs_points:
+            facts.append(Job.of(TrainingRun(POINTS), POINTS_SEED, data, out, scale).key)
         key = hashlib.sha256(json.dumps([*facts, fingerprint(data), scale.growth_radii_m]).encode()).hexdigest()
         return cls(run, seed, data, out, scale, key)
 
@@ -88,7 +88,9 @@ class Job:
     @property
     def points(self) -> "Job | None":
         """The training of its point encoder, if it takes one: one for all seeds, as the papers have one backbone."""
-        return Job.of(Run(POINTS), POINTS_SEED, self.data, self.out, self.scale) if self.run.sees_points else None
+        return (
+            Job.of(TrainingRun(POINTS), POINTS_SEED, self.data, self.out, self.scale) if self.run.needs_points else None
+        )
 
     def settings(self) -> tuple[Any, Any]:
         """As `settings_of`, with where its point encoder is."""
@@ -100,7 +102,7 @@ class Job:
         return _kept(self.directory / RESULT_FILE, self.key)
 
 
-def settings_of(run: Run, seed: int, scale: Scale, also: tuple[str, ...] = ()) -> tuple[Any, Any]:
+def settings_of(run: TrainingRun, seed: int, scale: TrainingScale, also: tuple[str, ...] = ()) -> tuple[Any, Any]:
     """The settings of a run, as `load_settings`.
 
     Raises:
@@ -151,11 +153,11 @@ def train_and_measure(job: Job, gpu: int | None) -> None:
     where: Any = job.directory / RUN_DIR, True
 
     def load(encoder: Any, rng: np.random.Generator) -> list[Any]:
-        return [load_training(job.data, _TAUGHT, encoder, config, rng)]
+        return [load_training_data(job.data, _TAUGHT, encoder, config, rng)]
 
     found: dict[str, Any]
     if job.run.method == POINTS:
-        found = {"validation": train_points([load_cells(job.data, _TAUGHT)], weights, config, *where)}
+        found = {"validation": train_points([load_training_cells(job.data, _TAUGHT)], weights, config, *where)}
     elif job.run.method in FINE_METHODS:
         train_fine(load, weights, job.run.method, model, config, *where)
         found = {"validation": _record(weights)["sources"][0]["validation"]}
@@ -192,7 +194,7 @@ def _costs(job: Job) -> dict[str, float]:
     }
 
 
-def _criterion(run: Run) -> str:
+def _criterion(run: TrainingRun) -> str:
     """The column of metrics.csv that the best weights have most of, as NumPy names it."""
     return "label" if run.method == POINTS else "within_5m" if run.method in FINE_METHODS else "recall5"
 

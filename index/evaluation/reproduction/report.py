@@ -9,7 +9,7 @@ import numpy as np
 
 from index.evaluation.report import Table, as_markdown
 from index.evaluation.reproduction.plots import draw_figure_4, draw_figure_5
-from models.training.experiments import VARIANTS, Experiment, Row, made_of
+from models.training.experiments import VARIANTS, Experiment, TableRow, apply_variant
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 from models.training.paper_tables import EXPERIMENTS, GROWTH, MNCL
 
@@ -44,7 +44,7 @@ def write_reproduction(directory: Path, found: Found, name: str, figure_3: Path 
     (directory / "report.md").write_text(markdown(found, name))
     curves = [experiment for experiment in experiments_of(found) if experiment.key in FIGURES_4]
     if curves:
-        recalls = [[_recalls(row, variant, found)[0] for row, variant in e.made()] for e in curves]
+        recalls = [[_recalls(row, variant, found)[0] for row, variant in e.row_variants()] for e in curves]
         draw_figure_4(directory / "figure4.png", [e.title for e in curves], recalls)
     if grown := _grown(found):
         draw_figure_5(directory / "figure5.png", [row["cells"] for row in grown[0][2][0]], [
@@ -131,7 +131,7 @@ def _table(experiment: Experiment, found: Found) -> Table:
     published = [m for m in metrics if any(m in row.published for row in experiment.rows)]
     published_validated = [m for m in validated if any(m in row.validation for row in experiment.rows)]
     rows = []
-    for row, variant in experiment.made():
+    for row, variant in experiment.row_variants():
         test, validation = _recalls(row, variant, found)
         name = f"{row.name}, {variant}" if len(experiment.variants) > 1 else row.name
         rows.append((
@@ -142,14 +142,14 @@ def _table(experiment: Experiment, found: Found) -> Table:
     return (*head, *(m + VALIDATED + PUBLISHED for m in published_validated)), rows
 
 
-def _recalls(row: Row, variant: str, found: Found) -> tuple[Numbers, Numbers]:
+def _recalls(row: TableRow, variant: str, found: Found) -> tuple[Numbers, Numbers]:
     """[seeds, metrics] on the test and on the validation scenes; of localization [seeds, k, metres]."""
-    results = found["runs"][made_of(row.run, variant).name]
+    results = found["runs"][apply_variant(row.run, variant).name]
     if row.fine is None:
         splits = "retrieval", "validation_retrieval"
         test, validation = ([list(result[split].values()) for result in results] for split in splits)
     else:
-        of_fine = [result["localization"][made_of(row.fine, variant).name] for result in results]
+        of_fine = [result["localization"][apply_variant(row.fine, variant).name] for result in results]
         test, validation = (
             [[list(by.values()) for by in by_split[split].values()] for by_split in of_fine]
             for split in ("test", "val")
@@ -176,7 +176,7 @@ def _orders_table(found: Found) -> Table:
     for experiment in experiments_of(found):
         place = experiment.title.split(":")[0]
         for variant in experiment.variants:
-            for worse, better in experiment.orders():
+            for worse, better in experiment.published_orders():
                 gain = _gain(worse, better, variant, found)
                 holds = "yes" if gain.mean() > 0 else "no"
                 rows.append(
@@ -192,7 +192,7 @@ def _orders_table(found: Found) -> Table:
     return ("", "the paper's order", "of", "in the mean", "seeds where it holds", "difference"), rows
 
 
-def _gain(worse: Row, better: Row, variant: str, found: Found) -> Numbers:
+def _gain(worse: TableRow, better: TableRow, variant: str, found: Found) -> Numbers:
     """[seeds] by how much the first figure is better: recall@1, or the share of first positions within 5 m."""
     first = [_recalls(row, variant, found)[0] for row in (worse, better)]
     seeds = min(len(recalls) for recalls in first)
@@ -203,7 +203,7 @@ def _gain(worse: Row, better: Row, variant: str, found: Found) -> Numbers:
 def _grown(found: Found) -> list[tuple[str, str, list[list[dict[str, Any]]]]]:
     """(name, published, [seeds] rows) of each curve of figure 5 that was made."""
     curves = [
-        (f"{name}, {variant}", published, made_of(run, variant))
+        (f"{name}, {variant}", published, apply_variant(run, variant))
         for name, (run, published) in GROWTH.items()
         for variant in VARIANTS
     ]
@@ -233,7 +233,7 @@ def _growth_table(found: Found) -> Table:
 def _ranking_rows(found: Found) -> list[tuple[str, ...]]:
     rows = []
     for variant in VARIANTS:
-        results = [result["rankings"] for result in found["runs"].get(made_of(MNCL, variant).name, [])]
+        results = [result["rankings"] for result in found["runs"].get(apply_variant(MNCL, variant).name, [])]
         rows += [
             (f"{name}, {variant}", *(_spread([result[name][str(k)] for result in results]) for k in RETRIEVAL_KS))
             for name in (results[0] if results else ())

@@ -14,14 +14,14 @@ from index.evaluation.reproduction.jobs import FIGURE_3, TEST, Job, localize, lo
 from models.citymap.types import Progress
 from models.errors import DataError
 from models.sources.source import open_source
-from models.training.experiments import Experiment, Scale, pairs_of, runs_of
+from models.training.experiments import Experiment, TrainingScale, fine_pairs, required_runs
 from models.training.paper_tables import EXPERIMENTS, HEAD, MNCL
 from models.training.settings import load_settings
 
 EPOCHS_A_HALVING = 5  # of the papers' learning rate
 
 
-def in_epochs(scale: Scale, data: Path, epochs: int) -> Scale:
+def in_epochs(scale: TrainingScale, data: Path, epochs: int) -> TrainingScale:
     """A scale that lasts for some epochs of a data set, validates after each, and halves its rate as the papers do.
 
     Raises:
@@ -54,7 +54,7 @@ def chosen(keys: str | None) -> tuple[Experiment, ...]:
 def reproduce(
     data: Path,
     out: Path,
-    scale: Scale,
+    scale: TrainingScale,
     seeds: Sequence[int],
     workers: int,
     progress: Progress,
@@ -80,7 +80,7 @@ def reproduce(
     jobs = [
         Job.of(run, seed, data, out, scale)
         for seed in seeds
-        for run in runs_of(experiments, every_seed=seed != seeds[0])
+        for run in required_runs(experiments, every_seed=seed != seeds[0])
     ]
     backbones = list(dict.fromkeys(job.points for job in jobs if job.points))
     _train("train and measure", [*backbones, *(job for job in jobs if not job.points)], workers, progress)
@@ -92,7 +92,7 @@ def reproduce(
         found.setdefault(job.run.name, []).append(result)
     pairs = [
         (Job.of(run, seed, data, out, scale), Job.of(fine, seed, data, out, scale))
-        for run, fine in pairs_of(experiments)
+        for run, fine in fine_pairs(experiments)
         for seed in seeds
     ]
     _localize(pairs, seeds[0], workers, progress)
@@ -119,11 +119,15 @@ def _localize(pairs: Sequence[tuple[Job, Job]], first_seed: int, workers: int, p
 
 
 def figure_3_of(
-    data: Path, out: Path, scale: Scale, seed: int, experiments: tuple[Experiment, ...] = tuple(EXPERIMENTS.values())
+    data: Path,
+    out: Path,
+    scale: TrainingScale,
+    seed: int,
+    experiments: tuple[Experiment, ...] = tuple(EXPERIMENTS.values()),
 ) -> Path | None:
     """The picture of MNCL's retrieved cells; None if it is not of these experiments, or not made with this scale."""
     job, fine_job = (Job.of(run, seed, data, out, scale) for run in (MNCL, HEAD))
-    made = (MNCL, HEAD) in pairs_of(experiments) and localized(job, fine_job) is not None
+    made = (MNCL, HEAD) in fine_pairs(experiments) and localized(job, fine_job) is not None
     return job.directory / FIGURE_3 if made else None
 
 

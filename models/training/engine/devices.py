@@ -1,10 +1,8 @@
-"""Where things are computed while training.
+"""Devices in training.
 
-`loop.pick_device` picks. What `run_training` trains is moved there, and a task brings each batch along in its `loss`.
-The frozen text encoder, and what else a run needs there, is lent to the device by `lent_to`. Examples and frozen
-features are kept on the CPU.
-
-All else is on the CPU: the likelihood, the kernels of places and all of `train_places`, and whatever answers.
+`loop.pick_device` selects the device. `run_training` moves the model there; a task moves each batch in its `loss`. The
+frozen text encoder is there only inside `on_device`. Examples and frozen features stay on the CPU, and so do the
+likelihood, the place kernels, all of `train_places`, and everything that answers queries.
 """
 
 from collections.abc import Iterator
@@ -15,8 +13,8 @@ from torch import nn
 
 
 @contextmanager
-def lent_to(device: torch.device, *modules: nn.Module) -> Iterator[None]:
-    """Have modules on a device, and on the CPU again afterwards: others in this process use them."""
+def on_device(device: torch.device, *modules: nn.Module) -> Iterator[None]:
+    """Move modules to a device, and back to the CPU at the end, where other code of this process uses them."""
     try:
         for module in modules:
             module.to(device)

@@ -1,4 +1,4 @@
-"""Features of the frozen text encoder, computed once for a list of sentences and kept on disk."""
+"""A disk cache of the frozen text encoder's features for lists of sentences."""
 
 import hashlib
 import json
@@ -16,31 +16,31 @@ from models.files import cache_directory, replace_file
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
 ENCODE_BATCH = 256  # sentences
-_FORMAT = 1  # of the files; counted up when what is in them changes
+_CACHE_FORMAT = 1  # increase when the content of the files changes
 _log = logging.getLogger(__name__)
 
 
 def frozen_features(encoder: TextEncoder, sentences: Sequence[str]) -> TokenFeatures:
-    """Token features of sentences, padded to the longest, from disk where they were computed before.
+    """Return token features of sentences, padded to the longest, from the cache if possible.
 
-    Of processes that want the same at the same time, one computes and the others wait. A cache that cannot be read or
-    written is done without.
+    If several processes need the same features, one computes them and the others wait. If the cache cannot be read or
+    written, the features are computed.
 
     Args:
-        encoder: the frozen text encoder, on any device; its fingerprint is part of the file's name.
-        sentences: S of them; so are they, in their order.
+        encoder: the frozen text encoder, on any device; its fingerprint is part of the cache key.
+        sentences: S sentences; part of the key, in this order.
 
     Returns:
-        [S, T, W] float16 values, [S, T] mask, [S, T] ids, on the CPU.
+        Values [S, T, W] float16, mask [S, T] and ids [S, T], on the CPU.
     """
-    key = json.dumps([_FORMAT, encoder.fingerprint, list(sentences)])
+    key = json.dumps([_CACHE_FORMAT, encoder.fingerprint, list(sentences)])
     path = cache_directory() / "tokens" / f"{hashlib.sha256(key.encode()).hexdigest()}.safetensors"
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with FileLock(path.with_suffix(".lock")):
             return _read(path) or _write(path, _compute(encoder, sentences))
     except OSError as error:
-        _log.warning("no cache in %s (%s)", path.parent, error)
+        _log.warning("cannot use the cache in %s (%s)", path.parent, error)
         return _compute(encoder, sentences)
 
 
@@ -50,7 +50,7 @@ def _read(path: Path) -> TokenFeatures | None:
     try:
         return TokenFeatures(**load_file(path))
     except (SafetensorError, TypeError) as error:
-        _log.warning("%s is broken and computed again (%s)", path, error)
+        _log.warning("%s is broken; computing it again (%s)", path, error)
         return None
 
 

@@ -16,7 +16,7 @@ from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 from models.sources.source import open_sources
-from models.training.engine.devices import lent_to
+from models.training.engine.devices import on_device
 from models.training.engine.loop import Progress, pick_device, run_training
 from models.training.posterior.cue_texts import labelled_texts
 from models.training.posterior.fit_cues import EPOCHS, fit_cues
@@ -73,7 +73,7 @@ def train_posterior(
     model = model.model_copy(update={"grammar_sha256": load_grammar("train").sha256})
     trained = PosteriorModel(encoder, model)
     depth = model.frozen_layers
-    with lent_to(pick_device(config.device), encoder, trained):
+    with on_device(pick_device(config.device), encoder, trained):
         training = ReadingSet(encoder, depth, "train", TEXTS, config.seed)
         validation = ReadingSet(encoder, depth, "val", VALIDATION_TEXTS, config.seed + 1)
         task = ReadingTask(trained.reader, training, validation, config.batch_size)

@@ -9,7 +9,7 @@ from index.build.build import build_index
 from index.evaluation.predictions import FILE, Predictions
 from models.sources.source import VALIDATION_SEED, open_source
 from models.training.settings import TrainingConfig
-from models.training.training_data import load_training
+from models.training.training_data import load_training_data
 
 
 @pytest.mark.slow
@@ -21,7 +21,7 @@ def test_all_three_come_through_one_door(osm_file, weights_dir, text_encoder, tm
     Evaluation(weights_dir=weights_dir, data=osm_file, split="val").run(tmp_path / "report", lambda *_: None)
     measured = Predictions.load(tmp_path / "report" / FILE)
     config, rng = TrainingConfig(spacing_m=30.0), np.random.default_rng(0)
-    trained = load_training(osm_file, ("train", "val"), text_encoder, config, rng)
+    trained = load_training_data(osm_file, ("train", "val"), text_encoder, config, rng)
 
     assert indexed.gallery.cells.ids == trained.gallery.cells.ids == cells.ids == tuple(measured.cell_ids.tolist())
     assert indexed.gallery.labels == trained.gallery.labels

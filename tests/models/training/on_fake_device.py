@@ -23,7 +23,7 @@ from models.posterior.model import PosteriorConfig, PosteriorModel, load_posteri
 from models.sources.source import open_source
 from models.training import fit_fine, fit_points, fit_retriever, validation
 from models.training.engine import loop
-from models.training.engine.devices import lent_to
+from models.training.engine.devices import on_device
 from models.training.posterior import fit_posterior
 from models.training.posterior.fit_reader import ReadingSet
 from models.training.settings import TrainingConfig
@@ -45,7 +45,7 @@ SMALL: dict[Any, dict[str, Any]] = {
 
 def load(sources: Any, encoder: Any, rng: np.random.Generator) -> list[TrainingData]:
     assert next(encoder.parameters()).device == FAKE, "frozen features are computed on the device"
-    data = TrainingData.of(*sources, encoder, CONFIG, rng)
+    data = TrainingData.from_sources(*sources, encoder, CONFIG, rng)
     assert data.training.vocabulary.mask.device == CPU, "and kept on the CPU"
     return [replace(data, queries=data.queries.take(np.arange(8)))]
 
@@ -65,7 +65,7 @@ def fine(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> Non
 
 def shared_points(sources: Any, out: Path) -> None:
     """A point encoder that was made before."""
-    fit_points.train_points([TrainingCells.of(*sources)], out / "points", CONFIG)
+    fit_points.train_points([TrainingCells.from_sources(*sources)], out / "points", CONFIG)
     given = CONFIG.model_copy(update={"points": out / "points"})
     config = METHODS["text2loc"].config_type(width=32, inputs=PAPER_INPUTS)
     fit_retriever.train_retriever(partial(load, sources), out, METHODS["text2loc"], config, given)
@@ -126,13 +126,13 @@ def lending() -> None:
     """What is lent comes back, whatever happens."""
     module = nn.Linear(2, 2)
     try:
-        with lent_to(FAKE, module):
+        with on_device(FAKE, module):
             assert module.weight.device == FAKE
             raise KeyboardInterrupt
     except KeyboardInterrupt:
         assert module.weight.device == CPU
     encoder = load_text_encoder()
-    with lent_to(FAKE, encoder):
+    with on_device(FAKE, encoder):
         assert encoder.read(["A tree."], 1)[0].mask.device == FAKE
     assert encoder.read(["A tree."], 1)[0].mask.device == CPU, "it remembers what it read last"
 

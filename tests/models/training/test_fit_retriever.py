@@ -21,9 +21,9 @@ from models.sources.source import open_sources
 from models.training.fit_fine import train_fine
 from models.training.fit_points import train_points
 from models.training.fit_retriever import RetrievalTask, train_retriever
-from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect
+from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect_cells
 from models.training.settings import TrainingConfig, load_settings
-from models.training.training_data import TrainingCells, TrainingData, load_training
+from models.training.training_data import TrainingCells, TrainingData, load_training_data
 from tests.models.sources.raw_scenes import TRAIN_STREETS, VAL_STREET
 
 
@@ -43,7 +43,7 @@ def test_directions_turn_with_the_map() -> None:
 def test_turning_a_cell_keeps_distances_and_turns_directions(cells, city) -> None:
     features = CellFeatures.from_cells(cells, np.array([i.label for i in city.instances]))
     batch = features.batch(np.arange(8))
-    turned = reflect(batch, torch.from_numpy(SYMMETRIES))
+    turned = reflect_cells(batch, torch.from_numpy(SYMMETRIES))
     assert torch.equal(turned.geometry[0], batch.geometry[0]), "the first symmetry is none"
     assert torch.allclose(turned.geometry[..., 3:5].norm(dim=-1), batch.geometry[..., 3:5].norm(dim=-1))
     assert (turned.geometry[..., 8:11] >= 0).all()
@@ -63,7 +63,7 @@ def test_batches_are_seeded_and_say_what_is_true(region, city) -> None:
 def test_published_wording_says_what_is_there_in_the_benchmarks_words(source, text_encoder) -> None:
     region = TrainingSet(source.statements(60.0, np.random.default_rng(0)), text_encoder, "published")
     chosen = region.usable[:20]
-    said = region.say(chosen, np.zeros(len(chosen), int), np.random.default_rng(0))
+    said = region.draw_hints(chosen, np.zeros(len(chosen), int), np.random.default_rng(0))
     vocabulary, table = region.vocabulary, region.table
     for row, position in enumerate(chosen):
         hints = np.arange(table.starts[position], min(table.starts[position + 1], table.starts[position] + 6))
@@ -89,7 +89,7 @@ def test_training_learns_is_seeded_and_is_saved(regions, text_encoder, tmp_path)
     seen = []
 
     def load(encoder, rng):
-        return [TrainingData.of(*regions, encoder, config, rng)]
+        return [TrainingData.from_sources(*regions, encoder, config, rng)]
 
     recalls = [
         train_retriever(load, tmp_path / name, Mncl, MnclConfig(width=32), config, progress=seen.append)
@@ -106,7 +106,7 @@ def test_training_learns_is_seeded_and_is_saved(regions, text_encoder, tmp_path)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_every_method_trains_in_half_precision(regions, text_encoder, method) -> None:
-    source = TrainingData.of(*regions, text_encoder, TrainingConfig(spacing_m=30.0), np.random.default_rng(0))
+    source = TrainingData.from_sources(*regions, text_encoder, TrainingConfig(spacing_m=30.0), np.random.default_rng(0))
     torch.manual_seed(0)
     task = RetrievalTask(method(text_encoder, method.config_type(width=32)), [source], batch_size=16, cluster=4)
     task.model.eval()  # no dropout
@@ -125,7 +125,7 @@ def test_a_run_directory_goes_on(regions, tmp_path) -> None:
     config = TrainingConfig(steps=6, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
-        return [TrainingData.of(*regions, encoder, config, rng) for _ in range(2)]
+        return [TrainingData.from_sources(*regions, encoder, config, rng) for _ in range(2)]
 
     def kill(at):
         if at.step == 5:
@@ -163,7 +163,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(strip, coarse, tmp_pat
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
-        return [TrainingData.of(*regions, encoder, config, rng)]
+        return [TrainingData.from_sources(*regions, encoder, config, rng)]
 
     def kill(at):
         if (at.step, at.steps) == (3, 4):
@@ -192,9 +192,9 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, co
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
-        return [TrainingData.of(*regions, encoder, config, rng)]
+        return [TrainingData.from_sources(*regions, encoder, config, rng)]
 
-    figures = train_points([TrainingCells.of(*regions)], tmp_path / "points", config)
+    figures = train_points([TrainingCells.from_sources(*regions)], tmp_path / "points", config)
     monkeypatch.setattr("models.training.fit_points.fit_points", None)  # none is trained again
     given = config.model_copy(update={"points": tmp_path / "points"})
     train_retriever(load, tmp_path / "coarse", Text2Loc, Text2LocConfig(width=32, inputs=PAPER_INPUTS), given)
@@ -215,9 +215,9 @@ def test_a_data_set_trains_as_a_map_does(streets, tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=16, validate_every=4)
 
     def load(encoder, rng):
-        source = load_training(streets, ("train", "val"), encoder, config, rng)
+        source = load_training_data(streets, ("train", "val"), encoder, config, rng)
         with pytest.raises(DataError, match="0042"):
-            load_training(streets, ("0042", "val"), encoder, config, rng)
+            load_training_data(streets, ("0042", "val"), encoder, config, rng)
         batch = source.training.batch(source.training.draw(16, 4, rng), rng)
         assert batch.hint_mask.sum(dim=1).min() >= 2
         assert (batch.sentences[batch.hint_mask] >= 0).all()

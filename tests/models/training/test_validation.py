@@ -5,7 +5,7 @@ import torch
 from models.paper.checkpoint import METHODS
 from models.paper.retriever import Retriever
 from models.sources.source import VALIDATION_SEED
-from models.training.validation import Encoded, Validation, calibrate, most_likely
+from models.training.validation import EncodedGallery, Validation, calibrate, fit_weights
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def true_scores(rng, hints: int, levels: int):
 @pytest.mark.parametrize("levels", [1, 2])
 def test_what_is_found_is_what_made_the_answers(levels) -> None:
     rng = np.random.default_rng(0)
-    weights, temperature, decay = most_likely([true_scores(rng, hints, levels) for hints in (1, 2, 4)])
+    weights, temperature, decay = fit_weights([true_scores(rng, hints, levels) for hints in (1, 2, 4)])
     assert (temperature, decay) == pytest.approx((0.3, 0.8), rel=0.1)
     assert weights == pytest.approx(tuple(range(1, levels + 1)), rel=0.1)
 
@@ -41,10 +41,10 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
 
 
 def test_the_global_level_has_a_temperature_of_its_own(model, region_queries, monkeypatch) -> None:
-    asked = [true_scores(np.random.default_rng(hints), hints, 3) for hints in (1, 2, 4)]
-    monkeypatch.setattr("models.training.validation._ask", lambda *_: asked)
+    scored = [true_scores(np.random.default_rng(hints), hints, 3) for hints in (1, 2, 4)]
+    monkeypatch.setattr("models.training.validation._score_queries", lambda *_: scored)
     found = calibrate(model, [region_queries], np.random.default_rng(0))
-    _, *alone = most_likely([(hints, scores[:1], truth) for hints, scores, truth in asked])
+    _, *alone = fit_weights([(hints, scores[:1], truth) for hints, scores, truth in scored])
     assert [found["global_temperature"], found["global_temperature_decay"]] == pytest.approx(alone)
     assert found["global_temperature"] > 2 * found["temperature"], "the least of three levels tells little"
 
@@ -58,13 +58,13 @@ def region_queries(source, model):
 def test_many_texts_at_a_time_get_the_scores_of_each_alone(source, text_encoder, method, monkeypatch) -> None:
     torch.manual_seed(0)
     retriever = METHODS[method](text_encoder, METHODS[method].config_type(width=32)).eval()
-    asked = Validation(source.data.gallery, source.queries(VALIDATION_SEED, 40.0), retriever)
+    validation = Validation(source.data.gallery, source.queries(VALIDATION_SEED, 40.0), retriever)
     rng = np.random.default_rng(0)
-    texts = [list(hints)[: int(rng.integers(1, 7))] for hints in asked.descriptions]
-    gallery, recall = Encoded(retriever, asked.features), asked.recall(retriever)
+    texts = [list(hints)[: int(rng.integers(1, 7))] for hints in validation.descriptions]
+    gallery, recall = EncodedGallery(retriever, validation.features), validation.recall(retriever)
     together = gallery.level_scores(texts)
     monkeypatch.setattr(type(retriever), "encode_texts_padded", Retriever.encode_texts)
     alone = gallery.level_scores(texts)
     assert list(together) == list(alone)
     assert all(np.abs(together[level] - alone[level]).max() < 1e-5 for level in alone)
-    assert recall == pytest.approx(asked.recall(retriever), abs=1e-5)
+    assert recall == pytest.approx(validation.recall(retriever), abs=1e-5)

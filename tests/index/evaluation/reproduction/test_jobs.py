@@ -8,7 +8,7 @@ from index.evaluation.reproduction.figure_3 import draw_figure_3
 from index.evaluation.reproduction.jobs import ALL, ALONE, LISTED, Z_SCORES, Job
 from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.paper.mncl import Mncl, MnclConfig
-from models.training.experiments import Run, Scale
+from models.training.experiments import TrainingRun, TrainingScale
 
 
 @pytest.mark.slow
@@ -36,7 +36,7 @@ def test_results_go_with_the_files_of_a_text_encoder(osm_file, tmp_path, method)
 
     def key() -> str:
         said = (f"model.text_encoder={encoder}",)
-        return Job.of(Run(method), 0, osm_file, tmp_path / "out", Scale(said, said, ())).key
+        return Job.of(TrainingRun(method), 0, osm_file, tmp_path / "out", TrainingScale(said, said, ())).key
 
     keys = []
     for name, content in (("weights", "a"), ("weights", "other"), ("pooling/config", "b"), ("weights", "a")):

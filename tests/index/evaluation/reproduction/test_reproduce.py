@@ -12,16 +12,25 @@ from index.evaluation.reproduction.reproduce import chosen, in_epochs
 from models.errors import DataError
 from models.paper import point_encoder
 from models.sources.source import open_source
-from models.training.experiments import POINTS, Experiment, Row, Run, Scale, made_of, pairs_of, runs_of
+from models.training.experiments import (
+    POINTS,
+    Experiment,
+    TableRow,
+    TrainingRun,
+    TrainingScale,
+    apply_variant,
+    fine_pairs,
+    required_runs,
+)
 from models.training.paper_tables import EXPERIMENTS, GROWTH, HEAD, MNCL, RET, TABLE_1, TABLE_2, TEXT2LOC, TEXT2POS
 from models.training.settings import load_settings
 
-REGRESSOR = Run("regressor")
+REGRESSOR = TrainingRun("regressor")
 ALL = tuple(EXPERIMENTS.values())
 _FEW = ("training.steps=2", "training.validate_every=2", "training.batch_size=4", "training.spacing_m=30")
 _RETRIEVER = (*_FEW, "training.validate_every=1", "model.width=32")
-SCALE = Scale(_RETRIEVER, (*_FEW, "model.width=32"), (60.0, 120.0), _FEW)
-ONE = (Experiment("one", "One row", (Row("Text2Loc", TEXT2LOC, fine=REGRESSOR),), "localization"),)
+SCALE = TrainingScale(_RETRIEVER, (*_FEW, "model.width=32"), (60.0, 120.0), _FEW)
+ONE = (Experiment("one", "One row", (TableRow("Text2Loc", TEXT2LOC, fine=REGRESSOR),), "localization"),)
 
 
 def here(work, tasks, workers):
@@ -50,7 +59,7 @@ def changed(before: dict[str, int], now: dict[str, int]) -> set[str]:
 
 @pytest.mark.slow
 def test_what_is_done_is_kept_and_what_differs_is_made_again(small, strip_file, tmp_path) -> None:
-    def made(scale: Scale) -> dict:
+    def made(scale: TrainingScale) -> dict:
         return module.reproduce(strip_file, tmp_path, scale, [0], 1, lambda *_: None, ONE)
 
     found = made(SCALE)
@@ -75,26 +84,26 @@ def test_what_is_done_is_kept_and_what_differs_is_made_again(small, strip_file, 
 
 
 def test_further_seeds_make_the_tables_alone() -> None:
-    every, first = runs_of(ALL, every_seed=True), runs_of(ALL, every_seed=False)
+    every, first = required_runs(ALL, every_seed=True), required_runs(ALL, every_seed=False)
     assert set(every) < set(first)
-    figures = {made_of(row.run, v) for e in ALL if not e.every_seed for row, v in e.made()}
+    figures = {apply_variant(row.run, v) for e in ALL if not e.every_seed for row, v in e.row_variants()}
     assert set(first) - set(every) == figures - set(every)
     assert HEAD in every
 
 
 def test_variants_differ_in_their_inputs_alone() -> None:
-    runs = runs_of((TABLE_2,), every_seed=True)
+    runs = required_runs((TABLE_2,), every_seed=True)
     assert {run.name for run in runs} == {
         f"{method}{said}" for method in ("mncl", "ret", "text2loc", "text2pos")
         for said in ("", "-inputs=points+colour+position+count")
     }  # fmt: skip
-    assert sum(run.sees_points for run in runs) == 4
-    assert (MNCL, HEAD) in pairs_of((TABLE_1,))
-    assert all(coarse.sees_points == fine.sees_points for coarse, fine in pairs_of((TABLE_1,)))
+    assert sum(run.needs_points for run in runs) == 4
+    assert (MNCL, HEAD) in fine_pairs((TABLE_1,))
+    assert all(coarse.needs_points == fine.needs_points for coarse, fine in fine_pairs((TABLE_1,)))
 
 
 def test_every_order_of_the_papers_tables_is_asked() -> None:
-    orders = {(e.key, worse.name, better.name) for e in ALL for worse, better in e.orders()}
+    orders = {(e.key, worse.name, better.name) for e in ALL for worse, better in e.published_orders()}
     methods = ("Text2Pos", "RET", "Text2Loc", "MNCL")
     for key in "12":
         assert {o[1:] for o in orders if o[0] == key} == {
@@ -121,7 +130,7 @@ def test_tables_are_chosen_by_name() -> None:
         chosen("9")
 
 
-def made_up(run: Run, seed: int) -> dict[str, object]:
+def made_up(run: TrainingRun, seed: int) -> dict[str, object]:
     """Results whose figures can be told apart."""
     at_1 = 0.5 + 0.1 * seed if run == MNCL else 0.2
     recall = {"1": at_1, "3": 0.7, "5": 0.8}
@@ -143,15 +152,15 @@ def made_up(run: Run, seed: int) -> dict[str, object]:
         return result | {"validation": fine | {"cell_center": fine}}
     if run.method == POINTS:
         return result | {"validation": {"label": 0.8}}
-    stages = {fine.name: {"test": within, "val": within} for _, fine in pairs_of(ALL)}
+    stages = {fine.name: {"test": within, "val": within} for _, fine in fine_pairs(ALL)}
     measured = {"retrieval": recall, "validation_retrieval": recall, "parameters": 10, "bytes_a_cell": 512}
     return result | measured | {"growth": grown, "localization": stages, "rankings": {"global level alone": recall}}
 
 
 def found_of(*seeds: int) -> dict[str, Any]:
-    runs = {run.name: [made_up(run, seeds[0])] for run in (*runs_of(ALL, every_seed=False), Run(POINTS))}
+    runs = {run.name: [made_up(run, seeds[0])] for run in (*required_runs(ALL, every_seed=False), TrainingRun(POINTS))}
     for seed in seeds[1:]:
-        for run in (*runs_of(ALL, every_seed=True), Run(POINTS)):
+        for run in (*required_runs(ALL, every_seed=True), TrainingRun(POINTS)):
             runs[run.name].append(made_up(run, seed))
     data = {"cells": 10, "queries": 5, "exact_matching": {"1": 0.4}}
     return {"seeds": list(seeds), "data": data, "experiments": list(EXPERIMENTS), "runs": runs}
@@ -181,7 +190,7 @@ def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> 
 
 def test_a_report_of_some_tables_has_no_others(tmp_path) -> None:
     found = found_of(0) | {"experiments": ["2"]}
-    runs = {made_of(run, v).name for run in (MNCL, RET, TEXT2LOC, TEXT2POS) for v in TABLE_2.variants}
+    runs = {apply_variant(run, v).name for run in (MNCL, RET, TEXT2LOC, TEXT2POS) for v in TABLE_2.variants}
     found["runs"] = {name: results for name, results in found["runs"].items() if name in runs}
     for n in (3, 4):
         (tmp_path / f"figure{n}.png").write_bytes(b"old")

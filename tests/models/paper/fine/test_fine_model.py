@@ -118,7 +118,7 @@ def test_every_parameter_that_locates_gets_a_finite_gradient(fine_model, fine_se
     fine_model.zero_grad()
     hints = torch.randn(*batch.sentences.shape, 32, requires_grad=True)
     instances = fine_model.embed_instances(batch.cells, fine_set.training.label_embeddings)
-    fine_model.loss(hints, batch.hint_mask, instances, batch.truth).backward()
+    fine_model.loss(hints, batch.hint_mask, instances, batch.targets).backward()
     gradients = {name: p.grad for name, p in fine_model.named_parameters() if not name.startswith("hint_encoder")}
     assert all(g is not None and torch.isfinite(g).all() for g in gradients.values())
     of_hints = hints.grad
@@ -158,10 +158,10 @@ def test_matching_averages_over_the_matches(text_encoder, features, monkeypatch)
 def test_the_instances_meant_survive_the_choice_of_the_nearest(fine_model, fine_set) -> None:
     batch = fine_set.batch(16, np.random.default_rng(3))
     seen = fine_model.embed_instances(batch.cells, fine_set.training.label_embeddings)
-    meant = seen.match_mask(FineTargets(batch.truth.offset, batch.truth.match), batch.hint_mask)
+    meant = seen.match_mask(FineTargets(batch.targets.offset, batch.targets.match), batch.hint_mask)
     assert meant.any()
     for b, h, i in meant.nonzero().tolist():
-        column = int(batch.truth.match[b, h])
+        column = int(batch.targets.match[b, h])
         expected = batch.cells.geometry[b, column, :2] / 2 + 0.5
         assert torch.equal(seen.center[b, i], expected)
 

@@ -10,11 +10,11 @@ from models.paper.fine.fine_model import FineConfig, FineModel
 from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.sources.source import open_source
 from models.sources.store.files import load_data
-from models.training.fine_data import FineSet, FineValidation, containing_cells, offsets_in, reflect_offset
+from models.training.fine_data import FineSet, FineValidation, cell_offsets, containing_cells, reflect_offset
 from models.training.fit_fine import FineTask, train_fine
-from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect
+from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect_cells
 from models.training.settings import TrainingConfig
-from models.training.training_data import TrainingData, load_training
+from models.training.training_data import TrainingData, load_training_data
 
 
 @pytest.fixture(scope="module")
@@ -51,19 +51,19 @@ def test_half_of_the_cells_are_cloned_or_none(either) -> None:
 def test_targets_turn_with_the_cell(either) -> None:
     rows = np.arange(8)
     positions = either.cells.center_m[rows, :2] + np.random.default_rng(0).uniform(-9, 9, (8, 2))
-    offset = torch.from_numpy(offsets_in(either.cells, rows, positions).astype(np.float32))
+    offset = torch.from_numpy(cell_offsets(either.cells, rows, positions).astype(np.float32))
     assert torch.allclose(offset, (torch.from_numpy(positions - either.cells.center_m[rows, :2]) / 30 + 0.5).float())
     matrix = torch.from_numpy(SYMMETRIES)
     before = either.training.features.batch(rows)
-    after, moved = reflect(before, matrix), reflect_offset(offset, matrix)
+    after, moved = reflect_cells(before, matrix), reflect_offset(offset, matrix)
     # From the closest point of every instance to the position: the same way, turned.
     way, turned = (2 * o[:, None] - 1 - cells.geometry[..., 3:5] for o, cells in ((offset, before), (moved, after)))
     expected = torch.einsum("bij,bnj->bni", matrix, way)
     assert torch.allclose(turned[before.mask], expected[before.mask], atol=1e-5)
 
 
-class Told(FineModel):
-    """Says what it was told."""
+class FixedPredictions(FineModel):
+    """A fine stage that predicts fixed offsets."""
 
     def __init__(self, truth):
         torch.nn.Module.__init__(self)
@@ -75,7 +75,7 @@ class Told(FineModel):
 
 def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(either) -> None:
     batch = either.batch(64, np.random.default_rng(2))
-    assert ((batch.truth.offset >= -1e-5) & (batch.truth.offset <= 1 + 1e-5)).all()
+    assert ((batch.targets.offset >= -1e-5) & (batch.targets.offset <= 1 + 1e-5)).all()
     assert (batch.sentences[batch.hint_mask] >= 0).all()
     vocabulary = either.training.vocabulary
     sentence = vocabulary.sentence
@@ -86,10 +86,10 @@ def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(eith
             said = sentence(labels[:, None], colours[None, :], d, t)
             direction_of |= dict.fromkeys(said[said >= 0].tolist(), d)  # less where nothing is of that colour
     agree = []
-    for b, h in (batch.truth.match >= 0).nonzero().tolist():
-        geometry = batch.cells.geometry[b, batch.truth.match[b, h]]
+    for b, h in (batch.targets.match >= 0).nonzero().tolist():
+        geometry = batch.cells.geometry[b, batch.targets.match[b, h]]
         middle, half = geometry[:2] / 2 + 0.5, geometry[8:10] / 2
-        way = batch.truth.offset[b] - middle
+        way = batch.targets.offset[b] - middle
         x, y = (way / half.clamp(min=0.02)).tolist()
         d = direction_of[int(batch.sentences[b, h])]
         if max(abs(x), abs(y)) > 1.5:  # clearly outside the instance's box
@@ -103,31 +103,33 @@ def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(eit
     queries = training.usable[:40]
     total = len(queries)
     positions = either.positions_m[queries]
-    told = Queries([("I am here.",)] * total, positions, training.best[queries], [""] * total, [""] * total)
-    asked = FineValidation.of(training.statements.gallery, told, Told(None))
-    assert set(asked.figures(Told(asked.offset)).values()) == {1.0}
+    benchmark_queries = Queries(
+        [("I am here.",)] * total, positions, training.best[queries], [""] * total, [""] * total
+    )
+    validation = FineValidation.from_queries(training.statements.gallery, benchmark_queries, FixedPredictions(None))
+    assert set(validation.metrics(FixedPredictions(validation.offset)).values()) == {1.0}
     away = np.linalg.norm(positions - cells.center_m[training.best[queries], :2], axis=1)
-    figures = asked.center_figures()
-    assert figures == asked.figures(Told(np.full((total, 2, 2), 0.5)))
-    assert (figures["within_5m"], figures["within_10m"]) == (np.mean(away <= 5), np.mean(away <= 10))
+    metrics = validation.center_metrics()
+    assert metrics == validation.metrics(FixedPredictions(np.full((total, 2, 2), 0.5)))
+    assert (metrics["within_5m"], metrics["within_10m"]) == (np.mean(away <= 5), np.mean(away <= 10))
     starts, rows = containing_cells(cells, positions, training.best[queries])
     for q in range(total):
         others = rows[starts[q] : starts[q + 1]]
-        assert asked.rows[q, 1] in others if len(others) else asked.rows[q, 1] == -1
+        assert validation.rows[q, 1] in others if len(others) else validation.rows[q, 1] == -1
 
 
 def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> None:
-    store, told = load_data(streets, "train"), FineSet(store_set.training, pmc=False)
+    store, fine_set = load_data(streets, "train"), FineSet(store_set.training, pmc=False)
     poses, parts = store.poses, store.cell_table().parts
-    match = told.batch(80, np.random.default_rng(0)).truth.match.numpy()
+    match = fine_set.batch(80, np.random.default_rng(0)).targets.match.numpy()
     rng = np.random.default_rng(0)  # what the batch drew
-    positions = rng.choice(told.training.usable, 80)
-    cells, symmetry = told.draw_cells(positions, rng), rng.integers(len(SYMMETRIES), size=80)
-    said = told.training.say(positions, symmetry, rng)
+    positions = rng.choice(fine_set.training.usable, 80)
+    cells, symmetry = fine_set.draw_cells(positions, rng), rng.integers(len(SYMMETRIES), size=80)
+    drawn = fine_set.training.draw_hints(positions, symmetry, rng)
     assert (cells == poses.cell[positions]).all()
     right = known = 0
     for n in range(80):
-        row = poses.instance[said.hints[n, said.mask[n]]]
+        row = poses.instance[drawn.hints[n, drawn.mask[n]]]
         found = match[n, : len(row)]
         assert ((found >= 0) == (row >= 0)).all()
         known += int((row >= 0).sum())
@@ -171,7 +173,7 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) ->
     seen = []
 
     def load(encoder, rng):
-        return [TrainingData.of(*regions, encoder, config, rng)]
+        return [TrainingData.from_sources(*regions, encoder, config, rng)]
 
     figures = [
         train_fine(load, tmp_path / name, "regressor", RegressorConfig(width=32), config, progress=seen.append)
@@ -191,7 +193,7 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) ->
 @pytest.mark.slow
 def test_a_data_set_trains_either_method(streets, tmp_path) -> None:
     def load(encoder, rng):
-        return [load_training(streets, ("train", "val"), encoder, TrainingConfig(), rng)] * 2
+        return [load_training_data(streets, ("train", "val"), encoder, TrainingConfig(), rng)] * 2
 
     for method, kind in FINE_METHODS.items():
         config = TrainingConfig(steps=2, batch_size=8, validate_every=2, pmc=False)
