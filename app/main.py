@@ -10,6 +10,7 @@ from asgi_correlation_id import CorrelationIdMiddleware
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
+from app import limits
 from app.http.bodies import StrictBody
 from app.http.errors import add_error_handlers
 from app.http.indexes import Indexes
@@ -43,12 +44,12 @@ def create_app(
     """The application.
 
     Args:
-        settings: limits, and where the index is.
+        settings: what the operator sets.
         open_localizer: run when the service starts, in a thread of it; None opens settings.index_dir in workers.
         page_dir: what the page's build wrote.
     """
     indexes = _indexes(settings, open_localizer)
-    jobs = EvaluationJobs(settings.max_jobs, settings.jobs_dir)
+    jobs = EvaluationJobs(settings.jobs_dir)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
@@ -74,9 +75,9 @@ def create_app(
 def _indexes(settings: Settings, open_localizer: Callable[[], LocalizerLike] | None) -> Indexes:
     """What is served: indexes in workers, or what a test gives."""
     if open_localizer is not None:
-        return Indexes(lambda _alias, _version: [open_localizer()], dict, settings)
+        return Indexes(lambda _alias, _version: [open_localizer()], dict, settings.max_wait_ms / 1000)
     opener, read = partial(_open_workers, settings), partial(_aliases, settings.index_dir)
-    return Indexes(opener, read, settings, partial(check_version, settings.index_dir))
+    return Indexes(opener, read, settings.max_wait_ms / 1000, partial(check_version, settings.index_dir))
 
 
 def _fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]]) -> FastAPI:
@@ -96,13 +97,13 @@ def _fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]]) -
 
 def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
-    asked = [routes.build_router(settings) for routes in (localize, batch, describe, evaluate, geocoder)]
-    routers = (*asked, cells.router, maps.router, index_routes.router, health.router, page.build_router(page_dir))
+    modules = (localize, batch, describe, evaluate, geocoder, cells, maps, index_routes, health)
+    routers = (*(module.router for module in modules), page.build_router(page_dir))
     for router in routers:
         app.include_router(router)
     app.state.routes = [route for router in routers for route in router.routes]  # FastAPI hides those it includes
-    larger = {evaluate.PATH: settings.max_evaluate_bytes, batch.PATH: batch.BODIES * settings.max_bytes}
-    app.add_middleware(StrictBody, max_bytes=settings.max_bytes, larger=larger)
+    larger = {evaluate.PATH: limits.MAX_EVALUATE_BODY_BYTES, batch.PATH: limits.MAX_BATCH_BODY_BYTES}
+    app.add_middleware(StrictBody, max_bytes=limits.MAX_BODY_BYTES, larger=larger)
     app.add_middleware(KeyCheck, read_key=settings.read_key, open_routes=open_routes(routers))
     app.add_middleware(AccessLog, metrics=app.state.metrics, log_descriptions=settings.log_descriptions)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)

@@ -13,6 +13,7 @@ from fastapi import FastAPI
 from app.http.connection import Connection
 from app.http.indexes import Indexes
 from app.jobs.runner import EvaluationJobs
+from app.limits import MAX_DEADLINE_MS
 from app.settings import Settings, address_of, is_local
 
 CLOSING_S = 5
@@ -78,7 +79,7 @@ def serve(app: FastAPI, settings: Settings) -> None:
         server_header=False,
         proxy_headers=False,  # the client is whoever connects: app/http/keys.py decides by it
         http=Connection,
-        timeout_graceful_shutdown=settings.max_deadline_ms // 1000 + CLOSING_S,
+        timeout_graceful_shutdown=MAX_DEADLINE_MS // 1000 + CLOSING_S,
     )
     DrainingServer(config, app.state.indexes, app.state.jobs).run()
 

@@ -1,11 +1,11 @@
-"""What an operator can set, from the environment (HEREABOUTS_PORT=9000) or the command line."""
+"""The settings of an operator, from the environment (HEREABOUTS_PORT=9000) or the command line."""
 
 import re
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from pathlib import Path
-from typing import Literal, Self
+from typing import Literal
 
-from pydantic import Field, PositiveInt, SecretStr, ValidationError, field_validator, model_validator
+from pydantic import Field, PositiveInt, SecretStr, ValidationError, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from models.errors import HereaboutsError
@@ -14,7 +14,7 @@ _KEY = re.compile(r"[!-~]{8,}")  # what every client and proxy can send in a hea
 
 
 class Settings(BaseSettings):
-    """Every knob of the service; limits that a client can run into are shown by /info."""
+    """The settings of the service; docs/deploy.md lists them. Limits that nobody has to set are in app.limits."""
 
     model_config = SettingsConfigDict(env_prefix="HEREABOUTS_", hide_input_in_errors=True)  # one is a secret
 
@@ -31,25 +31,14 @@ class Settings(BaseSettings):
     read_key: SecretStr | None = Field(
         None, description="the key that every request needs; None: no key, and only direct local requests may evaluate"
     )
-    data_dir: Path | None = Field(None, description="maps and data sets that POST /evaluate takes by name; None: none")
-    max_bytes: PositiveInt = Field(262_144, description="of a request body")
-    max_evaluate_bytes: PositiveInt = Field(16_777_216, description="of the body of POST /evaluate")
-    max_queries: PositiveInt = Field(10_000, description="of one evaluation")
-    jobs_dir: Path | None = Field(None, description="keeps evaluations when the service ends; None: they end with it")
-    max_jobs: PositiveInt = Field(8, description="evaluations that wait; one more is refused with 429")
-    max_characters: PositiveInt = Field(4000, description="of a description, or of all hints together")
-    max_hints: PositiveInt = Field(32, description="of one request, given as hints or found in a description")
-    max_items: PositiveInt = Field(64, description="of one POST /localize/batch")
-    max_top_k: PositiveInt = 40
-    max_queue: PositiveInt = Field(256, description="requests that wait for the model; one more is refused with 429")
-    max_wait_ms: PositiveInt = Field(
-        1500, description="that a request may be expected to wait for the model; one that would wait longer gets 429"
-    )
     workers: PositiveInt | None = Field(None, description="processes that hold the model; None: as many as CPUs")
-    deadline_ms: PositiveInt = Field(10_000, description="of a request that names none")
-    max_deadline_ms: PositiveInt = 60_000
+    max_wait_ms: PositiveInt = Field(
+        1500, description="longest expected wait for a worker; a request that would wait longer gets 429"
+    )
+    data_dir: Path | None = Field(None, description="maps and data sets that POST /evaluate takes by name; None: none")
+    jobs_dir: Path | None = Field(None, description="keeps evaluations over restarts; None: they end with the service")
     log_level: Literal["debug", "info", "warning", "error"] = "info"
-    log_descriptions: bool = Field(False, description="writes what people say, and what faults say of it, into the log")
+    log_descriptions: bool = Field(False, description="logs descriptions, and messages of faults, which may quote them")
 
     @field_validator("read_key")
     @classmethod
@@ -60,12 +49,6 @@ class Settings(BaseSettings):
                 "the setting the service is open"
             )
         return key
-
-    @model_validator(mode="after")
-    def _deadlines_agree(self) -> Self:
-        if self.deadline_ms > self.max_deadline_ms:
-            raise ValueError(f"deadline_ms {self.deadline_ms} is above max_deadline_ms {self.max_deadline_ms}")
-        return self
 
 
 def load_settings(**given: object) -> Settings:

@@ -180,10 +180,10 @@ class _Forks:
         os.dup2(log, 1)
         os.dup2(log, 2)
         configure_logging("warning")
-        settings = Settings(index_dir=root, jobs_dir=jobs, port=port, max_jobs=1000)
+        settings = Settings(index_dir=root, jobs_dir=jobs, port=port)
         with (
             patch("app.main.open_workers", _open_fakes),
-            patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=WORKER)),
+            patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=WORKER, max_waiting=1000)),
             patch("app.jobs.runner.KEPT", 1000),
         ):
             _limit(**limits)

@@ -50,7 +50,7 @@ class Code(Enum):
     )
     KEY_NOT_SET = (
         403,
-        "No key is set, so only programs on the service's own machine may evaluate",
+        "No key is set, so only programs on the service's own machine may change anything",
         "Set HEREABOUTS_READ_KEY, restart the service, and send that key. Without a key, send the request from the "
         "service's machine, to localhost and not through a proxy.",
         None,

@@ -9,10 +9,10 @@ from typing import Final
 
 import structlog
 
+from app import limits
 from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue, refuse
-from app.settings import Settings
 from index.build.artifact import DEFAULT
 from models.errors import HereaboutsError, IndexBroken, IndexUnusable
 
@@ -38,7 +38,7 @@ class Indexes:
     Args:
         open_index: what answers for an alias and the version that it names; blocks, runs on a thread.
         read_aliases: the version that each alias names; blocks.
-        settings: limits of the queues.
+        max_wait_s: longest expected wait of a query.
         check_files: reads all files of a version that is served, or raises IndexBroken; None: they need not be.
     """
 
@@ -46,10 +46,10 @@ class Indexes:
         self,
         open_index: Callable[[str, str | None], Sequence[LocalizerLike]],
         read_aliases: Callable[[], Mapping[str, str]],
-        settings: Settings,
+        max_wait_s: float,
         check_files: Callable[[str], Awaitable[None]] | None = None,
     ) -> None:
-        self._open_index, self._read_aliases, self._settings = open_index, read_aliases, settings
+        self._open_index, self._read_aliases, self._max_wait_s = open_index, read_aliases, max_wait_s
         self._check_files = check_files
         self._served: dict[str, _Served] = {}
         self._retiring: set[asyncio.Task[None]] = set()
@@ -177,9 +177,8 @@ class Indexes:
         return True
 
     def _begin(self, alias: str, version: str | None) -> _Served:
-        limits = self._settings
         opener = partial(self._open_index, alias, version)
-        queue = InferenceQueue(opener, limits.max_queue, limits.max_wait_ms / 1000)
+        queue = InferenceQueue(opener, limits.MAX_WAITING_QUERIES, self._max_wait_s)
         queue.start()
         if self._is_draining:
             queue.drain()

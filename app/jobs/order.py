@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from app.http.bodies import check_json
 from app.http.errors import Problem, field_name
-from app.http.schemas.evaluate_requests import EvaluateQuery, EvaluateRequest, evaluate_model
+from app.http.schemas.evaluate_requests import EvaluateQuery, EvaluateRequest
 from app.settings import Settings
 from index.answering.query import DEFAULT_REFINE, Refine
 from index.build.artifact import open_version
@@ -173,7 +173,7 @@ def to_evaluation(asked: EvaluateRequest, settings: Settings, index_dir: Path, f
 
     Args:
         asked: a request that passed its model.
-        settings: limits, and where data sets are.
+        settings: the model, and where data sets are.
         index_dir: what queries of one's own are asked of.
         frame: of the index's map.
 
@@ -199,7 +199,7 @@ def read_evaluation(path: Path, settings: Settings, split: str | None, grow_m: l
 
     Args:
         path: of the file.
-        settings: limits, the model, the index.
+        settings: the model, the index.
         split: None; such a file has none.
         grow_m: radii in place of those in the file, if any.
 
@@ -212,7 +212,7 @@ def read_evaluation(path: Path, settings: Settings, split: str | None, grow_m: l
     try:
         body = path.read_bytes()
         check_json(body)
-        asked = evaluate_model(settings).model_validate(json.loads(body))
+        asked = EvaluateRequest.model_validate(json.loads(body))
         if asked.data is not None:
             raise DataError(f"{path}: data: names a data set of a service; give its path to --data")
         frame = Frame(**open_version(settings.index_dir)[1].frame.model_dump())

@@ -19,6 +19,7 @@ from app.jobs.job import Job, JobError, JobProgress, Status
 from app.jobs.order import Evaluation
 from app.jobs.store import JobStore
 from app.jobs.worker import REPORT
+from app.limits import MAX_WAITING_JOBS
 
 WORKER = (sys.executable, "-m", "app.jobs.worker")
 ROOT = Path(__file__).parents[2]  # where the worker finds this very code
@@ -34,13 +35,15 @@ class EvaluationJobs:
     """Runs evaluations in the order in which they came.
 
     Args:
-        max_waiting: jobs that wait; one more is refused.
         directory: keeps jobs beyond the end of the service: those that wait are begun at the next start, the one that
             runs is interrupted, reports stay. None: nothing is kept.
         command: of the worker, which is given the job's directory.
+        max_waiting: jobs that wait; one more is refused.
     """
 
-    def __init__(self, max_waiting: int, directory: Path | None = None, command: Sequence[str] = WORKER) -> None:
+    def __init__(
+        self, directory: Path | None = None, command: Sequence[str] = WORKER, max_waiting: int = MAX_WAITING_JOBS
+    ) -> None:
         self._max_waiting = max_waiting
         self._command = command
         self._jobs: dict[str, Job] = {}

@@ -91,7 +91,7 @@ FIELDS: Table = {  # in place of what a field of BASES has, or beside it
             *([{"description": MARK, "position": point}] for point in NO_POINT[1::3]),
             [{"description": MARK, "hints": [MARK], "position": [0, 0]}],
             [{"description": MARK, "position": [0, 0], ODD: 1}],
-            [{"hints": ["a"], "position": [0, 0]}] * 101,
+            [{"hints": ["a"], "position": [0, 0]}] * 10_001,
         ],
         "data": [MARK, "/etc/passwd"],
         "split": ["test"],

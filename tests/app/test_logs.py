@@ -101,11 +101,12 @@ def requests(lines):
     return [line for line in found if line["event"] == "request" and line["route"] not in looks]
 
 
-def test_no_line_has_what_was_said_however_the_request_ends(logged, in_a_thread, until):
+def test_no_line_has_what_was_said_however_the_request_ends(logged, in_a_thread, until, monkeypatch):
     said, fake = logged(), FakeLocalizer()
     with client(in_a_thread, Settings(), FakeLocalizer()) as here:
         statuses = {response.status_code for response in asked_well_and_wrongly(here)}
-    with client(in_a_thread, Settings(max_queue=1), fake) as here:
+    monkeypatch.setattr("app.limits.MAX_WAITING_QUERIES", 1)
+    with client(in_a_thread, Settings(), fake) as here:
         statuses |= {response.status_code for response in asked_too_much(here, fake, until)}
     with client(in_a_thread, Settings(read_key="long-enough"), fake) as here:
         assert here.post("/localize", json={"description": TEXT}, headers={"X-API-Key": SECRET}).status_code == 401

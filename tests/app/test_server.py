@@ -187,7 +187,7 @@ def is_running(pid):
 
 
 def test_a_signal_that_comes_before_the_queue_is_started_is_not_lost(fake):
-    indexes, jobs = Indexes(lambda _alias, _version: [fake], dict, Settings()), EvaluationJobs(1)
+    indexes, jobs = Indexes(lambda _alias, _version: [fake], dict, max_wait_s=1.0), EvaluationJobs()
     server = DrainingServer(uvicorn.Config(None), indexes, jobs)
     server.handle_exit(signal.SIGTERM, None)
 

@@ -16,14 +16,13 @@ def test_environment_then_what_is_given(monkeypatch):
 @pytest.mark.parametrize(
     ("given", "named"),
     [
-        ({"max_hints": 0}, "max_hints"),
+        ({"max_wait_ms": 0}, "max_wait_ms"),
         ({"port": 70_000}, "port"),
         ({"log_level": "loud"}, "log_level"),
         *(
             ({"read_key": key}, "read_key: .*openssl")
             for key in ("", " " * 9, "sevenof", "two words", "line\n12345", "schlüssel")
         ),
-        ({"deadline_ms": 9, "max_deadline_ms": 8}, "deadline_ms 9 is above max_deadline_ms 8"),
     ],
 )
 def test_value_that_cannot_be_used_is_named(given, named):

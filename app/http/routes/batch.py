@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Request
 from fastapi.exceptions import RequestValidationError
-from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError, create_model
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError
 
 from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes
@@ -14,25 +14,27 @@ from app.http.indexes import Indexes
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
 from app.http.routes.localize import check_reach, found_for
-from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest, request_model
+from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
-from app.settings import Settings
+from app.limits import MAX_BATCH_ITEMS
 from index.build.artifact import DEFAULT
 from models.errors import HereaboutsError
 
 PATH = "/localize/batch"
 ERRORS = (*REFUSALS, Code.INVALID_REQUEST, Code.INTERNAL_ERROR, *UNAVAILABLE)  # others are of an item alone
-BODIES = 4  # times as many bytes as one description may have, for all
-AT_ONCE = 4  # items of one request that wait for the model: others ask too
+CONCURRENT_ITEMS = 4  # of one request that wait for a worker, so that other requests get workers too
 BATCH_EXAMPLE: JsonValue = {"items": [EXAMPLE, {"hints": ["I stand on a gray road."]}]}
 
 
 class BatchRequest(Body):
-    """What to localize; `batch_model` adds the limits of a service. Items are checked one by one."""
+    """Several descriptions. Items are checked one by one."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [BATCH_EXAMPLE]})
 
-    items: list[dict[str, JsonValue]]
+    items: Annotated[
+        list[dict[str, JsonValue]],
+        Field(min_length=1, max_length=MAX_BATCH_ITEMS, description="each as the body of POST /localize"),
+    ]
 
 
 class BatchItem(BaseModel):
@@ -48,52 +50,32 @@ class BatchResponse(BaseModel):
     items: list[BatchItem]
 
 
-def build_router(settings: Settings) -> APIRouter:
-    """The routes, with the settings' limits in their request bodies."""
-    router = APIRouter(tags=["localize"])
-    item_model = request_model(settings)
-    description = "each as the body of POST /localize"
-    body_model = create_model(
-        "BatchRequest",
-        __base__=BatchRequest,
-        __doc__="Several descriptions.",
-        items=(
-            Annotated[
-                list[dict[str, JsonValue]],
-                Field(min_length=1, max_length=settings.max_items, description=description),
-            ],
-            ...,
-        ),
-    )
-
-    @router.post(PATH, responses=problems(*ERRORS))
-    async def batch(
-        request: Request,
-        body: body_model,
-        indexes: AllIndexes,
-    ) -> BatchResponse:
-        """Where the speakers of several descriptions are; an item that cannot be answered has an error instead."""
-        asked: BatchRequest = body
-        if indexes.is_draining or all(item.get("index", DEFAULT) == DEFAULT for item in asked.items):
-            indexes.check_accepting()
-        turn = asyncio.Semaphore(AT_ONCE)
-
-        async def answer(item: dict[str, Any]) -> BatchItem:
-            async with turn:
-                return await _answer(request, item_model, item, indexes)
-
-        async with asyncio.TaskGroup() as group:
-            tasks = [group.create_task(answer(item)) for item in asked.items]
-        return BatchResponse(items=[task.result() for task in tasks])
-
-    return router
+router = APIRouter(tags=["localize"])
 
 
-async def _answer(
-    request: Request, item_model: type[LocalizeRequest], item: dict[str, Any], indexes: Indexes
-) -> BatchItem:
+@router.post(PATH, responses=problems(*ERRORS))
+async def batch(
+    request: Request,
+    body: BatchRequest,
+    indexes: AllIndexes,
+) -> BatchResponse:
+    """Localize several descriptions; an item that cannot be answered has an error instead."""
+    if indexes.is_draining or all(item.get("index", DEFAULT) == DEFAULT for item in body.items):
+        indexes.check_accepting()
+    turn = asyncio.Semaphore(CONCURRENT_ITEMS)
+
+    async def answer(item: dict[str, Any]) -> BatchItem:
+        async with turn:
+            return await _answer(request, item, indexes)
+
+    async with asyncio.TaskGroup() as group:
+        tasks = [group.create_task(answer(item)) for item in body.items]
+    return BatchResponse(items=[task.result() for task in tasks])
+
+
+async def _answer(request: Request, item: dict[str, Any], indexes: Indexes) -> BatchItem:
     try:
-        asked = item_model.model_validate(item)
+        asked = LocalizeRequest.model_validate(item)
     except ValidationError as error:
         wrong = RequestValidationError([{**each, "loc": ("body", *each["loc"])} for each in error.errors()])
         return BatchItem(error=ProblemBody.model_validate(as_problem(wrong).body()))

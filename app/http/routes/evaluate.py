@@ -10,14 +10,13 @@ from pydantic import BaseModel
 from sse_starlette import EventSourceResponse, ServerSentEvent
 
 from app.http.bodies import REFUSALS
-from app.http.dependencies import AllIndexes, Jobs
+from app.http.dependencies import AllIndexes, Jobs, SettingsNow
 from app.http.errors import Code
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
-from app.http.schemas.evaluate_requests import EvaluateRequest, evaluate_model
+from app.http.schemas.evaluate_requests import EvaluateRequest
 from app.jobs.job import FINISHED, Job, JobState, Status
 from app.jobs.order import to_evaluation
-from app.settings import Settings
 
 PATH = "/evaluate"
 PING_S = 15  # between two signs of life on a stream without news
@@ -54,49 +53,48 @@ class JobAccepted(BaseModel):
     links: JobLinks
 
 
-def build_router(settings: Settings) -> APIRouter:
-    """The routes, with the settings' limits in their request bodies."""
-    router = APIRouter(tags=["evaluate"])
-    body_model = evaluate_model(settings)
+router = APIRouter(tags=["evaluate"])
 
-    @router.post(PATH, status_code=202, responses=problems(*POST_ERRORS))
-    async def evaluate(
-        body: body_model,  # type: ignore[valid-type]  # FastAPI reads this class, made from the settings
-        response: Response,
-        indexes: AllIndexes,
-        jobs: Jobs,
-    ) -> JobAccepted:
-        """Start an evaluation: queries of one's own, or a data set of the service by its name."""
-        asked: EvaluateRequest = body
-        queue = indexes.queue(asked.index)
-        queue.check_accepting()
-        localizer = queue.localizer
-        index_dir = version_dir(settings.index_dir, localizer.facts.version)
-        job = await jobs.submit(await asyncio.to_thread(to_evaluation, asked, settings, index_dir, localizer.frame))
-        links = JobLinks(status=f"{PATH}/{job.id}", events=f"{PATH}/{job.id}/events")
-        response.headers["Location"] = links.status
-        return JobAccepted(job=job.id, status="queued", links=links)
 
-    @router.get(PATH + "/{job}", responses=problems(Code.JOB_NOT_FOUND))
-    async def evaluation(job: str, jobs: Jobs) -> JobState:
-        """How far an evaluation is, and its report once it is done."""
-        return jobs.get(job).state()
+@router.post(PATH, status_code=202, responses=problems(*POST_ERRORS))
+async def evaluate(
+    body: EvaluateRequest,
+    response: Response,
+    indexes: AllIndexes,
+    jobs: Jobs,
+    settings: SettingsNow,
+) -> JobAccepted:
+    """Start an evaluation of your own queries, or of a data set of the service by its name."""
+    queue = indexes.queue(body.index)
+    queue.check_accepting()
+    localizer = queue.localizer
+    index_dir = version_dir(settings.index_dir, localizer.facts.version)
+    job = await jobs.submit(await asyncio.to_thread(to_evaluation, body, settings, index_dir, localizer.frame))
+    links = JobLinks(status=f"{PATH}/{job.id}", events=f"{PATH}/{job.id}/events")
+    response.headers["Location"] = links.status
+    return JobAccepted(job=job.id, status="queued", links=links)
 
-    @router.delete(PATH + "/{job}", responses=problems(Code.KEY_NOT_SET, Code.JOB_NOT_FOUND))
-    async def cancel(job: str, jobs: Jobs) -> JobState:
-        """Cancel an evaluation; one that is finished is forgotten."""
-        return (await jobs.delete(job)).state()
 
-    @router.get(
-        PATH + "/{job}/events",
-        response_class=EventSourceResponse,
-        responses={200: EVENT_STREAM, **problems(Code.JOB_NOT_FOUND)},
-    )
-    async def follow(job: str, jobs: Jobs) -> EventSourceResponse:
-        """Follow an evaluation."""
-        return EventSourceResponse(events(jobs.get(job)), ping=PING_S)
+@router.get(PATH + "/{job}", responses=problems(Code.JOB_NOT_FOUND))
+async def evaluation(job: str, jobs: Jobs) -> JobState:
+    """Return the progress of an evaluation, and its report once it is done."""
+    return jobs.get(job).state()
 
-    return router
+
+@router.delete(PATH + "/{job}", responses=problems(Code.KEY_NOT_SET, Code.JOB_NOT_FOUND))
+async def cancel(job: str, jobs: Jobs) -> JobState:
+    """Cancel an evaluation; a finished one is deleted."""
+    return (await jobs.delete(job)).state()
+
+
+@router.get(
+    PATH + "/{job}/events",
+    response_class=EventSourceResponse,
+    responses={200: EVENT_STREAM, **problems(Code.JOB_NOT_FOUND)},
+)
+async def follow(job: str, jobs: Jobs) -> EventSourceResponse:
+    """Follow an evaluation."""
+    return EventSourceResponse(events(jobs.get(job)), ping=PING_S)
 
 
 async def events(job: Job) -> AsyncIterator[ServerSentEvent]:

@@ -9,6 +9,7 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 from starlette.responses import JSONResponse, Response
 
+from app import limits
 from app.http.dependencies import AllIndexes, IndexName
 from app.http.errors import Code, Problem
 from app.http.formats.negotiation import GEOJSON, JSON
@@ -16,12 +17,10 @@ from app.http.formats.nominatim import NOTHING, Format, formatted, formatted_one
 from app.http.openapi import geojson_content, problems
 from app.http.queue import UNAVAILABLE, InferenceQueue
 from app.http.routes.localize import check_reach, found_for
-from app.http.schemas.requests import request_model
-from app.settings import Settings
+from app.http.schemas.requests import LocalizeRequest
 from index.build.artifact import DEFAULT
 from models.citymap.frame import Frame
 
-MOST = 40  # results, as of Nominatim
 TWO_CORNERS: Final = "takes lon,lat,lon,lat: two corners, longitudes -180..180, latitudes -90..90"
 REVERSE_ERRORS = (
     Code.INVALID_REQUEST,
@@ -38,55 +37,53 @@ DESCRIBED: dict[str, Any] = {
 }
 
 
-def build_router(settings: Settings) -> APIRouter:
-    """The routes, with the settings' limits for what is asked."""
-    router = APIRouter(tags=["geocoder"])
-    asked_model = request_model(settings)
+router = APIRouter(tags=["geocoder"])
 
-    @router.get("/search", responses={200: DESCRIBED, **problems(*SEARCH_ERRORS)})
-    async def search(
-        request: Request,
-        indexes: AllIndexes,
-        q: Annotated[str, Query(description="what is around the speaker, in plain words")],
-        form: Form = "jsonv2",
-        limit: Annotated[int, Query(ge=1, le=MOST)] = 10,
-        viewbox: Annotated[str | None, Query(description="lon,lat,lon,lat: two corners of where to look first")] = None,
-        bounded: Annotated[bool, Query(description="look nowhere else")] = False,
-        index: IndexName = DEFAULT,
-    ) -> Response:
-        """Where the speaker of a description is, as Nominatim answers; its other parameters are passed over."""
-        top_k = min(limit, settings.max_top_k)
-        async with indexes.lease(index) as queue:
-            frame = _on_earth(queue)
-            look = _look(viewbox, bounded, frame)
-            try:
-                asked = asked_model.model_validate({"description": q, "top_k": top_k, "index": index, **look})
-            except ValidationError as error:
-                raise RequestValidationError([_of_query(item) for item in error.errors()]) from None
-            check_reach(asked, frame)
-            found = await found_for(request, asked, queue)
-            listed = await asyncio.to_thread(places, found, queue.localizer, limit)
-        return _respond(formatted(listed, form), form)
 
-    @router.get("/reverse", responses={200: DESCRIBED, **problems(*REVERSE_ERRORS)})
-    async def reverse(
-        indexes: AllIndexes,
-        lat: Annotated[float, Query(ge=-90, le=90, allow_inf_nan=False)],
-        lon: Annotated[float, Query(ge=-180, le=180, allow_inf_nan=False)],
-        form: Form = "jsonv2",
-        index: IndexName = DEFAULT,
-    ) -> Response:
-        """A position in words, as Nominatim answers; its other parameters are passed over."""
-        async with indexes.lease(index) as queue:
-            queue.check_accepting()
-            position = _on_earth(queue).from_wgs84(lat, lon)
-            x, y = position.tolist()
-            described = await asyncio.to_thread(queue.localizer.describe, (x, y)) if abs(x) + abs(y) < 1e8 else None
-            if described is None:
-                return _respond(NOTHING, "json")
-            return _respond(formatted_one(place_of(described, queue.localizer), form), form)
+@router.get("/search", responses={200: DESCRIBED, **problems(*SEARCH_ERRORS)})
+async def search(
+    request: Request,
+    indexes: AllIndexes,
+    q: Annotated[str, Query(description="what is around the speaker, in plain words")],
+    form: Form = "jsonv2",
+    limit: Annotated[int, Query(ge=1, le=limits.MAX_TOP_K)] = 10,
+    viewbox: Annotated[str | None, Query(description="lon,lat,lon,lat: two corners of where to look first")] = None,
+    bounded: Annotated[bool, Query(description="look nowhere else")] = False,
+    index: IndexName = DEFAULT,
+) -> Response:
+    """Localize the speaker of a description and answer as Nominatim does; its other parameters are ignored."""
+    async with indexes.lease(index) as queue:
+        frame = _on_earth(queue)
+        look = _look(viewbox, bounded, frame)
+        try:
+            asked = LocalizeRequest.model_validate(
+                {"description": q, "top_k": limit, "deadline_ms": limits.DEFAULT_DEADLINE_MS, "index": index, **look}
+            )
+        except ValidationError as error:
+            raise RequestValidationError([_of_query(item) for item in error.errors()]) from None
+        check_reach(asked, frame)
+        found = await found_for(request, asked, queue)
+        listed = await asyncio.to_thread(places, found, queue.localizer, limit)
+    return _respond(formatted(listed, form), form)
 
-    return router
+
+@router.get("/reverse", responses={200: DESCRIBED, **problems(*REVERSE_ERRORS)})
+async def reverse(
+    indexes: AllIndexes,
+    lat: Annotated[float, Query(ge=-90, le=90, allow_inf_nan=False)],
+    lon: Annotated[float, Query(ge=-180, le=180, allow_inf_nan=False)],
+    form: Form = "jsonv2",
+    index: IndexName = DEFAULT,
+) -> Response:
+    """Describe a position and answer as Nominatim does; its other parameters are ignored."""
+    async with indexes.lease(index) as queue:
+        queue.check_accepting()
+        position = _on_earth(queue).from_wgs84(lat, lon)
+        x, y = position.tolist()
+        described = await asyncio.to_thread(queue.localizer.describe, (x, y)) if abs(x) + abs(y) < 1e8 else None
+        if described is None:
+            return _respond(NOTHING, "json")
+        return _respond(formatted_one(place_of(described, queue.localizer), form), form)
 
 
 def _of_query(wrong: Any) -> dict[str, Any]:

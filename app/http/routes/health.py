@@ -48,7 +48,7 @@ async def info(indexes: AllIndexes, settings: SettingsNow) -> InfoResponse:
         service="hereabouts",
         version=version("hereabouts"),
         key_required=settings.read_key is not None,
-        limits=Limits.model_validate(settings, from_attributes=True),
+        limits=Limits.of(settings),
         index=index,
         indexes=indexes.names(),
         data_sets=[path.name for path in data_sets(settings.data_dir)],

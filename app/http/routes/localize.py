@@ -19,10 +19,9 @@ from app.http.formats.negotiation import GEOJSON, negotiate, respond
 from app.http.openapi import geojson_content, problems
 from app.http.queue import UNAVAILABLE, InferenceQueue, Served
 from app.http.request_notes import notes_of
-from app.http.schemas.requests import DescribeRequest, LocalizeRequest, request_model
+from app.http.schemas.requests import DescribeRequest, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.http.schemas.ros import pose_of
-from app.settings import Settings
 from models.citymap.frame import Frame
 
 ERRORS = (
@@ -53,27 +52,22 @@ class Door(APIRoute):
         return handle_if_there_is_room
 
 
-def build_router(settings: Settings) -> APIRouter:
-    """The routes, with the settings' limits in their request bodies."""
-    router = APIRouter(tags=["localize"], route_class=Door)
-    body_model = request_model(settings)
+router = APIRouter(tags=["localize"], route_class=Door)
 
-    @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **problems(*ERRORS)})
-    async def localize(
-        request: Request,
-        body: body_model,  # type: ignore[valid-type]  # FastAPI reads this class, made from the settings
-        indexes: AllIndexes,
-    ) -> Response:
-        """Where the speaker of a description is, as JSON, or as GeoJSON if Accept says so."""
-        asked: LocalizeRequest = body
-        async with indexes.lease(asked.index) as queue:
-            frame = queue.localizer.frame
-            media_type = negotiate(request, frame)
-            check_reach(asked, frame)
-            response = await found_for(request, asked, queue)
-        return respond(localize_collection(response, frame) if media_type == GEOJSON else response, media_type)
 
-    return router
+@router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **problems(*ERRORS)})
+async def localize(
+    request: Request,
+    body: LocalizeRequest,
+    indexes: AllIndexes,
+) -> Response:
+    """Localize the speaker of a description; the answer is JSON, or GeoJSON if Accept says so."""
+    async with indexes.lease(body.index) as queue:
+        frame = queue.localizer.frame
+        media_type = negotiate(request, frame)
+        check_reach(body, frame)
+        response = await found_for(request, body, queue)
+    return respond(localize_collection(response, frame) if media_type == GEOJSON else response, media_type)
 
 
 async def found_for(request: Request, asked: LocalizeRequest, queue: InferenceQueue) -> LocalizeResponse:

@@ -1,12 +1,12 @@
-"""What POST /evaluate is asked."""
+"""The body of POST /evaluate."""
 
 from typing import Annotated, Self
 
-from pydantic import ConfigDict, Field, JsonValue, Strict, StringConstraints, create_model, model_validator
+from pydantic import ConfigDict, Field, JsonValue, Strict, StringConstraints, model_validator
 
 from app.http.schemas.fields import IndexName, Length, Point, either, wrong
-from app.http.schemas.requests import REFINE, Body, Told, told_fields
-from app.settings import Settings
+from app.http.schemas.requests import REFINE, Body, DescriptionFields
+from app.limits import MAX_EVALUATE_QUERIES
 from index.answering.query import Crs, Refine
 from index.build.artifact import DEFAULT
 
@@ -20,18 +20,20 @@ EXAMPLE: JsonValue = {
 MAX_RADII = 8
 
 
-class EvaluateQuery(Told):
+class EvaluateQuery(DescriptionFields):
     """A description and where it was said: [x, y] in metres, or [lon, lat] with crs wgs84."""
 
     position: Point
 
 
 class EvaluateRequest(Body):
-    """What to evaluate; `evaluate_model` adds the limits of a service."""
+    """Queries with known positions, or a data set of the service by its name."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE], **either("queries", "array", "data", "string")})
 
-    queries: list[EvaluateQuery] | None
+    queries: Annotated[list[EvaluateQuery], Field(min_length=1, max_length=MAX_EVALUATE_QUERIES)] | None = Field(
+        None, description="asked of the index that is served"
+    )
     crs: Crs = Field("map", description="what the positions of queries mean")
     data: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=255)] | None = Field(
         None, description="instead of queries: a data set of the service, by its name in /info"
@@ -54,17 +56,3 @@ class EvaluateRequest(Body):
         if self.data is not None and "crs" in self.model_fields_set:
             raise wrong("goes with queries, not with data; leave it out", "crs")
         return self
-
-
-def evaluate_model(settings: Settings) -> type[EvaluateRequest]:
-    """EvaluateRequest with a service's limits in its fields."""
-    query = create_model(
-        "EvaluateQuery", __base__=EvaluateQuery, __doc__=EvaluateQuery.__doc__, **told_fields(settings)
-    )
-    queries = Annotated[list[query], Field(min_length=1, max_length=settings.max_queries)]
-    return create_model(
-        "EvaluateRequest",
-        __base__=EvaluateRequest,
-        __doc__="Queries with known positions, or a data set of the service by its name.",
-        queries=(queries | None, Field(None, description="asked of the index that is served")),
-    )

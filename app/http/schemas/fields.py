@@ -84,7 +84,7 @@ def either(first: str, first_type: str, second: str, second_type: str) -> dict[s
     }
 
 
-TOLD = either("description", "string", "hints", "array")
+DESCRIPTION_OR_HINTS = either("description", "string", "hints", "array")
 
 
 def join_hints(hints: Sequence[str]) -> str:

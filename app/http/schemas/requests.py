@@ -1,4 +1,4 @@
-"""What the service is asked. Numbers are strict and finite, unknown fields are refused."""
+"""The bodies of requests. Numbers are strict and finite, unknown fields are refused."""
 
 from typing import Annotated, Any, Self
 
@@ -10,12 +10,11 @@ from pydantic import (
     JsonValue,
     Strict,
     StringConstraints,
-    create_model,
     model_validator,
 )
 
 from app.http.schemas.fields import (
-    TOLD,
+    DESCRIPTION_OR_HINTS,
     Coordinate,
     IndexName,
     Length,
@@ -27,7 +26,13 @@ from app.http.schemas.fields import (
     join_hints,
     wrong,
 )
-from app.settings import Settings
+from app.limits import (
+    DEFAULT_DEADLINE_MS,
+    MAX_DEADLINE_MS,
+    MAX_DESCRIPTION_CHARACTERS,
+    MAX_HINTS,
+    MAX_TOP_K,
+)
 from index.answering.query import (
     DEFAULT_REFINE,
     DEFAULT_TOP_K,
@@ -50,7 +55,7 @@ MAX_ID = 1000  # characters; a name, and a question with four colours, are far s
 
 
 class Body(BaseModel):
-    """Of a request: fields that nobody knows are refused."""
+    """The body of a request, or a part of it; unknown fields are refused."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -106,13 +111,46 @@ class GivenAnswer(Body):
     )
 
 
-class Told(Body):
-    """What somebody says; `told_fields` adds the limits of a service."""
+def check_sentences(description: str) -> str:
+    """Refuse a description with too many sentences, or with none.
 
-    model_config = ConfigDict(json_schema_extra=TOLD)
+    Raises:
+        PydanticCustomError: what is wrong, without the text.
+    """
+    try:
+        count = len(split_hints(description))
+    except DescriptionError as error:
+        raise wrong(str(error)) from None
+    if count > MAX_HINTS:
+        raise wrong(f"has {count} sentences, at most {MAX_HINTS} are taken; shorten it")
+    return description
 
-    description: str | None
-    hints: list[str] | None
+
+def check_hints(hints: list[str]) -> list[str]:
+    """Refuse hints that are too long together.
+
+    Raises:
+        PydanticCustomError: what is wrong, without the texts.
+    """
+    if sum(map(len, hints)) > MAX_DESCRIPTION_CHARACTERS:
+        raise wrong(f"have more than {MAX_DESCRIPTION_CHARACTERS} characters together; send fewer or shorter ones")
+    check_sentences(join_hints(hints))
+    return hints
+
+
+Text = Annotated[str, Strict(), StringConstraints(max_length=MAX_DESCRIPTION_CHARACTERS), AfterValidator(check_text)]
+Description = Annotated[Text, AfterValidator(check_sentences)]
+Hints = Annotated[list[Text], Field(min_length=1, max_length=MAX_HINTS), AfterValidator(check_hints)]
+DeadlineMs = Annotated[int, Strict(), Field(ge=1, le=MAX_DEADLINE_MS, description="504 if there is no answer by then")]
+
+
+class DescriptionFields(Body):
+    """A description, or its sentences as hints."""
+
+    model_config = ConfigDict(json_schema_extra=DESCRIPTION_OR_HINTS)
+
+    description: Description | None = Field(None, description="what is around the speaker, in plain words")
+    hints: Hints | None = Field(None, description="the same in sentences, one hint each")
 
     @model_validator(mode="after")
     def _is_one_text(self) -> Self:
@@ -121,7 +159,7 @@ class Told(Body):
         return self
 
     def text(self) -> str:
-        """All that is said, hints a line each."""
+        """Return the description, of hints a line each."""
         return join_hints(self.hints or ()) if self.description is None else self.description
 
 
@@ -133,12 +171,12 @@ REFINE: Any = Field(
 )
 
 
-class LocalizeRequest(Told):
-    """What to localize; `request_model` adds the limits of a service."""
+class LocalizeRequest(DescriptionFields):
+    """One description, or its sentences as hints, and where to look."""
 
-    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE], **TOLD})
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE], **DESCRIPTION_OR_HINTS})
 
-    top_k: int
+    top_k: Annotated[int, Strict(), Field(ge=1, le=MAX_TOP_K, description="candidates to list")] = DEFAULT_TOP_K
     within: Within | None = None
     prior: PriorPosition | None = None
     crs: Crs = Field("map", description="what the coordinates of within and prior mean")
@@ -148,7 +186,7 @@ class LocalizeRequest(Told):
     answers: Annotated[list[GivenAnswer], Field(max_length=MOST_REPLIES)] = Field(
         [], description="to questions of earlier answers, all of them each time: the service remembers none"
     )
-    deadline_ms: int
+    deadline_ms: DeadlineMs = DEFAULT_DEADLINE_MS
     index: IndexName = DEFAULT
 
     @model_validator(mode="after")
@@ -193,13 +231,13 @@ class LocalizeRequest(Told):
 
 
 class DescribeRequest(Body):
-    """What to describe; `describe_model` adds the limits of a service."""
+    """A position to describe."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBE_EXAMPLE]})
 
     position: Point = Field(description="[x, y] in metres, or [lon, lat] with crs wgs84")
     crs: Crs = Field("map", description="what the coordinates of position mean")
-    deadline_ms: int
+    deadline_ms: DeadlineMs = DEFAULT_DEADLINE_MS
     index: IndexName = DEFAULT
 
     @model_validator(mode="after")
@@ -210,59 +248,3 @@ class DescribeRequest(Body):
     def points(self) -> list[tuple[str, Point]]:
         """The (x, y) or (lon, lat) of the request, with the name of its field."""
         return [("position", self.position)]
-
-
-def told_fields(settings: Settings) -> dict[str, Any]:
-    """The fields of `Told` with a service's limits."""
-    text = Annotated[str, Strict(), StringConstraints(max_length=settings.max_characters), AfterValidator(check_text)]
-
-    def check_sentences(said: str) -> str:
-        try:
-            count = len(split_hints(said))
-        except DescriptionError as error:
-            raise wrong(str(error)) from None
-        if count > settings.max_hints:
-            raise wrong(f"has {count} sentences, at most {settings.max_hints} are taken; shorten it")
-        return said
-
-    def check_together(hints: list[str]) -> list[str]:
-        if sum(map(len, hints)) > settings.max_characters:
-            raise wrong(f"have more than {settings.max_characters} characters together; send fewer or shorter ones")
-        check_sentences(join_hints(hints))
-        return hints
-
-    hints = Annotated[list[text], Field(min_length=1, max_length=settings.max_hints), AfterValidator(check_together)]
-    description = Annotated[text, AfterValidator(check_sentences)]
-    return {
-        "description": (description | None, Field(None, description="what is around the speaker, in plain words")),
-        "hints": (hints | None, Field(None, description="the same in sentences, one hint each")),
-    }
-
-
-def request_model(settings: Settings) -> type[LocalizeRequest]:
-    """LocalizeRequest with a service's limits in its fields, so that they are checked and in OpenAPI."""
-    top_k = Annotated[int, Strict(), Field(ge=1, le=settings.max_top_k, description="candidates to list")]
-    return create_model(
-        "LocalizeRequest",
-        __base__=LocalizeRequest,
-        __doc__="One description, or its sentences as hints, and where to look.",
-        **told_fields(settings),
-        top_k=(top_k, min(DEFAULT_TOP_K, settings.max_top_k)),
-        deadline_ms=_deadline(settings),
-    )
-
-
-def describe_model(settings: Settings) -> type[DescribeRequest]:
-    """DescribeRequest with a service's limits in its fields."""
-    return create_model(
-        "DescribeRequest",
-        __base__=DescribeRequest,
-        __doc__="A position to describe.",
-        deadline_ms=_deadline(settings),
-    )
-
-
-def _deadline(settings: Settings) -> tuple[Any, Any]:
-    """The field of a deadline, with a service's limit and default."""
-    deadline_ms = Annotated[int, Strict(), Field(ge=1, le=settings.max_deadline_ms)]
-    return deadline_ms, Field(settings.deadline_ms, description="504 if there is no answer by then")

@@ -4,9 +4,11 @@ from dataclasses import fields
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app import limits
 from app.http.protocol import LocalizerLike
 from app.http.schemas.examples import ANSWERED, DESCRIBED
 from app.http.schemas.ros import PoseWithCovarianceStamped
+from app.settings import Settings
 from index.answering.answers import (
     Answer,
     Candidate,
@@ -209,6 +211,24 @@ class Limits(_Out):
     max_jobs: int = Field(description="evaluations that wait")
     deadline_ms: int = Field(description="of a request that names none")
     max_deadline_ms: int
+
+    @classmethod
+    def of(cls, settings: Settings) -> "Limits":
+        """Return the limits of a service with these settings."""
+        return cls(
+            max_bytes=limits.MAX_BODY_BYTES,
+            max_evaluate_bytes=limits.MAX_EVALUATE_BODY_BYTES,
+            max_characters=limits.MAX_DESCRIPTION_CHARACTERS,
+            max_hints=limits.MAX_HINTS,
+            max_items=limits.MAX_BATCH_ITEMS,
+            max_top_k=limits.MAX_TOP_K,
+            max_queue=limits.MAX_WAITING_QUERIES,
+            max_wait_ms=settings.max_wait_ms,
+            max_queries=limits.MAX_EVALUATE_QUERIES,
+            max_jobs=limits.MAX_WAITING_JOBS,
+            deadline_ms=limits.DEFAULT_DEADLINE_MS,
+            max_deadline_ms=limits.MAX_DEADLINE_MS,
+        )
 
 
 class IndexInfo(_Out):

@@ -127,16 +127,16 @@ def test_serve_takes_options_then_environment(monkeypatch):
     monkeypatch.setattr("app.server.serve", lambda _app, settings: served.append(settings))
     monkeypatch.setattr("app.logs.configure_logging", lambda level, with_words: None)
     monkeypatch.setenv("HEREABOUTS_HOST", "0.0.0.0")
-    monkeypatch.setenv("HEREABOUTS_MAX_HINTS", "7")
+    monkeypatch.setenv("HEREABOUTS_WORKERS", "7")
     assert run("serve", "--index", "/i", "--port", "9").exit_code == 0
     assert run("serve").exit_code == 0
     first, second = served
-    assert (first.index_dir, first.host, first.port, first.max_hints) == (Path("/i"), "0.0.0.0", 9, 7)
+    assert (first.index_dir, first.host, first.port, first.workers) == (Path("/i"), "0.0.0.0", 9, 7)
     assert (second.index_dir, second.port) == (Path("data/index"), 8000)
-    monkeypatch.setenv("HEREABOUTS_MAX_HINTS", "none")
+    monkeypatch.setenv("HEREABOUTS_WORKERS", "none")
     result = run("serve")
     assert result.exit_code == 1
-    assert "max_hints" in result.stderr
+    assert "workers" in result.stderr
 
 
 @pytest.mark.parametrize(

@@ -131,9 +131,10 @@ def api(fake, until, versions_dir):
     async def submit(_jobs, _evaluation):
         return Job(Path("nowhere"), "the-job")
 
-    settings = Settings(index_dir=versions_dir, read_key=KEY, max_evaluate_bytes=MOST_BYTES, max_queries=100)
+    settings = Settings(index_dir=versions_dir, read_key=KEY)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
+        patch.setattr("app.limits.MAX_EVALUATE_BODY_BYTES", MOST_BYTES)
         with local_client(create_app(settings, lambda: fake), headers={"X-API-Key": KEY}) as api:
             until(lambda: api.get("/readyz").status_code == 200)
             yield api

@@ -16,13 +16,12 @@ EXAMPLES = int(os.environ.get("FUZZ_EXAMPLES", "100"))
 SOON_MS = 200  # who wants an answer within less may be told that there was none
 
 
-schema = schemathesis.openapi.from_dict(create_app(Settings(max_deadline_ms=2000, deadline_ms=2000)).openapi())
+schema = schemathesis.openapi.from_dict(create_app(Settings()).openapi())
 
 
 @pytest.fixture(scope="module")
 def url(in_a_thread, tmp_path_factory):
-    given = Settings(index_dir=tmp_path_factory.mktemp("index"), max_deadline_ms=2000, deadline_ms=2000)
-    with in_a_thread(create_app(given, Steady)) as port:
+    with in_a_thread(create_app(Settings(index_dir=tmp_path_factory.mktemp("index")), Steady)) as port:
         yield f"http://127.0.0.1:{port}"
 
 

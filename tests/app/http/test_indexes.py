@@ -10,7 +10,6 @@ from structlog.testing import capture_logs
 
 from app.http.errors import Code, Problem
 from app.http.indexes import Indexes
-from app.settings import Settings
 from index.answering.query import Query
 from models.errors import HereaboutsError, IndexBroken
 
@@ -34,7 +33,7 @@ class City:
 
 @asynccontextmanager
 async def serving(city, check_files=None):
-    indexes = Indexes(city.open, lambda: city.aliases, Settings(max_wait_ms=60_000), check_files)
+    indexes = Indexes(city.open, lambda: city.aliases, 60.0, check_files)
     await indexes.start()
     try:
         for alias in indexes.names():

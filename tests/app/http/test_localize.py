@@ -142,8 +142,9 @@ def test_deadline_is_kept_while_the_model_is_busy(api, fake, problem):
     assert time.monotonic() - started < 5
 
 
-def test_full_queue_is_429_with_retry_after(settings, fake, start, until, problem):
-    with start(settings.model_copy(update={"max_queue": 1}), fake) as api:
+def test_full_queue_is_429_with_retry_after(settings, fake, start, until, problem, monkeypatch):
+    monkeypatch.setattr("app.limits.MAX_WAITING_QUERIES", 1)
+    with start(settings, fake) as api:
         fake.gate.clear()
         statuses = []
         ask, ask_headers = {"json": {"description": "a tree"}}, {"Content-Type": "application/json"}

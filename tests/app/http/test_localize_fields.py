@@ -2,8 +2,7 @@ import pytest
 from fake_localizer import TRUE_FRAME, FakeLocalizer
 
 from app.http.routes.localize import check_reach
-from app.http.schemas.requests import request_model
-from app.settings import Settings
+from app.http.schemas.requests import LocalizeRequest
 from models.citymap.frame import Frame
 
 TREE = {"question": "near:tree", "choice": "yes"}
@@ -78,9 +77,7 @@ TREE = {"question": "near:tree", "choice": "yes"}
 def test_wrong_field_is_named(refused, body, field):
     if not {"description", "hints"} & set(body) and body:
         body = {"description": "a tree", **body}
-    settings = Settings()
-    model = request_model(settings)
-    fields, _ = refused(lambda body: check_reach(model.model_validate(body), TRUE_FRAME), body)
+    fields, _ = refused(lambda body: check_reach(LocalizeRequest.model_validate(body), TRUE_FRAME), body)
     assert field in fields
 
 
@@ -126,26 +123,23 @@ def test_text_in_any_script_passes(api, fake):
     assert fake.batches[0][0].description == body["description"]
 
 
-def test_limits_come_from_the_settings(settings, fake, start, problem):
-    small = settings.model_copy(
-        update={"max_characters": 20, "max_hints": 2, "max_top_k": 3, "max_deadline_ms": 500, "deadline_ms": 500}
-    )
-    with start(small, fake) as api:
-        assert api.post("/localize", json={"description": "a tree"}).status_code == 200
-        assert fake.batches[0][0].top_k == 3
-        for body, field in [
-            ({"description": "x" * 21}, "description"),
-            ({"description": "ab. cd. ef."}, "description"),
-            ({"hints": ["a", "b", "c"]}, "hints"),
-            ({"description": "a", "top_k": 4}, "top_k"),
-            ({"description": "a", "deadline_ms": 501}, "deadline_ms"),
-        ]:
-            problem(api.post("/localize", json=body), 422, "invalid_request", field)
-        schema = api.get("/openapi.json").json()["components"]["schemas"]["LocalizeRequest"]["properties"]
-    assert schema["top_k"]["maximum"] == 3
-    assert schema["top_k"]["default"] == 3
-    assert schema["description"]["anyOf"][0]["maxLength"] == 20
-    assert schema["hints"]["anyOf"][0]["maxItems"] == 2
+def test_largest_values_pass_and_are_in_the_document(api, fake):
+    limits = api.get("/info").json()["limits"]
+    most = {"top_k": limits["max_top_k"], "deadline_ms": limits["max_deadline_ms"]}
+    for body in (
+        {"description": "a" * limits["max_characters"]},
+        {"description": "a tree. " * limits["max_hints"]},
+        {"hints": ["a tree"] * limits["max_hints"]},
+        {"hints": ["x" * (limits["max_characters"] - 1), "y"]},
+    ):
+        assert api.post("/localize", json=body | most).status_code == 200
+    assert {query.top_k for [query] in fake.batches} == {limits["max_top_k"]}
+    schema = api.get("/openapi.json").json()["components"]["schemas"]["LocalizeRequest"]["properties"]
+    assert schema["top_k"]["maximum"] == limits["max_top_k"]
+    assert schema["deadline_ms"]["maximum"] == limits["max_deadline_ms"]
+    assert schema["deadline_ms"]["default"] == limits["deadline_ms"]
+    assert schema["description"]["anyOf"][0]["maxLength"] == limits["max_characters"]
+    assert schema["hints"]["anyOf"][0]["maxItems"] == limits["max_hints"]
 
 
 def test_degrees_on_a_map_that_is_not_on_earth(settings, start, problem):

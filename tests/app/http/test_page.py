@@ -4,7 +4,7 @@ import gzip
 from urllib.parse import quote
 
 import pytest
-from fastapi.testclient import TestClient
+from local_client import local_client
 
 from app.http.routes.page import PageFile
 from app.main import create_app
@@ -43,7 +43,7 @@ def page_dir(tmp_path):
 
 @pytest.fixture
 def page(fake, page_dir):
-    with TestClient(create_app(Settings(), lambda: fake, page_dir)) as api:
+    with local_client(create_app(Settings(), lambda: fake, page_dir)) as api:
         yield api
 
 
@@ -103,7 +103,7 @@ def test_what_the_client_has_is_304(page, method):
 def test_a_changed_file_has_another_tag(page, page_dir, fake):
     (page_dir / "page.js").write_text(FILES["page.js"] + "\n")
     assert page.get("/page.js").text == FILES["page.js"], "it was read at the start"
-    changed = TestClient(create_app(Settings(), lambda: fake, page_dir))
+    changed = local_client(create_app(Settings(), lambda: fake, page_dir))
     assert changed.get("/page.js").headers["etag"] != page.get("/page.js").headers["etag"]
 
 
@@ -138,7 +138,7 @@ def test_other_methods_are_405(page, problem):
 @pytest.mark.parametrize("folder", ["missing", ""])
 def test_without_a_page_it_starts_and_says_how_to_build_it(fake, problem, tmp_path, folder):
     (tmp_path / "page.js").write_text("half a build")
-    with TestClient(create_app(Settings(), lambda: fake, tmp_path / folder)) as api:
+    with local_client(create_app(Settings(), lambda: fake, tmp_path / folder)) as api:
         assert "npm ci && npm run build" in problem(api.get("/"), 404, "not_found")["detail"]
         problem(api.get("/page.js"), 404, "not_found")
         assert api.get("/healthz").status_code == 200

@@ -154,7 +154,9 @@ def full_disk_of_jobs(services, operation, patch):
 
 @provokes(413, "body_too_large", *WITH_BODY)
 def body_above_the_limit(services, operation, patch):
-    return ask(services(max_bytes=1, max_evaluate_bytes=1), operation)
+    for limit in ("BODY", "BATCH_BODY", "EVALUATE_BODY"):
+        patch.setattr(f"app.limits.MAX_{limit}_BYTES", 1)  # read when the service starts
+    return ask(services("small"), operation)
 
 
 @provokes(415, "unsupported_media_type", *WITH_BODY)
@@ -228,10 +230,12 @@ def service_that_ends(services, operation, patch):
 
 @provokes(504, "deadline_exceeded", "POST /localize", "POST /describe", "GET /search")
 def slow_localizer(services, operation, patch):
-    api = services(deadline_ms=50)
+    patch.setattr("app.limits.DEFAULT_DEADLINE_MS", 50)  # of GET /search, which takes none
+    late = {"json": GOOD[operation]["json"] | {"deadline_ms": 50}} if operation in WITH_BODY else {}
+    api = services()
     services.fake.gate.clear()
     try:
-        return ask(api, operation)
+        return ask(api, operation, **late)
     finally:
         services.fake.gate.set()
 

@@ -26,8 +26,8 @@ def command(warm):
 
 @pytest.fixture
 def api(settings, fake, start, command, monkeypatch):
-    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=command))
-    with start(settings.model_copy(update={"max_jobs": 2}), fake) as api:
+    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=command, max_waiting=2))
+    with start(settings, fake) as api:
         yield api
 
 

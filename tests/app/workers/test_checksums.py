@@ -58,7 +58,7 @@ def test_a_process_that_does_not_end_well_does_not_make_an_index_broken(root, mo
 def test_it_gives_way_and_ends_with_who_waits_for_it(root, monkeypatch, tmp_path):
     said = tmp_path / "said"
     code = (
-        "import os, sys, time, pathlib; from app.workers import sums\n"
+        "import os, sys, time, pathlib; from app.workers import checksums as sums\n"
         f"sums.open_version = lambda path: (pathlib.Path({str(said)!r}).write_text(f'{{os.getpid()}} {{os.nice(0)}}'),"
         " time.sleep(60))\n"
         "sums.main(pathlib.Path(sys.argv[1]))"

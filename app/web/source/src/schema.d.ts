@@ -15,7 +15,7 @@ export interface paths {
         put?: never;
         /**
          * Localize
-         * @description Where the speaker of a description is, as JSON, or as GeoJSON if Accept says so.
+         * @description Localize the speaker of a description; the answer is JSON, or GeoJSON if Accept says so.
          */
         post: operations["localize_localize_post"];
         delete?: never;
@@ -35,7 +35,7 @@ export interface paths {
         put?: never;
         /**
          * Batch
-         * @description Where the speakers of several descriptions are; an item that cannot be answered has an error instead.
+         * @description Localize several descriptions; an item that cannot be answered has an error instead.
          */
         post: operations["batch_localize_batch_post"];
         delete?: never;
@@ -55,7 +55,7 @@ export interface paths {
         put?: never;
         /**
          * Describe
-         * @description What the map says at a position, in words by which POST /localize finds it again.
+         * @description Describe a position in words by which POST /localize finds it again.
          */
         post: operations["describe_describe_post"];
         delete?: never;
@@ -75,7 +75,7 @@ export interface paths {
         put?: never;
         /**
          * Evaluate
-         * @description Start an evaluation: queries of one's own, or a data set of the service by its name.
+         * @description Start an evaluation of your own queries, or of a data set of the service by its name.
          */
         post: operations["evaluate_evaluate_post"];
         delete?: never;
@@ -93,14 +93,14 @@ export interface paths {
         };
         /**
          * Evaluation
-         * @description How far an evaluation is, and its report once it is done.
+         * @description Return the progress of an evaluation, and its report once it is done.
          */
         get: operations["evaluation_evaluate__job__get"];
         put?: never;
         post?: never;
         /**
          * Cancel
-         * @description Cancel an evaluation; one that is finished is forgotten.
+         * @description Cancel an evaluation; a finished one is deleted.
          */
         delete: operations["cancel_evaluate__job__delete"];
         options?: never;
@@ -137,7 +137,7 @@ export interface paths {
         };
         /**
          * Search
-         * @description Where the speaker of a description is, as Nominatim answers; its other parameters are passed over.
+         * @description Localize the speaker of a description and answer as Nominatim does; its other parameters are ignored.
          */
         get: operations["search_search_get"];
         put?: never;
@@ -157,7 +157,7 @@ export interface paths {
         };
         /**
          * Reverse
-         * @description A position in words, as Nominatim answers; its other parameters are passed over.
+         * @description Describe a position and answer as Nominatim does; its other parameters are ignored.
          */
         get: operations["reverse_reverse_get"];
         put?: never;
@@ -342,7 +342,7 @@ export interface components {
         };
         /**
          * BatchRequest
-         * @description Several descriptions.
+         * @description Several descriptions. Items are checked one by one.
          * @example {
          *       "items": [
          *         {
@@ -2245,7 +2245,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description No key is set, so only programs on the service's own machine may evaluate */
+            /** @description No key is set, so only programs on the service's own machine may change anything */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -2388,7 +2388,7 @@ export interface operations {
                     "application/json": components["schemas"]["JobState"];
                 };
             };
-            /** @description No key is set, so only programs on the service's own machine may evaluate */
+            /** @description No key is set, so only programs on the service's own machine may change anything */
             403: {
                 headers: {
                     [name: string]: unknown;
