@@ -57,6 +57,10 @@ class Measure:
     is_loose: bool = False
     is_of: bool = False
 
+    def contains(self, span: "Span") -> bool:
+        """Return whether a span is a part of the measure, its unit say."""
+        return self.start <= span.start and span.end <= self.end
+
 
 @dataclass(frozen=True, slots=True)
 class Bearing:

@@ -110,9 +110,12 @@ class Reader(OnTextEncoder):
             places = [_place(text, int(characters[n, a, 0]), int(characters[n, b - 1, 1])) for a, b, _ in spans]
             rows = zip(places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), strict=True)
             things = [ParsedHint(_noun(text, a, b), a, b, *rest) for (a, b), *rest in rows]
-            measures = nearest_facts(text, measures_in(text), things)
-            things = [replace(thing, measure=measures.get(number)) for number, thing in enumerate(things)]
-            found.append(resolve(text, things, [TAGS[tag] for *_, tag in spans]))
+            measures = measures_in(text)
+            noticed = [n for n, thing in enumerate(things) if not any(measure.contains(thing) for measure in measures)]
+            things = [things[n] for n in noticed]  # the blocks of "two blocks" are no thing
+            nearest = nearest_facts(text, measures, things)
+            things = [replace(thing, measure=nearest.get(n)) for n, thing in enumerate(things)]
+            found.append(resolve(text, things, [TAGS[spans[n][2]] for n in noticed]))
         return found
 
 

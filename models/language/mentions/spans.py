@@ -10,7 +10,7 @@ import numpy as np
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
-from models.language.measures import Measure, measures_in
+from models.language.measures import measures_in
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import EMPTY, Lookup, Match
 from models.language.mentions.names import Word, words_of
@@ -62,15 +62,12 @@ def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list
             found += _spans_at(words, first, last, plain[first : last + 1], mended, lookup, language, cased=cased)
             if ends[last]:
                 break
-    measures = measures_in(text)
-    found = [span for span in found if not (span.form == "street" and _is_measured(words[span.last], measures))]
+    measures = measures_in(text)  # "twenty-five" metres are not 25th Street
+    found = [
+        span for span in found if not (span.form == "street" and any(m.contains(words[span.last]) for m in measures))
+    ]
     chosen = _with_unknown(_chosen(found, words), words, text, lookup)
     return words, [with_objects(span, lookup) for span in _joined(chosen, words, text)]
-
-
-def _is_measured(word: Word, measures: Sequence[Measure]) -> bool:
-    """Return whether a word is a part of a measure: "twenty-five" metres are not 25th Street."""
-    return any(measure.start <= word.start and word.end <= measure.end for measure in measures)
 
 
 def like_noun(word: str, lookup: Lookup) -> str:

@@ -124,6 +124,20 @@ def test_facts_are_varied():
 
 
 @pytest.mark.parametrize(
+    ("text", "measures"),
+    [
+        ("A wall is two blocks east of me.", {"wall": 220.0}),
+        ("There is a bench twenty-five meters north of me and a tree 1,200 m east.", {"bench": 25.0, "tree": 1200.0}),
+        ("A pole is sixteen metres north of me, a bench is sixty paces south.", {"pole": 16.0, "bench": 45.0}),
+        ("A building is half a mile to my north.", {"building": 804.5}),
+        ("Two buildings are north of me.", {"buildings": None}),
+    ],
+)
+def test_the_measures_of_hints(trained, text, measures):
+    assert {hint.noun: hint.distance_m for hint in trained.reader.read([text])[0]} == measures
+
+
+@pytest.mark.parametrize(
     ("text", "nouns"),
     [
         ("I am east of a small dark green pole.", ["small pole"]),
