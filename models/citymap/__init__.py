@@ -1,5 +1,5 @@
 """Maps of labelled instances, cut into cells and described by hints. NumPy only, no torch.
 
-`types` defines the nouns. `geometry/` cuts maps of lines and areas, `gazetteer/` holds what has a name or a kind,
-`kinds/` says which tags make which kind, `scenery/` is what the page draws.
+`types` defines the basic types. `geometry/` cuts maps of lines and areas, `gazetteer/` holds named and typed objects,
+`kinds/` maps tags to kinds, `scenery/` is the map as the page draws it.
 """

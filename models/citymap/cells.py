@@ -1,4 +1,4 @@
-"""Cutting a map into cells: the instances, whole or clipped, inside cubes around given centres.
+"""Cut a map into cells: the instances, whole or clipped, inside cubes around given centres.
 
 One function cuts both the cells of the grid and the cell around a pose from which its hints are made
 (docs/formats.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
@@ -21,16 +21,14 @@ from models.citymap.types import CutRules, Floats
 from models.processes import map_forked
 from models.spool import forget
 
-CUBES_PER_TASK = 128  # cubes a task
-GRID_POINTS_PER_BLOCK: Final = 100_000  # points of the grid, for which a tree is made of the locations around them
-CELLS_PER_BLOCK: Final = (
-    1024  # cells that are encoded or tabulated together: their bits depend on no cell of another block
-)
+CUBES_PER_TASK = 128  # cubes that one worker process cuts at a time
+GRID_POINTS_PER_BLOCK: Final = 100_000  # grid points that share one search tree of the locations near them
+CELLS_PER_BLOCK: Final = 1024  # encoded or tabulated together; no result depends on a cell of another block
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PartTable:
-    """What lies in a number of cubes: one row an instance (or a connected part of it) and cube.
+    """The parts of instances in N cubes: one row for each instance (or connected part of it) and cube.
 
     Attributes:
         starts: [N + 1] cube n has the rows starts[n] to starts[n + 1].
@@ -51,12 +49,12 @@ class PartTable:
 
     @property
     def center_m(self) -> Floats:
-        """[R, 3] middle of the bounding boxes."""
+        """Return the centres [R, 3] of the bounding boxes."""
         return (self.low_m + self.high_m) / 2
 
     @property
     def cube(self) -> Ints:
-        """[R] the cube of each row."""
+        """Return the cube [R] of each row."""
         return np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
 
     def forget(self) -> None:
@@ -64,12 +62,11 @@ class PartTable:
         forget(getattr(self, f.name) for f in fields(self))
 
     def take(self, cubes: Ints) -> "PartTable":
-        """The rows of some cubes, in the given order."""
+        """Return the rows of the given cubes, in their order."""
         begin, end = self.starts[cubes], self.starts[cubes + 1]
-        if (
-            len(cubes) and (begin[1:] == end[:-1]).all() and end[-1] - begin[0] == len(self.instance)
-        ):  # others are empty
-            return replace(self, starts=np.append(begin, end[-1]))  # the others are empty
+        is_all = len(cubes) and (begin[1:] == end[:-1]).all() and end[-1] - begin[0] == len(self.instance)
+        if is_all:  # the cubes left out are empty
+            return replace(self, starts=np.append(begin, end[-1]))
         rows = ranges(begin, end)
         columns = {f.name: getattr(self, f.name)[rows] for f in fields(self) if f.name != "starts"}
         return PartTable(starts=np.concatenate([[0], np.cumsum(end - begin)]), **columns)
@@ -77,15 +74,15 @@ class PartTable:
 
 @dataclass(frozen=True, eq=False)
 class CellTable:
-    """The cells of a map, or of several, in columns.
+    """The cells of one or more maps, in columns.
 
     Attributes:
         ids: N names "<scene>_<number>".
         scenes: N scene names.
         center_m: [N, 3] float64, map frame.
         size_m: edge of the cubes.
-        content: what is in them, or what cuts that of some rows when it is asked for.
-        sample: gives points of the parts; None where they are not at hand, as in an index.
+        content: the parts in the cells, or a function that cuts the parts of some rows.
+        sample: returns sampled points of the parts; None where points are not available, as in an index.
     """
 
     ids: Sequence[str]
@@ -100,16 +97,16 @@ class CellTable:
 
     @cached_property
     def parts(self) -> PartTable:
-        """What is in them; of a map of pieces it takes seconds to cut that out of a city, of some cells no time."""
+        """Return the parts in all cells; cutting them takes seconds for a city, so `content` cuts single cells."""
         return self.content if isinstance(self.content, PartTable) else self.content(np.arange(len(self)))
 
     @property
     def extent_m(self) -> float:
-        """Radius of a circle round any position of the map that holds all of it."""
+        """Return the radius of a circle that holds the whole map from any position in it."""
         return float(np.linalg.norm(np.ptp(self.center_m[:, :2], axis=0)) + self.size_m)
 
     def take(self, rows: Ints) -> "CellTable":
-        """Some cells, in the given order."""
+        """Return the given cells, in their order."""
         sample, content = self.sample, self.content
         return CellTable(
             ids=tuple(self.ids[r] for r in rows),
@@ -122,7 +119,7 @@ class CellTable:
 
 
 def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
-    """[N, 3] float64 centres of the grid within reach of a location, at that location's height."""
+    """Return the grid centres [N, 3] (float64) within reach of a location, at that location's height."""
     low = np.floor(locations_m[:, :2].min(axis=0) / rules.grid_m).astype(int)
     high = np.ceil(locations_m[:, :2].max(axis=0) / rules.grid_m).astype(int)
     x, y = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1), indexing="ij")
@@ -130,23 +127,23 @@ def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
 
 
 def centers_within_reach(grid_m: Floats, locations_m: Floats, reach_m: float) -> Floats:
-    """[N, 3] those of the [G, 2] points of a grid that are within reach of a location, at the nearest one's height."""
-    found = [np.zeros((0, 3))]
+    """Return the points of a grid [G, 2] within reach of a location, as [N, 3] with the nearest location's height."""
+    centers = [np.zeros((0, 3))]
     for n in range(0, len(grid_m), GRID_POINTS_PER_BLOCK):
-        some = grid_m[n : n + GRID_POINTS_PER_BLOCK]
-        low, high = some.min(axis=0) - reach_m, some.max(axis=0) + reach_m
-        around = locations_m[((locations_m[:, :2] >= low) & (locations_m[:, :2] <= high)).all(axis=1)]
-        if len(around):
-            distance, nearest = cKDTree(around[:, :2]).query(some, distance_upper_bound=reach_m)
+        block = grid_m[n : n + GRID_POINTS_PER_BLOCK]
+        low, high = block.min(axis=0) - reach_m, block.max(axis=0) + reach_m
+        nearby = locations_m[((locations_m[:, :2] >= low) & (locations_m[:, :2] <= high)).all(axis=1)]
+        if len(nearby):
+            distance, nearest = cKDTree(nearby[:, :2]).query(block, distance_upper_bound=reach_m)
             near = np.isfinite(distance)
-            found.append(np.column_stack([some[near], around[nearest[near], 2]]))
-    return np.concatenate(found)
+            centers.append(np.column_stack([block[near], nearby[nearest[near], 2]]))
+    return np.concatenate(centers)
 
 
 def cut_cubes(
     points: PointTable, centers_m: Floats, rules: CutRules, progress: Callable[[int, int], None] | None = None
 ) -> PartTable:
-    """What lies in the cubes around some centres; in several processes when there are many.
+    """Cut the cubes around some centres, in several processes if there are many.
 
     Args:
         points: the map's points.
@@ -169,7 +166,7 @@ def cut_cubes(
 
 
 def sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
-    """[R, 256, 6] points of the parts of some cubes, in order of `PartTable`."""
+    """Return sampled points [R, 256, 6] of the parts in some cubes, in order of `PartTable`."""
     members = [
         rows for center in centers_m[cubes].astype(np.float64) for rows in _unordered_parts(points, center, rules)
     ]
@@ -177,7 +174,7 @@ def sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: 
 
 
 def _cut_chunk(points: PointTable, rules: CutRules, centers: Floats) -> tuple[Any, ...]:
-    """(rows a cube, then the columns of Parts) of some cubes."""
+    """Return the number of rows of each cube, followed by the columns of `PartTable`."""
     members = [_unordered_parts(points, center, rules) for center in centers.astype(np.float64)]
     sizes = np.array([len(rows) for rows in members], dtype=np.int64)
     summaries = [_summarise(points, rows, center) for rows, center in zip(members, centers, strict=True) if rows]
@@ -193,7 +190,7 @@ def _concatenate_columns(summaries: list[tuple[Any, ...]]) -> list[npt.NDArray[A
 
 
 def _summarise(points: PointTable, members: list[Ints], center: Floats) -> tuple[Any, ...]:
-    """The columns of Parts for the parts of one cube."""
+    """Return the columns of `PartTable` for the parts of one cube."""
     count = np.array([len(m) for m in members], dtype=np.int32)
     starts = np.cumsum(count) - count
     rows = np.concatenate(members)
@@ -217,12 +214,12 @@ def _summarise(points: PointTable, members: list[Ints], center: Floats) -> tuple
 
 
 def cut_parts(points: PointTable, center_m: Floats, rules: CutRules) -> list[Ints]:
-    """The point rows of each part in one cube, by instance, then as DBSCAN numbers the parts."""
+    """Return the point rows of each part in one cube, ordered by instance, then by DBSCAN number."""
     return sorted(_unordered_parts(points, center_m, rules), key=lambda rows: int(points.instance[rows[0]]))
 
 
 def _unordered_parts(points: PointTable, center: Floats, rules: CutRules) -> list[Ints]:
-    """The point rows of each part in one cube, ordered by instance: things first, then stuff."""
+    """Return the point rows of each part in one cube: things first, then stuff."""
     half = rules.cell_size_m / 2
     inside = points.inside(center - half, center + half)
     stuff = points.is_stuff[points.instance[inside]]
@@ -240,15 +237,15 @@ def _unordered_parts(points: PointTable, center: Floats, rules: CutRules) -> lis
 
 
 def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
-    """DBSCAN labels of some points from the table's neighbour pairs, as scikit-learn numbers them.
+    """Return DBSCAN labels of some points, numbered as by scikit-learn, from the table's neighbour pairs.
 
     Args:
         points: the table.
-        min_samples: neighbours within eps, itself included, that make a core point.
         rows: [M] ascending point rows; neighbours outside of them do not count.
+        min_samples: number of neighbours within eps, including the point itself, that makes a core point.
 
     Returns:
-        [M] cluster of each row, -1 for noise. Clusters never cross from one instance to another.
+        [M] cluster of each row, -1 for noise. A cluster never crosses from one instance to another.
     """
     source, target = _neighbour_pairs_among(points, rows)
     degree = 1 + np.bincount(source, minlength=len(rows)) + np.bincount(target, minlength=len(rows))
@@ -261,21 +258,21 @@ def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
     labels = np.full(len(rows), len(rows), dtype=np.int64)
     labels[core] = connected_components(graph, directed=False)[1]
     # A border point joins the first cluster that reaches it: the least number among its core neighbours.
-    found = labels.copy()
+    result = labels.copy()
     leaving, arriving = from_core & ~to_core, to_core & ~from_core
-    np.minimum.at(found, target[leaving], labels[source[leaving]])
-    np.minimum.at(found, source[arriving], labels[target[arriving]])
-    return np.where(found == len(rows), -1, found)
+    np.minimum.at(result, target[leaving], labels[source[leaving]])
+    np.minimum.at(result, source[arriving], labels[target[arriving]])
+    return np.where(result == len(rows), -1, result)
 
 
 def _neighbour_pairs_among(points: PointTable, rows: Ints) -> tuple[Ints, Ints]:
-    """[E], [E] positions in `rows`, ascending point rows, of neighbours that are both among them; the first ascends."""
+    """Return the positions [E], [E] in `rows`, ascending, of neighbour pairs within it; the first ascends."""
     if not len(rows):
         return rows, rows
     begin, end = points.pair_starts[rows], points.pair_starts[rows + 1]
     source = np.repeat(np.arange(len(rows)), end - begin)
     target_row = points.pairs[ranges(begin, end)]
-    # Positions of rows are looked up in a table of the rows from the first to the last of each instance.
+    # A table over the rows from the first to the last of each instance gives the position of a row.
     first = np.flatnonzero(np.diff(points.instance[rows], prepend=-1))
     last = np.append(first[1:], len(rows)) - 1
     span = rows[last] - rows[first] + 1

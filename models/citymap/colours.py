@@ -1,4 +1,4 @@
-"""Colour words: from rgb to a word, by the nearest centre of a palette, and from a written colour to rgb."""
+"""Colour words: from rgb to the word of the nearest palette centre, and from a mapped colour to rgb."""
 
 from dataclasses import dataclass
 from typing import Any, Final
@@ -7,19 +7,19 @@ import numpy as np
 import numpy.typing as npt
 from PIL import ImageColor
 
-COLOURS_PER_BLOCK: Final = 65_536  # colours that are compared with all centres
+COLOURS_PER_BLOCK: Final = 65_536  # colours that are compared with all centres at once, to bound memory
 
 
 @dataclass(frozen=True, slots=True)
 class Palette:
-    """Colour words and the rgb centres (0..255) they stand for; a word may have several centres."""
+    """Colour words and the rgb centres (0..255) that they stand for; a word may have several centres."""
 
     name: str
     words: tuple[str, ...]
     centers: tuple[tuple[float, float, float], ...]
 
     def word_index(self, rgb: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.intp]:
-        """Index of the nearest centre, by Euclidean distance.
+        """Return the index of the nearest centre by Euclidean distance.
 
         Args:
             rgb: [..., 3] in 0..1; NaN for unknown.
@@ -29,15 +29,15 @@ class Palette:
         """
         centers, shape = np.asarray(self.centers).T / 255.0, np.shape(rgb)[:-1]
         flat = np.reshape(rgb, (-1, 3))
-        found = np.empty(len(flat), np.intp)
+        nearest = np.empty(len(flat), np.intp)
         for first in range(0, len(flat), COLOURS_PER_BLOCK):
-            some = slice(first, first + COLOURS_PER_BLOCK)
-            square = sum((flat[some, n, None] - centers[n]) ** 2 for n in range(3))
-            found[some] = np.where(np.isnan(square).any(axis=-1), -1, np.argmin(square, axis=-1))
-        return found.reshape(shape)
+            block = slice(first, first + COLOURS_PER_BLOCK)
+            squared = sum((flat[block, n, None] - centers[n]) ** 2 for n in range(3))
+            nearest[block] = np.where(np.isnan(squared).any(axis=-1), -1, np.argmin(squared, axis=-1))
+        return nearest.reshape(shape)
 
     def word(self, rgb: npt.NDArray[np.floating[Any]]) -> str | None:
-        """The word for one colour, None if it is unknown."""
+        """Return the word for one colour, or None if it is unknown."""
         index = int(self.word_index(rgb))
         return None if index < 0 else self.words[index]
 
@@ -95,10 +95,10 @@ MATERIAL_RGB: dict[str, tuple[int, int, int]] = {
 
 
 def parse_colour(text: str) -> tuple[float, float, float] | None:
-    """RGB in 0..1 of a colour as mappers write it: "#cd7f32", "brown", "light_grey", "white;red" (the first).
+    """Return the rgb (0..1) of a colour as mappers write it: "#cd7f32", "brown", "light_grey", "white;red" (the first).
 
     Returns:
-        None for a colour that cannot be read; a map is no worse for one unread tag.
+        None for a colour that cannot be parsed; one unusable tag is no reason to refuse a map.
     """
     first = text.split(";", maxsplit=1)[0].strip().lower().replace("_", "").replace(" ", "")
     try:
@@ -109,6 +109,6 @@ def parse_colour(text: str) -> tuple[float, float, float] | None:
 
 
 def material_colour(material: str) -> tuple[float, float, float] | None:
-    """RGB in 0..1 that a material usually has, None for one without a usual colour (glass, plaster)."""
+    """Return the rgb (0..1) that a material usually has, or None for one without a usual colour (glass, plaster)."""
     rgb = MATERIAL_RGB.get(material.split(";", maxsplit=1)[0].strip())
     return None if rgb is None else (rgb[0] / 255, rgb[1] / 255, rgb[2] / 255)

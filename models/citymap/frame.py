@@ -1,4 +1,4 @@
-"""What a map's metres mean on Earth."""
+"""The local metric frame of a map and its place on Earth."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -33,7 +33,7 @@ class Frame:
         return self.origin_lat is not None and self.origin_lon is not None
 
     def position_m(self, position: tuple[float, float], crs: Literal["map", "wgs84"]) -> Floats:
-        """[2] metres of a position: (x, y), or (lon, lat) with crs wgs84.
+        """Return a position [2] in metres, given as (x, y), or as (lon, lat) with crs "wgs84".
 
         Raises:
             ValueError: as `from_wgs84`.
@@ -41,7 +41,7 @@ class Frame:
         return np.asarray(position, np.float64) if crs == "map" else self.from_wgs84(position[1], position[0])
 
     def from_wgs84(self, lat: Floats | float, lon: Floats | float) -> Floats:
-        """[..., 2] metres (east, north) of WGS84 degrees.
+        """Return metres (east, north) [..., 2] for WGS84 degrees.
 
         Raises:
             ValueError: the map has no georeference.
@@ -51,7 +51,7 @@ class Frame:
         return np.stack([np.asarray(x) - easting, np.asarray(y) - northing], axis=-1)
 
     def to_wgs84(self, position_m: Floats) -> tuple[Floats, Floats]:
-        """(lat, lon) in degrees of positions [..., 2 or 3] in metres.
+        """Return (lat, lon) in degrees for positions [..., 2 or 3] in metres.
 
         Raises:
             ValueError: the map has no georeference.
@@ -69,7 +69,7 @@ class Frame:
 
 @lru_cache(maxsize=64)
 def _projection(origin_lat: float, origin_lon: float, epsg: int | None) -> tuple[Transformer, float, float]:
-    """The projection, and the projected coordinates of the origin."""
+    """Return the projection and the projected coordinates of the origin."""
     if epsg is None:
         projected = CRS.from_dict(
             {"proj": "tmerc", "lat_0": origin_lat, "lon_0": origin_lon, "datum": "WGS84", "units": "m"}

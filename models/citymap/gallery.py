@@ -1,4 +1,4 @@
-"""What is known of cells beside their vectors: where they are, what is in them, and what map they are of."""
+"""The cells of a map with the facts about their instances and about the map itself."""
 
 import json
 from collections.abc import Callable, Sequence
@@ -23,23 +23,22 @@ from models.errors import IndexBroken
 from models.files import map_arrays
 from models.strings import Categorical, merge_columns
 
-NearestFinder = Callable[
-    [Floats], tuple[Floats, int]
-]  # position [2] -> way [2] to the nearest instance, and which it is
+# Maps a position [2] to the offset [2] to the nearest instance, and that instance.
+NearestFinder = Callable[[Floats], tuple[Floats, int]]
 CELLS_FILE = "cells.safetensors"
 NAMES_FILE = "cells.json"
-INSTANCE_COLUMNS: Final = ("labels", "names", "sources")  # of each instance
+INSTANCE_COLUMNS: Final = ("labels", "names", "sources")  # of a gallery, one entry for each instance
 PART_COLUMNS: Final = tuple(f.name for f in fields(PartTable))
-MAX_ID_DIGITS: Final = 19  # of a number of a cell
+MAX_ID_DIGITS: Final = 19  # a longer cell number does not fit 64 bits
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Gallery:
-    """Cells, and labels, names and sources of the instances they hold.
+    """Cells, with the labels, names and sources of the instances in them.
 
     Attributes:
-        cells: the cells; `parts.instance` points into the lists below.
-        labels, names, sources: I entries, of each instance.
+        cells: the cells; `parts.instance` is a row of the lists below.
+        labels, names, sources: one entry for each of I instances.
     """
 
     cells: CellTable
@@ -49,7 +48,7 @@ class Gallery:
 
     @classmethod
     def from_map(cls, city_map: CityMap, cells: CellTable) -> "Gallery":
-        """The gallery of cells cut from a map."""
+        """Build the gallery of cells cut from a map."""
         instances = city_map.instances
         if isinstance(instances, InstanceTable):
             return cls(cells, instances.labels, instances.names, instances.sources)
@@ -61,13 +60,13 @@ class Gallery:
         )
 
     def save(self, directory: Path, *, with_parts: bool = True) -> None:
-        """Write cells.safetensors and cells.json; without parts, if something else can cut them."""
+        """Write cells.safetensors and cells.json; leave out the parts if they can be cut again."""
         cells = self.cells
         arrays = {"center_m": cells.center_m}
         if with_parts:
             arrays |= {name: getattr(cells.parts, name) for name in PART_COLUMNS}
-        said = (Categorical.from_strings(getattr(self, name)).columns(name) for name in INSTANCE_COLUMNS)
-        save_file(merge_columns([arrays, *said]), directory / CELLS_FILE)
+        instance_columns = (Categorical.from_strings(getattr(self, name)).columns(name) for name in INSTANCE_COLUMNS)
+        save_file(merge_columns([arrays, *instance_columns]), directory / CELLS_FILE)
         scene = cells.scenes[0] if cells.ids == NumberedCellIds(cells.scenes[0], len(cells)) else None
         names: dict[str, Any] = {
             "scene": scene,
@@ -79,11 +78,11 @@ class Gallery:
 
     @classmethod
     def load(cls, directory: Path, cut: Callable[[Ints], PartTable] | None = None) -> "Gallery":
-        """Read what `save` wrote.
+        """Read the files that `save` wrote.
 
         Args:
-            directory: where.
-            cut: cuts the parts of some cells, if they were left out.
+            directory: the folder.
+            cut: cuts the parts of given cells, if they were left out.
 
         Raises:
             IndexBroken: the files do not hold a gallery.
@@ -103,11 +102,11 @@ class Gallery:
 
 
 class NumberedCellIds(Sequence[str]):
-    """The names of the cells of one scene: a city has a million, each of which is made when it is asked for.
+    """The ids of the cells of one scene, made on access: a city has a million.
 
     Args:
         scene: its name.
-        count: of the cells.
+        count: number of cells.
     """
 
     def __init__(self, scene: str, count: int) -> None:
@@ -123,13 +122,13 @@ class NumberedCellIds(Sequence[str]):
     def __getitem__(self, n: slice) -> tuple[str, ...]: ...
 
     def __getitem__(self, n: int | slice) -> str | tuple[str, ...]:
-        """The name of one cell, or those of a slice."""
+        """Return the id of one cell, or those of a slice."""
         if isinstance(n, slice):
             return tuple(self[row] for row in range(*n.indices(self._count)))
         return f"{self._scene}_{range(self._count)[n]:05d}"
 
     def index(self, value: str, start: int = 0, stop: int | None = None) -> int:
-        """Which cell has a name, as sequences do, without looking at others."""
+        """Return the cell of an id without a search."""
         number = value.rpartition("_")[2]
         rows = range(*slice(start, stop).indices(self._count))
         if number.isdecimal() and len(number) < MAX_ID_DIGITS and int(number) in rows and self[int(number)] == value:
@@ -141,7 +140,7 @@ class NumberedCellIds(Sequence[str]):
             return (self._scene, self._count) == (other._scene, other._count)
         return isinstance(other, Sequence) and len(self) == len(other) and all(map(eq, self, other))
 
-    __hash__ = None  # type: ignore[assignment]  # as of a list: equal to others
+    __hash__ = None  # type: ignore[assignment]  # like a list, it equals other sequences
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -149,13 +148,13 @@ class MapData:
     """A map, some of its scenes, or a region of it.
 
     Attributes:
-        name: of the map.
-        split: what was taken of it; "all" for everything, "index" for what an index holds.
-        gallery: its cells and what is in them.
+        name: the map's name.
+        split: the part of it: "all", a split's name, or "index" for the content of an index.
+        gallery: its cells and instances.
         palette: its colour words.
-        frame: what its metres mean on Earth.
+        frame: its metric frame and place on Earth.
         grid_m: distance between neighbouring cells.
-        attribution: what the data's licence asks to show.
+        attribution: the text that the data's licence asks to show.
     """
 
     name: str
@@ -168,11 +167,11 @@ class MapData:
 
     @property
     def cells(self) -> CellTable:
-        """The cells."""
+        """Return the cells of the gallery."""
         return self.gallery.cells
 
     def with_deferred_parts(self, cut: Callable[[Floats], PartTable]) -> "MapData":
-        """The same without the parts of cells, which are cut (round centres [N, 3]) when they are asked for."""
+        """Return the same data without parts; `cut` makes those of a cell (around centres [N, 3]) on access."""
         centers_m = self.cells.center_m
         cells = replace(self.cells, content=lambda rows: cut(centers_m[rows]))
         return replace(self, gallery=replace(self.gallery, cells=cells))
@@ -180,16 +179,15 @@ class MapData:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointClouds:
-    """The instances of a scan (or of several scenes) with all their points.
+    """The instances of one or more scanned scenes with all their points.
 
     Attributes:
         xyz: [P, 3] float32 metres, ordered by instance.
         starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
-        is_thing: [I] bool, True for what is mentioned only where a share of it is near (`thing_share`).
+        is_thing: [I] bool, True for an instance that counts only where a share of it is near (`thing_share`).
         scene: [I] number of the scene of each.
         part_instances: [R] instance of each row of the cells' parts.
-        thing_share: see `CutRules`.
-        min_part_points: see `CutRules`.
+        thing_share, min_part_points: as in `CutRules`.
     """
 
     xyz: Floats
@@ -201,11 +199,11 @@ class PointClouds:
     min_part_points: int
 
     def instances_of_parts(self, _cells: CellTable) -> Ints:
-        """[R] instance of each row of the cells' parts."""
+        """Return the instance [R] of each row of the cells' parts."""
         return self.part_instances
 
     def nearest_finder(self, instances: Sequence[int]) -> NearestFinder:
-        """What tells which of some instances is nearest to a position."""
+        """Return a function that finds the nearest of some instances to a position."""
         spans = [slice(int(self.starts[n]), int(self.starts[n + 1])) for n in instances]
         tree = cKDTree(np.concatenate([self.xyz[span, :2] for span in spans]).astype(np.float64))
         owner = np.repeat(instances, [span.stop - span.start for span in spans])

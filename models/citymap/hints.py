@@ -1,4 +1,4 @@
-"""Describing a position in hints (docs/formats.md, rules 3, 5 and 6), and choosing positions to describe."""
+"""Describe positions by hints (docs/formats.md, rules 3, 5 and 6), and choose positions to describe."""
 
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -15,14 +15,14 @@ from models.citymap.types import DIRECTIONS, CityMap, Description, Direction, Fl
 
 Strategy = Literal["closest", "class", "direction"]
 STRATEGIES: tuple[Strategy, ...] = ("closest", "class", "direction")
-NUM_HINTS = 6
-HINT_REACH_M = 15.0  # nothing further away is mentioned
-BEST_CELL_REACH_M = 15.0  # a pose further from every cell's centre has no best cell
-ON_TOP_M = 1.5  # 0.05 of a 30 m cell
+NUM_HINTS = 6  # in a description of KITTI360Pose
+HINT_REACH_M = 15.0  # farthest instance that a hint mentions (rule 5)
+BEST_CELL_REACH_M = 15.0  # a pose farther than this from every cell's centre has no best cell (rule 5)
+ON_TOP_M = 1.5  # 0.05 of a 30 m cell (rule 6)
 
 
 def direction_index(offset_m: Floats, on_top_m: float = ON_TOP_M) -> npt.NDArray[np.intp]:
-    """Where a position lies, seen from an instance (docs/formats.md, rule 6).
+    """Return the direction of positions as seen from instances (docs/formats.md, rule 6).
 
     Args:
         offset_m: [..., 2 or 3] position minus the instance's closest point, metres.
@@ -40,7 +40,7 @@ def direction_index(offset_m: Floats, on_top_m: float = ON_TOP_M) -> npt.NDArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HintTable:
-    """What could be said at each of N positions, in columns.
+    """All true hints at N positions, in columns.
 
     Attributes:
         starts: [N + 1] position n has the rows starts[n] to starts[n + 1], nearest first.
@@ -58,7 +58,7 @@ class HintTable:
 
 
 def build_hint_table(palette: Palette, parts: PartTable, positions_m: Floats) -> HintTable:
-    """All hints that are true at some positions.
+    """Build the table of all hints that are true at some positions.
 
     Args:
         palette: the colour words.
@@ -83,10 +83,10 @@ def build_hint_table(palette: Palette, parts: PartTable, positions_m: Floats) ->
 def choose_hints(
     table: HintTable, n: int, labels: npt.NDArray[Any], strategy: Strategy, count: int
 ) -> npt.NDArray[Any]:
-    """Rows of the hints that one strategy picks at position n.
+    """Return the rows of the hints that one strategy picks at position n.
 
     Args:
-        table: what could be said.
+        table: all hints.
         n: the position.
         labels: [I] label number of each instance.
         strategy: "closest" takes the nearest; "class" and "direction" take the nearest of each class or
@@ -101,7 +101,7 @@ def choose_hints(
 
 
 def _occurrence_number(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """[M] how many earlier entries have the same key: round-robin over the keys is a sort by it."""
+    """Return how many earlier entries [M] have the same key; sorting by it takes the keys in turn."""
     order = np.argsort(keys, kind="stable")
     starts = np.flatnonzero(np.diff(keys[order], prepend=-1))
     nth = np.empty(len(keys), dtype=np.intp)
@@ -110,27 +110,27 @@ def _occurrence_number(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def round_robin(keys: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """[M] order in which the keys take turns, each with its next entry; keys go in the order they first appear."""
+    """Return the order [M] in which the keys take turns, each with its next entry, starting with the first key."""
     _, first, key = np.unique(keys, return_index=True, return_inverse=True)
     return np.lexsort((first[key], _occurrence_number(keys)))
 
 
 def sample_positions(locations_m: Floats, spacing_m: float, rng: np.random.Generator) -> Floats:
-    """[N, 3] locations at random, one a square block of `spacing_m`, in random order."""
+    """Return random locations [N, 3] in random order, one in each square block of `spacing_m`."""
     return thin_to_spacing(rng.permutation(locations_m), spacing_m)
 
 
 def describe_poses(
-    city_map: CityMap, bodies: MapGeometry, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
+    city_map: CityMap, geometry: MapGeometry, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
 ) -> list[Pose]:
-    """Poses with descriptions at some positions, by each strategy (docs/formats.md, rule 5).
+    """Return poses with descriptions at some positions, by each strategy (docs/formats.md, rule 5).
 
     Args:
         city_map: the map.
-        bodies: what stands in it.
+        geometry: its geometry.
         cells: the gallery; a position without a cell centre within 15 m is left out.
         positions_m: [N, 3] metres.
-        num_hints: hints a description; a position with fewer things around it is left out.
+        num_hints: hints in a description; a position with fewer instances around it is left out.
 
     Returns:
         Poses in order of position, then strategy; a description that mentions the same instances as
@@ -139,7 +139,7 @@ def describe_poses(
     distance, best = cKDTree(cells.center_m).query(positions_m)
     reachable = np.flatnonzero(distance <= BEST_CELL_REACH_M)
     positions, best = positions_m[reachable], best[reachable]
-    table = build_hint_table(city_map.palette, bodies.cut(positions), positions)
+    table = build_hint_table(city_map.palette, geometry.cut(positions), positions)
     labels = np.unique([i.label for i in city_map.instances], return_inverse=True)[1]
     poses = []
     for n in np.flatnonzero(np.diff(table.starts) >= num_hints):

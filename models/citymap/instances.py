@@ -1,4 +1,4 @@
-"""The instances of a city in columns: it has a million, each of which is made when it is asked for."""
+"""The instances of a city in columns, each made on access: a city has a million."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,10 +14,10 @@ NO_POINTS: Final = np.zeros((0, 3), np.float32)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InstanceTable(Sequence[Instance]):
-    """I instances of a map that is geometry.
+    """The I instances of a map of lines and areas.
 
     Attributes:
-        labels, names, sources, shapes: see Instance.
+        labels, names, sources, shapes: as of `Instance`.
         rgb: [I, 3] float32, NaN where unknown.
     """
 
@@ -37,7 +37,7 @@ class InstanceTable(Sequence[Instance]):
     def __getitem__(self, n: slice) -> tuple[Instance, ...]: ...
 
     def __getitem__(self, n: int | slice) -> Instance | tuple[Instance, ...]:
-        """One instance, or those of a slice."""
+        """Return one instance, or those of a slice."""
         if isinstance(n, slice):
             return tuple(self[row] for row in range(*n.indices(len(self))))
         row = range(len(self))[n]

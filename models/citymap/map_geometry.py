@@ -1,4 +1,4 @@
-"""What stands in a map, however that is known: as the points of a scan, or as geometry."""
+"""The geometry of a map, whether scanned points or lines and areas, and cutting it into cells."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -23,48 +23,48 @@ CutProgress = Callable[[int, int], None]  # cubes cut, cubes to cut
 
 
 class MapGeometry(Protocol):
-    """Something that cubes can be cut out of."""
+    """Geometry that cubes can be cut out of."""
 
     def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
-        """What lies in the cubes around centres [N, 3]; those of fewer parts than `least` may be left empty."""
+        """Cut the cubes around centres [N, 3]; cubes with fewer than `least` parts may be left empty."""
         ...
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
-        """[R, 256, 6] points of the parts of some of these cubes, in order of `PartTable`."""
+        """Return sampled points [R, 256, 6] of the parts in some of these cubes, in order of `PartTable`."""
         ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScanGeometry:
-    """A scan.
+    """The points of a scan.
 
     Attributes:
-        points: all of them.
-        rules: how it is cut.
+        points: all points.
+        rules: how to cut them.
     """
 
     points: PointTable
     rules: CutRules
 
     def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
-        """See Bodies."""
+        """Cut the cubes around centres; `least` has no effect."""
         del least
         return cut_cubes(self.points, centers_m, self.rules, progress)
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
-        """See Bodies."""
+        """Return sampled points, as `MapGeometry.sample`."""
         return sample_cubes(self.points, self.rules, centers_m, cubes)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PieceGeometry:
-    """A map of lines and areas.
+    """The pieces of a map of lines and areas.
 
     Attributes:
-        pieces: what is in each tile.
+        pieces: the pieces of each tile.
         rgb: [I, 3] float32 colour of each instance, NaN where unknown.
         shapes: I shapes, see `models.citymap.geometry.solids`.
-        rules: how it is cut.
+        rules: how to cut them.
     """
 
     pieces: PieceTable
@@ -73,32 +73,32 @@ class PieceGeometry:
     rules: CutRules
 
     def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
-        """See Bodies."""
+        """Cut the cubes around centres, as `MapGeometry.cut`."""
         return cut_pieces(self.pieces, self.rgb, centers_m, self.rules, progress, least)
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
-        """See Bodies."""
+        """Return sampled points, as `MapGeometry.sample`."""
         return sample_pieces(self.pieces, self.rgb, self.shapes, centers_m[cubes], self.rules)
 
     @property
     def scene(self) -> Ints:
-        """[I] scene of each instance; there is one."""
+        """Return the scene [I] of each instance; there is one."""
         return np.zeros(len(self.rgb), np.int64)
 
     def instances_of_parts(self, cells: CellTable) -> Ints:
-        """[R] instance of each row of the cells' parts."""
+        """Return the instance [R] of each row of the cells' parts."""
         return cells.parts.instance
 
     def nearest_finder(self, instances: Sequence[int]) -> NearestFinder:
-        """What tells which of some instances is nearest to a position."""
+        """Return a function that finds the nearest of some instances to a position."""
         rows = np.flatnonzero(np.isin(self.pieces.instance, instances))
         geometry = self.pieces.geometry(rows)
         tree = shapely.STRtree(geometry)
 
         def find(position: Floats) -> tuple[Floats, int]:
-            at = shapely.Point(position)
-            row = int(tree.nearest(at))
-            ends = shapely.get_coordinates(shapely.shortest_line(at, geometry[row]))
+            point = shapely.Point(position)
+            row = int(tree.nearest(point))
+            ends = shapely.get_coordinates(shapely.shortest_line(point, geometry[row]))
             return ends[1] - ends[0], int(self.pieces.instance[rows[row]])
 
         return find
@@ -106,7 +106,7 @@ class PieceGeometry:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScannedPieceGeometry:
-    """A map of lines and areas as a scan shows it: what is nearest is one of its points.
+    """A map of lines and areas as a scan would show it: the closest point of a part is a sampled one.
 
     Attributes:
         pieces: the map.
@@ -115,32 +115,32 @@ class ScannedPieceGeometry:
     pieces: PieceGeometry
 
     def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
-        """See Bodies; `least` counts for nothing."""
+        """Cut the cubes around centres; `least` has no effect."""
         del least
         table, shapes, rules = self.pieces.pieces, self.pieces.shapes, self.pieces.rules
         parts = self.pieces.cut(centers_m, progress)
         return replace(parts, closest_m=scan_pieces(table, shapes, centers_m, rules))
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
-        """See Bodies."""
+        """Return sampled points, as `MapGeometry.sample`."""
         return self.pieces.sample(centers_m, cubes)
 
 
 def build_geometry(city_map: CityMap) -> MapGeometry:
-    """What stands in a map."""
+    """Build the geometry of a map."""
     if city_map.pieces is None:
         return ScanGeometry(PointTable.from_map(city_map, city_map.rules.eps_m), city_map.rules)
     instances = city_map.instances
-    assert isinstance(instances, InstanceTable), "as whoever reads geometry makes them"
+    assert isinstance(instances, InstanceTable), "readers of lines and areas make an InstanceTable"
     return PieceGeometry(city_map.pieces, instances.rgb, instances.shapes, city_map.rules)
 
 
-def cut_cells(city_map: CityMap, bodies: MapGeometry, progress: CutProgress | None = None) -> CellTable:
+def cut_cells(city_map: CityMap, geometry: MapGeometry, progress: CutProgress | None = None) -> CellTable:
     """Cut a map into overlapping cells on a grid over its locations (docs/formats.md, rule 4).
 
     Args:
         city_map: the map.
-        bodies: what stands in it.
+        geometry: its geometry.
         progress: called with (cells cut, cells to cut).
 
     Raises:
@@ -149,19 +149,19 @@ def cut_cells(city_map: CityMap, bodies: MapGeometry, progress: CutProgress | No
     rules = city_map.rules
     centers = grid_centers(city_map.locations_m, rules)
     forget([city_map.locations_m])
-    parts = bodies.cut(centers, progress, rules.min_instances)
+    parts = geometry.cut(centers, progress, rules.min_instances)
     give_back()
-    kept = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)
-    if not len(kept):
+    rich = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)
+    if not len(rich):
         raise MapError(
             f"map '{city_map.name}': none of {len(centers)} cells has {rules.min_instances} instances, "
             "too few to tell places apart; take a larger or richer map"
         )
     return CellTable(
-        ids=NumberedCellIds(city_map.name, len(kept)),
-        scenes=(city_map.name,) * len(kept),
-        center_m=centers[kept],
+        ids=NumberedCellIds(city_map.name, len(rich)),
+        scenes=(city_map.name,) * len(rich),
+        center_m=centers[rich],
         size_m=rules.cell_size_m,
-        content=parts.take(kept),
-        sample=partial(bodies.sample, centers[kept]),
+        content=parts.take(rich),
+        sample=partial(geometry.sample, centers[rich]),
     )

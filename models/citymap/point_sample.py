@@ -1,4 +1,4 @@
-"""A fixed number of points of each part of some cells, as point encoders take them."""
+"""Sample a fixed number of points from each part of some cells, as point encoders expect."""
 
 from collections.abc import Callable
 from typing import Any
@@ -8,19 +8,20 @@ import numpy.typing as npt
 
 from models.citymap.types import Floats
 
-POINTS_PER_PART = 256
-# [C] rows of cells -> [R, 256, 6] the samples of all their parts, cell after cell.
+POINTS_PER_PART = 256  # that the encoders of the paper take
+# Maps rows [C] of cells to the samples [R, 256, 6] of all their parts, cell after cell.
 Sampler = Callable[[npt.NDArray[np.integer[Any]]], Floats]
 
 
 def sample_points(xyz: Floats, rgb: Floats) -> Floats:
-    """[256, 6] float32 of a part: place and colour of points spread evenly over their list, some twice if it is short.
+    """Return a sample [256, 6] (float32) of a part: position and colour of points spread evenly over their list.
 
-    Places are relative to the middle of the part, the furthest of all its points at 1: a shape, whatever the unit.
+    Positions are relative to the middle of the part and scaled so that the farthest of all its points is at 1.
+    A short list repeats points.
 
     Args:
         xyz: [P, 3] any unit.
-        rgb: [P, 3] 0..1, NaN where unknown, which becomes -1.
+        rgb: [P, 3] 0..1; NaN, for unknown, becomes -1.
     """
     middle = (xyz.min(axis=0) + xyz.max(axis=0)) / 2
     reach = float(np.linalg.norm(xyz - middle, axis=1).max())
@@ -30,5 +31,5 @@ def sample_points(xyz: Floats, rgb: Floats) -> Floats:
 
 
 def stack_samples(parts: list[Floats]) -> Floats:
-    """[R, 256, 6] of R samples, of none too."""
+    """Return R samples as [R, 256, 6], also if R is 0."""
     return np.stack(parts) if parts else np.zeros((0, POINTS_PER_PART, 6), dtype=np.float32)

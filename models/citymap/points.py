@@ -1,4 +1,4 @@
-"""All points of a map in one table, with a spatial index over them."""
+"""All points of a map in one table, with a spatial index, and helpers for arrays of points."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -8,8 +8,8 @@ import numpy.typing as npt
 
 from models.citymap.types import CityMap, Floats
 
-INDEX_TILE_M = 10.0
-POINTS_PER_PAIR_BLOCK = 100_000  # points whose neighbours are found at once
+INDEX_TILE_M = 10.0  # edge of the tiles of the point index
+POINTS_PER_PAIR_BLOCK = 100_000  # points whose neighbours are searched together, to bound memory
 Ints = npt.NDArray[np.integer[Any]]
 
 
@@ -42,7 +42,7 @@ class PointTable:
 
     @classmethod
     def from_map(cls, city_map: CityMap, eps_m: float) -> "PointTable":
-        """Lay out a map's points and index them; eps_m is the distance at which stuff is connected."""
+        """Build the table of a map's points; stuff within `eps_m` is connected."""
         instances = city_map.instances
         counts = np.array([len(i.points_m) for i in instances], dtype=np.int64)
         starts = np.concatenate([[0], np.cumsum(counts)])
@@ -66,15 +66,15 @@ class PointTable:
         return cls(xyz, instance, starts, rgb, instance_rgb, is_stuff, order, key[order], pair_starts, pairs)
 
     def colours(self, rows: Ints) -> Floats:
-        """[M, 3] float32 colours of some points, or of their instances where points have none; NaN where unknown."""
+        """Return the colours [M, 3] (float32) of points, or of their instances; NaN where unknown."""
         return self.instance_rgb[self.instance[rows]] if self.rgb is None else self.rgb[rows]
 
     def inside(self, low: Floats, high: Floats) -> Ints:
-        """Rows of the points in a box, ascending.
+        """Return the rows of the points in a box, ascending.
 
         Args:
             low: [3] south-west and lowest corner, metres; it belongs to the box.
-            high: [3] the opposite corner; so does it.
+            high: [3] the opposite corner; it belongs to the box, too.
         """
         first = np.floor(low[:2] / INDEX_TILE_M).astype(np.int64)
         last = np.floor(high[:2] / INDEX_TILE_M).astype(np.int64)
@@ -87,7 +87,7 @@ class PointTable:
 
 
 def tile_keys(xyz: Floats) -> Ints:
-    """[P] one integer a tile; the tiles of one column follow each other from south to north."""
+    """Return one integer [P] for the tile of each point; the tiles of a column are numbered from south to north."""
     tile = np.floor(xyz[:, :2] / INDEX_TILE_M).astype(np.int64)
     keys: Ints = _tile_key(tile[:, 0], tile[:, 1])
     return keys
@@ -98,36 +98,36 @@ def _tile_key(column: Any, row: Any) -> Any:
 
 
 def ranges(begin: Ints, end: Ints) -> Ints:
-    """The integers begin[0]..end[0]-1, begin[1]..end[1]-1 and so on, one after the other."""
+    """Return the integers begin[0]..end[0]-1, begin[1]..end[1]-1 and so on, one range after the other."""
     sizes = end - begin
     offset = np.repeat(begin - (np.cumsum(sizes) - sizes), sizes)
-    found: Ints = np.arange(sizes.sum()) + offset
-    return found
+    result: Ints = np.arange(sizes.sum()) + offset
+    return result
 
 
 def bounding_corners(points_m: Floats) -> tuple[Floats, Floats]:
-    """The lowest and the highest coordinates of points [N, C], column by column, which NumPy is quicker with."""
+    """Return the lowest and highest coordinates of points [N, C]; by column, which is faster in NumPy."""
     return np.array([column.min() for column in points_m.T]), np.array([column.max() for column in points_m.T])
 
 
 def thin_to_spacing(points: Floats, spacing_m: float) -> Floats:
-    """One point of every square block of the plane, so that they lie about `spacing_m` apart."""
+    """Return one point of each square block of the plane, so that points are about `spacing_m` apart."""
     return points[np.sort(np.unique(block_keys(points, spacing_m), return_index=True)[1])]
 
 
 def block_keys(points: Floats, spacing_m: float) -> Ints:
-    """[P] one integer a square block of the plane, ascending from west to east, in a column from south to north."""
+    """Return one integer [P] for the square block of each point, ascending from west to east, then south to north."""
     block = np.floor(points[:, :2] / spacing_m).astype(np.int64)
     keys: Ints = _tile_key(block[:, 0], block[:, 1])
     return keys
 
 
 def first_in_voxel(xyz: Floats, voxel_m: float) -> Ints:
-    """Rows, ascending, of the first point in each cube of space.
+    """Return the rows, ascending, of the first point in each voxel.
 
     Args:
         xyz: [P, 3] metres.
-        voxel_m: edge of the cubes; the lowest corner of the points is in the middle of one.
+        voxel_m: edge of the voxels; the lowest corner of the points is in the middle of one.
     """
     exact = xyz.astype(np.float64)
     voxel = np.floor((exact - (exact.min(axis=0) - voxel_m / 2)) / voxel_m)
@@ -139,21 +139,21 @@ def first_in_voxel(xyz: Floats, voxel_m: float) -> Ints:
 
 def _neighbour_pairs(xyz: Floats, instance: Ints, is_stuff: npt.NDArray[np.bool_], eps_m: float) -> tuple[Ints, Ints]:
     rows = np.flatnonzero(is_stuff[instance])
-    from scipy.spatial import cKDTree  # noqa: PLC0415 - 40 MB, for who reads scans alone
+    from scipy.spatial import cKDTree  # noqa: PLC0415 - 40 MB that only scans need
 
     rows = rows[np.argsort(xyz[rows, 0], kind="stable")]
-    # A fourth axis keeps instances further apart than eps, so that no pair crosses from one to another.
-    apart = np.column_stack([xyz[rows].astype(np.float64), instance[rows] * (4.0 * eps_m)])
-    found = [np.zeros(0, dtype=np.int64)]
+    # A fourth axis separates instances by more than eps, so that no pair joins two of them.
+    separated = np.column_stack([xyz[rows].astype(np.float64), instance[rows] * (4.0 * eps_m)])
+    pair_keys = [np.zeros(0, dtype=np.int64)]
     for begin in range(0, len(rows), POINTS_PER_PAIR_BLOCK):
         # From west to east, so that the partners of a block end not far behind it.
         end = min(begin + POINTS_PER_PAIR_BLOCK, len(rows))
-        reach = np.searchsorted(apart[:, 0], apart[end - 1, 0] + eps_m, side="right")
-        tree = cKDTree(apart[begin:reach], leafsize=32, balanced_tree=False)
+        reach = np.searchsorted(separated[:, 0], separated[end - 1, 0] + eps_m, side="right")
+        tree = cKDTree(separated[begin:reach], leafsize=32, balanced_tree=False)
         pairs = tree.query_pairs(eps_m, output_type="ndarray")
-        one, other = rows[begin:reach][pairs[:, 0]], rows[begin:reach][pairs[:, 1]]
-        key = (np.minimum(one, other) << 32) | np.maximum(one, other)
-        found.append(key[pairs[:, 0] < end - begin])
-    keys = np.sort(np.concatenate(found))
+        left, right = rows[begin:reach][pairs[:, 0]], rows[begin:reach][pairs[:, 1]]
+        key = (np.minimum(left, right) << 32) | np.maximum(left, right)
+        pair_keys.append(key[pairs[:, 0] < end - begin])
+    keys = np.sort(np.concatenate(pair_keys))
     starts = np.searchsorted(keys, np.arange(len(xyz) + 1) << 32)
     return starts, keys.astype(np.int32)  # the lower half: the later of the two

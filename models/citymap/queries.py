@@ -1,4 +1,4 @@
-"""Descriptions with known positions, as they are asked; and all that can be said at positions, as it is trained on."""
+"""Descriptions with known positions for evaluation, and all true hints at positions for training."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,12 +20,12 @@ class Queries:
     """Q descriptions with known positions.
 
     Attributes:
-        sentences: each description's hint sentences, in the benchmark's wording unless they are someone's own.
+        sentences: the hint sentences of each description, in the benchmark's wording or the user's own.
         positions_m: [Q, 2] float64 true positions, map frame.
         truth: [Q] row of the best cell, -1 if no centre is within 15 m of the position.
-        scenes: scene of each query; what is found in another is wrong wherever it lies.
-        strategies: how the hints were chosen, "" if that is not known.
-        hints: what the sentences say; None where only text is known.
+        scenes: scene of each query; a result in another scene is wrong.
+        strategies: how the hints were chosen, "" if unknown.
+        hints: the hints of each description; None where only text is known.
     """
 
     sentences: Sequence[tuple[str, ...]]
@@ -37,11 +37,11 @@ class Queries:
 
     @classmethod
     def from_text(cls, sentences: Sequence[tuple[str, ...]], positions_m: Floats, cells: CellTable) -> "Queries":
-        """Queries of one's own; a description's best cell is the one whose centre is nearest.
+        """Build queries from texts; the best cell is the one whose centre is nearest to the position.
 
         Args:
             sentences: each description's hint sentences.
-            positions_m: [Q, 2] where they were said, map frame.
+            positions_m: [Q, 2] the positions described, map frame.
             cells: the gallery.
         """
         distance, nearest = cKDTree(cells.center_m[:, :2]).query(positions_m)
@@ -58,13 +58,13 @@ class Queries:
         strategies: Sequence[str],
         cells: CellTable,
     ) -> "Queries":
-        """Queries in the benchmark's wording; arguments as the attributes, of the gallery `cells`."""
-        sentences = [tuple(render_hint(hint) for hint in said) for said in hints]
+        """Build queries in the benchmark's wording; arguments as the attributes, for the gallery `cells`."""
+        sentences = [tuple(render_hint(hint) for hint in description) for description in hints]
         return cls(sentences, positions_m, truth, [cells.scenes[n] for n in truth], strategies, hints)
 
     @classmethod
     def concatenate(cls, parts: Sequence["Queries"]) -> "Queries":
-        """Those of one gallery, one after the other; what they say is known."""
+        """Return the queries of several groups over one gallery, all with hints, as one."""
 
         def all_of(name: str) -> list[Any]:
             return [one for part in parts for one in getattr(part, name)]
@@ -78,7 +78,7 @@ class Queries:
         return len(self.truth)
 
     def take(self, rows: npt.NDArray[np.intp]) -> "Queries":
-        """Some of them."""
+        """Return the given queries."""
         return Queries(
             sentences=[self.sentences[q] for q in rows],
             positions_m=self.positions_m[rows],
@@ -91,17 +91,17 @@ class Queries:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PositionStatements:
-    """Positions, and everything that can be said at each of them.
+    """Positions with all hints that are true there.
 
     Attributes:
         gallery: the cells around them.
         positions_m: [N, 2 or more] positions; those of different scenes are far from each other.
         best: [N] best cell of each position.
-        table: what can be said there.
-        labels: label of each instance that the table names.
+        table: the hints.
+        labels: label of each instance in the table.
         words: colour words that the table numbers.
-        part_number: [R] number of each instance, in rows of the cells' parts; parts of one instance share it.
-        mentioned_number: [H] number of the instance that each row of the table means, -1 if unknown.
+        part_number: [R] number of the instance of each row of the cells' parts.
+        mentioned_number: [H] number of the instance of each row of the table, -1 if unknown.
     """
 
     gallery: Gallery

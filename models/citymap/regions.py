@@ -1,4 +1,4 @@
-"""Cutting one city into train, validation and test regions that share no cell and no described instance part."""
+"""Split one city into train, validation and test regions that share no cell and no described instance part."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from models.citymap.cells import CellTable
 from models.citymap.hints import HINT_REACH_M
 from models.citymap.types import Floats
 
-# Shares of the extent from west to east; what lies between two regions is used by neither.
+# Shares of the extent from west to east; a cell on a boundary belongs to no region.
 SPLIT_SHARES = {"train": (0.0, 0.5), "val": (0.5, 0.64), "test": (0.64, 1.0)}
 SPLITS = tuple(SPLIT_SHARES)
 
@@ -21,27 +21,27 @@ class SplitRegion:
     east_m: float
 
     def contains(self, x_m: Floats, margin_m: float) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-        """[N] whether what reaches `margin_m` around x_m lies in the region whole."""
+        """Whether the interval of `margin_m` around each x_m [N] lies fully in the region."""
         inside: np.ndarray[tuple[int], np.dtype[np.bool_]] = (x_m - margin_m >= self.west_m) & (
             x_m + margin_m < self.east_m
         )
         return inside
 
     def cells(self, cells: CellTable) -> CellTable:
-        """The cells that lie in the region whole."""
+        """Return the cells that lie fully in the region."""
         return cells.take(np.flatnonzero(self.contains(cells.center_m[:, 0], cells.size_m / 2)))
 
     def locations(self, locations_m: Floats) -> Floats:
-        """The locations whose hints are all in the region."""
-        kept: Floats = locations_m[self.contains(locations_m[:, 0], HINT_REACH_M)]
-        return kept
+        """Return the locations whose hints all lie in the region."""
+        inside: Floats = locations_m[self.contains(locations_m[:, 0], HINT_REACH_M)]
+        return inside
 
 
 def split_regions(cells: CellTable) -> dict[str, SplitRegion]:
-    """West to train on, a strip between to choose by, east to test on.
+    """Return a western region for training, a middle strip for validation and an eastern region for testing.
 
     Args:
-        cells: all cells of the map; their extent is what is shared out.
+        cells: all cells of the map, whose extent is split.
     """
     half = cells.size_m / 2
     west, east = float(cells.center_m[:, 0].min()) - half, float(cells.center_m[:, 0].max()) + half + 1e-6

@@ -1,4 +1,4 @@
-"""The benchmark's sentences, and other ways to say the same (docs/formats.md, rule 8)."""
+"""The benchmark's hint sentences and other wordings of the same hints (docs/formats.md, rule 8)."""
 
 from typing import Final
 
@@ -11,8 +11,8 @@ OPPOSITE: Final[dict[Direction, Direction]] = {
     "west": "east",
     "on-top": "on-top",
 }
-# The first is the benchmark's (docs/formats.md, rule 8); the others are how people say the same. {d} is where
-# the speaker is seen from the instance, {o} the opposite: where the instance is seen from the speaker.
+# The first is the benchmark's (docs/formats.md, rule 8); the others are more natural wordings. {d} is the
+# direction of the speaker as seen from the instance, {o} that of the instance as seen from the speaker.
 TEMPLATES: Final[tuple[str, ...]] = (
     "The pose is {d} of {a}.",
     "I am {d} of {a}.",
@@ -36,14 +36,14 @@ ON_TOP_TEMPLATES: Final[tuple[str, ...]] = (
 
 
 def render_hint(hint: Hint, template: int = 0) -> str:
-    """A hint as an English sentence.
+    """Return a hint as an English sentence.
 
     Args:
-        hint: what to say; without a colour, none is said.
+        hint: the hint; without a colour, the sentence has none.
         template: index into TEMPLATES.
     """
     noun = f"{hint.colour} {hint.label}" if hint.colour else hint.label
-    # The benchmark writes "a" before any word; people do not.
+    # The benchmark writes "a" before any word; the other wordings are correct English.
     article = "an" if template and noun[0] in "aeiou" else "a"
     words = {
         "a": f"{article} {noun}",

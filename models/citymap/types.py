@@ -1,4 +1,4 @@
-"""The nouns of the project: Instance, MapShape, CityMap, Pose, Hint, Description.
+"""The basic types of a map: Instance, MapShape, CityMap, Pose, Hint, Description.
 
 Coordinates are metres in the map's frame (east, north, up) unless a name says `offset`, which is a
 position inside a cell in 0..1.
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from models.citymap.scenery.shapes import Outlines
 
 Floats = npt.NDArray[np.floating[Any]]
-Progress = Callable[[str, int, int], None]  # stage, done, to do (0 if that is not known)
+Progress = Callable[[str, int, int], None]  # stage, done, total (0 if unknown)
 Direction = Literal["north", "south", "east", "west", "on-top"]
 DIRECTIONS: tuple[Direction, ...] = ("north", "south", "east", "west", "on-top")
 
@@ -33,11 +33,11 @@ class Instance:
     Attributes:
         id: unique in its map.
         label: class in plain words, open vocabulary ("street lamp").
-        points_m: [P, 3] float32, metres, map frame; none where the map is geometry (`CityMap.pieces`).
-        rgb: [3] for one colour, [P, 3] for a colour a point, 0..1; None where the source knows none.
-        name: what people call it, for display only ("Mannerheimintie").
-        source_id: where it comes from ("way/1234").
-        shape: what stands there ("outline"), where the map is geometry.
+        points_m: [P, 3] float32, metres, map frame; empty for a map of lines and areas (`CityMap.pieces`).
+        rgb: [3] for one colour, [P, 3] for a colour of each point, 0..1; None if unknown.
+        name: for display only ("Mannerheimintie").
+        source_id: the element it was read from ("way/1234").
+        shape: its form ("outline") in a map of lines and areas.
     """
 
     id: int
@@ -58,8 +58,8 @@ class MapShape:
         geometry: a point, lines or areas, metres, map frame.
         base_m, top_m: heights above the ground.
         width_m: of lines that stand for a strip of ground, else 0.
-        name: what people call it.
-        source_id: where it comes from ("way/1234").
+        name: for display.
+        source_id: the element it was read from ("way/1234").
     """
 
     label: str
@@ -73,14 +73,14 @@ class MapShape:
 
 @dataclass(frozen=True, slots=True)
 class CutRules:
-    """How a map is cut into cells (docs/formats.md, rule 4); the defaults are the released set's.
+    """The rules for cutting a map into cells (docs/formats.md, rule 4); the defaults are the released set's.
 
     Attributes:
         cell_size_m: edge of a cell's cube.
         grid_m: distance between the centres of neighbouring cells.
-        reach_m: a centre further than this from every location is no cell.
+        reach_m: a centre farther than this from every location makes no cell.
         thing_share: a thing belongs to a cell if at least this share of its points is inside.
-        eps_m, min_samples: DBSCAN, which splits clipped stuff into parts.
+        eps_m, min_samples: parameters of DBSCAN, which splits clipped stuff into parts.
         min_part_points: smaller parts of stuff are dropped.
         min_instances: a cell with fewer is dropped.
     """
@@ -102,15 +102,15 @@ class CityMap:
     Attributes:
         name: scene name; cells are called "<name>_<number>".
         instances: in order of id.
-        frame: what the metres mean on Earth.
+        frame: the metric frame and its place on Earth.
         stuff: labels without a shape of their own (roads, walls, greens): clipped to cells and split
             into connected parts. Instances of all other labels are things, kept whole.
-        locations_m: [L, 3] where one can stand: a trajectory, or points of walkable ground.
+        locations_m: [L, 3] where a person can stand: a trajectory, or points of walkable ground.
         palette: the colour words used for this map.
         rules: how to cut it; the least size of a part depends on how dense the points are.
-        attribution: what the data's licence asks to show.
-        outlines: how it is drawn; None where it is points.
-        pieces: what stands there, where the map is geometry.
+        attribution: the text that the data's licence asks to show.
+        outlines: how to draw it; None for a scan.
+        pieces: its geometry, for a map of lines and areas.
     """
 
     name: str
@@ -127,12 +127,12 @@ class CityMap:
 
 @dataclass(frozen=True, slots=True)
 class Hint:
-    """One statement about where the speaker is: "I am {direction} of a {colour} {label}".
+    """One statement about the speaker's position: "I am {direction} of a {colour} {label}".
 
     Attributes:
-        direction: where the speaker is, seen from the instance.
+        direction: of the speaker, seen from the instance.
         label: class of the instance, in words.
-        colour: colour word, None if unknown or not said.
+        colour: colour word, None if unknown or not mentioned.
         instance_id: the instance meant, None if unknown.
     """
 
@@ -144,7 +144,7 @@ class Hint:
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """What someone said about a position: the hints, in any number and without order."""
+    """The hints about one position, in any number and order."""
 
     hints: tuple[Hint, ...]
 

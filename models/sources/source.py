@@ -108,10 +108,10 @@ class MapSource(Source):
     """
 
     def __init__(
-        self, path: Path, city_map: CityMap, bodies: MapGeometry, cells: CellTable, split: str | None = None
+        self, path: Path, city_map: CityMap, geometry: MapGeometry, cells: CellTable, split: str | None = None
     ) -> None:
         regions = split_regions(cells)
-        self._path, self._map, self._geometry, self._locations_m = path, city_map, bodies, city_map.locations_m
+        self._path, self._map, self._geometry, self._locations_m = path, city_map, geometry, city_map.locations_m
         if split is not None:
             cells = regions[split].cells(cells)
             self._locations_m = regions[split].locations(city_map.locations_m)
@@ -231,17 +231,17 @@ class StoreSource(Source):
     def statements(self, spacing_m: float, rng: np.random.Generator) -> PositionStatements:
         """See Source; nothing is drawn: what can be said is what the descriptions say."""
         poses, numbers = self._store.poses, self._store.instance_ids
-        said, scene = poses.instance, self._scene[poses.cell]
+        mentioned, scene = poses.instance, self._scene[poses.cell]
         return PositionStatements(
             gallery=self.data.gallery,
             positions_m=np.column_stack([poses.positions_m[:, :2], scene * SCENE_GAP_M]),
             best=poses.cell.astype(np.intp),
             # in the order in which they were said
-            table=HintTable(poses.starts, poses.label, poses.direction, poses.colour, np.arange(float(len(said)))),
+            table=HintTable(poses.starts, poses.label, poses.direction, poses.colour, np.arange(float(len(mentioned)))),
             labels=poses.words,
             words=poses.words,
             part_number=numbers,
-            mentioned_number=np.where(said >= 0, numbers[said], -1),
+            mentioned_number=np.where(mentioned >= 0, numbers[mentioned], -1),
         )
 
     def geometry(self) -> PointClouds:
@@ -254,8 +254,8 @@ class StoreSource(Source):
         groups = np.split(order, np.flatnonzero(np.diff(part_instance[order])) + 1)
         xyz = []
         for rows in groups:
-            seen = np.concatenate([store.instance_points(int(r))[0] * cells.size_m + corner[r] for r in rows])
-            xyz.append(_thin_by_voxel(seen).astype(np.float32))
+            points = np.concatenate([store.instance_points(int(r))[0] * cells.size_m + corner[r] for r in rows])
+            xyz.append(_thin_by_voxel(points).astype(np.float32))
         labels = np.array(store.labels)[[rows[0] for rows in groups]]
         starts = np.concatenate([[0], np.cumsum([len(points) for points in xyz])])
         is_thing, rules = ~np.isin(labels, STUFF_LABELS), CutRules()
@@ -272,11 +272,11 @@ class StoreSource(Source):
         del gazetteer
         cells, cube = self.data.cells, self.data.cells.parts.cube
         corner = cells.center_m[cube] - cells.size_m / 2
-        seen: list[Floats] = [np.zeros((0, 6))]
+        clouds: list[Floats] = [np.zeros((0, 6))]
         for row in range(len(cube)):
             points, rgb = self._store.instance_points(row)
-            seen.append(_thin_by_voxel(np.concatenate([points * cells.size_m + corner[row], rgb], axis=1)))
-        coloured = _thin_by_voxel(np.concatenate(seen))  # cells overlap
+            clouds.append(_thin_by_voxel(np.concatenate([points * cells.size_m + corner[row], rgb], axis=1)))
+        coloured = _thin_by_voxel(np.concatenate(clouds))  # cells overlap
         yield from encode_cloud(coloured[:, :3], np.rint(255 * coloured[:, 3:]).astype(np.uint8))
 
 
@@ -313,9 +313,9 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
     report = progress or (lambda stage, done, total: None)
     report("read map", 0, 0)
     city_map = load_osm(path)
-    bodies = build_geometry(city_map)
-    cells = cut_cells(city_map, bodies, lambda done, total: report("cut cells", done, total))
-    return [MapSource(path, city_map, bodies, cells, split) for split in splits]
+    geometry = build_geometry(city_map)
+    cells = cut_cells(city_map, geometry, lambda done, total: report("cut cells", done, total))
+    return [MapSource(path, city_map, geometry, cells, split) for split in splits]
 
 
 def open_gazetteer(path: Path) -> Gazetteer:

@@ -1,5 +1,5 @@
-"""What a passer-by could name on a map: shops, stops, streets, corners, house numbers, each with its geometry.
+"""The objects that a passer-by could name: shops, stops, streets, corners, house numbers, each with its geometry.
 
-`gazetteer` is the table, `ways` the way from positions to its objects, `raster` about how far they are, `streets` joins
-what is one street. Sources fill it (`models.sources.osm.gazetteer`). May import models.citymap alone.
+`gazetteer` is the table, `closest_points` gives exact offsets to its objects, `distance_raster` approximate distances,
+`streets` joins the pieces of a street. Sources fill it (`models.sources.osm.gazetteer`). May import models.citymap.
 """

@@ -1,4 +1,4 @@
-"""The way from positions to the objects of a gazetteer, exactly: closest points of segments, insides of areas."""
+"""Exact offsets from positions to the objects of a gazetteer: closest points of segments, insides of areas."""
 
 from dataclasses import dataclass
 
@@ -13,13 +13,13 @@ from models.compiled import compiled, longer
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointGroups:
-    """Positions in groups that lie close together, for which ways are looked up together.
+    """Positions in groups of near ones, which are searched together.
 
     Attributes:
         points_m: [N, 2], in order of group.
         starts: [C + 1] group c has the points starts[c] to starts[c + 1].
         centers_m: [C, 2] of the groups.
-        radius_m: no point is farther from its group's centre.
+        radius_m: greatest distance of a point from its group's centre.
     """
 
     points_m: Floats
@@ -29,7 +29,7 @@ class PointGroups:
 
     @classmethod
     def from_groups(cls, points_m: Floats, group: Ints) -> "PointGroups":
-        """Positions [N, 2] with the number of each one's group, ascending."""
+        """Build groups from positions [N, 2] and the ascending group number [N] of each."""
         starts = np.flatnonzero(np.diff(group, prepend=-1))
         low, high = np.minimum.reduceat(points_m, starts), np.maximum.reduceat(points_m, starts)
         centers = (low + high) / 2
@@ -40,12 +40,12 @@ class PointGroups:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClosestPoints:
-    """Ways from positions to objects near them.
+    """Offsets from positions to the closest points of objects near them.
 
     Attributes:
         point: [P] position.
-        target: [P] which of the objects that were asked for.
-        offset_m: [P, 2] from the position to the closest point of the object; no way inside an area.
+        target: [P] index among the objects searched.
+        offset_m: [P, 2] from the position to the closest point of the object; zero inside an area.
     """
 
     point: Ints
@@ -54,31 +54,31 @@ class ClosestPoints:
 
     @property
     def distance_m(self) -> Floats:
-        """[P] how far."""
+        """Return the distances [P]."""
         far: Floats = np.hypot(*self.offset_m.T)
         return far
 
 
 def find_closest_points(
-    around: PointGroups, segments_m: Floats, starts: Ints, is_area: npt.NDArray[np.bool_], reach_m: float
+    groups: PointGroups, segments_m: Floats, starts: Ints, is_area: npt.NDArray[np.bool_], reach_m: float
 ) -> ClosestPoints:
-    """The ways to objects, as far as they are within reach.
+    """Return the closest points of all objects within reach.
 
     Args:
-        around: from where.
+        groups: the positions.
         segments_m: of the objects, see `Gazetteer`.
-        starts: likewise.
-        is_area: likewise.
-        reach_m: beyond are none.
+        starts: see `Gazetteer`.
+        is_area: see `Gazetteer`.
+        reach_m: greatest distance.
     """
     return ClosestPoints(*_closest_points(
-        around.points_m, around.starts, around.centers_m, around.radius_m,
+        groups.points_m, groups.starts, groups.centers_m, groups.radius_m,
         segments_m.astype(np.float64, copy=False), starts, is_area, float(reach_m),
     ))  # fmt: skip
 
 
 def select_objects(gazetteer: Gazetteer, objects: Ints) -> tuple[Floats, Ints, npt.NDArray[np.bool_]]:
-    """Segments, starts and `is_area` of some objects of a gazetteer."""
+    """Return the segments, starts and `is_area` of some objects of a gazetteer."""
     begin, end = gazetteer.starts[objects], gazetteer.starts[objects + 1]
     starts = np.concatenate([[0], np.cumsum(end - begin)])
     return gazetteer.segments_m[ranges(begin, end)], starts, gazetteer.is_area[objects]
@@ -89,9 +89,9 @@ def _closest_points(
     points_m: Floats, group_starts: Ints, centers_m: Floats, radius_m: float,
     segments_m: Floats, starts: Ints, is_area: npt.NDArray[np.bool_], reach_m: float,
 ) -> tuple[Ints, Ints, Floats]:  # fmt: skip
-    """(point, object, way) in order of group, then object: of a group only the segments that may be the closest."""
+    """Return (point, object, offset) by group, then object; each group tests only segments that may be the closest."""
     count, room = 0, len(points_m) + 64
-    point, item, way = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2))
+    point, target, offsets = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2))
     boxes_m, metres = _boxes_with_margin(segments_m, starts, reach_m + radius_m), np.empty(len(segments_m))
     for c in range(len(centers_m)):
         x, y = centers_m[c]
@@ -105,23 +105,23 @@ def _closest_points(
             if nearest > reach_m + radius_m and not (is_area[i] and is_inside(x, y, ends)):
                 continue
             for p in range(group_starts[c], group_starts[c + 1]):
-                found = _closest_offset(points_m[p, 0], points_m[p, 1], ends, metres, nearest + 2 * radius_m)
+                offset = _closest_offset(points_m[p, 0], points_m[p, 1], ends, metres, nearest + 2 * radius_m)
                 if is_area[i] and is_inside(points_m[p, 0], points_m[p, 1], ends):
-                    found = (0.0, 0.0)
-                if _length(found) > reach_m:
+                    offset = (0.0, 0.0)
+                if _length(offset) > reach_m:
                     continue
                 if count == room:
                     room *= 2
-                    point, item, way = longer(point), longer(item), longer(way)
-                point[count], item[count] = p, i
-                way[count, 0], way[count, 1] = found
+                    point, target, offsets = longer(point), longer(target), longer(offsets)
+                point[count], target[count] = p, i
+                offsets[count, 0], offsets[count, 1] = offset
                 count += 1
-    return point[:count].copy(), item[:count].copy(), way[:count].copy()
+    return point[:count].copy(), target[:count].copy(), offsets[:count].copy()
 
 
 @compiled
 def _boxes_with_margin(segments_m: Floats, starts: Ints, margin_m: float) -> Floats:
-    """[objects, 4] of each, wider by a margin."""
+    """Return the bounding box [objects, 4] of each object, enlarged by a margin."""
     boxes = np.empty((len(starts) - 1, 4))
     for i in range(len(starts) - 1):
         ends = segments_m[starts[i] : starts[i + 1]]
@@ -133,7 +133,7 @@ def _boxes_with_margin(segments_m: Floats, starts: Ints, margin_m: float) -> Flo
 
 @compiled
 def _offset_to_segment(x: float, y: float, ends: Floats) -> tuple[float, float]:
-    """From a point to the closest one of a segment [4]."""
+    """Return the offset from a point to the closest point of a segment [4]."""
     along_x, along_y = ends[2] - ends[0], ends[3] - ends[1]
     away_x, away_y = x - ends[0], y - ends[1]
     square = along_x * along_x + along_y * along_y
@@ -142,23 +142,23 @@ def _offset_to_segment(x: float, y: float, ends: Floats) -> tuple[float, float]:
 
 
 @compiled
-def _length(way: tuple[float, float]) -> float:
-    """Metres; a third of the time that `hypot` takes, which heeds numbers as large as none here."""
-    metres: float = np.sqrt(way[0] * way[0] + way[1] * way[1])
-    return metres
+def _length(offset: tuple[float, float]) -> float:
+    """Return a length in metres; this takes a third of the time of `hypot`, which guards against overflow."""
+    length_m: float = np.sqrt(offset[0] * offset[0] + offset[1] * offset[1])
+    return length_m
 
 
 @compiled
-def _closest_offset(x: float, y: float, ends: Floats, metres: Floats, farthest_m: float) -> tuple[float, float]:
-    """The way to the closest of those segments [n, 4] that are no farther from the group's centre than that."""
-    best, found = np.inf, (0.0, 0.0)
+def _closest_offset(x: float, y: float, ends: Floats, metres: Floats, reach_m: float) -> tuple[float, float]:
+    """Return the offset to the closest of the segments [n, 4] within `reach_m` of the group's centre."""
+    best, closest = np.inf, (0.0, 0.0)
     for s in range(len(ends)):
-        if metres[s] <= farthest_m:
-            way = _offset_to_segment(x, y, ends[s])
-            square = way[0] * way[0] + way[1] * way[1]
+        if metres[s] <= reach_m:
+            offset = _offset_to_segment(x, y, ends[s])
+            square = offset[0] * offset[0] + offset[1] * offset[1]
             if square < best:
-                best, found = square, way
-    return found
+                best, closest = square, offset
+    return closest
 
 
 @compiled

@@ -1,6 +1,7 @@
-"""How far every cell of a map is from some objects, to the cells' grid where they are near, and else by block.
+"""Distances from all cells of a map to objects: by grid pixel where they are near, by block elsewhere.
 
-Distances on the grid are few, and so are blocks: what is made of distances is made of these, and looked up for cells.
+There are few different distances between pixels and between blocks, so a function of the distance is evaluated
+for these only, and looked up for cells.
 """
 
 import math
@@ -25,24 +26,24 @@ from models.citymap.types import Floats
 from models.compiled import compiled
 
 LINE_SAMPLE_M = 6.0  # between samples of lines
-MARGIN_M = 300.0  # round the cells, in which objects count too
-LARGE_AREA_RADIUS_M = 20.0  # areas that reach farther have samples inside
-AREA_SAMPLE_M = 9.0  # between these
-BLOCK_PX: Final = 4  # cells to each side
-EXACT_REACH_M: Final = 200.0  # as far as cells are looked at one by one
-MAX_FAR_STEPS: Final = 30_000  # blocks beyond MOST_SQUARED
-BLOCK_DIAGONAL: Final = 1.5  # of a block, rounded up
-CACHE_BYTES = 16 * 2**20  # of distances that were asked for lately
+MARGIN_M = 300.0  # around the cells, in which objects count, too
+LARGE_AREA_RADIUS_M = 20.0  # areas that reach farther from their middle have samples inside
+AREA_SAMPLE_M = 9.0  # between samples inside areas
+BLOCK_PX: Final = 4  # pixels on each side of a block
+EXACT_REACH_M: Final = 200.0  # distances up to this are looked up by pixel
+MAX_FAR_STEPS: Final = 30_000  # block distances beyond MAX_SQUARED_REACH_PX; an index has 16 bits
+BLOCK_DIAGONAL: Final = 1.5  # of a block of edge 1, rounded up
+CACHE_BYTES = 16 * 2**20  # of distances that are kept for the next request
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GroupDistances:
-    """How far the cells of a map are from T groups of objects.
+    """Distances from the cells of a map to T groups of objects.
 
     Attributes:
-        squares: [T, columns, rows] of `squared_distances`, of pixels.
-        blocks: [T, ...] the same of blocks.
-        is_near: of each block, whether pixels of it may be near.
+        squares: [T, columns, rows] of pixels, as of `squared_distances`.
+        blocks: [T, ...] index into `block_steps_m` of each block.
+        is_near: whether a block may have pixels near an object.
     """
 
     squares: SquaredDistances
@@ -51,17 +52,17 @@ class GroupDistances:
 
     @property
     def nbytes(self) -> int:
-        """What it takes."""
+        """Return the memory of the arrays."""
         return sum(array.nbytes for array in (self.squares, self.blocks, self.is_near))
 
 
 def _cache_key(_: "DistanceRaster", groups: Sequence[Ints], lines_m: Floats | None = None) -> tuple[bytes, ...]:
-    """What distances are remembered by."""
+    """Return the cache key of `distances_to`."""
     return b"" if lines_m is None else lines_m.tobytes(), *(one.tobytes() for one in groups)
 
 
 class DistanceRaster:
-    """The cells' grid, with every object of a gazetteer on it.
+    """The grid of the cells, with every object of a gazetteer drawn on it.
 
     Args:
         gazetteer: of the map.
@@ -72,7 +73,7 @@ class DistanceRaster:
         shape: columns and rows of pixels.
         cell_pixel: [N] int32 pixel of each cell, column * rows + row.
         steps_m: [S] the distances between near pixels.
-        block_steps_m: [B] those between blocks, the last inf.
+        block_steps_m: [B] the distances between blocks, the last inf.
     """
 
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
@@ -96,56 +97,58 @@ class DistanceRaster:
         apart = np.concatenate([_step_lengths(self._block_reach), farther, np.array([np.inf], np.float32)])
         apart_m, near_m = apart * np.float32(BLOCK_PX * spacing_m), min(EXACT_REACH_M, self._reach * spacing_m)
         self._is_near = apart_m <= near_m + BLOCK_DIAGONAL * BLOCK_PX * spacing_m
-        self.block_steps_m = np.maximum(apart_m, np.float32(near_m))  # what is nearer, pixels tell of
+        self.block_steps_m = np.maximum(apart_m, np.float32(near_m))  # nearer distances are looked up by pixel
         known = np.minimum(self.block_steps_m / spacing_m, self._reach)
-        self._limits = (known * known).astype(np.uint16)  # squares up to which pixels of a near block tell
+        self._limits = (known * known).astype(np.uint16)  # greatest square that is looked up by pixel in a near block
         large, shapes = (
             gazetteer.is_area & (gazetteer.reach_m > LARGE_AREA_RADIUS_M),
             (gazetteer.segments_m, gazetteer.starts),
         )
         self._lines = draw_lines(self._grid, *shapes, np.arange(len(gazetteer)), LINE_SAMPLE_M)
         self._areas = draw_areas(self._grid, *shapes, np.flatnonzero(large), AREA_SAMPLE_M)
-        self._area_starts = np.concatenate([[0], np.cumsum(large)])  # large ones before each object
+        self._area_starts = np.concatenate([[0], np.cumsum(large)])  # number of large areas before each object
         self._cache: LRUCache[tuple[bytes, ...], GroupDistances] = LRUCache(CACHE_BYTES, lambda away: away.nbytes)
 
     @cachedmethod(lambda raster: raster._cache, _cache_key)
     def distances_to(self, groups: Sequence[Ints], lines_m: Floats | None = None) -> GroupDistances:
-        """How far every cell is from each group of objects, and from segments [n, 4], if any, which are the first."""
-        drawn = [self._object_pixels(some) for some in groups]
+        """Return the distances from every cell to each group of objects, and first to segments [n, 4], if given."""
+        pixels = [self._object_pixels(objects) for objects in groups]
         if lines_m is not None:
-            one = np.array([0, len(lines_m)]), np.zeros(1, np.int64)
-            drawn.insert(0, draw_lines(self._grid, lines_m, *one, LINE_SAMPLE_M)[0])
-        return self._pixel_distances(drawn)
+            single = np.array([0, len(lines_m)]), np.zeros(1, np.int64)
+            pixels.insert(0, draw_lines(self._grid, lines_m, *single, LINE_SAMPLE_M)[0])
+        return self._pixel_distances(pixels)
 
-    def distances_m(self, away: GroupDistances, cells: Ints) -> Floats:
-        """[T, n] metres from some cells to the nearest of each group."""
+    def distances_m(self, distances: GroupDistances, cells: Ints) -> Floats:
+        """Return the metres [T, n] from some cells to the nearest object of each group."""
         column, row = np.divmod(self.cell_pixel[cells], self.shape[1])
-        square, at = away.squares[:, column, row], (column // BLOCK_PX, row // BLOCK_PX)
-        block = away.blocks[:, *at]
-        known = np.where(away.is_near[at], self._limits[block], self._limits[0])
-        found: Floats = np.where(square <= known, self.steps_m[np.minimum(square, known)], self.block_steps_m[block])
-        return found
+        square, block_index = distances.squares[:, column, row], (column // BLOCK_PX, row // BLOCK_PX)
+        block = distances.blocks[:, *block_index]
+        limit = np.where(distances.is_near[block_index], self._limits[block], self._limits[0])
+        distance_m: Floats = np.where(
+            square <= limit, self.steps_m[np.minimum(square, limit)], self.block_steps_m[block]
+        )
+        return distance_m
 
-    def mean_and_max(self, away: GroupDistances, by_step: Floats, by_block: Floats) -> tuple[float, float]:
-        """The mean over cells of what the best of the groups is, and the most, which are at least 0; as `add`."""
+    def mean_and_max(self, distances: GroupDistances, by_step: Floats, by_block: Floats) -> tuple[float, float]:
+        """Return the mean and maximum (at least 0) over cells of the best group's value; arguments as `add_best`."""
         total, most = np.zeros(self.shape[1]), np.zeros(self.shape[1], np.float32)
-        given = away.squares, away.blocks, away.is_near, self._limits, by_step, by_block
-        _sum_and_max(*given, self._cells_in, total, most)
+        tables = distances.squares, distances.blocks, distances.is_near, self._limits, by_step, by_block
+        _sum_and_max(*tables, self._cells_in, total, most)
         return float(total.sum()) / len(self.cell_pixel), float(most.max())
 
-    def add_best(self, total: Floats, away: GroupDistances, by_step: Floats, by_block: Floats) -> None:
-        """Add to every pixel what the best of the groups is there.
+    def add_best(self, total: Floats, distances: GroupDistances, by_step: Floats, by_block: Floats) -> None:
+        """Add the value of the best group to every pixel.
 
         Args:
             total: [columns, rows] float32.
-            away: of the groups.
-            by_step: [T, S] float32 for each distance of `steps_m`.
-            by_block: [T, B] float32 for each distance of `block_steps_m`.
+            distances: of the groups.
+            by_step: [T, S] float32 value for each distance of `steps_m`.
+            by_block: [T, B] float32 value for each distance of `block_steps_m`.
         """
-        _add_best(away.squares, away.blocks, away.is_near, self._limits, by_step, by_block, total)
+        _add_best(distances.squares, distances.blocks, distances.is_near, self._limits, by_step, by_block, total)
 
     def _object_pixels(self, objects: Ints) -> Ints:
-        """[n] pixels of some objects."""
+        """Return the pixels [n] of some objects."""
         both = (
             (self._lines, objects, objects + 1),
             (self._areas, self._area_starts[objects], self._area_starts[objects + 1]),
@@ -153,7 +156,7 @@ class DistanceRaster:
         return np.concatenate([pixel[ranges(starts[begin], starts[end])] for (pixel, starts), begin, end in both])
 
     def _pixel_distances(self, groups: Sequence[Ints]) -> GroupDistances:
-        """The same of pixels."""
+        """Return the distances to groups of pixels."""
         squares = np.stack(
             [squared_distances(column_distances(one, self.shape, self._reach), self._reach) for one in groups]
         )
@@ -161,28 +164,28 @@ class DistanceRaster:
         is_near: Mask = np.logical_or.reduce(self._is_near[blocks], axis=0)
         return GroupDistances(squares, blocks, is_near)
 
-    def _block_distances(self, drawn: Ints) -> SquaredDistances:
-        """[blocks] the row of `block_steps_m` of each block, from some blocks."""
-        reach, nowhere = self._block_reach, self._block_reach**2 + 1 + self._far_steps
-        squares = squared_distances(column_distances(drawn, self._blocks, reach), reach)
+    def _block_distances(self, pixels: Ints) -> SquaredDistances:
+        """Return the index into `block_steps_m` of each block [blocks], for distances to some blocks."""
+        reach, unreachable = self._block_reach, self._block_reach**2 + 1 + self._far_steps
+        squares = squared_distances(column_distances(pixels, self._blocks, reach), reach)
         is_far = squares > reach**2
-        if len(drawn) and is_far.any():
+        if len(pixels) and is_far.any():
             empty = np.ones(self._blocks, np.bool_)
-            empty.ravel()[drawn] = False
+            empty.ravel()[pixels] = False
             farther = distance_transform_edt(empty)[is_far].astype(np.int64) - reach
-            squares[is_far] = np.minimum(reach**2 + 1 + farther, nowhere)
-        found: SquaredDistances = np.minimum(squares, np.uint16(nowhere))
-        return found
+            squares[is_far] = np.minimum(reach**2 + 1 + farther, unreachable)
+        result: SquaredDistances = np.minimum(squares, np.uint16(unreachable))
+        return result
 
     def _block_of(self, pixels: Ints) -> Ints:
-        """[n] block of each pixel."""
+        """Return the block [n] of each pixel."""
         column, row = np.divmod(pixels, self.shape[1])
         block: Ints = column // BLOCK_PX * self._blocks[1] + row // BLOCK_PX
         return block
 
 
 def _step_lengths(reach: int) -> Floats:
-    """[S] float32 the roots of all whole numbers up to the square of a reach."""
+    """Return the square roots [S] (float32) of all whole numbers up to the square of a reach."""
     return np.sqrt(np.arange(reach**2 + 1)).astype(np.float32)
 
 
@@ -191,7 +194,7 @@ def _sum_and_max(
     squares: SquaredDistances, blocks: SquaredDistances, is_near: Mask, limits: SquaredDistances, by_step: Floats,
     by_block: Floats, cells: Floats, total: Floats, most: Floats,
 ) -> None:  # fmt: skip
-    """Add up rows [rows] over columns, and raise the most of each; see `DistanceRaster.mean_and_max`."""
+    """Add up rows [rows] over columns, and raise their maxima; see `DistanceRaster.mean_and_max`."""
     line, limit, beyond = _column_buffers(squares)
     for x in range(squares.shape[1]):
         if x % BLOCK_PX == 0:
@@ -212,7 +215,7 @@ def _add_best(
     by_block: Floats,
     total: Floats,
 ) -> None:
-    """See `DistanceRaster.add_best`."""
+    """Add the best value to every pixel; see `DistanceRaster.add_best`."""
     line, limit, beyond = _column_buffers(squares)
     for x in range(len(total)):
         if x % BLOCK_PX == 0:
@@ -224,7 +227,7 @@ def _add_best(
 
 @compiled
 def _column_buffers(squares: SquaredDistances) -> tuple[Floats, SquaredDistances, Floats]:
-    """Room for a column of pixels [rows], and for what the blocks that it passes have [T, rows]."""
+    """Return buffers for a column of pixels [rows], and for the values of the blocks that it passes [T, rows]."""
     groups, rows = squares.shape[0], squares.shape[2]
     return np.empty(rows, np.float32), np.empty((groups, rows), np.uint16), np.empty((groups, rows), np.float32)
 
@@ -239,7 +242,7 @@ def _fill_blocks(
     limit: SquaredDistances,
     beyond: Floats,
 ) -> None:
-    """Fill in what a column of blocks has."""
+    """Fill in the limits and values of a column of blocks."""
     for t in range(len(blocks)):
         for y in range(limit.shape[1]):
             block = blocks[t, x, y // BLOCK_PX]
@@ -251,7 +254,7 @@ def _fill_blocks(
 def _fill_best(
     squares: SquaredDistances, by_step: Floats, x: int, limit: SquaredDistances, beyond: Floats, line: Floats
 ) -> None:
-    """Fill in what the best of the groups is at a column of pixels; the processor takes many of them at once."""
+    """Fill in the best group's value for a column of pixels; written so that the compiler vectorises it."""
     for t in range(len(squares)):
         square, of_step, most, of_block = squares[t, x], by_step[t], limit[t], beyond[t]
         for y in range(len(line)):

@@ -1,7 +1,7 @@
-"""How far pixels are from the nearest that is drawn, exactly up to a reach, in machine code.
+"""Exact distances from pixels to the nearest drawn pixel, up to a reach, in machine code.
 
-After Saito and Toriwaki (Pattern Recognition 27, 1994): first along columns, for all pixels, then along the rows of
-those that are asked about.
+After Saito and Toriwaki (Pattern Recognition 27, 1994): first along columns, for all pixels, then along rows for the
+pixels wanted.
 """
 
 from typing import Final
@@ -13,76 +13,76 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
 
-MAX_REACH_PX: Final = 253  # pixels; the first step keeps a byte of each, and adds 1 to reach + 1
-MAX_SQUARED_REACH_PX: Final = 180  # the same of `squared_distances`, whose squares have 16 bits
+MAX_REACH_PX: Final = 253  # distances are bytes, and the scan adds 1 to reach + 1
+MAX_SQUARED_REACH_PX: Final = 180  # sums of two squares have 16 bits
 ColumnDistances = npt.NDArray[np.uint8]
 SquaredDistances = npt.NDArray[np.uint16]
 
 
-def column_distances(drawn: Ints, shape: tuple[int, int], reach: int) -> ColumnDistances:
-    """[columns, rows + 2 reach] pixels to the nearest that is drawn in a column, at most reach + 1.
+def column_distances(pixels: Ints, shape: tuple[int, int], reach: int) -> ColumnDistances:
+    """Return the pixels [columns, rows + 2 reach] to the nearest drawn pixel in a column, at most reach + 1.
 
     Args:
-        drawn: [n] of pixels column * rows + row.
+        pixels: [n] drawn pixels, column * rows + row.
         shape: columns and rows.
-        reach: pixels, at most MOST_REACH; there is a margin of as many at both ends of rows.
+        reach: pixels, at most MAX_REACH_PX; rows have a margin of this size at both ends.
     """
-    away = np.full((shape[0], shape[1] + 2 * reach), reach + 1, np.uint8)
-    _fill_columns(away, drawn, reach)
-    return away
+    distances = np.full((shape[0], shape[1] + 2 * reach), reach + 1, np.uint8)
+    _fill_columns(distances, pixels, reach)
+    return distances
 
 
 @compiled
-def _fill_columns(away: ColumnDistances, drawn: Ints, reach: int) -> None:
-    columns, rows = away.shape
-    for pixel in drawn:
-        away[pixel // (rows - 2 * reach), reach + pixel % (rows - 2 * reach)] = 0
+def _fill_columns(distances: ColumnDistances, pixels: Ints, reach: int) -> None:
+    columns, rows = distances.shape
+    for pixel in pixels:
+        distances[pixel // (rows - 2 * reach), reach + pixel % (rows - 2 * reach)] = 0
     for x in range(1, columns):
         for y in range(rows):
-            away[x, y] = min(away[x, y], np.uint8(away[x - 1, y] + 1))
+            distances[x, y] = min(distances[x, y], np.uint8(distances[x - 1, y] + 1))
     for x in range(columns - 2, -1, -1):
         for y in range(rows):
-            away[x, y] = min(away[x, y], np.uint8(away[x + 1, y] + 1))
+            distances[x, y] = min(distances[x, y], np.uint8(distances[x + 1, y] + 1))
 
 
 @compiled
-def pixel_distances(away: ColumnDistances, asked: Ints, reach: int) -> Floats:
-    """[n] float32 pixels from some [n] to the nearest that is drawn; inf beyond reach. `away` is of columns_away."""
-    rows = away.shape[1] - 2 * reach
+def pixel_distances(columns: ColumnDistances, pixels: Ints, reach: int) -> Floats:
+    """Return the distances [n] (float32, in pixels) from some pixels to the nearest drawn one; inf beyond reach."""
+    rows = columns.shape[1] - 2 * reach
     across = (np.arange(2 * reach + 1).astype(np.int32) - np.int32(reach)) ** 2
-    found = np.empty(len(asked), np.float32)
-    for n in range(len(asked)):
-        row, begin = away[asked[n] // rows], asked[n] % rows
+    distances = np.empty(len(pixels), np.float32)
+    for n in range(len(pixels)):
+        row, begin = columns[pixels[n] // rows], pixels[n] % rows
         least = np.int32(reach * reach + 1)
         for step in range(len(across)):
             apart = np.int32(row[begin + step])
             least = min(least, apart * apart + across[step])
-        found[n] = np.inf if least > reach * reach else np.sqrt(np.float32(least))
-    return found
+        distances[n] = np.inf if least > reach * reach else np.sqrt(np.float32(least))
+    return distances
 
 
 @compiled
-def squared_distances(away: ColumnDistances, reach: int) -> SquaredDistances:
-    """[columns, rows] squared pixels from all to the nearest that is drawn; more than reach * reach is beyond reach.
+def squared_distances(distances: ColumnDistances, reach: int) -> SquaredDistances:
+    """Return the squared pixels [columns, rows] to the nearest drawn pixel; more than reach * reach is beyond reach.
 
-    Without a branch in the loop over pixels: so the processor takes many of them at once.
+    The loop over pixels has no branch, so that the compiler vectorises it.
 
     Args:
-        away: of `column_distances`.
-        reach: as there, at most MOST_SQUARED.
+        distances: of `column_distances`.
+        reach: as there, at most MAX_SQUARED_REACH_PX.
     """
-    columns, rows = away.shape[0], away.shape[1] - 2 * reach
-    squares, square = np.full((columns, rows), 65535, np.uint16), np.empty(away.shape[1], np.uint16)
+    columns, rows = distances.shape[0], distances.shape[1] - 2 * reach
+    squares, square = np.full((columns, rows), 65535, np.uint16), np.empty(distances.shape[1], np.uint16)
     for x in range(columns):
         least = np.uint8(255)
         for y in range(len(square)):
-            least = min(least, away[x, y])
-            square[y] = np.uint16(away[x, y]) * np.uint16(away[x, y])
+            least = min(least, distances[x, y])
+            square[y] = np.uint16(distances[x, y]) * np.uint16(distances[x, y])
         if least > reach:
-            continue  # all of it is beyond
-        found = squares[x]
+            continue  # no pixel is within reach
+        line = squares[x]
         for step in range(reach + 1):
-            before, behind, across = square[reach - step :], square[reach + step :], np.uint16(step * step)
+            before, after, across = square[reach - step :], square[reach + step :], np.uint16(step * step)
             for y in range(rows):
-                found[y] = min(found[y], np.uint16(min(before[y], behind[y]) + across))
+                line[y] = min(line[y], np.uint16(min(before[y], after[y]) + across))
     return squares

@@ -1,4 +1,4 @@
-"""What is written of the objects of a gazetteer: kinds, names, addresses."""
+"""Kinds, names and addresses of the objects of a gazetteer."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -20,13 +20,13 @@ Mask = npt.NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class GazetteerObject:
-    """What is written of an object.
+    """Kinds, names and address of an object.
 
     Attributes:
         kinds: ids of `models.citymap.kinds`, most specific first.
-        names: all its names, the one to show first; none for many.
+        names: all its names, the one to show first; many objects have none.
         number, street: of its address.
-        source_id: where it comes from ("way/1234").
+        source_id: the element it was read from ("way/1234").
     """
 
     kinds: tuple[str, ...]
@@ -37,20 +37,20 @@ class GazetteerObject:
 
     @property
     def numbers(self) -> tuple[str, ...]:
-        """Its house numbers, in lower case; some houses have several, and what begins with no digit ("s/n") is none."""
+        """Return all house numbers of the address in lower case; one that starts with a letter ("s/n") is none."""
         parts = (one.strip() for one in _NUMBER_SEPARATOR.split((self.number or "").lower()))
         return tuple(one for one in parts if one and one[0].isdecimal())
 
 
 class ObjectTable(Sequence[GazetteerObject]):
-    """What is written of O objects, in columns; what of one is asked for is made then.
+    """O objects in columns; an object is made on access.
 
     Args:
-        known: the kinds there are, ascending.
+        known: all kinds, ascending.
         kind_starts: [O + 1] object o has the kinds kind_starts[o] to kind_starts[o + 1].
-        kinds: [K] int32, which of `known`.
+        kinds: [K] int32, index into `known`.
         starts: [O + 1] object o has the strings starts[o] to starts[o + 1]: names, number, street, source.
-        written: [O, 3] bool, whether there are the last three.
+        written: [O, 3] bool, whether the object has each of the last three.
         strings: of all objects.
     """
 
@@ -61,11 +61,11 @@ class ObjectTable(Sequence[GazetteerObject]):
         self._string_starts, self._written, self._strings = starts, written, strings
 
     @classmethod
-    def from_objects(cls, words: Sequence[GazetteerObject]) -> "ObjectTable":
-        """That of some objects."""
-        spool = ObjectTableBuilder()
-        spool.add(words)
-        return spool.build()
+    def from_objects(cls, objects: Sequence[GazetteerObject]) -> "ObjectTable":
+        """Build the table of some objects."""
+        builder = ObjectTableBuilder()
+        builder.add(objects)
+        return builder.build()
 
     def __len__(self) -> int:
         return len(self._written)
@@ -77,7 +77,7 @@ class ObjectTable(Sequence[GazetteerObject]):
     def __getitem__(self, n: slice) -> list[GazetteerObject]: ...
 
     def __getitem__(self, n: int | slice) -> GazetteerObject | list[GazetteerObject]:
-        """What is written of one object, or of those of a slice."""
+        """Return one object, or those of a slice."""
         if isinstance(n, slice):
             return [self[row] for row in range(*n.indices(len(self)))]
         row = range(len(self))[n]
@@ -88,7 +88,7 @@ class ObjectTable(Sequence[GazetteerObject]):
 
     @cached_property
     def by_kind(self) -> Mapping[str, Ints]:
-        """The objects of every kind."""
+        """Return the objects of each kind."""
         order = np.argsort(self._kinds, kind="stable")
         objects = np.repeat(np.arange(len(self)), np.diff(self._kind_starts))[order]
         ends = np.searchsorted(self._kinds[order], np.arange(1, len(self._all_kinds) + 1))
@@ -96,25 +96,25 @@ class ObjectTable(Sequence[GazetteerObject]):
 
     @property
     def has_name(self) -> Mask:
-        """[O] whether an object has a name."""
+        """Whether each object [O] has a name."""
         mask: Mask = np.diff(self._string_starts) > self._written.sum(axis=1)
         return mask
 
     @property
     def has_kind(self) -> Mask:
-        """[O] whether an object has a kind."""
+        """Whether each object [O] has a kind."""
         mask: Mask = np.diff(self._kind_starts) > 0
         return mask
 
     @property
     def is_street(self) -> Mask:
-        """[O] whether an object is a street."""
+        """Whether each object [O] is a street."""
         mask = np.zeros(len(self), np.bool_)
         mask[self.by_kind.get(STREET_KIND, [])] = True
         return mask
 
     def columns(self) -> dict[str, Column]:
-        """Arrays from which `from_columns` makes it."""
+        """Return the arrays that `from_columns` takes."""
         plain = {name: getattr(self, f"_{name}") for name in _NUMBER_COLUMNS}
         return merge_columns(
             [plain, self._strings.columns("strings"), StringArray.from_strings(self._all_kinds).columns("known")]
@@ -122,7 +122,7 @@ class ObjectTable(Sequence[GazetteerObject]):
 
     @classmethod
     def from_columns(cls, columns: Mapping[str, Column]) -> "ObjectTable":
-        """What `columns` gave."""
+        """Build a table from what `columns` returned."""
         strings, known = (StringArray.from_columns(columns, name) for name in ("strings", "known"))
         kind_starts, kinds, starts, written = (columns[name] for name in _NUMBER_COLUMNS)
         return cls(known, kind_starts, kinds, starts, written, strings)
@@ -132,23 +132,23 @@ _NUMBER_COLUMNS: Final = ("kind_starts", "kinds", "string_starts", "written")
 
 
 class ObjectTableBuilder:
-    """What is written of objects, as these come; it lies on disk."""
+    """Collects objects in columns on disk."""
 
     def __init__(self) -> None:
         self._spool, self._kinds = Spool(), dict[str, int]()
 
-    def add(self, words: Sequence[GazetteerObject]) -> None:
-        """Add some objects, at least none."""
-        kinds = [self._kinds.setdefault(kind, len(self._kinds)) for some in words for kind in some.kinds]
-        written = np.array([[one is not None for one in _optional_texts(some)] for some in words], np.bool_).reshape(
+    def add(self, objects: Sequence[GazetteerObject]) -> None:
+        """Add objects; may be none."""
+        kinds = [self._kinds.setdefault(kind, len(self._kinds)) for item in objects for kind in item.kinds]
+        written = np.array([[one is not None for one in _optional_texts(item)] for item in objects], np.bool_).reshape(
             -1, 3
         )
-        names = np.array([len(some.names) for some in words], np.int32)
-        strings = [one.encode() for some in words for one in (*some.names, *_optional_texts(some)) if one is not None]
+        names = np.array([len(item.names) for item in objects], np.int32)
+        strings = [one.encode() for item in objects for one in (*item.names, *_optional_texts(item)) if one is not None]
         self._spool.add(
             {
                 "kinds": np.array(kinds, np.int32),
-                "kinds_of": np.array([len(some.kinds) for some in words], np.int32),
+                "kinds_of": np.array([len(item.kinds) for item in objects], np.int32),
                 "written": written,
                 "strings_of": names + written.sum(axis=1, dtype=np.int32),
                 "text": np.frombuffer(b"".join(strings), np.uint8),
@@ -157,7 +157,7 @@ class ObjectTableBuilder:
         )
 
     def build(self) -> ObjectTable:
-        """All of them; none is added after that."""
+        """Return the table; nothing can be added after this."""
         columns, known = self._spool.columns(), sorted(self._kinds)
         number = np.empty(len(known), np.int32)
         number[[self._kinds[kind] for kind in known]] = np.arange(len(known))
@@ -166,5 +166,5 @@ class ObjectTableBuilder:
         return ObjectTable(known, kind_starts, number[columns["kinds"]], starts, columns["written"], strings)
 
 
-def _optional_texts(words: GazetteerObject) -> tuple[str | None, str | None, str | None]:
-    return words.number, words.street, words.source_id
+def _optional_texts(item: GazetteerObject) -> tuple[str | None, str | None, str | None]:
+    return item.number, item.street, item.source_id

@@ -1,4 +1,4 @@
-"""Objects drawn on a grid, in machine code: their lines, and what is inside areas."""
+"""Draw objects on a pixel grid, in machine code: their lines, and the insides of areas."""
 
 from typing import NamedTuple
 
@@ -13,12 +13,12 @@ Mask = npt.NDArray[np.bool_]
 
 
 class PixelGrid(NamedTuple):
-    """A grid of pixels, of which each has a number: column * rows + row.
+    """A grid of pixels, each numbered column * rows + row.
 
     Attributes:
         west_m, south_m: middle of the first pixel, map frame.
-        spacing_m: of the grid.
-        columns, rows: how many.
+        spacing_m: edge of a pixel.
+        columns, rows: size.
     """
 
     west_m: float
@@ -30,7 +30,7 @@ class PixelGrid(NamedTuple):
 
 @compiled
 def pixel_at(grid: PixelGrid, x: float, y: float) -> np.int64:
-    """The pixel of a point, -1 outside."""
+    """Return the pixel of a point, -1 outside."""
     column, row = np.rint((x - grid.west_m) / grid.spacing_m), np.rint((y - grid.south_m) / grid.spacing_m)
     if 0 <= column < grid.columns and 0 <= row < grid.rows:
         return np.int64(column) * grid.rows + np.int64(row)
@@ -39,7 +39,7 @@ def pixel_at(grid: PixelGrid, x: float, y: float) -> np.int64:
 
 @compiled
 def pixels_at(grid: PixelGrid, points_m: Floats) -> Ints:
-    """[n] pixel of points [n, 2], -1 outside."""
+    """Return the pixel [n] of each point [n, 2], -1 outside."""
     pixel = np.empty(len(points_m), np.int64)
     for n in range(len(points_m)):
         pixel[n] = pixel_at(grid, np.float64(points_m[n, 0]), np.float64(points_m[n, 1]))
@@ -47,17 +47,17 @@ def pixels_at(grid: PixelGrid, points_m: Floats) -> Ints:
 
 
 @compiled
-def draw_lines(grid: PixelGrid, segments_m: Floats, starts: Ints, objects: Ints, sampled_m: float) -> tuple[Ints, Ints]:
-    """[S] int32 pixels on the lines of some objects, one object after the other; starts [n + 1].
+def draw_lines(grid: PixelGrid, segments_m: Floats, starts: Ints, objects: Ints, sample_m: float) -> tuple[Ints, Ints]:
+    """Return the pixels [S] (int32) on the lines of some objects, object after object, and starts [n + 1].
 
     Args:
-        grid: what to draw on; what is outside is left out.
+        grid: to draw on; pixels outside are left out.
         segments_m: of all objects, see `Gazetteer`.
-        starts: likewise.
-        objects: [n] of them.
-        sampled_m: between points, at most.
+        starts: see `Gazetteer`.
+        objects: [n] the objects to draw.
+        sample_m: greatest distance between sampled points.
     """
-    steps = _segment_steps(segments_m, starts, objects, sampled_m)
+    steps = _segment_steps(segments_m, starts, objects, sample_m)
     pixels, count, n, until = np.empty(steps.sum() + len(steps), np.int32), 0, 0, np.zeros(len(objects) + 1, np.int64)
     for o in range(len(objects)):
         for s in range(starts[objects[o]], starts[objects[o] + 1]):
@@ -75,13 +75,13 @@ def draw_lines(grid: PixelGrid, segments_m: Floats, starts: Ints, objects: Ints,
 
 
 @compiled
-def _segment_steps(segments_m: Floats, starts: Ints, objects: Ints, sampled_m: float) -> Ints:
-    """How many each segment of some objects is cut into, one object after the other."""
+def _segment_steps(segments_m: Floats, starts: Ints, objects: Ints, sample_m: float) -> Ints:
+    """Return the number of steps of each segment of some objects, object after object."""
     steps, n = np.empty(np.sum(starts[objects + 1] - starts[objects]), np.int64), 0
     for number in objects:
         for s in range(starts[number], starts[number + 1]):
             x1, y1, x2, y2 = _end_points(segments_m, s)
-            steps[n] = max(1, int(np.ceil(np.hypot(x2 - x1, y2 - y1) / sampled_m)))
+            steps[n] = max(1, int(np.ceil(np.hypot(x2 - x1, y2 - y1) / sample_m)))
             n += 1
     return steps
 
@@ -94,7 +94,7 @@ def _end_points(segments_m: Floats, s: int) -> tuple[float, float, float, float]
 
 @compiled
 def draw_areas(grid: PixelGrid, segments_m: Floats, starts: Ints, objects: Ints, lattice_m: float) -> tuple[Ints, Ints]:
-    """The same inside areas, without their edge: where the points of a lattice are, so far apart."""
+    """Return the pixels inside areas, without their edges, at the points of a lattice; else as `draw_lines`."""
     pixels, count, until = np.empty(1024, np.int32), 0, np.zeros(len(objects) + 1, np.int64)
     for n in range(len(objects)):
         lines = segments_m[starts[objects[n]] : starts[objects[n] + 1]].astype(np.float64)
@@ -116,13 +116,13 @@ def draw_areas(grid: PixelGrid, segments_m: Floats, starts: Ints, objects: Ints,
 
 @compiled
 def _lattice_coordinates(ends: Floats, lattice_m: float) -> Floats:
-    """Along one axis, from the lowest of some ends to the highest."""
+    """Return the coordinates of the lattice along one axis, from the lowest end to the highest."""
     return np.arange(ends.min() + lattice_m / 2, ends.max(), lattice_m)
 
 
 @compiled
 def inside_mask(xs: Floats, ys: Floats, lines: Floats) -> Mask:
-    """[columns, rows] whether the points of a lattice are inside rings of segments [n, 4], see `is_inside`."""
+    """Whether each point [columns, rows] of a lattice is inside rings of segments [n, 4]; see `is_inside`."""
     is_odd = np.zeros((len(xs) + 1, len(ys)), np.bool_)  # where the number of edges to the east changes
     for s in range(len(lines)):
         x1, y1, x2, y2 = lines[s]

@@ -1,4 +1,4 @@
-"""How far positions are from where people walk: lines and squares, on a fine raster."""
+"""Distances from positions to where people walk: lines and squares, on a fine raster."""
 
 from typing import Final
 
@@ -11,16 +11,16 @@ from models.citymap.types import Floats
 
 PIXEL_SIZE_M: Final = 2.0
 MAX_DISTANCE_M: Final = 50.0
-SQUARE_KINDS: Final = ("highway/pedestrian_area", "place/square")  # walked on all over
+SQUARE_KINDS: Final = ("highway/pedestrian_area", "place/square")  # areas that people walk on
 REACH_PX: Final = round(MAX_DISTANCE_M / PIXEL_SIZE_M)
 
 
 class Walkways:
-    """Distances to where people walk.
+    """Distances to the nearest walkway.
 
     Args:
-        gazetteer: of the map, with an object of kind WALKED.
-        low_m, high_m: [2] corners of what is asked about.
+        gazetteer: of the map, with an object of kind WALKED_KIND.
+        low_m, high_m: [2] corners of the region of interest.
     """
 
     def __init__(self, gazetteer: Gazetteer, low_m: Floats, high_m: Floats) -> None:
@@ -37,10 +37,10 @@ class Walkways:
         self._columns = column_distances(np.concatenate([lines, insides]), (shape[0], shape[1]), REACH_PX)
 
     def distances_m(self, points_m: Floats) -> Floats:
-        """[n] float32 metres from points [n, 2] to where people walk, at most FARTHEST_M."""
+        """Return the metres [n] (float32) from points [n, 2] to the nearest walkway, at most MAX_DISTANCE_M."""
         pixel = pixels_at(self._grid, points_m)
         inside = pixel >= 0
-        away = np.full(len(points_m), MAX_DISTANCE_M, np.float32)
-        metres = pixel_distances(self._columns, pixel[inside], REACH_PX) * np.float32(PIXEL_SIZE_M)
-        away[inside] = np.minimum(metres, MAX_DISTANCE_M)
-        return away
+        distance_m = np.full(len(points_m), MAX_DISTANCE_M, np.float32)
+        near_m = pixel_distances(self._columns, pixel[inside], REACH_PX) * np.float32(PIXEL_SIZE_M)
+        distance_m[inside] = np.minimum(near_m, MAX_DISTANCE_M)
+        return distance_m

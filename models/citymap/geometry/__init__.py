@@ -1,5 +1,5 @@
-"""A map of lines and areas as pieces: what of each instance lies in each tile of 10 m.
+"""A map of lines and areas as pieces: the part of each instance in each tile of 10 m.
 
-Cells, what is around a position and what a model sees of an instance come from these, without sampled points. `tiling`
-makes them, `cutting` cuts cubes, `ways` measures from positions. May import models.citymap.
+Cells, the neighbours of a position and the sampled points of an instance are made from pieces. `tiling` cuts them,
+`cutting` cuts cubes, `closest_points` measures from positions. May import models.citymap.
 """

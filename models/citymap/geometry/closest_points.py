@@ -1,4 +1,4 @@
-"""The ways from positions to what stands around them, by geometry: compiled, since there are millions of them."""
+"""Offsets from positions to the instances around them, in machine code because there are millions."""
 
 from typing import Final
 
@@ -14,19 +14,19 @@ from models.citymap.points import Ints
 from models.citymap.types import CutRules, Floats
 from models.compiled import compiled, longer
 
-AREA: Final = FORMS.index("area")
-THING: Final = FORMS.index("thing")
-CROWN_M: Final = 3.0  # a crown may reach nearer than the tile that its trunk is in
-MIN_GROUP_SHARE: Final = 0.6  # what hangs together counts by itself if it has at least this share of what a part has
+AREA: Final = FORMS.index("area")  # index into FORMS
+THING: Final = FORMS.index("thing")  # index into FORMS
+CROWN_M: Final = 3.0  # a crown may be nearer than the tile of its trunk by this much
+MIN_GROUP_SHARE: Final = 0.6  # a group counts by itself if it has at least this share of `min_part_points`
 TILE_SLACK_M: Final = 1e-3  # by which a piece that fills its tile may stand over
-GROUPS_LIMIT: Final = 1 << 32
-EXPECTED_ROWS_PER_POINT: Final = 16  # things around a position, to begin with
-# Near a position millimetres are as good in single precision, of which a processor takes twice as many at once.
+GROUPS_LIMIT: Final = 1 << 32  # no cell has as many groups around it
+EXPECTED_ROWS_PER_POINT: Final = 16  # initial capacity
+# Single precision is exact to millimetres near a position, and a processor handles twice as many at once.
 FLOAT: Final = np.float32
 STEP: Final = FLOAT(STEP_M)
 ZERO: Final = FLOAT(0.0)
 ONE: Final = FLOAT(1.0)
-SIMD_LANES: Final = 8  # points that a processor takes at once
+SIMD_LANES: Final = 8  # points that a processor handles at once
 INFINITE: Final = FLOAT(np.inf)
 
 
@@ -39,10 +39,10 @@ def closest_instances(
     reach_m: float,
     step_m: float,
 ) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:
-    """The ways from positions to what is around them.
+    """Return the offsets from positions to the instances around them.
 
-    Pieces of an instance that hang together in a cell's cube are one thing, with what of the same goes on beside the
-    cube; what is too small to be a part is left out, unless there is no more of its instance.
+    Connected pieces in a cell's cube count as one instance part, together with the pieces beside the cube that continue
+    them. A group too small to be a part is left out, unless it is all there is of its instance.
 
     Args:
         table: the map's pieces.
@@ -50,69 +50,73 @@ def closest_instances(
         centers_m: [N, 2 or more] of cells.
         points_m: [M, 2] metres; cell n owns those from point_starts[n] to point_starts[n + 1].
         point_starts: [N + 1].
-        reach_m: beyond there are none; of a tree counts its crown where that is nearer than its trunk.
-        step_m: of the ways.
+        reach_m: greatest distance; for a tree the nearer of crown and trunk counts.
+        step_m: unit of the offsets returned.
 
     Returns:
-        [R] point, ascending, [R] instance and [R, 2] point minus the thing's closest point, in steps;
+        [R] point, ascending, [R] instance and [R, 2] point minus the instance's closest point, in steps;
         the nearest first, (0, 0) inside an area.
     """
-    found: tuple[Ints, Ints, npt.NDArray[np.int8]] = _closest_instances(
+    rows: tuple[Ints, Ints, npt.NDArray[np.int8]] = _closest_instances(
         points_m.astype(np.float64), point_starts.astype(np.int64), centers_m[:, :2].astype(np.float64),
         rules.cell_size_m / 2 - TILE_SLACK_M, float(reach_m), float(step_m), MIN_GROUP_SHARE * rules.min_part_points,
         table.low, table.shape, table.tile_starts, table.tile, table.instance, table.form, table.point_count,
         table.bounds_m, table.crown_m, table.segment_starts, table.segments, table.link_starts, table.links,
     )  # fmt: skip
-    return found
+    return rows
 
 
 @compiled
 def _closest_instances(
     points_m: Floats, point_starts: Ints, centers_m: Floats, half_m: float, reach_m: float, step_m: float,
-    least: float, low: Ints, shape: Ints, tile_starts: Ints, tile: Ints, instance: Ints, form: Ints, worth: Floats,
-    bounds_m: Floats, crown_m: Floats, segment_starts: Ints, segments: Steps, link_starts: Ints, links: Ints,
+    least: float, low: Ints, shape: Ints, tile_starts: Ints, tile: Ints, instance: Ints, form: Ints,
+    point_count: Floats, bounds_m: Floats, crown_m: Floats, segment_starts: Ints, segments: Steps, link_starts: Ints,
+    links: Ints,
 ) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:  # fmt: skip
     room = EXPECTED_ROWS_PER_POINT * len(points_m) + 1024
-    point, found, way = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2), np.int8)
+    point, target, offset = np.empty(room, np.int64), np.empty(room, np.int64), np.empty((room, 2), np.int8)
     count = 0
     for n in range(len(point_starts) - 1):
-        mine = points_m[point_starts[n] : point_starts[n + 1]]
-        if len(mine) == 0:
+        own_points_m = points_m[point_starts[n] : point_starts[n + 1]]
+        if len(own_points_m) == 0:
             continue
-        pieces, runs = pieces_near(mine, reach_m + CROWN_M, low, shape, tile_starts)
+        pieces, runs = pieces_near(own_points_m, reach_m + CROWN_M, low, shape, tile_starts)
         order, starts = group_pieces(
-            pieces, runs, centers_m[n], half_m, least, tile, instance, form, worth, link_starts, links
+            pieces, runs, centers_m[n], half_m, least, tile, instance, form, point_count, link_starts, links
         )
-        square, way_x, way_y = _offsets_to_groups(
-            mine, order, starts, reach_m, tile, form, bounds_m, crown_m, segment_starts, segments
+        square, offset_x, offset_y = _offsets_to_groups(
+            own_points_m, order, starts, reach_m, tile, form, bounds_m, crown_m, segment_starts, segments
         )
-        line = np.empty(len(starts), np.int64)
-        for m in range(len(mine)):
+        ranked = np.empty(len(starts), np.int64)
+        for m in range(len(own_points_m)):
             if count + len(starts) > room:
                 room *= 2
-                point, found, way = longer(point), longer(found), longer(way)
-            for at in range(_sort_groups(m, step_m, square, way_x, way_y, line)):
-                g = line[at] % GROUPS_LIMIT
-                point[count], found[count] = point_starts[n] + m, instance[order[starts[g]]]
-                way[count, 0] = np.int8(np.rint(way_x[g, m] / step_m))
-                way[count, 1] = np.int8(np.rint(way_y[g, m] / step_m))
+                point, target, offset = longer(point), longer(target), longer(offset)
+            for n_group in range(_sort_groups(m, step_m, square, offset_x, offset_y, ranked)):
+                g = ranked[n_group] % GROUPS_LIMIT
+                point[count], target[count] = point_starts[n] + m, instance[order[starts[g]]]
+                offset[count, 0] = np.int8(np.rint(offset_x[g, m] / step_m))
+                offset[count, 1] = np.int8(np.rint(offset_y[g, m] / step_m))
                 count += 1
-    return point[:count].copy(), found[:count].copy(), way[:count].copy()
+    return point[:count].copy(), target[:count].copy(), offset[:count].copy()
 
 
 @compiled
-def _sort_groups(m: int, step_m: float, square: Floats, way_x: Floats, way_y: Floats, line: Ints) -> int:
-    """Fill in the groups that a point has a way to, the nearest first: squared steps times MOST_GROUPS, plus number."""
+def _sort_groups(m: int, step_m: float, square: Floats, offset_x: Floats, offset_y: Floats, ranked: Ints) -> int:
+    """Fill in the groups within reach of a point, nearest first, and return how many there are.
+
+    An entry is the squared steps times GROUPS_LIMIT, plus the group.
+    """
     count = 0
     for g in range(len(square)):
         if square[g, m] < 0.0:
             continue
-        x, y = np.rint(way_x[g, m] / step_m), np.rint(way_y[g, m] / step_m)
-        key, at = np.int64(x * x + y * y) * GROUPS_LIMIT + g, count
-        while at > 0 and line[at - 1] > key:
-            line[at] = line[at - 1]
-            at -= 1
-        line[at] = key
+        x, y = np.rint(offset_x[g, m] / step_m), np.rint(offset_y[g, m] / step_m)
+        key, place = np.int64(x * x + y * y) * GROUPS_LIMIT + g, count
+        while place > 0 and ranked[place - 1] > key:
+            ranked[place] = ranked[place - 1]
+            place -= 1
+        ranked[place] = key
         count += 1
     return count
 
@@ -122,9 +126,9 @@ def _offsets_to_groups(
     points_m: Floats, order: Ints, starts: Ints, reach_m: float, tile: Ints, form: Ints, bounds_m: Floats,
     crown_m: Floats, segment_starts: Ints, segments: Steps,
 ) -> tuple[Floats, Floats, Floats]:  # fmt: skip
-    """[G, P] squared distance and way of points from the closest point of groups of pieces; squares -1 beyond reach.
+    """Return the squared distance and offset [G, P] of points from the closest point of each group.
 
-    P is a multiple of LANES; what is beyond the points is of the first one.
+    Squares are -1 beyond reach. P is a multiple of SIMD_LANES; the points are padded with copies of the first.
     """
     points, beyond = len(points_m), reach_m * reach_m
     count = -(-points // SIMD_LANES) * SIMD_LANES
@@ -159,7 +163,7 @@ def _offsets_to_groups(
 
 @compiled
 def _squared_box_distance(bounds_m: Floats, k: int, other_m: Floats) -> float:
-    """The square of how far the box of a piece and another are apart."""
+    """Return the squared distance between the box of a piece and another box."""
     away_x = max(bounds_m[k, 0] - other_m[2], 0.0, other_m[0] - bounds_m[k, 2])
     away_y = max(bounds_m[k, 1] - other_m[3], 0.0, other_m[1] - bounds_m[k, 3])
     square: float = away_x * away_x + away_y * away_y
@@ -170,10 +174,10 @@ def _squared_box_distance(bounds_m: Floats, k: int, other_m: Floats) -> float:
 def _improve_by_segments(
     x: Floats, y: Floats, segments: Steps, first: int, last: int, g: int, best: Floats, best_x: Floats, best_y: Floats
 ) -> None:
-    """Improve the squared distance and the way of points, seen from the middle of a tile, to the nearest segment.
+    """Improve the squared distances and offsets of points, relative to a tile's middle, to the nearest segment.
 
-    Segment by segment, without a branch in the loop over points: so the processor takes several of them at once. The
-    best [G, P] are of a group; slices of arrays would cost as much as the arithmetic.
+    The loop over points has no branch, so that the compiler vectorises it. The arrays [G, P] are of all groups, because
+    slices would cost as much as the arithmetic.
     """
     for s in range(first, last):
         x1, y1, x2, y2 = segments[s, 0] * STEP, segments[s, 1] * STEP, segments[s, 2] * STEP, segments[s, 3] * STEP
@@ -194,7 +198,7 @@ def _improve_by_segments(
 
 @compiled
 def _fill_inside(x: Floats, y: Floats, segments: Steps, first: int, last: int, inside: Floats) -> None:
-    """1 for points that see an odd number of segments in the east, else 0."""
+    """Set 1 for points with an odd number of segments to their east, else 0."""
     for p in range(len(x)):
         inside[p] = ZERO
     for s in range(first, last):
@@ -210,7 +214,7 @@ def _improve_by_crown(
     x: Floats, y: Floats, segments: Steps, first: int, last: int, crown_m: float, g: int, best: Floats, best_x: Floats,
     best_y: Floats,
 ) -> None:  # fmt: skip
-    """As `_improve_by_segments`, to the crown round a tree's trunk, which reaches nearer, as `crown_reach_m`."""
+    """Improve distances and offsets by the crown around a tree's trunk; see `crown_reach_m`."""
     shape = (1, len(x))
     trunk, trunk_x, trunk_y = np.full(shape, INFINITE), np.empty(shape, FLOAT), np.empty(shape, FLOAT)
     _improve_by_segments(x, y, segments, first, last, 0, trunk, trunk_x, trunk_y)

@@ -21,20 +21,20 @@ from models.citymap.types import CutRules, Floats
 from models.processes import map_forked
 from models.spool import spooled
 
-CUBES_PER_TASK = 1024  # cubes a task
-THING = FORMS.index("thing")
+CUBES_PER_TASK = 1024  # cubes that one worker process cuts at a time
+THING = FORMS.index("thing")  # index into FORMS
 TILE_SLACK_M = 1e-3  # by which a piece that fills its tile may stand over
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CubeContents:
-    """What lies in some cubes, piece by piece: P rows in order of cube.
+    """The pieces in some cubes: P rows in order of cube.
 
     Attributes:
         cube, piece: [P].
-        geometry: [P] what of the piece is in the cube.
+        geometry: [P] the part of the piece in the cube.
         bounds_m: [P, 4] its box.
-        point_count: [P] of it.
+        point_count: [P] its share of the piece's points.
     """
 
     cube: Ints
@@ -45,12 +45,12 @@ class CubeContents:
 
     @classmethod
     def cut(cls, table: PieceTable, centers_m: Floats, size_m: float) -> "CubeContents":
-        """Cubes of some size round centres [N, 2 or more]."""
+        """Cut cubes of a size around centres [N, 2 or more]."""
         low, high = centers_m[:, :2] - size_m / 2, centers_m[:, :2] + size_m / 2
         first = np.floor((low + TILE_SLACK_M) / TILE_M + 0.5).astype(np.int64)
         last = np.floor((high - TILE_SLACK_M) / TILE_M + 0.5).astype(np.int64)
         cube, piece = table.in_tiles(first, last)
-        geometry, bounds, worth = (
+        geometry, bounds, point_count = (
             table.geometry(piece),
             table.bounds_m[piece],
             table.point_count[piece].astype(np.float64),
@@ -62,15 +62,15 @@ class CubeContents:
         if len(rows):
             _clip(geometry, rows, cube[rows], low, high)
             before = table.geometry(piece[rows])
-            worth[rows] *= _extent(geometry[rows]) / _extent(before)
+            point_count[rows] *= _extent(geometry[rows]) / _extent(before)
             bounds[rows] = shapely.bounds(geometry[rows])
         below = np.full(len(centers_m), np.inf) if centers_m.shape[1] < 3 else centers_m[:, 2] + size_m / 2
-        kept = ~shapely.is_empty(geometry) & (table.heights_m[piece, 0] <= below[cube])
-        return cls(cube[kept], piece[kept], geometry[kept], bounds[kept], worth[kept])
+        is_inside = ~shapely.is_empty(geometry) & (table.heights_m[piece, 0] <= below[cube])
+        return cls(cube[is_inside], piece[is_inside], geometry[is_inside], bounds[is_inside], point_count[is_inside])
 
 
 def _clip(geometry: Geometries, rows: Ints, cube: Ints, low: Floats, high: Floats) -> None:
-    """Cut some geometries to their cubes, in place; `cube` ascending."""
+    """Clip some geometries to their cubes, in place; `cube` ascends."""
     first = np.flatnonzero(np.diff(cube, prepend=-1))
     for begin, end in zip(first, np.append(first[1:], len(rows)), strict=True):
         n = cube[begin]
@@ -83,7 +83,7 @@ def _extent(geometry: Geometries) -> Floats:
 
 
 def connected_pieces(table: PieceTable, cube: Ints, piece: Ints, is_linked: npt.NDArray[np.bool_]) -> Ints:
-    """[P] number of what each piece of some cubes is part of there, by the links of those that may have any.
+    """Return the number [P] of the connected group of each piece in its cube.
 
     Args:
         table: all pieces.
@@ -94,11 +94,11 @@ def connected_pieces(table: PieceTable, cube: Ints, piece: Ints, is_linked: npt.
     key = cube.astype(np.int64) * len(table.instance) + piece
     rows = np.flatnonzero(is_linked)
     begin, end = table.link_starts[piece[rows]], table.link_starts[piece[rows] + 1]
-    one = np.repeat(rows, end - begin)
-    wanted = cube[one].astype(np.int64) * len(table.instance) + table.links[ranges(begin, end)]
-    other = np.minimum(np.searchsorted(key, wanted), len(key) - 1)
-    here = (key[other] == wanted) & is_linked[other] if len(key) else np.zeros(0, np.bool_)
-    graph = coo_array((np.ones(here.sum()), (one[here], other[here])), shape=(len(key),) * 2)
+    source = np.repeat(rows, end - begin)
+    wanted = cube[source].astype(np.int64) * len(table.instance) + table.links[ranges(begin, end)]
+    target = np.minimum(np.searchsorted(key, wanted), len(key) - 1)
+    is_in_cube = (key[target] == wanted) & is_linked[target] if len(key) else np.zeros(0, np.bool_)
+    graph = coo_array((np.ones(is_in_cube.sum()), (source[is_in_cube], target[is_in_cube])), shape=(len(key),) * 2)
     number: Ints = connected_components(graph, directed=False)[1]
     return number
 
@@ -111,7 +111,7 @@ def cut_pieces(
     progress: Callable[[int, int], None] | None = None,
     least: int = 0,
 ) -> PartTable:
-    """What lies in the cubes around some centres; arguments and return as `models.citymap.cells.cut_cubes`.
+    """Cut the cubes around some centres; see `models.citymap.cells.cut_cubes`.
 
     Args:
         table: the map's pieces.
@@ -139,13 +139,13 @@ def cut_pieces(
             if progress:
                 progress(done, len(centers_m))
 
-    found = spooled(columns())
-    return PartTable(starts=np.concatenate([[0], np.cumsum(found.pop("sizes"))]), **found)
+    columns_of_all = spooled(columns())
+    return PartTable(starts=np.concatenate([[0], np.cumsum(columns_of_all.pop("sizes"))]), **columns_of_all)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InstanceTotals:
-    """Things, which are kept whole: [I] sums over all pieces of each instance; of stuff they mean nothing.
+    """Sums over all pieces of each instance, for things, which are kept whole.
 
     Attributes:
         point_count: [I].
@@ -157,24 +157,24 @@ class InstanceTotals:
 
     @classmethod
     def from_pieces(cls, table: PieceTable) -> "InstanceTotals":
-        """Of all instances of a table."""
+        """Sum up all instances of a table."""
         count = int(table.instance.max()) + 1
         bounds = np.full((count, 4), np.inf) * [1, 1, -1, -1]
         np.minimum.at(bounds[:, :2], table.instance, table.bounds_m[:, :2])
         np.maximum.at(bounds[:, 2:], table.instance, table.bounds_m[:, 2:])
-        worth = np.bincount(table.instance, table.point_count, count).astype(np.float64)
-        return cls(worth, bounds)
+        point_count = np.bincount(table.instance, table.point_count, count).astype(np.float64)
+        return cls(point_count, bounds)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _PartGroups:
-    """The parts of some cubes as groups of pieces.
+    """The parts in some cubes as groups of pieces.
 
     Attributes:
         cubes: the pieces.
-        order: [P'] rows of `cubes`, those of a group one after the other; groups by cube, things first, then instance.
+        order: [P'] rows of `cubes`, group after group; groups by cube, things first, then instance.
         starts: [G] where in `order` each group begins.
-        is_kept: [G] whether the cube has it.
+        is_kept: [G] whether the group is large enough to be a part.
     """
 
     cubes: CubeContents
@@ -184,7 +184,7 @@ class _PartGroups:
 
     @classmethod
     def cut(cls, table: PieceTable, whole: InstanceTotals, rules: CutRules, centers: Floats) -> "_PartGroups":
-        """What lies in the cubes around centres."""
+        """Cut the cubes around centres."""
         cubes = CubeContents.cut(table, centers, rules.cell_size_m)
         is_thing = table.form[cubes.piece] == THING
         instance = table.instance[cubes.piece].astype(np.int64)
@@ -192,15 +192,15 @@ class _PartGroups:
         group = np.where(is_thing, -1 - cubes.cube * len(whole.point_count) - instance, hanging)
         order = np.lexsort((group, instance, ~is_thing, cubes.cube))
         starts = np.flatnonzero(np.diff(group[order], prepend=group[order[:1]] - 1))
-        worth = np.add.reduceat(cubes.point_count[order], starts) if len(starts) else np.zeros(0)
+        point_count = np.add.reduceat(cubes.point_count[order], starts) if len(starts) else np.zeros(0)
         first = order[starts]
         share = rules.thing_share * whole.point_count[instance[first]]
-        kept = worth >= np.where(is_thing[first], share, rules.min_part_points)
-        return cls(cubes, order, starts, kept)
+        is_kept = point_count >= np.where(is_thing[first], share, rules.min_part_points)
+        return cls(cubes, order, starts, is_kept)
 
 
 def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, least: int, centers: Floats) -> PartTable:
-    """Parts without colours of some cubes."""
+    """Cut some cubes; the colours are left out."""
     grouped = _PartGroups.cut(table, whole, rules, centers)
     cubes, order, starts = grouped.cubes, grouped.order, grouped.starts
     if not grouped.is_kept.any():
@@ -228,14 +228,14 @@ def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, least:
         low_m=np.column_stack([box[:, :2], base])[rows].astype(np.float32),
         high_m=np.column_stack([box[:, 2:], top])[rows].astype(np.float32),
         closest_m=np.column_stack([closest, np.clip(centers[cube, 2], base, top)])[rows].astype(np.float32),
-        rgb=np.zeros((0, 3), np.float32),  # of the instances, which all chunks have
+        rgb=np.zeros((0, 3), np.float32),  # `cut_pieces` adds the colours of the instances
     )
 
 
 def _cut_one_of_many(
     table: PieceTable, whole: InstanceTotals, rules: CutRules, least: int, centers: Floats
 ) -> PartTable:
-    """As `_cut_chunk`, where the next ones need other pieces."""
+    """Cut some cubes as `_cut_chunk`; the next chunk needs other pieces."""
     parts = _cut_chunk(table, whole, rules, least, centers)
     table.forget()
     return parts
@@ -244,7 +244,7 @@ def _cut_one_of_many(
 def sample_pieces(
     table: PieceTable, instance_rgb: Floats, shapes: Sequence[str], centers_m: Floats, rules: CutRules
 ) -> Floats:
-    """[R, 256, 6] points of the parts of cubes around some centres, in order of `PartTable`.
+    """Return sampled points [R, 256, 6] of the parts in cubes around some centres, in order of `PartTable`.
 
     Args:
         table: the map's pieces.
@@ -263,22 +263,22 @@ def sample_pieces(
 
 
 def scan_pieces(table: PieceTable, shapes: Sequence[str], centers_m: Floats, rules: CutRules) -> Floats:
-    """[R, 3] float32 point of each part that is nearest to the centre, of those that a scan has.
+    """Return the point [R, 3] (float32) of each part that is nearest to the centre, among the points a scan would have.
 
-    Arguments and order as `sample_pieces`. A scan's points lie apart: the nearest is off by up to some metres along an
-    edge that is far away, as is what a passer-by takes for it.
+    Arguments and order as `sample_pieces`. The points of a scan lie apart, so the nearest is off by up to some metres
+    along a far edge.
     """
     grouped = _PartGroups.cut(table, InstanceTotals.from_pieces(table), rules, centers_m.astype(np.float64))
-    found = [np.zeros((0, 3))]
+    closest = [np.zeros((0, 3))]
     for cube, _, xyz in _sample_parts(table, shapes, grouped):
-        found.append(xyz[np.argmin(((xyz - centers_m[cube]) ** 2).sum(axis=1))][None])
-    return np.concatenate(found).astype(np.float32)
+        closest.append(xyz[np.argmin(((xyz - centers_m[cube]) ** 2).sum(axis=1))][None])
+    return np.concatenate(closest).astype(np.float32)
 
 
 def _sample_parts(table: PieceTable, shapes: Sequence[str], grouped: _PartGroups) -> Iterator[tuple[int, int, Floats]]:
-    """Of each part of some cubes the cube, the instance and [P, 3] points on it, metres."""
+    """Yield the cube, the instance and points [P, 3] in metres of each part in some cubes."""
     for rows in [
-        r for r, kept in zip(np.split(grouped.order, grouped.starts[1:]), grouped.is_kept, strict=True) if kept
+        r for r, is_kept in zip(np.split(grouped.order, grouped.starts[1:]), grouped.is_kept, strict=True) if is_kept
     ]:
         piece = grouped.cubes.piece[rows]
         instance, solids = int(table.instance[piece[0]]), []
@@ -290,15 +290,15 @@ def _sample_parts(table: PieceTable, shapes: Sequence[str], grouped: _PartGroups
         yield int(grouped.cubes.cube[rows[0]]), instance, xyz
 
 
-def _closest_points(geometry: Geometries, centers: Floats, new: Ints) -> Floats:
-    """[G, 2] point nearest to the centre, of groups of geometries that begin at some rows."""
+def _closest_points(geometry: Geometries, centers: Floats, starts: Ints) -> Floats:
+    """Return the point [G, 2] nearest to the centre of each group of geometries; groups begin at `starts`."""
     lines = shapely.shortest_line(shapely.points(centers[:, :2]), geometry)
     metres = shapely.length(lines)
-    least = np.minimum.reduceat(metres, new)
-    sizes = np.diff(np.append(new, len(metres)))
+    least = np.minimum.reduceat(metres, starts)
+    sizes = np.diff(np.append(starts, len(metres)))
     best = np.flatnonzero(metres == np.repeat(least, sizes))
-    of = np.repeat(np.arange(len(new)), sizes)[best]
-    first = best[np.diff(of, prepend=-1) != 0]
+    group = np.repeat(np.arange(len(starts)), sizes)[best]
+    first = best[np.diff(group, prepend=-1) != 0]
     ends: Floats = shapely.get_coordinates(lines[first]).reshape(-1, 2, 2)[:, 1]
     return ends
 

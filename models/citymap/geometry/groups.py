@@ -1,4 +1,4 @@
-"""Which pieces of a map count as one thing around a cell: those that hang together there, compiled."""
+"""Group the pieces around a cell that are connected there, in machine code."""
 
 from typing import Final
 
@@ -15,7 +15,7 @@ THING: Final = FORMS.index("thing")
 
 @compiled
 def pieces_near(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts: Ints) -> tuple[Ints, Ints]:
-    """(pieces, runs) in tiles within reach of some points, ascending; runs [R, 3]: first, end, place of the first."""
+    """Return the pieces in tiles within reach of points, and runs [R, 3]: first, end, position of the first."""
     first, last = np.empty(2, np.int64), np.empty(2, np.int64)
     for axis in range(2):
         first[axis] = max(np.floor((points_m[:, axis].min() - reach_m) / TILE_M + 0.5) - low[axis], 0)
@@ -36,7 +36,7 @@ def pieces_near(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_s
 
 @compiled
 def _position(piece: int, runs: Ints) -> int:
-    """Where a piece is among those of `pieces_near`; -1 if it is not."""
+    """Return the position of a piece among those of `pieces_near`, -1 if it is not among them."""
     for r in range(len(runs)):
         if runs[r, 0] <= piece < runs[r, 1]:
             place: int = runs[r, 2] + piece - runs[r, 0]
@@ -47,9 +47,9 @@ def _position(piece: int, runs: Ints) -> int:
 @compiled
 def group_pieces(
     pieces: Ints, runs: Ints, center_m: Floats, half_m: float, least: float, tile: Ints, instance: Ints, form: Ints,
-    worth: Floats, link_starts: Ints, links: Ints,
+    point_count: Floats, link_starts: Ints, links: Ints,
 ) -> tuple[Ints, Ints]:  # fmt: skip
-    """(pieces by group, where each group begins and, last, their number) of what counts around a cell."""
+    """Return the pieces around a cell by group, and where each group begins (and the last ends)."""
     count = len(pieces)
     kind = np.empty(count, np.int64)  # 0 for what is in the cube, 1 for what is beside it, 2 for things
     first, last = np.floor((center_m - half_m) / TILE_M + 0.5), np.floor((center_m + half_m) / TILE_M + 0.5)
@@ -61,7 +61,7 @@ def group_pieces(
     size, total = np.zeros(count, np.int64), np.zeros(count)
     for p in range(count):
         size[group[p]] += 1
-        total[group[p]] += worth[pieces[p]]
+        total[group[p]] += point_count[pieces[p]]
     place, pieces_kept, groups_kept = np.full(count, -1, np.int64), 0, 0
     starts = np.empty(count + 1, np.int64)
     for g in range(count):
@@ -81,34 +81,34 @@ def group_pieces(
 
 @compiled
 def _is_counted(g: int, size: Ints, total: Floats, least: float, kind: Ints, pieces: Ints, instance: Ints) -> bool:
-    """Whether a group is large enough, a thing, or all that there is of its instance."""
+    """Whether a group is large enough, a thing, or the only group of its instance."""
     if total[g] >= least or kind[g] == 2:
         return True
-    for other in range(len(size)):
-        if other != g and size[other] and instance[pieces[other]] == instance[pieces[g]]:
+    for another in range(len(size)):
+        if another != g and size[another] and instance[pieces[another]] == instance[pieces[g]]:
             return False
     return True
 
 
 @compiled
 def _connect(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: Ints, links: Ints) -> Ints:
-    """[P] the first piece of what each hangs together with; what is beside a cube with what it goes on in."""
+    """Return the first piece [P] of each piece's group; pieces beside the cube join the group that they continue."""
     count = len(pieces)
     parent = np.arange(count)
-    things, thing, seen = np.empty(count, np.int64), np.empty(count, np.int64), 0
+    things, thing, count_things = np.empty(count, np.int64), np.empty(count, np.int64), 0
     for p in range(count):
         if kind[p] == 2:
-            mine = instance[pieces[p]]
-            for t in range(seen):
-                if thing[t] == mine:
+            own = instance[pieces[p]]
+            for t in range(count_things):
+                if thing[t] == own:
                     parent[p] = things[t]
                     break
             if parent[p] == p:
-                things[seen], thing[seen] = p, mine
-                seen += 1
+                things[count_things], thing[count_things] = p, own
+                count_things += 1
             continue
-        for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
-            q = _position(other, runs)
+        for linked in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
+            q = _position(linked, runs)
             if q >= 0 and kind[q] == kind[p]:
                 a, b = _root(parent, p), _root(parent, q)
                 parent[max(a, b)] = min(a, b)
@@ -116,8 +116,8 @@ def _connect(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: 
     for p in range(count):
         if kind[p] != 1:
             continue
-        for other in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
-            q = _position(other, runs)
+        for linked in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
+            q = _position(linked, runs)
             if q >= 0 and kind[q] == 0:
                 inside[_root(parent, p)] = _root(parent, q)
     group = np.empty(count, np.int64)
@@ -130,7 +130,7 @@ def _connect(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: 
 
 @compiled
 def _number_by_first(group: Ints) -> Ints:
-    """Groups by the first piece of each."""
+    """Number groups by their first piece."""
     first = np.full(len(group), -1, np.int64)
     named = np.empty(len(group), np.int64)
     for p in range(len(group)):

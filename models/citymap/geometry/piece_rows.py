@@ -1,4 +1,4 @@
-"""The pieces of a map's solids as they are cut, a band of tiles at a time."""
+"""Cut the solids of a map into pieces, a band of tiles at a time."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
@@ -27,12 +27,12 @@ TILE_COLUMNS_PER_BAND: Final = 24  # columns of tiles that are cut together
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PieceRows:
-    """Pieces, K rows in order of tile; see `PieceTable`.
+    """K pieces in order of tile; see `PieceTable`.
 
     Attributes:
         column, row: [K] tile.
         instance, form, dimension, bounds_m, heights_m, crown_m, point_count: as of the table.
-        sizes: [K] segments of each.
+        sizes: [K] number of segments.
         segments: [S, 4] of all.
     """
 
@@ -49,12 +49,12 @@ class PieceRows:
     segments: Steps
 
     @classmethod
-    def concatenate(cls, some: Sequence["PieceRows"]) -> "PieceRows":
-        """All of some, one after the other."""
-        return cls(*(np.concatenate([getattr(rows, f.name) for rows in some]) for f in fields(cls)))
+    def concatenate(cls, tables: Sequence["PieceRows"]) -> "PieceRows":
+        """Concatenate tables."""
+        return cls(*(np.concatenate([getattr(rows, f.name) for rows in tables]) for f in fields(cls)))
 
     def take(self, order: Ints) -> "PieceRows":
-        """Some of them, in the given order."""
+        """Return the given rows, in their order."""
         ends = np.cumsum(self.sizes)[order]
         columns = {f.name: getattr(self, f.name)[order] for f in fields(self) if f.name != "segments"}
         return replace(self, **columns, segments=self.segments[ranges(ends - self.sizes[order], ends)])
@@ -62,10 +62,10 @@ class PieceRows:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _SolidArrays:
-    """N solids of one form.
+    """N solids of one form, in columns.
 
     Attributes:
-        first, last: [N] columns of tiles that each reaches over.
+        first, last: [N] columns of tiles that each spans.
     """
 
     form: int
@@ -80,44 +80,44 @@ class _SolidArrays:
 
     @classmethod
     def from_solids(cls, solids: Sequence[Solid], form: Form) -> "_SolidArrays":
-        some = [solid for solid in solids if solid.form == form]
-        geometry = np.empty(len(some), dtype=object)
-        geometry[:] = [solid.geometry for solid in some]
+        chosen = [solid for solid in solids if solid.form == form]
+        geometry = np.empty(len(chosen), dtype=object)
+        geometry[:] = [solid.geometry for solid in chosen]
         return cls(
             FORMS.index(form),
             geometry,
             *tile_span(shapely.bounds(geometry)[:, [0, 2]]),
-            np.array([solid.instance for solid in some], dtype=np.int64),
-            np.array([(solid.base_m, solid.top_m) for solid in some]).reshape(-1, 2),
-            np.array([solid.radius_m for solid in some]),
-            np.array([solid.crown_m for solid in some]),
-            np.array([solid.point_density for solid in some]),
+            np.array([solid.instance for solid in chosen], dtype=np.int64),
+            np.array([(solid.base_m, solid.top_m) for solid in chosen]).reshape(-1, 2),
+            np.array([solid.radius_m for solid in chosen]),
+            np.array([solid.crown_m for solid in chosen]),
+            np.array([solid.point_density for solid in chosen]),
         )
 
-    def build_rows(self, column: Ints, row: Ints, of: Ints, pieces: Geometries, size: Floats) -> PieceRows:
-        """Pieces of these; `of` [K] says of which, and their worth grows with their size."""
+    def build_rows(self, column: Ints, row: Ints, solid: Ints, pieces: Geometries, size: Floats) -> PieceRows:
+        """Build rows from pieces [K] of the solids `solid` [K]; points grow with the size of a piece."""
         starts, segments = to_segments(pieces, np.stack([column, row], axis=1))
-        bounds = shapely.bounds(pieces) + self.radius_m[of, None] * [-1, -1, 1, 1]
+        bounds = shapely.bounds(pieces) + self.radius_m[solid, None] * [-1, -1, 1, 1]
         return PieceRows(
             column.astype(np.int32),
             row.astype(np.int32),
-            self.instance[of].astype(np.int32),
-            np.full(len(of), self.form, np.int8),
+            self.instance[solid].astype(np.int32),
+            np.full(len(solid), self.form, np.int8),
             shapely.get_dimensions(pieces).astype(np.int8),
             bounds.astype(np.float32),
-            self.heights_m[of].astype(np.float32),
-            self.crown_m[of].astype(np.float32),
-            (self.point_density[of] * size).astype(np.float32),
+            self.heights_m[solid].astype(np.float32),
+            self.crown_m[solid].astype(np.float32),
+            (self.point_density[solid] * size).astype(np.float32),
             np.diff(starts).astype(np.int32),
             segments,
         )
 
 
 def cut_band(solids: Sequence[Solid], band: TileSpan) -> PieceRows:
-    """The pieces of solids in some columns of tiles, in order of tile, then instance.
+    """Cut solids into pieces in some columns of tiles; return them in order of tile, then instance.
 
     Args:
-        solids: all that reach into these columns, and maybe others. Of areas, what has the least number covers others;
+        solids: all that reach into these columns, and maybe others. The area with the lowest number covers others;
             solids of one instance of areas or lines have the same heights.
         band: the columns.
     """
@@ -126,41 +126,43 @@ def cut_band(solids: Sequence[Solid], band: TileSpan) -> PieceRows:
     return rows.take(np.lexsort((rows.instance, rows.row, rows.column)))
 
 
-def _cut_stuff(chosen: _SolidArrays, band: TileSpan) -> PieceRows:
-    """Pieces of areas (of what nothing covers) or of lines, each with what hangs together in a tile."""
-    column, row, of, geometry = _join_in_tiles(chosen, band)
-    is_area = FORMS[chosen.form] == "area"
+def _cut_stuff(solids: _SolidArrays, band: TileSpan) -> PieceRows:
+    """Return the pieces of lines or of the uncovered parts of areas: one for each connected group in a tile."""
+    column, row, solid, geometry = _join_in_tiles(solids, band)
+    is_area = FORMS[solids.form] == "area"
     of_piece, pieces = split_connected(geometry, 2 if is_area else 1)
     size = shapely.area(pieces) if is_area else shapely.length(pieces)
-    return chosen.build_rows(column[of_piece], row[of_piece], of[of_piece], pieces, size)
+    return solids.build_rows(column[of_piece], row[of_piece], solid[of_piece], pieces, size)
 
 
-def _cut_things(chosen: _SolidArrays, band: TileSpan) -> PieceRows:
-    """Pieces of things, which are whole: each tile's part is worth its share."""
-    cut = clip_to_tiles(chosen.geometry, ALL_TILES)
+def _cut_things(solids: _SolidArrays, band: TileSpan) -> PieceRows:
+    """Return the pieces of things, which are kept whole: each tile's piece has its share of the points."""
+    cut = clip_to_tiles(solids.geometry, ALL_TILES)
     geometry = snap(cut.geometry)
-    kept = ~shapely.is_empty(geometry)
-    of, geometry = cut.feature[kept], geometry[kept]
+    is_left = ~shapely.is_empty(geometry)
+    solid, geometry = cut.feature[is_left], geometry[is_left]
     length = shapely.length(geometry)
     size = np.where(length > 0, length, 1.0)  # 1 of points
-    share = size / np.bincount(of, size, len(chosen.geometry))[of]
-    column, row = cut.column[kept], cut.row[kept]
-    here = (column >= band[0]) & (column < band[1])
-    return chosen.build_rows(column[here], row[here], of[here], geometry[here], share[here])
+    share = size / np.bincount(solid, size, len(solids.geometry))[solid]
+    column, row = cut.column[is_left], cut.row[is_left]
+    is_in_band = (column >= band[0]) & (column < band[1])
+    return solids.build_rows(
+        column[is_in_band], row[is_in_band], solid[is_in_band], geometry[is_in_band], share[is_in_band]
+    )
 
 
-def _join_in_tiles(chosen: _SolidArrays, band: TileSpan) -> tuple[Ints, Ints, Ints, Geometries]:
-    """(column, row, a solid, geometry) of each instance in each tile; of areas, what nothing covers."""
-    # Of others no geometry is looked at: a process that does so has a copy of it.
-    rows = np.flatnonzero((chosen.first < band[1]) & (chosen.last >= band[0]))
-    cut = clip_to_tiles(chosen.geometry[rows], band)
-    of = rows[cut.feature]
-    order = np.lexsort((chosen.instance[of], cut.row, cut.column))
-    column, row, of, geometry = cut.column[order], cut.row[order], of[order], cut.geometry[order]
+def _join_in_tiles(solids: _SolidArrays, band: TileSpan) -> tuple[Ints, Ints, Ints, Geometries]:
+    """Return (column, row, a solid, geometry) of each instance in each tile; of areas, the uncovered parts."""
+    # Do not touch other geometries: a worker process would copy their memory.
+    rows = np.flatnonzero((solids.first < band[1]) & (solids.last >= band[0]))
+    cut = clip_to_tiles(solids.geometry[rows], band)
+    solid = rows[cut.feature]
+    order = np.lexsort((solids.instance[solid], cut.row, cut.column))
+    column, row, solid, geometry = cut.column[order], cut.row[order], solid[order], cut.geometry[order]
     new = (np.diff(column, prepend=column[:1] - 1) != 0) | (np.diff(row, prepend=0) != 0)
     tile = np.cumsum(new) - 1
-    group = np.cumsum(new | (np.diff(chosen.instance[of], prepend=-1) != 0)) - 1
-    at, joined = join_pieces(group, geometry)
-    if FORMS[chosen.form] == "area":
-        joined = subtract_covers(tile[at], joined)
-    return column[at], row[at], of[at], snap(joined)
+    group = np.cumsum(new | (np.diff(solids.instance[solid], prepend=-1) != 0)) - 1
+    first, joined = join_pieces(group, geometry)
+    if FORMS[solids.form] == "area":
+        joined = subtract_covers(tile[first], joined)
+    return column[first], row[first], solid[first], snap(joined)

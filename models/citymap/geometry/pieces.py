@@ -1,4 +1,4 @@
-"""The table of pieces: what of each instance of a map lies in each tile, and which pieces hang together."""
+"""The table of pieces: the part of each instance in each tile, and which pieces are connected."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -19,10 +19,10 @@ from models.compiled import compiled
 from models.processes import map_forked
 from models.spool import forget, in_turn, spooled, starts_of
 
-PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometry is put together for a moment
-TILE_COLUMNS_PER_BLOCK: Final = 64  # of tiles whose pieces are linked together
-TILE_EDGE_STEPS: Final = round(TILE_M / 2 / STEP_M)  # of a tile, in steps from its middle
-THING: Final = FORMS.index("thing")
+PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometries are built at a time, to bound memory
+TILE_COLUMNS_PER_BLOCK: Final = 64  # columns of tiles whose pieces are linked together
+TILE_EDGE_STEPS: Final = round(TILE_M / 2 / STEP_M)  # from the middle of a tile to its edge
+THING: Final = FORMS.index("thing")  # index into FORMS
 _STORED_NAMES: Final = {"point_count": "worth"}  # fields whose column has another name in an index
 _FIELD_NAMES: Final = {stored: name for name, stored in _STORED_NAMES.items()}
 
@@ -32,17 +32,18 @@ class PieceTable:
     """K pieces, in order of tile, then instance.
 
     Attributes:
-        low: [2] column and row of the first tile, shape: [2] how many there are.
+        low: [2] column and row of the first tile.
+        shape: [2] number of columns and rows.
         tile_starts: [columns * rows + 1] tile (c, r) has the pieces tile_starts[c * rows + r] to the next.
         instance: [K] int32.
         form: [K] index into FORMS.
         dimension: [K] int8 of its geometry: 0 for points, 1 for lines, 2 for areas.
         bounds_m: [K, 4] float32 its box, metres, map frame.
         heights_m: [K, 2] float32 base and top.
-        crown_m: [K] float32 radius of a tree's crown, 0 for what has none.
-        point_count: [K] float32 points that a sensor would see of it.
+        crown_m: [K] float32 radius of a tree's crown, 0 for others.
+        point_count: [K] float32 points that a scanner would measure on it.
         segment_starts: [K + 1] int32, segments: [S, 4] int16 its lines and rings, see `to_segments`.
-        link_starts: [K + 1], links: piece k hangs together with links[link_starts[k]:link_starts[k + 1]].
+        link_starts: [K + 1], links: piece k is connected with links[link_starts[k]:link_starts[k + 1]].
     """
 
     low: Ints
@@ -62,7 +63,7 @@ class PieceTable:
 
     @classmethod
     def from_solids(cls, solids: Sequence[Solid]) -> "PieceTable":
-        """The pieces of some solids."""
+        """Cut solids into pieces."""
         columns = np.stack(tile_span(shapely.bounds([solid.geometry for solid in solids])[:, [0, 2]]), axis=1)
         bands = [
             (low, low + TILE_COLUMNS_PER_BAND)
@@ -72,7 +73,7 @@ class PieceTable:
 
     @classmethod
     def from_bands(cls, bands: Iterable[PieceRows]) -> "PieceTable":
-        """The pieces of all solids of a map, which are laid down on disk.
+        """Build the table of a whole map, in columns on disk.
 
         Args:
             bands: of `cut_band`, from west to east; at least one has pieces.
@@ -87,8 +88,10 @@ class PieceTable:
             low, shape, tile_starts, segment_starts=segment_starts, link_starts=starts_of(links["sizes"]),
             links=links["links"], **columns,
         )  # fmt: skip
-        at = ({"tile": np.stack([some["column"], some["row"]], 1)} for some in in_turn({"column": column, "row": row}))
-        table.__dict__["tile"] = spooled(at)["tile"]  # on disk, before anybody has it made in memory
+        tiles = (
+            {"tile": np.stack([block["column"], block["row"]], 1)} for block in in_turn({"column": column, "row": row})
+        )
+        table.__dict__["tile"] = spooled(tiles)["tile"]  # on disk, before the property makes it in memory
         table.forget()
         return table
 
@@ -106,83 +109,85 @@ class PieceTable:
         forget(column for column in vars(self).values() if isinstance(column, np.ndarray))
 
     def renumber_instances(self, numbers: Ints) -> "PieceTable":
-        """The same, of instances that have other numbers: each is now its place among these [I], ascending."""
-        some = (some["instance"] for some in in_turn({"instance": self.instance}))
-        table = replace(self, **spooled({"instance": np.searchsorted(numbers, n).astype(np.int32)} for n in some))
-        table.__dict__["tile"] = self.tile  # where they are stays the same
+        """Return the table with instances numbered by their place among `numbers` [I], ascending."""
+        blocks = (block["instance"] for block in in_turn({"instance": self.instance}))
+        table = replace(
+            self, **spooled({"instance": np.searchsorted(numbers, block).astype(np.int32)} for block in blocks)
+        )
+        table.__dict__["tile"] = self.tile  # the tiles stay the same
         return table
 
     def geometry(self, pieces: Ints) -> Geometries:
-        """[n] of some pieces, metres, map frame; put together once of each, however often it is asked for."""
+        """Return the geometries [n] of some pieces, metres, map frame; a repeated piece is built once."""
         known, which = np.unique(pieces, return_inverse=True)
         return to_geometry(self.segment_starts, self.segments, self.tile, self.dimension, known)[which]
 
     def in_tiles(self, first: Ints, last: Ints) -> tuple[Ints, Ints]:
-        """The pieces in rectangles of tiles.
+        """Return the pieces in rectangles of tiles.
 
         Args:
             first: [n, 2] column and row of their first corners.
-            last: [n, 2] the same of the last, which are within.
+            last: [n, 2] column and row of their last corners, inclusive.
 
         Returns:
-            [P] which rectangle, ascending, and [P] which piece, ascending in it.
+            [P] rectangle, ascending, and [P] piece, ascending in each rectangle.
         """
         first = np.maximum(first - self.low, 0)
         last = np.minimum(last - self.low, self.shape - 1)
         columns = np.maximum(last[:, 0] - first[:, 0] + 1, 0)
-        of = np.repeat(np.arange(len(first)), columns)
+        rectangle = np.repeat(np.arange(len(first)), columns)
         column = ranges(first[:, 0], first[:, 0] + columns) * self.shape[1]
-        begin = self.tile_starts[column + np.minimum(first[of, 1], self.shape[1])]
-        end = np.maximum(begin, self.tile_starts[column + np.maximum(last[of, 1] + 1, 0)])
-        return np.repeat(of, end - begin), ranges(begin, end)
+        begin = self.tile_starts[column + np.minimum(first[rectangle, 1], self.shape[1])]
+        end = np.maximum(begin, self.tile_starts[column + np.maximum(last[rectangle, 1] + 1, 0)])
+        return np.repeat(rectangle, end - begin), ranges(begin, end)
 
     @cached_property
     def tile(self) -> Ints:
-        """[K, 2] int32, column and row of each piece's tile."""
+        """Return the column and row [K, 2] (int32) of each piece's tile."""
         tile: Ints = _tiles(self.tile_starts, self.low, self.shape)
         return tile
 
     def ground_lattice(self, pieces: Ints, spacing_m: float) -> Floats:
-        """[n, 3] float32 places on the ground of areas, one a square block of which a corner or a middle is inside.
+        """Return positions [n, 3] (float32) in areas, one in each square block with a corner or middle inside.
 
         Args:
             pieces: rows of the areas, ascending.
             spacing_m: edge of the blocks.
         """
-        places: Floats = spooled({"m": some} for some in self._lattice_batches(pieces, spacing_m))["m"]
+        places: Floats = spooled({"m": block} for block in self._lattice_batches(pieces, spacing_m))["m"]
         return places
 
     def _lattice_batches(self, pieces: Ints, spacing_m: float) -> Iterator[Floats]:
-        """See `lattice`."""
+        """Yield the positions of `ground_lattice`, some pieces at a time."""
         yield np.zeros((0, 3), np.float32)
-        seen = np.zeros(0, np.int64)
+        emitted = np.zeros(0, np.int64)
         for n in range(0, len(pieces), PIECES_PER_BLOCK):
-            some = pieces[n : n + PIECES_PER_BLOCK]
-            xy = thin_to_spacing(self._lattice_inside(some, spacing_m), spacing_m)
+            batch = pieces[n : n + PIECES_PER_BLOCK]
+            xy = thin_to_spacing(self._lattice_inside(batch, spacing_m), spacing_m)
             block = block_keys(xy, spacing_m)
-            new = ~np.isin(block, seen)
+            new = ~np.isin(block, emitted)
             yield np.column_stack([xy[new], np.zeros(new.sum())]).astype(np.float32)
-            column_m = (self.tile[some[-1], 0] - 0.5) * TILE_M - spacing_m  # what is west of it does not come again
-            seen = np.concatenate([seen, block[new]])
-            seen = seen[seen >= block_keys(np.array([[column_m, -BEYOND_MAP_M]]), spacing_m)[0]]
+            column_m = (self.tile[batch[-1], 0] - 0.5) * TILE_M - spacing_m  # no later piece lies west of it
+            emitted = np.concatenate([emitted, block[new]])
+            emitted = emitted[emitted >= block_keys(np.array([[column_m, -BEYOND_MAP_M]]), spacing_m)[0]]
 
     def _lattice_inside(self, pieces: Ints, spacing_m: float) -> Floats:
-        """[n, 2] corners and middles of blocks that are inside some areas."""
+        """Return the corners and middles [n, 2] of blocks that are inside some areas."""
         step_m = spacing_m / 2
         low, high = (np.floor(self.bounds_m[pieces, axis : axis + 2] / step_m).astype(np.int64) + 1 for axis in (0, 2))
         across, along = (np.maximum(high - low, 0)).T
-        of = np.repeat(np.arange(len(pieces)), across * along)
+        area = np.repeat(np.arange(len(pieces)), across * along)
         nth = ranges(np.zeros(len(pieces), np.int64), across * along)
-        xy = np.stack([low[of, 0] + nth // along[of], low[of, 1] + nth % along[of]], axis=1) * step_m
+        xy = np.stack([low[area, 0] + nth // along[area], low[area, 1] + nth % along[area]], axis=1) * step_m
         areas = self.geometry(pieces)
         shapely.prepare(areas)
-        found: Floats = xy[shapely.contains_xy(areas[of], *xy.T)]
-        return found
+        inside: Floats = xy[shapely.contains_xy(areas[area], *xy.T)]
+        return inside
 
 
 @compiled
 def _tiles(tile_starts: Ints, low: Ints, shape: Ints) -> Ints:
-    """See `PieceTable.tile`."""
+    """Return the tile of each piece; see `PieceTable.tile`."""
     tile = np.empty((tile_starts[-1], 2), np.int32)
     for number in range(len(tile_starts) - 1):
         column, row = low[0] + number // shape[1], low[1] + number % shape[1]
@@ -193,7 +198,7 @@ def _tiles(tile_starts: Ints, low: Ints, shape: Ints) -> Ints:
 
 @compiled
 def _pieces_per_tile(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
-    """[columns * rows] how many pieces each tile has."""
+    """Return the number of pieces [columns * rows] of each tile."""
     count = np.zeros(shape[0] * shape[1], np.int64)
     for k in range(len(columns)):
         count[(columns[k] - low[0]) * shape[1] + rows[k] - low[1]] += 1
@@ -203,34 +208,34 @@ def _pieces_per_tile(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
 def _find_links(
     column: Ints, row: Ints, starts: Ints, columns: Mapping[str, npt.NDArray[Any]]
 ) -> Iterator[dict[str, Ints]]:
-    """CSR of pairs of pieces of one instance that touch across the border of two tiles, some columns at a time.
+    """Yield links between pieces of one instance that touch across the border of two tiles, some columns at a time.
 
     Args:
         column: [K] of each piece's tile, ascending.
-        row: [K] likewise.
+        row: [K] of each piece's tile.
         starts: [K + 1] of the pieces' segments.
         columns: of the table.
 
     Yields:
-        "sizes", how many links each of the next pieces has, and "links".
+        "sizes", the number of links of each of the next pieces, and "links".
     """
     instance, dimension, form, segments = (columns[name] for name in ("instance", "dimension", "form", "segments"))
     count, known, pending = len(column), 0, np.zeros(0, np.int64)
     rows = range(int(row.min()), int(row.max()) + 2)
     for first in range(int(column[0]), int(column[-1]) + 2, TILE_COLUMNS_PER_BLOCK):
-        # Their western neighbours too, for the border between; the one in their east comes with the next ones.
+        # Include the column to the west, for the border between; the eastern border belongs to the next block.
         begin, own, end = np.searchsorted(column, [first - 1, first, first + TILE_COLUMNS_PER_BLOCK])
-        at = np.stack([column[begin:end], row[begin:end]], axis=1).astype(np.int64)
-        of = np.repeat(np.arange(end - begin), np.diff(starts[begin : end + 1]))
+        tiles = np.stack([column[begin:end], row[begin:end]], axis=1).astype(np.int64)
+        piece = np.repeat(np.arange(end - begin), np.diff(starts[begin : end + 1]))
         ends = segments[starts[begin] : starts[end]]
-        on_border = (np.abs(ends) == TILE_EDGE_STEPS).any(axis=1) & (form[begin:end] != THING)[of]
-        of, ends = of[on_border], ends[on_border]
-        here = at, instance[begin:end], dimension[begin:end]
-        pairs = _touching_pairs(0, of, ends, *here, range(first, first + TILE_COLUMNS_PER_BLOCK))
-        is_own = of >= own - begin
-        pairs = np.concatenate([pairs, _touching_pairs(1, of[is_own], ends[is_own], *here, rows)]) + begin
+        on_border = (np.abs(ends) == TILE_EDGE_STEPS).any(axis=1) & (form[begin:end] != THING)[piece]
+        piece, ends = piece[on_border], ends[on_border]
+        local = tiles, instance[begin:end], dimension[begin:end]
+        pairs = _touching_pairs(0, piece, ends, *local, range(first, first + TILE_COLUMNS_PER_BLOCK))
+        is_own = piece >= own - begin
+        pairs = np.concatenate([pairs, _touching_pairs(1, piece[is_own], ends[is_own], *local, rows)]) + begin
         keys = np.unique(np.concatenate([pending, np.concatenate([pairs, pairs[:, ::-1]]) @ [count, 1]]))
-        # The last column's pieces may have links to what comes next.
+        # Pieces of the last column may have links to the next block.
         done = count if end == count else int(np.searchsorted(column, first + TILE_COLUMNS_PER_BLOCK - 1))
         pending = keys[keys >= done * count]
         keys = keys[: len(keys) - len(pending)]
@@ -242,36 +247,40 @@ def _find_links(
 
 
 def _touching_pairs(
-    axis: int, of: Ints, segments: Steps, at: Ints, instance: Ints, dimension: Ints, wanted: range
+    axis: int, segment_piece: Ints, segments: Steps, tile: Ints, instance: Ints, dimension: Ints, wanted: range
 ) -> Ints:
-    """[L, 2] pairs of pieces that touch across borders where x (axis 0) or y (axis 1) is constant.
+    """Return pairs [L, 2] of pieces that touch across borders of constant x (axis 0) or y (axis 1).
 
     Args:
-        axis: which.
-        of: [S] the piece of each segment.
+        axis: 0 or 1.
+        segment_piece: [S] the piece of each segment.
         segments: [S, 4] of those that may be on a border.
-        at: [K, 2] column and row of each piece's tile.
+        tile: [K, 2] column and row of each piece's tile.
         instance: [K].
         dimension: [K].
-        wanted: borders; one is west of the column or south of the row of its number.
+        wanted: borders; each lies west of the column or south of the row of its number.
     """
-    is_line = dimension[of] == 1
-    along_m = segments[:, [1 - axis, 3 - axis]] * STEP_M + at[of, 1 - axis, None] * TILE_M
+    is_line = dimension[segment_piece] == 1
+    along_m = segments[:, [1 - axis, 3 - axis]] * STEP_M + tile[segment_piece, 1 - axis, None] * TILE_M
     borders, intervals, pieces = [], [], []
     for side in (-1, 1):
-        on = segments[:, [axis, 2 + axis]] == side * TILE_EDGE_STEPS
-        number = at[of, axis] + (side + 1) // 2  # of the border, from low to high
-        on &= ((number >= wanted.start) & (number < wanted.stop))[:, None]
-        for rows, ends in ((on.all(axis=1), [0, 1]), (on[:, 0] & is_line, [0, 0]), (on[:, 1] & is_line, [1, 1])):
-            piece = of[rows]
-            borders.append(np.stack([number[rows], at[piece, 1 - axis], instance[piece]], axis=1))
+        is_on = segments[:, [axis, 2 + axis]] == side * TILE_EDGE_STEPS
+        number = tile[segment_piece, axis] + (side + 1) // 2  # of the border, from low to high
+        is_on &= ((number >= wanted.start) & (number < wanted.stop))[:, None]
+        for rows, ends in (
+            (is_on.all(axis=1), [0, 1]),
+            (is_on[:, 0] & is_line, [0, 0]),
+            (is_on[:, 1] & is_line, [1, 1]),
+        ):
+            piece = segment_piece[rows]
+            borders.append(np.stack([number[rows], tile[piece, 1 - axis], instance[piece]], axis=1))
             intervals.append(np.sort(along_m[rows][:, ends], axis=1))
             pieces.append(piece)
-    border, interval, piece = (np.concatenate(some) for some in (borders, intervals, pieces))
+    border, interval, piece = (np.concatenate(arrays) for arrays in (borders, intervals, pieces))
     group = np.unique(border, axis=0, return_inverse=True)[1].ravel()
     order = np.lexsort((interval[:, 0], group))
     group, interval, piece = group[order], interval[order], piece[order]
-    # In each group, sweep along the border: what begins before all earlier ones have ended touches them.
+    # In each group, sweep along the border: an interval that begins before the earlier ones end touches them.
     reach = _running_end(group, interval[:, 1])
     touches = np.flatnonzero((group[1:] == group[:-1]) & (interval[1:, 0] <= reach[:-1] + TOUCHING_M))
     pairs: Ints = np.stack([piece[touches], piece[touches + 1]], axis=1)
@@ -280,7 +289,7 @@ def _touching_pairs(
 
 
 def _running_end(group: Ints, end: Floats) -> Floats:
-    """Greatest end so far in each group; `group` ascending."""
+    """Return the greatest end so far in each group; `group` ascends."""
     span = float(np.ptp(end)) + 1.0 if len(end) else 1.0
     raised: Floats = np.maximum.accumulate(end + group * 2 * span) - group * 2 * span
     return raised

@@ -1,4 +1,4 @@
-"""The lines and rings of pieces as segments, small enough to keep those of a city."""
+"""The lines and rings of pieces as compact segments, so that those of a city fit in memory."""
 
 from typing import Final
 
@@ -11,29 +11,31 @@ from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.compiled import compiled
 
-STEP_M: Final = 2e-4  # of stored coordinates, which are seen from the middle of the tile
+STEP_M: Final = 2e-4  # unit of the stored coordinates, relative to the middle of the tile
 Steps = npt.NDArray[np.int16]
 
 
 def snap(geometry: Geometries) -> Geometries:
-    """Geometries whose coordinates are as they are stored, valid still; empty what is too thin for that."""
-    found: Geometries = shapely.set_precision(shapely.set_precision(geometry, STEP_M), 0.0)  # 0: of later results
-    return found
+    """Return valid geometries with coordinates as they are stored; too thin ones become empty."""
+    result: Geometries = shapely.set_precision(
+        shapely.set_precision(geometry, STEP_M), 0.0
+    )  # precision 0 for later operations
+    return result
 
 
 def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
-    """Segments of pieces.
+    """Return the segments of pieces.
 
     Args:
-        geometry: [K] in its tile each, `snap`.
+        geometry: [K] each in its tile, after `snap`.
         tile: [K, 2] column and row.
 
     Returns:
-        [K + 1] starts and [S, 4] x and y of both ends; of a point both are the same.
+        [K + 1] starts and [S, 4] x and y of both ends; a point has two equal ends.
     """
     dimensions = shapely.get_dimensions(geometry)
     geometry = shapely.orient_polygons(geometry)
-    segments, of = [], []
+    segments, owners = [], []
     for dimension in range(3):
         rows = np.flatnonzero(dimensions == dimension)
         parts, part_of = shapely.get_parts(geometry[rows], return_index=True)
@@ -43,8 +45,8 @@ def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
         xy, line = shapely.get_coordinates(parts, return_index=True)
         first = np.arange(len(xy)) if dimension == 0 else np.flatnonzero(line[1:] == line[:-1])
         segments.append(np.concatenate([xy[first], xy[first if dimension == 0 else first + 1]], axis=1))
-        of.append(rows[part_of[line[first]]])
-    owner = np.concatenate(of)
+        owners.append(rows[part_of[line[first]]])
+    owner = np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
     starts = np.searchsorted(owner[order], np.arange(len(geometry) + 1))
     local_m = np.concatenate(segments)[order] - np.tile(tile[owner[order]] * TILE_M, 2)
@@ -52,34 +54,34 @@ def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
 
 
 def to_geometry(starts: Ints, segments: Steps, tile: Ints, dimension: Ints, pieces: Ints) -> Geometries:
-    """Some pieces again, from all segments.
+    """Rebuild the geometries of some pieces from all segments.
 
     Args:
         starts: see `to_segments`.
-        segments: likewise.
+        segments: see `to_segments`.
         tile: [K, 2] column and row.
         dimension: [K] 0 for points, 1 for lines, 2 for areas.
-        pieces: [n] which.
+        pieces: [n] the pieces.
     """
     begin, end = starts[pieces], starts[pieces + 1]
-    of = np.repeat(np.arange(len(pieces)), end - begin)
+    owner = np.repeat(np.arange(len(pieces)), end - begin)
     ends = segments[ranges(begin, end)]
-    ends_m: Floats = ends * STEP_M + np.tile(tile[pieces][of] * TILE_M, 2)
-    found = np.empty(len(pieces), dtype=object)
+    ends_m: Floats = ends * STEP_M + np.tile(tile[pieces][owner] * TILE_M, 2)
+    result = np.empty(len(pieces), dtype=object)
     is_point = dimension[pieces] == 0
-    rows = np.flatnonzero(is_point[of])
-    shapely.multipoints(shapely.points(ends_m[rows, :2]), indices=of[rows], out=found)
-    rows = np.flatnonzero(dimension[pieces][of] == 1)
+    rows = np.flatnonzero(is_point[owner])
+    shapely.multipoints(shapely.points(ends_m[rows, :2]), indices=owner[rows], out=result)
+    rows = np.flatnonzero(dimension[pieces][owner] == 1)
     lines = shapely.linestrings(ends_m[rows].reshape(-1, 2, 2))
-    shapely.multilinestrings(lines, indices=of[rows], out=found)
-    rows = np.flatnonzero(dimension[pieces][of] == 2)
-    _fill_areas(ends_m[rows], ring_starts(ends[rows]), of[rows], found)
-    return found
+    shapely.multilinestrings(lines, indices=owner[rows], out=result)
+    rows = np.flatnonzero(dimension[pieces][owner] == 2)
+    _fill_areas(ends_m[rows], ring_starts(ends[rows]), owner[rows], result)
+    return result
 
 
 @compiled
 def ring_starts(ends: Steps) -> Ints:
-    """Rows of segments at which rings begin: a ring ends where it began, which others may share."""
+    """Return the rows of segments at which rings begin: a ring ends at its first point, which others may share."""
     begins = np.empty(len(ends), np.int64)
     count, first, is_closed = 0, 0, True
     for s in range(len(ends)):
@@ -89,14 +91,14 @@ def ring_starts(ends: Steps) -> Ints:
     return begins[:count].copy()
 
 
-def _fill_areas(ends_m: Floats, begins: Ints, of: Ints, found: Geometries) -> None:
-    """Fill in areas from their rings: shells turn one way and holes the other, as `to_segments` has them."""
-    ring = np.repeat(np.arange(len(begins)), np.diff(np.append(begins, len(of))))
+def _fill_areas(ends_m: Floats, begins: Ints, segment_owner: Ints, result: Geometries) -> None:
+    """Fill in areas from their rings: shells and holes turn opposite ways, as `to_segments` stores them."""
+    ring = np.repeat(np.arange(len(begins)), np.diff(np.append(begins, len(segment_owner))))
     rings = shapely.linearrings(ends_m[:, :2], indices=ring)
-    polygons, owner = shapely.polygons(rings), of[begins]
+    polygons, owner = shapely.polygons(rings), segment_owner[begins]
     is_shell = shapely.is_ccw(rings)
-    shapely.multipolygons(polygons[is_shell], indices=owner[is_shell], out=found)
-    holes = np.full(len(found), shapely.MultiPolygon(), dtype=object)
+    shapely.multipolygons(polygons[is_shell], indices=owner[is_shell], out=result)
+    holes = np.full(len(result), shapely.MultiPolygon(), dtype=object)
     shapely.multipolygons(polygons[~is_shell], indices=owner[~is_shell], out=holes)
     rows = np.unique(owner[~is_shell])
-    found[rows] = shapely.difference(found[rows], holes[rows])
+    result[rows] = shapely.difference(result[rows], holes[rows])

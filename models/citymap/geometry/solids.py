@@ -1,4 +1,4 @@
-"""Features of a map as they stand there, and points on them for models that look at points."""
+"""The features of a map as solids, and sampled points on them for models that take points."""
 
 from dataclasses import dataclass
 from math import ceil
@@ -12,12 +12,12 @@ from models.citymap.types import Floats
 Shape = Literal["outline", "wall", "ground", "column", "crown", "box"]
 Form = Literal["area", "line", "thing"]
 FORMS: Final[tuple[Form, ...]] = ("area", "line", "thing")
-GROUND_SPACING_M: Final = 0.5  # diagonal neighbours lie within the 0.75 m that hang together
+GROUND_SPACING_M: Final = 0.5  # so that diagonal neighbours are within the 0.75 m that connect (rule 4)
 RAISED_SPACING_M: Final = {"outline": 0.7, "wall": 0.5, "box": 0.5}
 COLUMN_SPACING_M: Final = 0.25
-VISIBLE_HEIGHT_M: Final = 15.0  # a 30 m cell on the ground ends here
+VISIBLE_HEIGHT_M: Final = 15.0  # top of a 30 m cell on the ground
 CROWN_POINTS: Final = 64
-BOX_HALF_WIDTH_M: Final = 0.3  # from the middle of a small box to its sides
+BOX_HALF_WIDTH_M: Final = 0.3  # of a small box
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,11 +25,11 @@ class Solid:
     """A feature of a map.
 
     Attributes:
-        instance: which instance it is part of.
-        shape: what it is: "ground" is filled and covered by what comes before it; "outline" and "wall" are raised along
+        instance: the instance it is part of.
+        shape: "ground" is filled, and covered by earlier solids; "outline" and "wall" are raised along
             their lines; "column", "crown" and "box" are things, kept whole.
         geometry: areas of ground, else lines or a point. Metres, map frame.
-        base_m, height_m: where it begins above the ground, and where it ends.
+        base_m, height_m: heights above the ground of its base and top.
     """
 
     instance: int
@@ -40,19 +40,19 @@ class Solid:
 
     @property
     def form(self) -> Form:
-        """How it is cut."""
+        """Return how the solid is cut."""
         if self.shape == "ground":
             return "area"
         return "line" if self.shape in ("outline", "wall") else "thing"
 
     @property
     def is_raised(self) -> bool:
-        """Whether it stands along lines."""
+        """Whether the solid is raised along lines."""
         return self.form == "line" or (self.shape == "box" and shapely.length(self.geometry) > 0)
 
     @property
     def levels_m(self) -> Floats:
-        """Heights of the points above each place of it."""
+        """Return the heights of the sampled points above each position."""
         if self.shape == "ground":
             return np.zeros(1)
         if not self.is_raised:
@@ -63,24 +63,24 @@ class Solid:
 
     @property
     def top_m(self) -> float:
-        """Where it ends."""
+        """Return the height of the top."""
         return float(self.levels_m[-1])
 
     @property
     def radius_m(self) -> float:
-        """How far it reaches beyond its geometry."""
+        """Return how far the solid extends beyond its geometry."""
         if self.is_raised:
             return 0.0
         return BOX_HALF_WIDTH_M if self.shape == "box" else self.crown_m
 
     @property
     def crown_m(self) -> float:
-        """Radius of a tree's crown, whose middle is three times as high; 0 for what has none."""
+        """Return the radius of a tree's crown, whose middle is three times as high; 0 for others."""
         return self.height_m / 4 if self.shape == "crown" else 0.0
 
     @property
     def point_density(self) -> float:
-        """Points on a square metre of ground, on a metre of a line; on a thing, in all."""
+        """Return the points per square metre of ground, per metre of a line, or in all for a thing."""
         if self.shape == "ground":
             return 1 / GROUND_SPACING_M**2
         if self.form == "line":
@@ -91,9 +91,9 @@ class Solid:
 
 
 def crown_reach_m(metres: Floats, crown_m: Floats) -> Floats:
-    """How much nearer than the trunk the closest point of a crown is in the plane, at some distances from the trunk.
+    """Return by how much the closest point of a crown is nearer than the trunk, in the plane.
 
-    The closest point in space is of the trunk up to four radii away, beyond that of the ball of leaves.
+    The closest point in space is on the trunk up to four radii away; beyond, it is on the ball of leaves.
     """
     reach: Floats = crown_m * metres / np.sqrt(metres**2 + (3 * crown_m) ** 2 + 1e-12)
     nearer: Floats = np.where(metres > 4 * crown_m, reach, 0.0)
@@ -101,21 +101,21 @@ def crown_reach_m(metres: Floats, crown_m: Floats) -> Floats:
 
 
 def sample_solid(solid: Solid) -> Floats:
-    """[P, 3] float64 points on a solid, metres."""
+    """Return points [P, 3] (float64) on a solid, metres."""
     if solid.shape == "ground":
         xy = np.concatenate([_lattice_inside(part) for part in shapely.get_parts(solid.geometry)])
     elif solid.is_raised:
         xy = _along(solid.geometry, RAISED_SPACING_M[solid.shape])
     else:
-        at = np.array([*shapely.get_coordinates(solid.geometry)[0], solid.base_m])
-        placed: Floats = template_points(solid.shape, solid.height_m) + at
+        foot = np.array([*shapely.get_coordinates(solid.geometry)[0], solid.base_m])
+        placed: Floats = template_points(solid.shape, solid.height_m) + foot
         return placed
     levels = solid.levels_m
     return np.column_stack([np.repeat(xy, len(levels), axis=0), np.tile(levels, len(xy))])
 
 
 def _lattice_inside(polygon: shapely.Geometry) -> Floats:
-    """[n, 2] points of a lattice inside one polygon."""
+    """Return the points [n, 2] of a lattice inside one polygon."""
     shapely.prepare(polygon)
     west, south, east, north = np.floor(np.array(polygon.bounds) / GROUND_SPACING_M).astype(np.int64)
     x, y = np.meshgrid(np.arange(west + 1, east + 1), np.arange(south + 1, north + 1))
@@ -125,7 +125,7 @@ def _lattice_inside(polygon: shapely.Geometry) -> Floats:
 
 
 def _along(geometry: shapely.Geometry, spacing_m: float) -> Floats:
-    """[n, 2] points along lines, both ends among them."""
+    """Return points [n, 2] along lines, including both ends."""
     lines = shapely.get_parts(geometry)
     steps = np.maximum(1, np.ceil(shapely.length(lines) / spacing_m).astype(int)) + 1
     share = np.concatenate([np.linspace(0, 1, n) for n in steps])
@@ -135,7 +135,7 @@ def _along(geometry: shapely.Geometry, spacing_m: float) -> Floats:
 
 
 def template_points(shape: str, height_m: float) -> Floats:
-    """[P, 3] points of a column, a crown or a small box that stands at the origin."""
+    """Return the points [P, 3] of a column, a crown or a small box that stands at the origin."""
     z = np.arange(0, height_m + 1e-9, COLUMN_SPACING_M)
     if shape == "box":
         sides = np.array([-BOX_HALF_WIDTH_M, 0.0, BOX_HALF_WIDTH_M])

@@ -1,4 +1,4 @@
-"""Cutting the features of a map into pieces, a tile at a time: clipped, covered where others lie above, joined."""
+"""Cut the features of a map into pieces, a tile at a time: clip, subtract covers, join."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,21 +14,21 @@ from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 
 Geometries = npt.NDArray[np.object_]
-TileSpan = tuple[int, int]  # numbers of columns or rows of tiles, from the first to before the second
+TileSpan = tuple[int, int]  # first column or row of tiles, and the one after the last
 ALL_TILES: Final = (-(2**31), 2**31)
-TILE_M = 10.0  # as the grid of cells: a tile is the square round a centre
-BEYOND_MAP_M = 1e9  # beyond every map
-TOUCHING_M = 0.75  # what is this near hangs together (rule 4)
+TILE_M = 10.0  # the spacing of the grid of cells: a tile is the square around a centre
+BEYOND_MAP_M = 1e9  # larger than every coordinate
+TOUCHING_M = 0.75  # parts this near are connected (rule 4)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Clipped:
-    """Features, a tile at a time, F rows in order of tile, then of the features.
+    """Features clipped to tiles, F rows in order of tile, then feature.
 
     Attributes:
         column, row: [F] tile: its middle is at (column, row) * TILE_M.
-        feature: [F] which feature.
-        geometry: [F] what of it is in the tile.
+        feature: [F] index of the feature.
+        geometry: [F] the part in the tile.
     """
 
     column: Ints
@@ -38,33 +38,33 @@ class Clipped:
 
 
 def clip_to_tiles(geometry: Geometries, band: TileSpan) -> Clipped:
-    """Cut geometries [n] at the borders of tiles, those in some columns."""
+    """Clip geometries [n] to the tiles of some columns."""
     strips = _cut_along_axis(geometry, np.arange(len(geometry)), 0, band)
-    found: list[tuple[Ints, Ints, Ints, Geometries]] = [(strips[0][:0], strips[0][:0], strips[1][:0], strips[2][:0])]
+    columns: list[tuple[Ints, Ints, Ints, Geometries]] = [(strips[0][:0], strips[0][:0], strips[1][:0], strips[2][:0])]
     for number, begin, end in _runs(strips[0]):
         row, feature, pieces = _cut_along_axis(strips[2][begin:end], strips[1][begin:end], 1, ALL_TILES)
-        found.append((np.full(len(row), number), row, feature, pieces))
-    return Clipped(*(np.concatenate(some) for some in zip(*found, strict=True)))
+        columns.append((np.full(len(row), number), row, feature, pieces))
+    return Clipped(*(np.concatenate(column) for column in zip(*columns, strict=True)))
 
 
 def tile_span(ends_m: Floats) -> tuple[Ints, Ints]:
-    """Numbers of the first and of the last column or row of tiles of [n, 2] from where to where."""
+    """Return the first and last column (or row) of tiles for intervals [n, 2]."""
     first, last = (np.floor(ends / TILE_M + 0.5).astype(np.int64) for ends in ends_m.T)
     return first, last
 
 
 def _cut_along_axis(geometry: Geometries, feature: Ints, axis: int, span: TileSpan) -> tuple[Ints, Ints, Geometries]:
-    """(band, feature, piece) of geometries along one axis, in order of band, then of the geometries."""
+    """Return (band, feature, piece) of geometries along one axis, in order of band, then geometry."""
     low, high = tile_span(shapely.bounds(geometry)[:, [axis, axis + 2]])
     is_whole = low == high
     low = np.maximum(low, span[0])
     after = np.maximum(np.minimum(high + 1, span[1]), low)
-    of = np.repeat(np.arange(len(geometry)), after - low)
+    source = np.repeat(np.arange(len(geometry)), after - low)
     band = ranges(low, after)
     order = np.argsort(band, kind="stable")
-    of, band = of[order], band[order]
-    pieces = geometry[of]
-    is_cut = ~is_whole[of]
+    source, band = source[order], band[order]
+    pieces = geometry[source]
+    is_cut = ~is_whole[source]
     for number, begin, end in _runs(band):
         rows = begin + np.flatnonzero(is_cut[begin:end])
         if len(rows):
@@ -75,31 +75,31 @@ def _cut_along_axis(geometry: Geometries, feature: Ints, axis: int, span: TileSp
                 else (-BEYOND_MAP_M, near, BEYOND_MAP_M, beyond)
             )
             pieces[rows] = shapely.clip_by_rect(pieces[rows], *box)
-    kept = ~shapely.is_empty(pieces)
-    return band[kept], feature[of[kept]], pieces[kept]
+    is_left = ~shapely.is_empty(pieces)
+    return band[is_left], feature[source[is_left]], pieces[is_left]
 
 
 def _runs(values: Ints) -> Iterator[tuple[int, int, int]]:
-    """(value, begin, end) of the runs of equal values."""
+    """Yield (value, begin, end) of the runs of equal values."""
     first = np.flatnonzero(np.diff(values, prepend=values[:1] - 1))
     ends = np.append(first, len(values))[1:]
     yield from zip(values[first].tolist(), first.tolist(), ends.tolist(), strict=True)
 
 
 def join_pieces(group: Ints, geometry: Geometries) -> tuple[Ints, Geometries]:
-    """One geometry a group: (row of the first of each, union of all); `group` ascending."""
+    """Join the geometries of each group: return the row of its first, and the union; `group` ascends."""
     first = np.flatnonzero(np.diff(group, prepend=-1))
     sizes = np.diff(np.append(first, len(group)))
     joined = geometry[first]
     for size in np.unique(sizes[sizes > 1]).tolist():
-        of = np.flatnonzero(sizes == size)
-        table = geometry[first[of, None] + np.arange(size)]
-        joined[of] = shapely.union_all(table, axis=1)
+        same_size = np.flatnonzero(sizes == size)
+        table = geometry[first[same_size, None] + np.arange(size)]
+        joined[same_size] = shapely.union_all(table, axis=1)
     return first, joined
 
 
 def subtract_covers(tile: Ints, geometry: Geometries) -> Geometries:
-    """What of areas is not below others: of each tile those before it cover it; `tile` ascending."""
+    """Return the part of each area that the areas before it in its tile do not cover; `tile` ascends."""
     first = np.flatnonzero(np.diff(tile, prepend=-1))
     before = np.arange(len(tile)) - np.repeat(first, np.diff(np.append(first, len(tile))))
     below = np.repeat(np.arange(len(tile)), before)
@@ -108,12 +108,12 @@ def subtract_covers(tile: Ints, geometry: Geometries) -> Geometries:
     below, above = below[overlap], above[overlap]
     overlap = shapely.intersects(geometry[below], geometry[above])
     below, above = below[overlap], above[overlap]
-    seen = geometry.copy()
+    visible = geometry.copy()
     turn = np.arange(len(below)) - np.searchsorted(below, below)
     for number in range(turn.max(initial=-1) + 1):
         rows = np.flatnonzero(turn == number)
-        seen[below[rows]] = shapely.difference(seen[below[rows]], geometry[above[rows]])
-    return seen
+        visible[below[rows]] = shapely.difference(visible[below[rows]], geometry[above[rows]])
+    return visible
 
 
 def _boxes_overlap(one: Geometries, other: Geometries) -> npt.NDArray[np.bool_]:
@@ -125,25 +125,25 @@ def _boxes_overlap(one: Geometries, other: Geometries) -> npt.NDArray[np.bool_]:
 
 
 def split_connected(geometry: Geometries, dimensions: int) -> tuple[Ints, Geometries]:
-    """What hangs together: (row of `geometry`, piece), pieces of several parts where these are within TOUCHING_M."""
-    parts, of = shapely.get_parts(geometry, return_index=True)
-    # of a polygon that is only touched a line or a point is left, of one that is covered nothing
+    """Return (row of `geometry`, piece) for each connected piece; parts within TOUCHING_M are connected."""
+    parts, source = shapely.get_parts(geometry, return_index=True)
+    # A polygon that is only touched leaves a line or a point, a covered one nothing.
     right = (shapely.get_dimensions(parts) == dimensions) & ~shapely.is_empty(parts)
-    parts, of = parts[right], of[right]
-    count = np.bincount(of, minlength=len(geometry))
+    parts, source = parts[right], source[right]
+    count = np.bincount(source, minlength=len(geometry))
     first = np.cumsum(count) - count
     several = np.repeat(np.flatnonzero(count > 1), count[count > 1])
-    nth = np.flatnonzero((count > 1)[of]) - first[several]
-    one = np.repeat(first[several] + nth, nth)
-    other = ranges(first[several], first[several] + nth)
-    near = shapely.dwithin(parts[one], parts[other], TOUCHING_M)
-    graph = coo_array((np.ones(near.sum()), (one[near], other[near])), shape=(len(parts),) * 2)
+    nth = np.flatnonzero((count > 1)[source]) - first[several]
+    left = np.repeat(first[several] + nth, nth)
+    right = ranges(first[several], first[several] + nth)
+    near = shapely.dwithin(parts[left], parts[right], TOUCHING_M)
+    graph = coo_array((np.ones(near.sum()), (left[near], right[near])), shape=(len(parts),) * 2)
     cluster = connected_components(graph, directed=False)[1]
-    order = np.lexsort((cluster, of))
+    order = np.lexsort((cluster, source))
     new = np.flatnonzero(np.diff(cluster[order], prepend=-1))
     sizes = np.diff(np.append(new, len(order)))
     pieces = parts[order[new]]
     for n in np.flatnonzero(sizes > 1).tolist():
         several_parts = parts[order[new[n] : new[n] + sizes[n]]]
         pieces[n] = shapely.multipolygons(several_parts) if dimensions == 2 else shapely.multilinestrings(several_parts)
-    return of[order[new]], pieces
+    return source[order[new]], pieces

@@ -1,4 +1,4 @@
-"""Chains of shops, restaurants and the like, by any spelling of their names."""
+"""Chains of shops, restaurants and the like, found by any spelling of their names."""
 
 import re
 import unicodedata
@@ -9,7 +9,7 @@ _SEPARATORS: Final = re.compile(r"[\W_]+")
 
 
 def normalize_name(name: str) -> str:
-    """A name without case, accents, spaces and punctuation; "&" is "and"."""
+    """Return a name without case, accents, spaces and punctuation; "&" becomes "and"."""
     letters = unicodedata.normalize("NFKD", name.casefold().replace("&", "and"))
     return _SEPARATORS.sub("", letters)
 
@@ -19,30 +19,30 @@ class Brands:
 
     Args:
         tags: sets of tags that brands have.
-        brands: of each brand the places of its tags in `tags`, and its spellings, the usual one first.
+        brands: for each brand the indexes of its tags in `tags`, and its spellings, the usual one first.
     """
 
     def __init__(self, tags: list[dict[str, str]], brands: Iterable[tuple[list[int], list[str]]]) -> None:
         self._tags = tags
         self._brands = list(brands)
         self._by_spelling: dict[str, list[int]] = {}
-        for place, (_, spellings) in enumerate(self._brands):
+        for row, (_, spellings) in enumerate(self._brands):
             for spelling in spellings:
-                self._by_spelling.setdefault(normalize_name(spelling), []).append(place)
+                self._by_spelling.setdefault(normalize_name(spelling), []).append(row)
 
     def tags(self, name: str) -> list[Mapping[str, str]]:
-        """The sets of tags that places of a brand have; none if it is unknown."""
-        found = [self._tags[number] for place in self._places(name) for number in self._brands[place][0]]
-        return [tags for number, tags in enumerate(found) if tags not in found[:number]]
+        """Return the sets of tags that places of a brand have; empty if it is unknown."""
+        sets = [self._tags[number] for row in self._rows(name) for number in self._brands[row][0]]
+        return [tags for number, tags in enumerate(sets) if tags not in sets[:number]]
 
     def spellings(self, name: str) -> tuple[str, ...]:
-        """The other spellings of a brand; none if it is unknown."""
-        found = dict.fromkeys(spelling for place in self._places(name) for spelling in self._brands[place][1])
-        return tuple(spelling for spelling in found if normalize_name(spelling) != normalize_name(name))
+        """Return the other spellings of a brand; empty if it is unknown."""
+        all_spellings = dict.fromkeys(spelling for row in self._rows(name) for spelling in self._brands[row][1])
+        return tuple(spelling for spelling in all_spellings if normalize_name(spelling) != normalize_name(name))
 
-    def _places(self, name: str) -> list[int]:
-        """Where the brands of a name are; those whose usual spelling it is come first, others only without them."""
+    def _rows(self, name: str) -> list[int]:
+        """Return the rows of the brands of a name; those whose usual spelling it is exclude the others."""
         form = normalize_name(name)
-        places = self._by_spelling.get(form, [])
-        usual = [place for place in places if normalize_name(self._brands[place][1][0]) == form]
-        return usual or places
+        rows = self._by_spelling.get(form, [])
+        with_usual_spelling = [row for row in rows if normalize_name(self._brands[row][1][0]) == form]
+        return with_usual_spelling or rows

@@ -6,7 +6,7 @@
     tar xzf name-suggestion-index-*.tgz -C brands --strip-components 1
     python -m models.citymap.kinds.make --schema schema --brands brands
 
-The same packages give the same bytes. Nothing of this is needed when the vocabulary is used.
+The same packages give the same bytes. The service does not need this module.
 """
 
 import argparse
@@ -23,15 +23,15 @@ from models.citymap.kinds.brands import normalize_name
 from models.errors import DataError
 from models.files import replace_file
 
-HERE = Path(__file__).parent
-# Tags of a brand that hold a name of it, and those that say what it is.
+FOLDER = Path(__file__).parent
+# Tags of a brand that hold its names, and those that hold its kind.
 NAME_TAGS = re.compile(r"(name|brand|alt_name|short_name|official_name|brand:short)(:[a-z]{2,3}(-[A-Za-z]+)?)?")
 KIND_TAGS = ("amenity", "shop", "cuisine", "leisure", "tourism", "office", "healthcare", "craft", "beauty", "clothes")
 Json = dict[str, Any]
 
 
 def read_json(path: Path) -> Json:
-    """A JSON file of a package."""
+    """Read a JSON file of a package."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -42,15 +42,15 @@ def read_json(path: Path) -> Json:
 
 
 def package_source(package: Path) -> Json:
-    """Name, version and licence of a package."""
+    """Return the name, version and licence of a package."""
     about = read_json(package / "package.json")
     return {key: about[key] for key in ("name", "version", "license")}
 
 
 def select_presets(presets: Json, selection: Json) -> Json:
-    """The presets that are kinds of things a passer-by could mention, by id in order; of equal tags only one."""
-    kept: dict[str, Any] = {}
-    seen: dict[str, str] = {}
+    """Return the presets that a passer-by could mention, in order of id; presets with equal tags are merged."""
+    kinds: dict[str, Any] = {}
+    by_tags: dict[str, str] = {}
     for key in sorted(presets, key=lambda key: ("-" in key, len(key), key)):
         tags = presets[key]["tags"]
         group = key.partition("/")[0]
@@ -58,21 +58,21 @@ def select_presets(presets: Json, selection: Json) -> Json:
             continue
         if not tags or (key not in selection["roots"] and key == group):
             continue
-        equal = seen.setdefault(json.dumps(tags, sort_keys=True), key)
-        kept.setdefault(equal, {"tags": tags, "presets": []})["presets"].append(key)
-    return dict(sorted(kept.items()))
+        equal = by_tags.setdefault(json.dumps(tags, sort_keys=True), key)
+        kinds.setdefault(equal, {"tags": tags, "presets": []})["presets"].append(key)
+    return dict(sorted(kinds.items()))
 
 
-def split_phrases(said: str, separator: str = "\n") -> list[str]:
-    """The phrases of a field of a translation, in lower case; what is in brackets is left out."""
-    bare = re.sub(r"[((][^))]*[))]?", "", said.lower())
-    found = [phrase for part in bare.split(separator) for phrase in expand_slashes(" ".join(part.split()))]
-    grounds = [phrase.removesuffix(" grounds") for phrase in found if phrase.endswith(" grounds")]
-    return [phrase for phrase in (*grounds, *found) if phrase]
+def split_phrases(field: str, separator: str = "\n") -> list[str]:
+    """Return the phrases of a translated field, in lower case and without text in brackets."""
+    bare = re.sub(r"[((][^))]*[))]?", "", field.lower())
+    result = [phrase for part in bare.split(separator) for phrase in expand_slashes(" ".join(part.split()))]
+    grounds = [phrase.removesuffix(" grounds") for phrase in result if phrase.endswith(" grounds")]
+    return [phrase for phrase in (*grounds, *result) if phrase]
 
 
 def expand_slashes(phrase: str) -> list[str]:
-    """What a phrase with a slash says: "bag/luggage store" is a bag store, "bus station / terminal" a bus terminal."""
+    """Return the alternatives of a phrase with a slash: "bag/luggage store" gives "bag store" and "luggage store"."""
     parts = [part.split() for part in phrase.split("/") if part.strip()]
     if len(parts) < 2:
         return [phrase]
@@ -85,57 +85,59 @@ def expand_slashes(phrase: str) -> list[str]:
 
 
 def resolve_translation(key: str, presets: Json, translation: Json) -> Json:
-    """What a translation says of a preset; some presets refer to another one's name."""
+    """Return the translation of a preset; some presets refer to another one's name."""
     reference = re.fullmatch(r"\{(.+)\}", presets[key].get("name", ""))
     own: Json = translation.get(key, {})
     return {**translation.get(reference[1], {}), **own} if reference else own
 
 
 def read_translations(schema: Path, language: str) -> Json:
-    """What a language calls the presets."""
+    """Read the names of the presets in a language."""
     content = read_json(schema / "dist" / "translations" / f"{language}.min.json")
-    found: Json = content[language].get("presets", {}).get("presets", {})
-    return found
+    presets: Json = content[language].get("presets", {}).get("presets", {})
+    return presets
 
 
 def unique(items: Iterable[str]) -> list[str]:
-    """The items, each once, in their order."""
+    """Return the items without repeats, in their order."""
     return list(dict.fromkeys(items))
 
 
-def names_and_aliases(said: Iterable[Json]) -> tuple[list[str], list[str]]:
-    """Names and aliases in what translations say of a kind."""
-    said = list(said)
-    names = unique(phrase for one in said for phrase in split_phrases(one.get("name", "")))
-    aliases = unique(phrase for one in said for phrase in split_phrases(one.get("aliases", "")))
+def names_and_aliases(translations: Iterable[Json]) -> tuple[list[str], list[str]]:
+    """Return the names and aliases in the translations of a kind."""
+    translations = list(translations)
+    names = unique(phrase for one in translations for phrase in split_phrases(one.get("name", "")))
+    aliases = unique(phrase for one in translations for phrase in split_phrases(one.get("aliases", "")))
     return names, [alias for alias in aliases if alias not in names]
 
 
-def english_kinds(schema: Path, kept: Json, presets: Json) -> list[Json]:
-    """The kinds with their English words; what other Englishes say is an alias."""
+def english_kinds(schema: Path, selected: Json, presets: Json) -> list[Json]:
+    """Return the kinds with their English words; words from other variants of English become aliases."""
     english = read_translations(schema, "en")
     folder = schema / "dist" / "translations"
-    others = [
+    variants = [
         read_translations(schema, path.name[: -len(".min.json")]) for path in sorted(folder.glob("en-*.min.json"))
     ]
     kinds = []
-    for key, kind in kept.items():
-        said = [resolve_translation(preset, presets, english) for preset in kind["presets"]]
-        names, aliases = names_and_aliases(said)
-        abroad, more = names_and_aliases(
-            resolve_translation(preset, presets, other) for other in others for preset in kind["presets"]
+    for key, kind in selected.items():
+        translations = [resolve_translation(preset, presets, english) for preset in kind["presets"]]
+        names, aliases = names_and_aliases(translations)
+        variant_names, variant_aliases = names_and_aliases(
+            resolve_translation(preset, presets, variant) for variant in variants for preset in kind["presets"]
         )
         if not names:
             raise DataError(f"preset {key} has no English name")
-        terms = unique(phrase for one in said for phrase in split_phrases(one.get("terms", ""), ","))
-        aliases = [alias for alias in unique([*names[1:], *aliases, *abroad, *more]) if alias != names[0]]
+        terms = unique(phrase for one in translations for phrase in split_phrases(one.get("terms", ""), ","))
+        aliases = [
+            alias for alias in unique([*names[1:], *aliases, *variant_names, *variant_aliases]) if alias != names[0]
+        ]
         terms = [term for term in terms if term not in (names[0], *aliases)]
         kinds.append({"id": key, "name": names[0], "tags": kind["tags"], "aliases": aliases, "terms": terms})
     return kinds
 
 
-def names_by_language(schema: Path, kept: Json, presets: Json, languages: list[str]) -> Json:
-    """By language: by kind, in the order of the kinds, its names and its aliases; null where it has none."""
+def names_by_language(schema: Path, selected: Json, presets: Json, languages: list[str]) -> Json:
+    """Return, by language and in the order of the kinds, names and aliases; "" for a kind without names."""
     words = {}
     for language in languages:
         if not (schema / "dist" / "translations" / f"{language}.min.json").exists():
@@ -143,73 +145,73 @@ def names_by_language(schema: Path, kept: Json, presets: Json, languages: list[s
         translation = read_translations(schema, language)
         rows = [
             names_and_aliases(resolve_translation(preset, presets, translation) for preset in kind["presets"])
-            for kind in kept.values()
+            for kind in selected.values()
         ]
-        words[language] = ["\n".join(names) + ("\t" + "\n".join(also) if also else "") for names, also in rows]
+        words[language] = ["\n".join(names) + ("\t" + "\n".join(aliases) if aliases else "") for names, aliases in rows]
     return words
 
 
 def brand_spellings(item: Mapping[str, Any]) -> list[str]:
-    """All spellings of a brand, the usual one first."""
+    """Return all spellings of a brand, the usual one first."""
     tags = item["tags"]
     usual = tags.get("brand:en") or tags.get("brand") or tags.get("name") or tags.get("operator") or item["displayName"]
     more = [name for key in sorted(tags) if NAME_TAGS.fullmatch(key) for name in tags[key].split(";")]
-    found: dict[str, str] = {}
+    by_form: dict[str, str] = {}
     for name in (usual, *more, *item.get("matchNames", [])):
-        found.setdefault(normalize_name(name), name.strip())
-    return [name for form, name in found.items() if form]
+        by_form.setdefault(normalize_name(name), name.strip())
+    return [name for form, name in by_form.items() if form]
 
 
 def merge_brands(index: Json, brandless: list[str]) -> Json:
-    """The brands, merged where they are the same thing: their tags (by number) and their spellings."""
+    """Return the brands, merged where they are the same: their tags (by number) and their spellings."""
     merged: dict[str, tuple[dict[str, int], list[str]]] = {}
     for path in sorted(index):
         tree, _, branch = path.partition("/")
         if tree != "brands" or branch in brandless:
             continue
         for item in index[path]["items"]:
-            told = {key: item["tags"][key] for key in KIND_TAGS if key in item["tags"]}
+            kind_tags = {key: item["tags"][key] for key in KIND_TAGS if key in item["tags"]}
             names = brand_spellings(item)
-            if not told or not names:
+            if not kind_tags or not names:
                 continue
             same = item["tags"].get("brand:wikidata") or normalize_name(names[0])
             tags, spellings = merged.setdefault(same, ({}, []))
-            form = json.dumps(told, sort_keys=True, ensure_ascii=False)
+            form = json.dumps(kind_tags, sort_keys=True, ensure_ascii=False)
             bare = normalize_name(item["tags"].get("name", "")) == normalize_name(
                 item["tags"].get("brand", "")
             )  # not "Tesco Café"
             tags[form] = tags.get(form, 0) + bare
             spellings.extend(names)
-    kinds = sorted({tags for told, _ in merged.values() for tags in told})
+    kinds = sorted({tags for kind_tags, _ in merged.values() for tags in kind_tags})
     number = {tags: place for place, tags in enumerate(kinds)}
     rows = []
-    for told, names in merged.values():
+    for kind_tags, names in merged.values():
         once = {normalize_name(name): name for name in reversed(names)}
-        usual = sorted(told, key=told.__getitem__, reverse=True)
+        usual = sorted(kind_tags, key=kind_tags.__getitem__, reverse=True)
         rows.append([[number[tags] for tags in usual], [once[form] for form in unique(map(normalize_name, names))]])
     return {"tags": [json.loads(tags) for tags in kinds], "brands": sorted(rows, key=lambda row: row[1])}
 
 
 def compress_json(content: Json) -> bytes:
-    """A vendored file."""
+    """Return the bytes of a vendored file."""
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
     return lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME)
 
 
 def write_vocabulary(schema: Path, brands: Path, out: Path) -> None:
     """Write the vendored files into a folder."""
-    selection = tomllib.loads((HERE / "selection.toml").read_text(encoding="utf-8"))
+    selection = tomllib.loads((FOLDER / "selection.toml").read_text(encoding="utf-8"))
     presets = read_json(schema / "dist" / "presets.min.json")
-    kept = select_presets(presets, selection)
+    selected = select_presets(presets, selection)
     sources = [package_source(schema), package_source(brands)]
-    abroad = names_by_language(schema, kept, presets, selection["languages"])
+    names_abroad = names_by_language(schema, selected, presets, selection["languages"])
     kinds = {
         "version": ", ".join(f"{about['name'].rpartition('/')[2]} {about['version']}" for about in sources),
         "sources": sources,
-        "languages": ["en", *abroad],
-        "kinds": english_kinds(schema, kept, presets),
+        "languages": ["en", *names_abroad],
+        "kinds": english_kinds(schema, selected, presets),
     }
-    names = {"source": sources[0], "names": abroad}
+    names = {"source": sources[0], "names": names_abroad}
     index = read_json(brands / "dist" / "json" / "nsi.min.json")["nsi"]
     chains = {"source": sources[1], **merge_brands(index, selection["brandless"])}
     for file, content in (("kinds", kinds), ("names", names), ("brands", chains)):
@@ -223,11 +225,11 @@ def write_vocabulary(schema: Path, brands: Path, out: Path) -> None:
 
 
 def main() -> None:
-    """The command line."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(description="Write the vendored vocabulary from the published packages.")
     parser.add_argument("--schema", type=Path, required=True, help="unpacked tagging schema")
     parser.add_argument("--brands", type=Path, required=True, help="unpacked brand index")
-    parser.add_argument("--out", type=Path, default=HERE, help="folder of the vendored files")
+    parser.add_argument("--out", type=Path, default=FOLDER, help="folder of the vendored files")
     arguments = parser.parse_args()
     write_vocabulary(arguments.schema, arguments.brands, arguments.out)
 

@@ -1,17 +1,17 @@
-"""Which kinds an object's tags make it."""
+"""Find the kinds of an object by its tags."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 ANY_VALUE = "*"
-NEGATIVE_VALUES = ("", "no", "none")  # values that say that something is not there
+NEGATIVE_VALUES = ("", "no", "none")  # values of a tag whose feature is absent
 Tags = Mapping[str, str]
 Conditions = tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A kind of things in a city.
+    """A kind of objects in a city.
 
     Attributes:
         id: of the preset, "amenity/fast_food/pizza".
@@ -25,17 +25,17 @@ class Kind:
 
 
 def specificity_key(kind: Kind) -> tuple[bool, bool, int, str]:
-    """The order of kinds: what an object is before its building, special before general, kinds of any value last."""
+    """Return a sort key: buildings after other kinds, special before general, kinds of any value last."""
     exact = sum(value != ANY_VALUE for value in kind.tags.values())
     return (exact == 0, kind.id.startswith("building"), -exact, kind.id)
 
 
 class Matcher:
-    """Finds the kinds of objects by an index of one tag of each kind.
+    """Finds the kinds of objects, using an index over one tag of each kind.
 
     Args:
-        kinds: in the order in which they are to be found.
-        same: "key=value" that says the same as the tags of the kind of an id.
+        kinds: in the order in which they are returned.
+        same: tags "key=value" that mean the same as the kind of an id.
     """
 
     def __init__(self, kinds: Iterable[Kind], same: Tags) -> None:
@@ -56,8 +56,8 @@ class Matcher:
                 self._index.setdefault(key, ({}, []))[0].setdefault(value, []).append((place[one], ()))
 
     def kinds_of(self, tags: Tags) -> tuple[str, ...]:
-        """Ids of all kinds that an object is, with their parents, most specific first."""
-        found: set[int] = set()
+        """Return the ids of all kinds of an object, with their parents, most specific first."""
+        numbers: set[int] = set()
         for key, value in tags.items():
             rows = self._index.get(key)
             if rows is None or value in NEGATIVE_VALUES:
@@ -68,13 +68,13 @@ class Matcher:
                 candidates = [row for one in value.split(";") for row in exact.get(one.strip(), ())]
             for number, rest in (*candidates, *anything):
                 if not rest or has_tags(rest, tags):
-                    found.add(number)
-                    found.update(self._above[number])
-        return tuple([self._ids[number] for number in sorted(found)])
+                    numbers.add(number)
+                    numbers.update(self._above[number])
+        return tuple([self._ids[number] for number in sorted(numbers)])
 
 
 def has_tags(rest: Conditions, tags: Tags) -> bool:
-    """Whether an object has tags; a list of values has each of them."""
+    """Whether an object has all tags; a list of values counts as each of them."""
     for key, wanted in rest:
         value = tags.get(key, "")
         if value == wanted or (wanted == ANY_VALUE and value not in NEGATIVE_VALUES):
@@ -85,6 +85,6 @@ def has_tags(rest: Conditions, tags: Tags) -> bool:
 
 
 def parents(key: str) -> list[str]:
-    """The ids above an id: "shop/beauty" and "shop" of "shop/beauty/nails"."""
+    """Return the ids above an id: "shop/beauty" and "shop" for "shop/beauty/nails"."""
     parts = key.split("/")
     return ["/".join(parts[:length]) for length in range(len(parts) - 1, 0, -1)]

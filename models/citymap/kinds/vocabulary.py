@@ -1,4 +1,4 @@
-"""The vocabulary: what kind of thing an OpenStreetMap object is, and by which nouns people call that kind."""
+"""The vocabulary: the kinds of an OpenStreetMap object, and the nouns people use for each kind."""
 
 import json
 import lzma
@@ -14,48 +14,48 @@ from models.citymap.kinds.matching import Kind, Matcher, specificity_key
 from models.citymap.kinds.words import Nouns, additional_kinds, english_nouns, foreign_nouns
 from models.errors import DataError
 
-HERE = Path(__file__).parent
-# Languages that go by another one's names.
+FOLDER = Path(__file__).parent
+# Languages that use the names of another one.
 LANGUAGE_ALIASES = {"nb": "no", "nn": "no", "zh": "zh-CN", "zh-HK": "zh-TW"}
 VOCABULARY_FILES = ("kinds.json.xz", "names.json.xz", "brands.json.xz", "LICENCES.md")
 
 
 class Vocabulary:
-    """Kinds, nouns and brands, of one folder of vendored files.
+    """Kinds, nouns and brands, from a folder of vendored files.
 
     Attributes:
         version: of the packages it was made from.
         kinds: all kinds, most specific first.
-        languages: for which there are nouns.
+        languages: those with nouns.
     """
 
-    def __init__(self, folder: Path = HERE) -> None:
+    def __init__(self, folder: Path = FOLDER) -> None:
         self._folder = folder
-        self._ours = tomllib.loads((HERE / "ours.toml").read_text(encoding="utf-8"))
+        self._tables = tomllib.loads((FOLDER / "ours.toml").read_text(encoding="utf-8"))
         content = read_compressed_json(folder / "kinds.json.xz")
         self._presets: list[dict[str, Any]] = content["kinds"]
-        names: Mapping[str, str] = self._ours["names"]
+        names: Mapping[str, str] = self._tables["names"]
         presets = [Kind(row["id"], names.get(row["id"], row["name"]), row["tags"]) for row in self._presets]
         self.kinds: tuple[Kind, ...] = tuple(
-            sorted((*presets, *additional_kinds(self._ours, presets)), key=specificity_key)
+            sorted((*presets, *additional_kinds(self._tables, presets)), key=specificity_key)
         )
-        self._matcher = Matcher(self.kinds, self._ours["same"])
+        self._matcher = Matcher(self.kinds, self._tables["same"])
         self.version: str = content["version"]
         self.languages: tuple[str, ...] = tuple(content["languages"])
         self._nouns: dict[str, Nouns] = {}
 
     def kinds_of(self, tags: Mapping[str, str]) -> tuple[str, ...]:
-        """Ids of all kinds that an object is, most specific first, with their parents; none if nobody would name it."""
+        """Return the ids of all kinds of an object with their parents, most specific first; often empty."""
         return self._matcher.kinds_of(tags)
 
     def nouns(self, language: str = "en") -> Mapping[str, tuple[tuple[str, float], ...]]:
-        """What people call kinds.
+        """Return the nouns for kinds.
 
         Args:
-            language: "fi", "pt-BR"; of a region without names of its own, the language's. Unknown ones have no nouns.
+            language: "fi", "pt-BR"; a region without its own names uses the language's. Others have no nouns.
 
         Returns:
-            By casefolded phrase the ids of kinds with weights in (0, 1], the plainest first: 1 is the kind's name, 0.9
+            By casefolded phrase the ids of kinds with weights in (0, 1], the highest first: 1 is the kind's name, 0.9
             another name, 0.5 a mere search term (in English only).
         """
         language = LANGUAGE_ALIASES.get(language, language)
@@ -66,7 +66,7 @@ class Vocabulary:
         return MappingProxyType(self._nouns[language])
 
     def single_words(self, least: int) -> Iterator[tuple[str, tuple[tuple[str, float], ...]]]:
-        """As `nouns`, those of one word of all languages, at least so long; what is read for it is let go of."""
+        """Yield the single-word nouns of all languages of at least some length, as `nouns`; keeps none in memory."""
         names = self._read_names()
 
         def is_wanted(phrase: str) -> bool:
@@ -79,11 +79,11 @@ class Vocabulary:
                 yield from ((noun, kinds) for noun, kinds in self.nouns(language).items() if is_wanted(noun))
 
     def brand(self, name: str) -> tuple[str, ...]:
-        """Ids of the kinds that a brand's places are, by any spelling of its name; none if it is unknown."""
+        """Return the ids of the kinds of a brand's places, by any spelling of its name; empty if it is unknown."""
         return tuple(dict.fromkeys(key for tags in self._brands.tags(name) for key in self.kinds_of(tags)))
 
     def spellings(self, brand: str) -> tuple[str, ...]:
-        """The other spellings of a brand."""
+        """Return the other spellings of a brand."""
         return self._brands.spellings(brand)
 
     def _read_nouns(self, language: str) -> Nouns:
@@ -95,23 +95,32 @@ class Vocabulary:
         return foreign_nouns((row["id"] for row in self._presets), rows, is_wanted) if rows else {}
 
     def _read_english(self) -> Nouns:
-        """English nouns, with those written by hand; a folder of few kinds leaves out what is said of others."""
-        people = tomllib.loads((HERE / "people.toml").read_text(encoding="utf-8"))
-        said = {row["id"]: row for row in self._presets}
+        """Return the English nouns, including the hand-written ones, for the kinds of the folder."""
+        people = tomllib.loads((FOLDER / "people.toml").read_text(encoding="utf-8"))
+        presets = {row["id"]: row for row in self._presets}
         rows = [
-            {"aliases": [], "terms": [], **said.get(kind.id, {}), "id": kind.id, "name": kind.name, "tags": kind.tags}
+            {
+                "aliases": [],
+                "terms": [],
+                **presets.get(kind.id, {}),
+                "id": kind.id,
+                "name": kind.name,
+                "tags": kind.tags,
+            }
             for kind in self.kinds
         ]
         known = {kind.id for kind in self.kinds}
-        nouns = english_nouns(rows, self._ours, people)
+        nouns = english_nouns(rows, self._tables, people)
         return {
-            phrase: kept for phrase, rows in nouns.items() if (kept := tuple(row for row in rows if row[0] in known))
+            phrase: known_rows
+            for phrase, rows in nouns.items()
+            if (known_rows := tuple(row for row in rows if row[0] in known))
         }
 
     def _read_names(self) -> dict[str, list[str]]:
-        """By language; not kept, as each language is read once at most."""
-        found: dict[str, list[str]] = read_compressed_json(self._folder / "names.json.xz")["names"]
-        return found
+        """Read names by language; not kept, because each language is read at most once."""
+        names: dict[str, list[str]] = read_compressed_json(self._folder / "names.json.xz")["names"]
+        return names
 
     @cached_property
     def _brands(self) -> Brands:
@@ -120,7 +129,7 @@ class Vocabulary:
 
 
 def read_compressed_json(path: Path) -> dict[str, Any]:
-    """The content of a vendored file."""
+    """Read a vendored file."""
     try:
         content: dict[str, Any] = json.loads(lzma.decompress(path.read_bytes()))
     except (OSError, lzma.LZMAError, ValueError) as error:
@@ -130,5 +139,5 @@ def read_compressed_json(path: Path) -> dict[str, Any]:
 
 @cache
 def load_vocabulary() -> Vocabulary:
-    """The vendored vocabulary."""
+    """Load the vendored vocabulary."""
     return Vocabulary()

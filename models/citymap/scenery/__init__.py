@@ -1,4 +1,4 @@
-"""What a map looks like, for whoever draws it: `shapes` of geometry, `cloud` of points, a blob each, and their `files`.
+"""The map as the page draws it: `shapes` of geometry or a `cloud` of points, and their `files`.
 
 May import what models.citymap may.
 """

@@ -1,4 +1,4 @@
-"""A map as coloured points, in an order in which any first part of them shows all of it."""
+"""A map as coloured points, in an order in which any first part shows the whole map."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -10,14 +10,15 @@ from models.citymap.scenery.files import SceneryBlob
 from models.citymap.types import Floats
 
 POINTS_PER_PART = 200_000
-UNITS_PER_M = 10
-SEED = 0
+UNITS_PER_M = 10  # coordinates are sent in decimetres
+SEED = 0  # of the order of points
 
 
 def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[SceneryBlob]:
-    """Parts of at most POINTS_A_PART points each, drawn at random.
+    """Yield parts of at most POINTS_PER_PART points each, drawn at random.
 
-    Tensors: "steps" [P, 3], decimetres, each point from the one before it, the first from the origin; "rgb" [P, 3].
+    Tensors: "steps" [P, 3], decimetres, each point relative to the one before it, the first to the origin;
+    "rgb" [P, 3].
 
     Args:
         xyz_m: [P, 3] metres, map frame.

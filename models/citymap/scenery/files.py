@@ -1,4 +1,4 @@
-"""Scenery on disk: parts in files of their own, each compressed as it is sent."""
+"""Scenery on disk: each part in a file, compressed as it is sent."""
 
 import gzip
 import shutil
@@ -15,11 +15,11 @@ GZIP_LEVEL = 9
 
 
 class SceneryBlob(NamedTuple):
-    """A part as a safetensors file holds it.
+    """The content of a part's safetensors file.
 
     Attributes:
         tensors: by name.
-        metadata: its metadata.
+        metadata: of the file.
     """
 
     tensors: dict[str, npt.NDArray[Any]]
@@ -28,11 +28,11 @@ class SceneryBlob(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SceneryPart:
-    """A file to send as it is.
+    """A file that is sent as it is.
 
     Attributes:
-        path: where it lies, compressed by gzip.
-        sha256: of it.
+        path: of the file, compressed by gzip.
+        sha256: of the file.
     """
 
     path: Path
@@ -40,7 +40,7 @@ class SceneryPart:
 
 
 def save_scenery(directory: Path, parts: Iterable[SceneryBlob]) -> None:
-    """Write the parts, scenery.0.safetensors.gz and on; no copy of one is in memory."""
+    """Write the parts to scenery.0.safetensors.gz and so on, without a copy of a part in memory."""
     plain = directory / "scenery"
     for number, part in enumerate(parts):
         save_safetensors(part.tensors, part.metadata, plain)
@@ -54,10 +54,10 @@ def save_scenery(directory: Path, parts: Iterable[SceneryBlob]) -> None:
 
 
 def file_name(number: int) -> str:
-    """Of a part."""
+    """Return the file name of a part."""
     return f"scenery.{number}.safetensors.gz"
 
 
 def is_scenery(name: str) -> bool:
-    """Whether a file of an index is a part."""
+    """Whether a file of an index is a part of the scenery."""
     return name.startswith("scenery.")

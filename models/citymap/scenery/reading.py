@@ -1,4 +1,4 @@
-"""Scenery as it was written, for what draws a map without a browser; and the look of a map."""
+"""Read scenery to draw a map without a browser, and the colours of a map."""
 
 import gzip
 import json
@@ -30,7 +30,7 @@ class Outline:
         width_m: of a line.
         name: if it has one.
         paths: [V, 2] each, metres, map frame.
-        is_hole: of each path, whether it is a hole of the area before it.
+        is_hole: whether each path is a hole of the area before it.
     """
 
     label: str
@@ -43,11 +43,11 @@ class Outline:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DecodedScenery:
-    """What a part of scenery holds: outlines and places, or points.
+    """The content of a part of scenery: outlines and named points, or scanned points.
 
     Attributes:
-        outlines: what lies on top of others first.
-        places: what has a name and is found at one point.
+        outlines: the topmost first.
+        places: named objects that are drawn as a point.
         xyz_m: [P, 3].
         rgb: [P, 3].
     """
@@ -59,24 +59,25 @@ class DecodedScenery:
 
 
 def read_scenery(path: Path) -> DecodedScenery:
-    """A part, as `Outlines.encode` or `encode_cloud` wrote it and `save_scenery` compressed it."""
+    """Read a part that `save_scenery` wrote."""
     blob = gzip.decompress(path.read_bytes())
     (size,) = struct.unpack("<Q", blob[:8])
-    told = json.loads(blob[8 : 8 + size])["__metadata__"]
+    metadata = json.loads(blob[8 : 8 + size])["__metadata__"]
     tensors = load(blob)
-    walked = tensors["steps"].cumsum(axis=0, dtype=np.int64) / UNITS_PER_M
-    nothing = np.zeros((0, 3))
-    if told["kind"] == "points":
-        return DecodedScenery([], [], walked, tensors["rgb"])
+    positions_m = tensors["steps"].cumsum(axis=0, dtype=np.int64) / UNITS_PER_M
+    no_points = np.zeros((0, 3))
+    if metadata["kind"] == "points":
+        return DecodedScenery([], [], positions_m, tensors["rgb"])
     places = [
-        NamedPoint((x / UNITS_PER_M, y / UNITS_PER_M), name, kind) for x, y, name, kind in json.loads(told["places"])
+        NamedPoint((x / UNITS_PER_M, y / UNITS_PER_M), name, kind)
+        for x, y, name, kind in json.loads(metadata["places"])
     ]
-    return DecodedScenery(_outlines(told, tensors, walked), places, nothing, nothing.astype(np.uint8))
+    return DecodedScenery(_outlines(metadata, tensors, positions_m), places, no_points, no_points.astype(np.uint8))
 
 
-def _outlines(told: dict[str, str], tensors: dict[str, npt.NDArray[Any]], walked: Floats) -> list[Outline]:
-    labels, names = json.loads(told["labels"]), json.loads(told["names"])
-    paths = np.split(walked, tensors["size"].cumsum()[:-1])
+def _outlines(metadata: dict[str, str], tensors: dict[str, npt.NDArray[Any]], positions_m: Floats) -> list[Outline]:
+    labels, names = json.loads(metadata["labels"]), json.loads(metadata["names"])
+    paths = np.split(positions_m, tensors["size"].cumsum()[:-1])
     hole = tensors["hole"].astype(bool).tolist()
     last = tensors["paths"].cumsum().tolist()
     return [
@@ -94,6 +95,6 @@ def _outlines(told: dict[str, str], tensors: dict[str, npt.NDArray[Any]], walked
 
 @cache
 def load_look() -> dict[str, Any]:
-    """Colours of a map, as the page has them: "light" and "dark" by use; "ground", "rising" and "walls" by label."""
-    found: dict[str, Any] = json.loads(LOOK_FILE.read_text())
-    return found
+    """Load the colours of the page: "light" and "dark" by use; "ground", "rising" and "walls" by label."""
+    look: dict[str, Any] = json.loads(LOOK_FILE.read_text())
+    return look

@@ -1,4 +1,4 @@
-"""A map as outlines, lines and places with heights and names, in as few bytes as drawing needs."""
+"""A map as outlines, lines and points with heights and names, in as few bytes as drawing needs."""
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -14,21 +14,21 @@ from models.citymap.scenery.files import SceneryBlob
 from models.citymap.types import Floats, MapShape
 from models.spool import AT_ONCE, Spool, spooled
 
-UNITS_PER_M: Final = 10  # what is sent is in decimetres
-SIMPLIFY_TOLERANCE_M: Final = 0.3  # how far an outline may be from the one that is mapped
+UNITS_PER_M: Final = 10  # coordinates are sent in decimetres
+SIMPLIFY_TOLERANCE_M: Final = 0.3  # greatest distance of a drawn outline from the mapped one
 OSM_TYPES: Final = ("node", "way", "relation")
-MAX_UNITS: Final = 65535
+MAX_UNITS: Final = 65535  # heights have 16 bits
 PATH_COLUMNS: Final = ("size", "hole")
 
 
 @dataclass(frozen=True, slots=True)
 class NamedPoint:
-    """What has a name and is found at one point: a shop, a museum.
+    """A named object that is drawn as a point: a shop, a museum.
 
     Attributes:
         position_m: x, y, map frame.
         name: the one to show.
-        kind: what it is, in a word.
+        kind: its kind, in a word.
     """
 
     position_m: tuple[float, float]
@@ -40,15 +40,15 @@ class NamedPoint:
 class Outlines:
     """O objects of R paths of V vertices as they are drawn; numbers are decimetres.
 
-    Objects stand by label, within a label by where they are.
+    Objects are sorted by label, then by position.
 
     Attributes:
-        labels: those that lie on top of others first.
+        labels: the topmost first.
         names: of objects that have one, by number.
         tensors: of O: "label" (number in `labels`), "form" (0 point, 1 line, 2 area), "base", "top", "width", "paths"
-            (how many), "source" (OpenStreetMap's number times 4, and 0 node, 1 way, 2 relation; -1 for none). Of R:
-            "size" (vertices), "hole" (of an area). "steps" [V, 2]: each vertex from the one before it, the first from
-            the origin.
+            (their number), "source" (OpenStreetMap's number times 4, plus 0 node, 1 way, 2 relation; -1 for none).
+            Of R: "size" (vertices), "hole" (of an area). "steps" [V, 2]: each vertex relative to the one before it, the
+            first to the origin.
     """
 
     labels: list[str]
@@ -57,36 +57,36 @@ class Outlines:
 
     @classmethod
     def from_shapes(cls, shapes: Sequence[MapShape]) -> "Outlines":
-        """Those of what there is, what lies on top of others first; labels keep this order."""
-        drawings = OutlinesBuilder(dict.fromkeys(shape.label for shape in shapes))
-        drawings.add(DrawnObjects.from_shapes(shapes, np.arange(len(shapes))))
-        return drawings.build()
+        """Build the outlines of shapes, given the topmost first; labels keep this order."""
+        builder = OutlinesBuilder(dict.fromkeys(shape.label for shape in shapes))
+        builder.add(DrawnObjects.from_shapes(shapes, np.arange(len(shapes))))
+        return builder.build()
 
     def encode(self, places: Iterable[NamedPoint] = ()) -> SceneryBlob:
-        """A part of scenery, with "labels", "names" and "places" [[x, y, name, kind]] as JSON in its facts.
+        """Return a part of scenery; its metadata have "labels", "names" and "places" [[x, y, name, kind]] as JSON.
 
         Args:
-            places: what has a name.
+            places: the named points.
         """
-        told: dict[str, Any] = {
+        lists: dict[str, Any] = {
             "labels": self.labels,
             "names": self.names,
             "places": [
                 [*(round(v * UNITS_PER_M) for v in place.position_m), place.name, place.kind] for place in places
             ],
         }
-        words = {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in told.items()}
-        return SceneryBlob(self.tensors, {"kind": "shapes", **words})
+        texts = {key: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for key, value in lists.items()}
+        return SceneryBlob(self.tensors, {"kind": "shapes", **texts})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnObjects:
-    """What is drawn of some objects, O of them.
+    """O objects as they are drawn.
 
     Attributes:
         labels, names: of each.
-        tensors: as of Outlines but for "label" and "steps"; "place" [O] of each among all, "low" [O, 2] the least
-            coordinates of each in metres, "xy" [V, 2].
+        tensors: as of Outlines but for "label" and "steps"; "place" [O] is the rank among all objects, "low" [O, 2] the
+            lowest coordinates in metres, "xy" [V, 2].
     """
 
     labels: list[str]
@@ -94,11 +94,11 @@ class DrawnObjects:
     tensors: dict[str, npt.NDArray[Any]]
 
     @classmethod
-    def from_shapes(cls, shapes: Sequence[MapShape], place: npt.NDArray[Any]) -> "DrawnObjects":
-        """That of some shapes that are each at a place [S] among all."""
+    def from_shapes(cls, shapes: Sequence[MapShape], rank: npt.NDArray[Any]) -> "DrawnObjects":
+        """Build the objects of shapes, with the rank [S] of each among all."""
         geometry = shapely.simplify(np.array([shape.geometry for shape in shapes], dtype=object), SIMPLIFY_TOLERANCE_M)
-        drawn = np.flatnonzero(~(shapely.is_missing(geometry) | shapely.is_empty(geometry)))
-        shapes, geometry = [shapes[n] for n in drawn.tolist()], geometry[drawn]
+        rows = np.flatnonzero(~(shapely.is_missing(geometry) | shapely.is_empty(geometry)))
+        shapes, geometry = [shapes[n] for n in rows.tolist()], geometry[rows]
         form = shapely.get_dimensions(geometry).astype(np.uint8) if shapes else np.zeros(0, np.uint8)
         path, owner, hole = _paths(geometry, form)
         xy, of_path = shapely.get_coordinates(path, return_index=True)
@@ -111,7 +111,7 @@ class DrawnObjects:
             "source": np.array([_encode_source(shape.source_id) for shape in shapes], dtype=np.float64),
             "size": np.bincount(of_path, minlength=len(path)).astype(np.uint32),
             "hole": hole.astype(np.uint8),
-            "place": place[drawn],
+            "place": rank[rows],
             "low": np.nan_to_num(shapely.bounds(geometry))[:, :2],
             "xy": np.rint(xy * UNITS_PER_M).astype(np.int32),
         }
@@ -119,24 +119,26 @@ class DrawnObjects:
 
 
 class OutlinesBuilder:
-    """What is drawn of a map, which grows; it lies on disk.
+    """Collects the drawn objects of a map on disk.
 
     Args:
-        labels: of all that is drawn, those that lie on top of others first.
+        labels: of all objects, the topmost first.
     """
 
     def __init__(self, labels: Iterable[str]) -> None:
         self._number = {label: n for n, label in enumerate(labels)}
         self._spool, self._names, self._count = Spool(), dict[int, str](), 0
 
-    def add(self, drawing: DrawnObjects) -> None:
-        """Draw some more; there is at least one drawing."""
-        self._spool.add({"label": np.array([self._number[of] for of in drawing.labels], np.uint16), **drawing.tensors})
-        self._names |= {self._count + n: name for n, name in enumerate(drawing.names) if name}
-        self._count += len(drawing.labels)
+    def add(self, objects: DrawnObjects) -> None:
+        """Add objects; at least one call is needed."""
+        self._spool.add(
+            {"label": np.array([self._number[label] for label in objects.labels], np.uint16), **objects.tensors}
+        )
+        self._names |= {self._count + n: name for n, name in enumerate(objects.names) if name}
+        self._count += len(objects.labels)
 
     def build(self) -> Outlines:
-        """All of it; nothing is drawn after that."""
+        """Return the outlines; nothing can be added after this."""
         columns = self._spool.columns()
         order = np.lexsort((columns.pop("place"), _morton_codes(columns.pop("low")), columns["label"]))
         place = np.empty_like(order)
@@ -146,30 +148,30 @@ class OutlinesBuilder:
 
 
 def _sorted_tensors(columns: Mapping[str, npt.NDArray[Any]], order: npt.NDArray[Any]) -> Iterator[dict[str, Any]]:
-    """Tensors of Outlines, some objects at a time, of columns of drawings."""
+    """Yield the tensors of Outlines from the columns of drawn objects, some objects at a time."""
     ends = {name: np.cumsum(columns[name], dtype=np.int64) for name in ("paths", "size")}
     last = np.zeros((1, 2), np.int32)
     for first in range(0, len(order) or 1, AT_ONCE):
         rows = order[first : first + AT_ONCE]
         paths = _group_rows(ends["paths"], columns["paths"], rows)
         xy = columns["xy"][_group_rows(ends["size"], columns["size"], paths)]
-        found = {
+        tensors = {
             name: column[paths if name in PATH_COLUMNS else rows] for name, column in columns.items() if name != "xy"
         }
-        yield found | {"steps": np.diff(xy, axis=0, prepend=last).astype(np.int32)}
+        yield tensors | {"steps": np.diff(xy, axis=0, prepend=last).astype(np.int32)}
         last = xy[-1:] if len(xy) else last
 
 
 def _group_rows(ends: npt.NDArray[Any], sizes: npt.NDArray[Any], groups: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """The rows of some groups, group after group."""
+    """Return the rows of some groups, group after group."""
     return ranges(ends[groups] - sizes[groups], ends[groups])
 
 
 def _paths(geometry: Any, form: npt.NDArray[np.uint8]) -> tuple[Any, npt.NDArray[np.intp], npt.NDArray[np.bool_]]:
-    """Points, lines and rings, with the object of each, in order of objects, and whether it is a hole."""
+    """Return points, lines and rings in order of objects, the object of each, and whether it is a hole."""
     parts, owner = shapely.get_parts(geometry, return_index=True)
-    kept = shapely.get_dimensions(parts) == form[owner]  # a collection also holds what a clip left over
-    parts, owner = parts[kept], owner[kept]
+    is_drawn = shapely.get_dimensions(parts) == form[owner]  # a collection also holds what a clip left over
+    parts, owner = parts[is_drawn], owner[is_drawn]
     is_area = shapely.get_dimensions(parts) == 2
     rings, polygon = shapely.get_rings(parts[is_area], return_index=True)
     is_hole = np.diff(polygon, prepend=-1) == 0
@@ -187,15 +189,19 @@ def _to_units(values_m: Sequence[float]) -> npt.NDArray[np.uint16]:
 
 
 def _encode_source(source_id: str | None) -> float:
-    kind, _, number = (source_id or "").partition("/")
-    return float(int(number) * 4 + OSM_TYPES.index(kind)) if kind in OSM_TYPES and number.isdigit() else -1.0
+    element_type, _, number = (source_id or "").partition("/")
+    return (
+        float(int(number) * 4 + OSM_TYPES.index(element_type))
+        if element_type in OSM_TYPES and number.isdigit()
+        else -1.0
+    )
 
 
 def _morton_codes(low_m: Floats) -> npt.NDArray[np.int64]:
-    """[O] where objects [O, 2] are, so that what is near has near numbers."""
+    """Return a number [O] for the position of each object [O, 2]; near objects have near numbers."""
     low = low_m - low_m.min(axis=0, initial=0.0)
     cell = np.minimum(low / 4, 0xFFFFF).astype(np.int64)
-    found = np.zeros(len(cell), dtype=np.int64)
+    codes = np.zeros(len(cell), dtype=np.int64)
     for bit in range(20):
-        found |= ((cell[:, 0] >> bit & 1) << 2 * bit) | ((cell[:, 1] >> bit & 1) << 2 * bit + 1)
-    return found
+        codes |= ((cell[:, 0] >> bit & 1) << 2 * bit) | ((cell[:, 1] >> bit & 1) << 2 * bit + 1)
+    return codes

@@ -97,15 +97,15 @@ def describe_pose(
     label_number = {label: n for n, label in enumerate({i.label: None for i in raw.instances})}
     labels = np.array([label_number[raw.instances[i].label] for i in around.instance])
     keys = {"class": labels, "direction": direction}
-    found: dict[frozenset[int], StrategyDescription] = {}
+    by_instances: dict[frozenset[int], StrategyDescription] = {}
     for strategy in config.strategies:
         order = round_robin(keys[strategy]) if strategy in keys else np.argsort(around.distance, kind="stable")
         rows = order[: config.num_hints]
         mentioned = frozenset(raw.instances[i].id for i in around.instance[rows])
-        if mentioned not in found:
+        if mentioned not in by_instances:
             hints = tuple(_hint(around, int(row), int(direction[row]), raw, cell, pose) for row in rows)
-            found[mentioned] = StrategyDescription(strategy, hints)
-    return list(found.values())
+            by_instances[mentioned] = StrategyDescription(strategy, hints)
+    return list(by_instances.values())
 
 
 def _hint(

@@ -97,7 +97,7 @@ def _choose_folders(raw: Path, scene: str | None) -> tuple[str, ...]:
         raise
     chosen = select_scenes(available, scene, raw / TILES)
     for n, folder in enumerate(chosen):
-        same = [other for other in chosen[:n] if short_name(other) == short_name(folder)]
+        same = [earlier for earlier in chosen[:n] if short_name(earlier) == short_name(folder)]
         if same:
             raise DataError(
                 f"{raw / TILES}: folders '{same[0]}' and '{folder}' are one scene; name or keep one of them"

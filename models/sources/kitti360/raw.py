@@ -117,8 +117,8 @@ def load_raw_scene(
 
 def _scene_folders(root: Path) -> dict[str, Path]:
     """The folder of each scene's tiles; downloads have them in train/ and test/, older ones beside each other."""
-    found = [path.parent for pattern in ("*/static", "*/*/static") for path in (root / TILES).glob(pattern)]
-    return {path.name: path for path in found if (path / "static").is_dir()}
+    folders = [path.parent for pattern in ("*/static", "*/*/static") for path in (root / TILES).glob(pattern)]
+    return {path.name: path for path in folders if (path / "static").is_dir()}
 
 
 def scene_folder(root: Path, scene: str) -> Path:
@@ -144,10 +144,10 @@ def tile_paths(folder: Path) -> list[Path]:
         DataError: there are none.
     """
     static = folder / "static"
-    found = {path.name.removesuffix(".gz"): path for ending in ("*.ply.gz", "*.ply") for path in static.glob(ending)}
-    if not found:
+    by_name = {path.name.removesuffix(".gz"): path for ending in ("*.ply.gz", "*.ply") for path in static.glob(ending)}
+    if not by_name:
         raise DataError(f"{static}: no tiles; expected *.ply")
-    return [found[name] for name in sorted(found)]
+    return [by_name[name] for name in sorted(by_name)]
 
 
 def _merge(grown: dict[int, _PartialInstance], tile: Tile, classes: tuple[ClassRule, ...]) -> None:
@@ -163,8 +163,8 @@ def _merge(grown: dict[int, _PartialInstance], tile: Tile, classes: tuple[ClassR
                 xyz = np.concatenate([grown[number].xyz, xyz])
                 rgb = np.concatenate([grown[number].rgb, rgb])
             merged = grown.setdefault(number, _PartialInstance(rule, xyz, rgb))
-            kept = slice(None) if merged.rule.voxel_m is None else first_in_voxel(xyz, merged.rule.voxel_m)
-            merged.xyz, merged.rgb = xyz[kept], rgb[kept]
+            rows_left = slice(None) if merged.rule.voxel_m is None else first_in_voxel(xyz, merged.rule.voxel_m)
+            merged.xyz, merged.rgb = xyz[rows_left], rgb[rows_left]
 
 
 def read_tile(path: Path) -> Tile:

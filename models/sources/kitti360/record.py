@@ -103,9 +103,9 @@ def read_record(path: Path, advice: str) -> PreparationRecord:
 
 def describe_differences(record: PreparationRecord, recipe: Recipe) -> str:
     """What a scene was made from that is not so now, in words; empty if nothing."""
-    found = list(_find_changes(record.model_dump(include=set(Recipe.model_fields)), recipe.model_dump()))
-    more = f" and {len(found) - MAX_SHOWN_DIFFERENCES} more" if len(found) > MAX_SHOWN_DIFFERENCES else ""
-    return ", ".join(found[:MAX_SHOWN_DIFFERENCES]) + more
+    changes = list(_find_changes(record.model_dump(include=set(Recipe.model_fields)), recipe.model_dump()))
+    more = f" and {len(changes) - MAX_SHOWN_DIFFERENCES} more" if len(changes) > MAX_SHOWN_DIFFERENCES else ""
+    return ", ".join(changes[:MAX_SHOWN_DIFFERENCES]) + more
 
 
 def _find_changes(before: Mapping[str, Any], now: Mapping[str, Any], within: str = "") -> Iterator[str]:

@@ -89,12 +89,12 @@ def select_scenes(available: Sequence[str], split: str | None, where: Path) -> t
     wanted = standard or tuple(name.strip() for name in split.split(",") if name.strip())
     chosen: list[str] = []
     for name in wanted:
-        found = [scene for scene in available if name in (scene, short_name(scene))]
-        if len(found) > 1:
-            raise DataError(f"{where}: scene '{name}' is any of {', '.join(found)}; give the whole name")
-        if not found and not standard:
+        matches = [scene for scene in available if name in (scene, short_name(scene))]
+        if len(matches) > 1:
+            raise DataError(f"{where}: scene '{name}' is any of {', '.join(matches)}; give the whole name")
+        if not matches and not standard:
             raise DataError(f"{where}: no scene '{name}'; there are {', '.join(available)}")
-        chosen += [scene for scene in found if scene not in chosen]
+        chosen += [scene for scene in matches if scene not in chosen]
     if not chosen:
         needed = f"'{split}' ({', '.join(wanted)})"
         raise DataError(f"{where}: no scene of split {needed}; there are {', '.join(available)}: name some of them")
@@ -258,6 +258,6 @@ def _open_records(path: Path, name: str, kind: str) -> Iterator[list[Fields]]:
         yield records
 
 
-def _check_scene(record: Fields, found: str, expected: str) -> None:
-    if found != expected:
-        raise record.error("scene_name", f"is '{found}', but '{expected}' before; a file holds one scene")
+def _check_scene(record: Fields, scene_name: str, expected: str) -> None:
+    if scene_name != expected:
+        raise record.error("scene_name", f"is '{scene_name}', but '{expected}' before; a file holds one scene")

@@ -131,8 +131,8 @@ class DataUnpickler:
 
     def protocol(self) -> None:
         """Check the protocol."""
-        if (found := self.unsigned(1)) not in (3, 4, 5):
-            raise RefusedPickle(f"has protocol {found}, not 3 to 5")
+        if (version := self.unsigned(1)) not in (3, 4, 5):
+            raise RefusedPickle(f"has protocol {version}, not 3 to 5")
 
     def frame(self) -> None:
         """Check a frame's length; frames only say how much to read at once."""
@@ -147,8 +147,8 @@ class DataUnpickler:
         """Push an allowed global; refuse every other by name."""
         allowed = ALLOWED_GLOBALS.get((module, name)) if type(module) is type(name) is str else None
         if allowed is None:
-            asked = f"{module}.{name}" if type(module) is type(name) is str else "a nameless thing"
-            raise RefusedPickle(f"asks for {asked[:80]!r}, which no record or array needs")
+            global_name = f"{module}.{name}" if type(module) is type(name) is str else "a nameless thing"
+            raise RefusedPickle(f"asks for {global_name[:80]!r}, which no record or array needs")
         self.push(allowed)
 
     def stack_global(self) -> None:

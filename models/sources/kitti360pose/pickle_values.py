@@ -67,8 +67,8 @@ class StoredArray:
 
     def read(self, file: BinaryIO) -> npt.NDArray[Any]:
         """The array, native byte order; the same one while it is in use, however often the pickle refers to it."""
-        found = self._alive() if self._alive else None
-        if found is None:
+        array = self._alive() if self._alive else None
+        if array is None:
             if self.data is None:
                 raise RefusedPickle("has an array without values")
             raw: bytes | bytearray = bytearray(self.data if isinstance(self.data, bytes) else b"")
@@ -78,10 +78,10 @@ class StoredArray:
                 if file.readinto(raw) != len(raw):  # type: ignore[attr-defined]  # every binary file has it
                     raise EOFError
             flat = np.frombuffer(raw, dtype=self.dtype)
-            found = np.ascontiguousarray(flat.reshape(self.shape, order="F" if self.fortran else "C"))
-            found = found.astype(self.dtype.newbyteorder("="), copy=False)
-            self._alive = weakref.ref(found)
-        return found
+            array = np.ascontiguousarray(flat.reshape(self.shape, order="F" if self.fortran else "C"))
+            array = array.astype(self.dtype.newbyteorder("="), copy=False)
+            self._alive = weakref.ref(array)
+        return array
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -99,7 +99,7 @@ class CityExtract:
         if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
             raise MapError(f"{path}: no OpenStreetMap file; give one that ends in {' or '.join(SUFFIXES)} as --map")
         element: Any
-        names, ids, places = ExtractNames(), {letter: {0} for letter in OSM_TYPES}, _BoundingBox()
+        names, ids, bounds = ExtractNames(), {letter: {0} for letter in OSM_TYPES}, _BoundingBox()
         try:
             header = osmium.io.Reader(str(path)).header().box()
             for element in osmium.FileProcessor(str(path)):
@@ -108,14 +108,14 @@ class CityExtract:
                 for kind, number in [(letter, element.id), *_references(element)]:
                     ids[kind].add(number)
                 if letter == "n" and element.location.valid():
-                    places.add(element.location)
+                    bounds.add(element.location)
         except (RuntimeError, ValueError, OSError) as error:
             raise MapError(f"{path}: cannot be read as OpenStreetMap ({error}); download it again") from error
         if header.valid():
-            places.add(header.bottom_left)
-            places.add(header.top_right)
-        box = places.box(path, 0 if header.valid() else BOX_MARGIN_UNITS)
-        return cls(path, box, {kind: max(some) - min(some) + 1 for kind, some in ids.items()}, names)
+            bounds.add(header.bottom_left)
+            bounds.add(header.top_right)
+        box = bounds.box(path, 0 if header.valid() else BOX_MARGIN_UNITS)
+        return cls(path, box, {kind: max(numbers) - min(numbers) + 1 for kind, numbers in ids.items()}, names)
 
     def write_tiled(self, copies: int, out: Path) -> CopyGrid:
         """Write copies side by side; the file is read again for each, and one element is held at a time.
@@ -153,9 +153,9 @@ class CityExtract:
             yield from elements
             return
         names, shift = self.names.in_copy(copy), block.shift(copy)
-        by = {kind: copy * count for kind, count in self.numbers.items()}
+        id_shift = {kind: copy * count for kind, count in self.numbers.items()}
         for element in elements:
-            yield _move(element, names, by, shift)
+            yield _move(element, names, id_shift, shift)
 
 
 class _BoundingBox:
@@ -184,11 +184,11 @@ def _references(element: Any) -> list[tuple[str, int]]:
     return []
 
 
-def _move(element: Any, names: CopyNames, by: dict[str, int], shift: tuple[int, int]) -> Any:
+def _move(element: Any, names: CopyNames, id_shift: dict[str, int], shift: tuple[int, int]) -> Any:
     """An element with other numbers, names and coordinates."""
     letter = element.type_str()
     tags = names.tags((letter, element.id), {tag.k: tag.v for tag in element.tags})
-    changed: dict[str, Any] = {"id": element.id + by[letter], "tags": tags}
+    changed: dict[str, Any] = {"id": element.id + id_shift[letter], "tags": tags}
     if letter == "n" and element.location.valid():
         east, north = shift
         changed["location"] = (
@@ -196,9 +196,9 @@ def _move(element: Any, names: CopyNames, by: dict[str, int], shift: tuple[int, 
             (element.location.y + north) / UNITS_PER_DEGREE,
         )
     elif letter == "w":
-        changed["nodes"] = [node.ref + by["n"] for node in element.nodes]
+        changed["nodes"] = [node.ref + id_shift["n"] for node in element.nodes]
     elif letter == "r":
-        changed["members"] = [(m.type, m.ref + by[m.type], m.role) for m in element.members]
+        changed["members"] = [(m.type, m.ref + id_shift[m.type], m.role) for m in element.members]
     return element.replace(**changed)
 
 

@@ -46,14 +46,14 @@ def load_classes() -> tuple[OsmClass, ...]:
 def find_class(tags: Mapping[str, str]) -> tuple[int, OsmClass] | None:
     """The first row of the table that an element with these tags belongs to, and its number; None if there is none."""
     rows, numbers = load_classes(), _rows_by_key()
-    asked = sorted({number for key in tags for number in numbers.get(key, ())})
-    return next(((number, rows[number]) for number in asked if rows[number].matches(tags)), None)
+    candidates = sorted({number for key in tags for number in numbers.get(key, ())})
+    return next(((number, rows[number]) for number in candidates if rows[number].matches(tags)), None)
 
 
 @cache
 def _rows_by_key() -> dict[str, list[int]]:
     """Which rows ask for each key first: most elements have none of most keys."""
-    found: dict[str, list[int]] = {}
+    numbers: dict[str, list[int]] = {}
     for number, row in enumerate(load_classes()):
-        found.setdefault(row.required[0][0], []).append(number)
-    return found
+        numbers.setdefault(row.required[0][0], []).append(number)
+    return numbers

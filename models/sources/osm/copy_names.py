@@ -48,11 +48,11 @@ class ExtractNames:
         for key, value in tags.items():
             if _is_street_key(key):
                 self._add_street(value)
-        naming = _name_tags(tags)
-        if naming and is_street(element, tags):
-            self._add_street(_street_name(naming))
-        elif naming:
-            self.things.setdefault(_main_tag(tags), {})[element] = naming
+        name_tags = _name_tags(tags)
+        if name_tags and is_street(element, tags):
+            self._add_street(_street_name(name_tags))
+        elif name_tags:
+            self.things.setdefault(_main_tag(tags), {})[element] = name_tags
 
     def _add_street(self, name: str) -> None:
         self.streets.setdefault(name.casefold(), len(self.streets))
@@ -83,15 +83,15 @@ class CopyNames:
 
     def tags(self, element: Element, tags: Tags) -> Tags:
         """The tags of an element in this copy; `element` is as in the extract."""
-        naming = _name_tags(tags)
-        found = {
+        name_tags = _name_tags(tags)
+        copied = {
             key: self.street(value) if _is_street_key(key) else value
             for key, value in tags.items()
-            if key not in naming and not TRANSLATED_STREET_KEY.fullmatch(key)
+            if key not in name_tags and not TRANSLATED_STREET_KEY.fullmatch(key)
         }
-        if naming and is_street(element, tags):
-            return found | {"name": self.street(_street_name(naming))}
-        return found | self.swapped[element] if naming else found
+        if name_tags and is_street(element, tags):
+            return copied | {"name": self.street(_street_name(name_tags))}
+        return copied | self.swapped[element] if name_tags else copied
 
     def street(self, name: str) -> str:
         """The made-up name of a street of the extract; no other street of any copy has it."""
@@ -116,9 +116,9 @@ def _name_tags(tags: Mapping[str, str]) -> Tags:
     return {key: value for key, value in tags.items() if NAME_KEY.fullmatch(key)}
 
 
-def _street_name(naming: Tags) -> str:
+def _street_name(name_tags: Tags) -> str:
     """The name to know a street by."""
-    return naming.get("name") or next(iter(naming.values()))
+    return name_tags.get("name") or next(iter(name_tags.values()))
 
 
 def _main_tag(tags: Mapping[str, str]) -> Kind:

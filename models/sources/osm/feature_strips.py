@@ -57,13 +57,13 @@ class FeatureStrips:
     def __init__(self, directory: Path, features: Iterable[Sequence[Feature]]) -> None:
         self._directory, count = directory, 0
         order, heights, numbers = [np.zeros(0, np.int16)], [np.zeros((0, 2))], set[int]()
-        for some in features:
-            if not some:
+        for batch in features:
+            if not batch:
                 continue
-            order.append(np.array([feature.order for feature in some], np.int16))
-            heights.append(np.array([(feature.base_m, feature.height_m) for feature in some]))
-            numbers |= self._file(count, some)
-            count += len(some)
+            order.append(np.array([feature.order for feature in batch], np.int16))
+            heights.append(np.array([(feature.base_m, feature.height_m) for feature in batch]))
+            numbers |= self._file(count, batch)
+            count += len(batch)
         self.numbers, self.order, self.heights_m = sorted(numbers), np.concatenate(order), np.concatenate(heights)
 
     def _file(self, first: int, features: Sequence[Feature]) -> set[int]:
@@ -71,12 +71,14 @@ class FeatureStrips:
         bounds = shapely.bounds([feature.geometry for feature in features])
         ends = np.stack([bounds[:, 0] - UPRIGHT_MERGE_M, bounds[:, 2] + UPRIGHT_MERGE_M], axis=1)
         low, high = (column // TILE_COLUMNS_PER_BAND for column in tile_span(ends))
-        of, strip = np.repeat(np.arange(len(features)), high + 1 - low), ranges(low, high + 1)
+        feature, strip = np.repeat(np.arange(len(features)), high + 1 - low), ranges(low, high + 1)
         numbers = set(strip.tolist())
         for number in numbers:
-            here = [NumberedFeature(first + n, features[n], low[n] == number) for n in of[strip == number].tolist()]
+            numbered = [
+                NumberedFeature(first + n, features[n], low[n] == number) for n in feature[strip == number].tolist()
+            ]
             with spooling(), self._path(number).open("ab") as file:
-                pickle.dump(here, file, pickle.HIGHEST_PROTOCOL)
+                pickle.dump(numbered, file, pickle.HIGHEST_PROTOCOL)
         return numbers
 
     def _path(self, number: int) -> Path:
@@ -84,11 +86,11 @@ class FeatureStrips:
 
     def read(self, number: int) -> list[NumberedFeature]:
         """The features of a strip, in order of their classes, then as they were read."""
-        found = list[NumberedFeature]()
+        features = list[NumberedFeature]()
         with self._path(number).open("rb") as file:
             while file.peek(1):
-                found += pickle.load(file)  # what this job has written
-        return sorted(found, key=lambda placed: (placed.feature.order, placed.number))
+                features += pickle.load(file)  # what this job has written
+        return sorted(features, key=lambda placed: (placed.feature.order, placed.number))
 
     def band(self, number: int) -> TileSpan:
         """The columns of tiles of a strip."""
@@ -112,32 +114,32 @@ class FeatureInstances:
     @classmethod
     def join(cls, strips: FeatureStrips) -> "FeatureInstances":
         """Those of all features; see `find_joins`."""
-        found = list(map_forked(partial(_find_joins_in, strips), strips.numbers))
-        gone = np.concatenate([np.zeros(0, np.int64), *(some for some, _ in found)])
-        pairs = np.concatenate([np.zeros((0, 2), np.int64), *(some for _, some in found)])
+        per_strip = list(map_forked(partial(_find_joins_in, strips), strips.numbers))
+        left_out = np.concatenate([np.zeros(0, np.int64), *(rows for rows, _ in per_strip)])
+        pairs = np.concatenate([np.zeros((0, 2), np.int64), *(rows for _, rows in per_strip)])
         count = len(strips.order)
-        is_gone = np.zeros(count, np.bool_)
-        is_gone[gone] = True
-        pairs = pairs[~is_gone[pairs].any(axis=1)]  # of what is left out, a strip may not know why
+        is_left_out = np.zeros(count, np.bool_)
+        is_left_out[left_out] = True
+        pairs = pairs[~is_left_out[pairs].any(axis=1)]  # of what is left out, a strip may not know why
         by_class = np.argsort(strips.order, kind="stable")
-        place = np.empty(count, np.int64)
-        place[by_class] = np.arange(count)
+        rank = np.empty(count, np.int64)
+        rank[by_class] = np.arange(count)
         graph = coo_array((np.ones(len(pairs), np.bool_), tuple(pairs.T)), shape=(count, count))
         group = connected_components(graph, directed=False)[1]
         first = np.full(group.max(initial=-1) + 1, count)
-        np.minimum.at(first, group, place)
+        np.minimum.at(first, group, rank)
         is_upright = np.array([row.shape == UPRIGHT_SHAPE for row in load_classes()])[strips.order]
-        is_left = ~is_gone & ~(is_upright & (first[group] != place))  # the first carries the others
-        is_first = is_left & (first[group] == place)
-        chosen = by_class[is_first[by_class]]
+        is_member = ~is_left_out & ~(is_upright & (first[group] != rank))  # the first carries the others
+        is_first = is_member & (first[group] == rank)
+        first_features = by_class[is_first[by_class]]
         number = np.full(count, -1)
-        number[group[chosen]] = np.arange(len(chosen))
-        return cls(np.where(is_left, number[group], -1), chosen, place)
+        number[group[first_features]] = np.arange(len(first_features))
+        return cls(np.where(is_member, number[group], -1), first_features, rank)
 
 
 def _find_joins_in(strips: FeatureStrips, number: int) -> tuple[Ints, Ints]:
     """`find_joins` of a strip, by numbers of features."""
-    placed = strips.read(number)
-    numbers = np.array([each.number for each in placed])
-    gone, pairs = find_joins([each.feature for each in placed])
-    return numbers[gone], numbers[pairs]
+    features = strips.read(number)
+    numbers = np.array([each.number for each in features])
+    left_out, pairs = find_joins([each.feature for each in features])
+    return numbers[left_out], numbers[pairs]

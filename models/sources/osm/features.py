@@ -100,9 +100,9 @@ def find_joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
     is_node = np.array([f.source_id.startswith("node/") for f in features], np.bool_)
     geometries = np.array([f.geometry for f in features], dtype=object)
     nodes = np.flatnonzero(is_crossing & is_node)
-    twice = shapely.STRtree(geometries[is_crossing & ~is_node]).query(geometries[nodes], "intersects")[0]
-    gone = nodes[np.unique(twice)]
-    rows = np.delete(np.arange(len(features)), gone)
+    duplicates = shapely.STRtree(geometries[is_crossing & ~is_node]).query(geometries[nodes], "intersects")[0]
+    left_out = nodes[np.unique(duplicates)]
+    rows = np.delete(np.arange(len(features)), left_out)
     features, geometries = [features[row] for row in rows.tolist()], geometries[rows]
     is_upright = np.array([f.shape == "column" for f in features], np.bool_)
     known: dict[object, int] = {}
@@ -112,4 +112,4 @@ def find_joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
     touches = is_joinable[left] & (keys[left] == keys[right])
     touches[touches] = shapely.intersects(geometries[left[touches]], geometries[right[touches]])
     joined = (left < right) & (touches | (is_upright[left] & is_upright[right]))
-    return gone, np.stack([rows[left[joined]], rows[right[joined]]], axis=1)
+    return left_out, np.stack([rows[left[joined]], rows[right[joined]]], axis=1)

@@ -76,14 +76,24 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
     """
     objects, pieces, walked = GazetteerBuilder(), StreetPieces(), Spool()
     walked.add({"segments_m": concatenate_segments([])})
-    for some in _read_batches(path):
-        found = list(zip(some, _batch_segments(some, frame), strict=True))
-        pieces.add([_street_piece(one, segments, frame) for one, segments in found if one.nodes])
+    for batch in _read_batches(path):
+        with_segments = list(zip(batch, _batch_segments(batch, frame), strict=True))
+        pieces.add([_street_piece(item, segments, frame) for item, segments in with_segments if item.nodes])
         walked.add(
-            {"segments_m": concatenate_segments([segments for one, segments in found if one.object is _WALKED_OBJECT])}
+            {
+                "segments_m": concatenate_segments(
+                    [segments for item, segments in with_segments if item.object is _WALKED_OBJECT]
+                )
+            }
         )
-        others = [(one, segments) for one, segments in found if not one.nodes and one.object is not _WALKED_OBJECT]
-        objects.add([one.object for one, _ in others], [of for _, of in others], [one.is_area for one, _ in others])
+        others = [
+            (item, segments) for item, segments in with_segments if not item.nodes and item.object is not _WALKED_OBJECT
+        ]
+        objects.add(
+            [item.object for item, _ in others],
+            [segments for _, segments in others],
+            [item.is_area for item, _ in others],
+        )
     streets = join_streets(pieces, len(objects))
     objects.add(streets.objects, streets.segments_m, [False] * len(streets.objects))
     lines = walked.columns()["segments_m"]
@@ -113,22 +123,22 @@ def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_OsmObject]:
             continue
         if form == "a" and (_is_line(tags) or tags.get("indoor") == "room"):
             continue
-        words = _street_object(tags, element) if is_street else _object(tags, vocabulary, source_id(element, form))
-        if words is None:
+        item = _street_object(tags, element) if is_street else _object(tags, vocabulary, source_id(element, form))
+        if item is None:
             continue
         nodes = {n.ref: (n.lon, n.lat) for n in element.nodes if n.location.valid()} if is_street else {}
-        yield from _with_geometry(element, create, form, words, nodes)
+        yield from _with_geometry(element, create, form, item, nodes)
 
 
 def _with_geometry(
     element: Any,
     create: dict[str, Any],
     form: str,
-    words: GazetteerObject,
+    item: GazetteerObject,
     nodes: dict[int, tuple[float, float]] | None = None,
 ) -> Iterator[_OsmObject]:
     try:
-        yield _OsmObject(create[form](element), words, form == "a", nodes or {})
+        yield _OsmObject(create[form](element), item, form == "a", nodes or {})
     except (osmium.InvalidLocationError, RuntimeError):
         return  # nodes left out by the extract, or a broken ring
 
@@ -171,15 +181,15 @@ def _object(tags: dict[str, str], vocabulary: Vocabulary, source_id: str) -> Gaz
 def _names(tags: dict[str, str]) -> tuple[str, ...]:
     """All names of an object, each once, the one to show first."""
     keys = [*NAME_KEYS, *sorted(key for key in tags if _LANGUAGE.fullmatch(key))]
-    found = [part.strip() for key in keys if key in tags for part in tags[key].split(";")]
-    if not found and "operator" in tags and OPERATOR_NAMED_KEYS & tags.keys():
-        found = [tags["operator"]]
-    return tuple(dict.fromkeys(name for name in found if name))[:MAX_NAMES]
+    names = [part.strip() for key in keys if key in tags for part in tags[key].split(";")]
+    if not names and "operator" in tags and OPERATOR_NAMED_KEYS & tags.keys():
+        names = [tags["operator"]]
+    return tuple(dict.fromkeys(name for name in names if name))[:MAX_NAMES]
 
 
-def _batch_segments(found: Sequence[_OsmObject], frame: Frame) -> Iterator[Floats]:
+def _batch_segments(batch: Sequence[_OsmObject], frame: Frame) -> Iterator[Floats]:
     """[n, 4] the segments of each, metres."""
-    lon_lat = shapely.from_wkb([one.wkb for one in found])
+    lon_lat = shapely.from_wkb([item.wkb for item in batch])
     shapes = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
     return map(_segments, shapely.simplify(shapes, SIMPLIFY_TOLERANCE_M, preserve_topology=True))
 
@@ -198,6 +208,6 @@ def _segments(shape: shapely.Geometry) -> Floats:
     return segments
 
 
-def _street_piece(found: _OsmObject, segments_m: Floats, frame: Frame) -> StreetPiece:
-    lon, lat = np.array(list(found.nodes.values())).T
-    return StreetPiece(found.object, np.array(list(found.nodes)), segments_m, frame.from_wgs84(lat, lon))
+def _street_piece(item: _OsmObject, segments_m: Floats, frame: Frame) -> StreetPiece:
+    lon, lat = np.array(list(item.nodes.values())).T
+    return StreetPiece(item.object, np.array(list(item.nodes)), segments_m, frame.from_wgs84(lat, lon))

@@ -45,16 +45,19 @@ class _ImportedStrip:
 
 
 def _import_strip(strips: FeatureStrips, instances: FeatureInstances, number: int) -> _ImportedStrip:
-    placed = [each for each in strips.read(number) if instances.feature_instance[each.number] >= 0]
-    instance = instances.feature_instance[[each.number for each in placed]]
+    features = [each for each in strips.read(number) if instances.feature_instance[each.number] >= 0]
+    instance = instances.feature_instance[[each.number for each in features]]
     heights_m = strips.heights_m[instances.first[instance]]
-    solids = [each.feature.solid(int(n), *at) for each, n, at in zip(placed, instance, heights_m.tolist(), strict=True)]
-    own = [each for each in placed if each.is_owned]
-    place = instances.rank[[each.number for each in own]]
-    first = [each for each in own if instances.first[instances.feature_instance[each.number]] == each.number]
+    solids = [
+        each.feature.solid(int(n), *heights)
+        for each, n, heights in zip(features, instance, heights_m.tolist(), strict=True)
+    ]
+    owned = [each for each in features if each.is_owned]
+    rank = instances.rank[[each.number for each in owned]]
+    first = [each for each in owned if instances.first[instances.feature_instance[each.number]] == each.number]
     return _ImportedStrip(
         rows=cut_band(solids, strips.band(number)),
-        drawing=DrawnObjects.from_shapes([_shape(each.feature) for each in own], place),
+        drawing=DrawnObjects.from_shapes([_shape(each.feature) for each in owned], rank),
         instance=instances.feature_instance[[each.number for each in first]],
         names=[each.feature.name for each in first],
         sources=np.array([each.feature.source_id for each in first], np.bytes_),
@@ -89,21 +92,21 @@ class ImportedMap:
     def from_strips(cls, strips: FeatureStrips) -> "ImportedMap":
         """What becomes of features, in several processes, some strips at a time."""
         instances, classes = FeatureInstances.join(strips), load_classes()
-        lying = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.feature_instance >= 0]))
-        found = _StripImporter(strips, instances, OutlinesBuilder(lying))
-        pieces = PieceTable.from_bands(found.rows())
-        there = np.unique(pieces.instance)
-        pieces = pieces.renumber_instances(there)
-        order = strips.order[instances.first[there]]
+        labels = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.feature_instance >= 0]))
+        importer = _StripImporter(strips, instances, OutlinesBuilder(labels))
+        pieces = PieceTable.from_bands(importer.rows())
+        numbers = np.unique(pieces.instance)
+        pieces = pieces.renumber_instances(numbers)
+        order = strips.order[instances.first[numbers]]
         table = InstanceTable(
             Categorical.from_strings([classes[n].label for n in order]),
-            Categorical.from_strings([found.names.get(n) for n in there.tolist()]),
-            Categorical.from_bytes(found.sources[there]),
+            Categorical.from_strings([importer.names.get(n) for n in numbers.tolist()]),
+            Categorical.from_bytes(importer.sources[numbers]),
             Categorical.from_strings([classes[n].shape for n in order]),
-            found.rgb[there],
+            importer.rgb[numbers],
         )
         is_walkable = np.array([row.walkable for row in classes])[order]
-        return cls(table, is_walkable, pieces, found.drawings.build())
+        return cls(table, is_walkable, pieces, importer.drawings.build())
 
 
 class _StripImporter:

@@ -139,9 +139,9 @@ def _too_large(path: Path, box: Box) -> MapError:
     """Return the error for a file that spans too much, which names the element farthest from the others."""
     names, points, element = list[str](), list[Floats](), list[Ints]()
     for elements, lon_lat in _read_elements(path):
-        vertices, of = shapely.get_coordinates(lon_lat, return_index=True)
+        vertices, owner = shapely.get_coordinates(lon_lat, return_index=True)
         points.append(vertices)
-        element.append(len(names) + of)
+        element.append(len(names) + owner)
         names += [each.source_id for each in elements]
     lon_lat_deg = np.concatenate(points)
     if box[2] > 180:
@@ -189,13 +189,13 @@ def _read_box(path: Path) -> Box | None:
 def _read_elements(path: Path) -> Iterator[Batch]:
     """The elements of the file that belong to a class, some at once."""
     keys = sorted({key for row in load_classes() for key, _ in row.required})
-    none = True
+    is_empty = True
     with explained_errors(path):
         processor = osmium.FileProcessor(str(path)).with_areas().with_filter(osmium.filter.KeyFilter(*keys))
-        for some in batched(_classify(processor)):
-            none = False
-            yield some, shapely.from_wkb([element.wkb for element in some])
-    if none:
+        for batch in batched(_classify(processor)):
+            is_empty = False
+            yield batch, shapely.from_wkb([element.wkb for element in batch])
+    if is_empty:
         raise MapError(
             f"{path}: no building, street, tree or other known object in it; "
             "take an extract of an inhabited place, or extend models/sources/osm/classes.toml"
@@ -204,8 +204,8 @@ def _read_elements(path: Path) -> Iterator[Batch]:
 
 def batched(elements: Iterator[Element]) -> Iterator[list[Element]]:
     """Elements of a file, some at once: what is read of all of them would take much room."""
-    while some := list(islice(elements, ELEMENTS_PER_BATCH)):
-        yield some
+    while batch := list(islice(elements, ELEMENTS_PER_BATCH)):
+        yield batch
 
 
 @contextmanager
@@ -243,14 +243,14 @@ def _classify(processor: Any) -> Iterator[_Element]:
         tags = {tag.k: tag.v for tag in element.tags}
         if not _is_visible(tags):
             continue
-        found = find_class(tags)
-        if found is None or not _is_wanted(element, kind, found[1], tags):
+        match = find_class(tags)
+        if match is None or not _is_wanted(element, kind, match[1], tags):
             continue
         try:
             wkb = create[kind](element)
         except (osmium.InvalidLocationError, RuntimeError):
             continue  # nodes left out by the extract, or a broken ring: this element has no geometry here
-        yield _Element(wkb, found[1], found[0], tags, source_id(element, kind))
+        yield _Element(wkb, match[1], match[0], tags, source_id(element, kind))
 
 
 def _is_visible(tags: dict[str, str]) -> bool:
@@ -273,22 +273,22 @@ def _is_wanted(element: Any, kind: str, row: OsmClass, tags: dict[str, str]) -> 
 
 
 def _city_map(name: str, strips: FeatureStrips, frame: Frame) -> CityMap:
-    taken = ImportedMap.from_strips(strips)
-    locations = taken.pieces.ground_lattice(
-        np.flatnonzero(taken.is_walkable[taken.pieces.instance]), LOCATION_SPACING_M
+    imported = ImportedMap.from_strips(strips)
+    locations = imported.pieces.ground_lattice(
+        np.flatnonzero(imported.is_walkable[imported.pieces.instance]), LOCATION_SPACING_M
     )
-    taken.pieces.forget()
+    imported.pieces.forget()
     if not len(locations):
         raise MapError(f"{name}: no street, path or square in it, so there is no place to stand; take a larger extract")
     return CityMap(
         name=name,
-        instances=taken.instances,
+        instances=imported.instances,
         stuff=frozenset(row.label for row in load_classes() if row.shape in STUFF_SHAPES),
         locations_m=locations,
         frame=frame,
         palette=BASIC_PALETTE,
         rules=CutRules(min_part_points=MIN_PART_POINTS),
         attribution=ATTRIBUTION,
-        outlines=taken.outlines,
-        pieces=taken.pieces,
+        outlines=imported.outlines,
+        pieces=imported.pieces,
     )

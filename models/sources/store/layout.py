@@ -86,10 +86,10 @@ def pool_starts(kinds: Column, counts: Column) -> Ints:
 def find_problem(columns: Mapping[str, Column], num_words: int, num_scenes: int) -> str | None:
     """What makes columns unusable: a column of other dtype, numbers that point outside; None if nothing does."""
     for name, (group, dtype, shape) in COLUMNS.items():
-        first = next(other for other, spec in COLUMNS.items() if spec[0] == group)
-        found = columns[name]
-        if found.dtype != np.dtype(dtype) or found.shape != (len(columns[first]), *shape):
-            return f"{name} has dtype {found.dtype} and shape {list(found.shape)}"
+        first = next(first_name for first_name, spec in COLUMNS.items() if spec[0] == group)
+        column = columns[name]
+        if column.dtype != np.dtype(dtype) or column.shape != (len(columns[first]), *shape):
+            return f"{name} has dtype {column.dtype} and shape {list(column.shape)}"
     points = columns["object_points"].astype(np.int64)
     sizes = {"cell_objects": "object_label", "pose_hints": "hint_object"}
     for name, rows in sizes.items():

@@ -52,11 +52,11 @@ def _end_row(world_m: Floats, cells: float) -> int | None:
 
 def spaced_rows(world_m: Floats, spacing_m: float) -> Ints:
     """[L] rows of the poses that are locations: far enough from all before (docs/formats.md, rule 3)."""
-    kept = np.full_like(world_m, np.inf)
+    spaced_m = np.full_like(world_m, np.inf)
     rows: list[int] = []
     for row, position in enumerate(world_m):
-        if ((kept[: len(rows)] - position) ** 2).sum(axis=1).min(initial=np.inf) >= spacing_m**2:
-            kept[len(rows)] = position
+        if ((spaced_m[: len(rows)] - position) ** 2).sum(axis=1).min(initial=np.inf) >= spacing_m**2:
+            spaced_m[len(rows)] = position
             rows.append(row)
     return np.array(rows)
 
@@ -83,8 +83,8 @@ class Walk:
     def __init__(self, rng: Rng, plan: Plan) -> None:
         self._rng, self._plan = rng, plan
         self._graph = _street_graph(plan)
-        self._here = _start_node(plan, self._graph)
-        self._start = plan.position_m(self._here)
+        self._node = _start_node(plan, self._graph)
+        self._start = plan.position_m(self._node)
         self._visited: set[frozenset[Node]] = set()
         self._length_m = 0.0
         self.track = [self._start[None]]
@@ -95,16 +95,16 @@ class Walk:
             route = self._next_route()
             if not route:
                 return False
-            for there in route:
-                street = frozenset((self._here, there))
-                piece = _lane_points(self._plan, self._here, there)
-                self._length_m += len(piece) * (street not in self._visited)
+            for next_node in route:
+                street = frozenset((self._node, next_node))
+                points = _lane_points(self._plan, self._node, next_node)
+                self._length_m += len(points) * (street not in self._visited)
                 self._visited.add(street)
-                self._here = there
-                self.track.append(piece)
+                self._node = next_node
+                self.track.append(points)
         return True
 
-    def _fresh(self, node: Node) -> list[Node]:
+    def _unvisited_neighbours(self, node: Node) -> list[Node]:
         """The neighbours to which a street leads that is not walked yet."""
         return [b for b in self._plan.neighbours(node) if frozenset((node, b)) not in self._visited]
 
@@ -115,19 +115,21 @@ class Walk:
 
     def _next_route(self) -> list[Node]:
         """Crossings to pass next: over one street not yet walked, or by old ones to the next such; none if all are."""
-        here, size = self._here, len(self._plan.north)
-        if fresh := self._fresh(here):
-            return [min(fresh, key=lambda b: self._cost(here, b))]
-        away, before = dijkstra(self._graph, indices=here[0] * size + here[1], return_predecessors=True)
-        reachable = [(int(n) // size, int(n) % size) for n in np.flatnonzero(np.isfinite(away))]
+        node, size = self._node, len(self._plan.north)
+        if unvisited := self._unvisited_neighbours(node):
+            return [min(unvisited, key=lambda b: self._cost(node, b))]
+        distances, before = dijkstra(self._graph, indices=node[0] * size + node[1], return_predecessors=True)
+        reachable = [(int(n) // size, int(n) % size) for n in np.flatnonzero(np.isfinite(distances))]
         ends = [
-            (self._cost(a, b) + 0.5 * float(away[a[0] * size + a[1]]), a, b) for a in reachable for b in self._fresh(a)
+            (self._cost(a, b) + 0.5 * float(distances[a[0] * size + a[1]]), a, b)
+            for a in reachable
+            for b in self._unvisited_neighbours(a)
         ]
         if not ends:
             return []
         _, a, b = min(ends)
         route, n = [b], a[0] * size + a[1]
-        while n != here[0] * size + here[1]:
+        while n != node[0] * size + node[1]:
             route.append((n // size, n % size))
             n = int(before[n])
         return route[::-1]

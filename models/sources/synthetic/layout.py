@@ -69,8 +69,8 @@ class Plan:
     def neighbours(self, node: Node) -> list[Node]:
         """The crossings to which a street leads from one."""
         e, n = node
-        beside = [(e + 1, n), (e, n + 1), (e - 1, n), (e, n - 1)]
-        inside = [b for b in beside if 0 <= b[0] < len(self.east) and 0 <= b[1] < len(self.north)]
+        adjacent = [(e + 1, n), (e, n + 1), (e - 1, n), (e, n - 1)]
+        inside = [b for b in adjacent if 0 <= b[0] < len(self.east) and 0 <= b[1] < len(self.north)]
         return [b for b in inside if self.is_open(node, b)]
 
 

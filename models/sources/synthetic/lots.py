@@ -132,8 +132,8 @@ def build_houses(site: Site, lot: Lot) -> None:
     site.add("building", lot.spot.offset(x, front), building(rng, size, site.spacing_m, bool(rng.random() < 0.85)))
     if rng.random() < 0.3:  # a shed or an extension
         shed = (_draw_between(site, 3, 5), _draw_between(site, 3, 5), _draw_between(site, 2.4, 3.2))
-        at = lot.spot.offset(x, front + d + float(rng.choice([0.1, 5.0])))
-        site.add("building", at, building(rng, shed, 0.28, bool(rng.random() < 0.5)))
+        frame = lot.spot.offset(x, front + d + float(rng.choice([0.1, 5.0])))
+        site.add("building", frame, building(rng, shed, 0.28, bool(rng.random() < 0.5)))
     if width - w > 3.5 and _draw_chance(site, "garage", 0.55):
         aside = width - (width - w) / 2 + 0.8 if is_left else (width - w) / 2 - 0.8
         site.add("garage", lot.spot.offset(aside, front + _draw_between(site, 0, 5)), garage(rng, site.spacing_m * 0.8))
@@ -228,8 +228,8 @@ def build_farm(site: Site, lot: Lot) -> None:
     site.add("building", lot.spot.offset(w / 2 + 0.5, front), building(rng, size, site.spacing_m, pitched=True))
     if rng.random() < 0.5:
         barn = (min(9.0, width - w - 2), _draw_between(site, 7, 10), _draw_between(site, 3.5, 6))
-        at = lot.spot.offset(width - barn[0] / 2 - 0.5, min(front + d, depth - barn[1]))
-        site.add("building", at, building(rng, barn, site.spacing_m * 1.2, pitched=True))
+        frame = lot.spot.offset(width - barn[0] / 2 - 0.5, min(front + d, depth - barn[1]))
+        site.add("building", frame, building(rng, barn, site.spacing_m * 1.2, pitched=True))
     elif _draw_chance(site, "garage", 0.7):
         site.add(
             "garage", lot.spot.offset(width - 4, front + _draw_between(site, 0, 6)), garage(rng, site.spacing_m * 0.8)

@@ -115,8 +115,8 @@ def shift(xyz: Floats, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Floats
 
 def subsample(rng: Rng, xyz: Floats, share: float) -> Floats:
     """A random share of some points, in their order."""
-    kept: Floats = xyz[rng.random(len(xyz)) < share]
-    return kept
+    chosen: Floats = xyz[rng.random(len(xyz)) < share]
+    return chosen
 
 
 def pick(rng: Rng, weights: dict[str, float]) -> str:

@@ -127,9 +127,11 @@ class Site:
         if not own_pieces:
             is_ground = np.array([rule.label in GROUND for rule in CLASSES])[classes]
             number[is_ground] = semantic[is_ground] * INSTANCES_PER_CLASS
-        of = np.repeat(self._cloud_instance, [len(cloud) for cloud in self._clouds])
+        point_instance = np.repeat(self._cloud_instance, [len(cloud) for cloud in self._clouds])
         xyz = np.concatenate(self._clouds)
         self._clouds.clear()
-        rgb = np.concatenate([speckle(self.rng, mean[rows], spread[rows]) for rows in np.array_split(of, 16)])
+        rgb = np.concatenate(
+            [speckle(self.rng, mean[rows], spread[rows]) for rows in np.array_split(point_instance, 16)]
+        )
         pose = np.concatenate([self._pose[self._raster_cells(points)] for points in np.array_split(xyz, 16)])
-        return Scan(xyz, rgb, semantic[of].astype(np.int32), number[of].astype(np.int32), pose)
+        return Scan(xyz, rgb, semantic[point_instance].astype(np.int32), number[point_instance].astype(np.int32), pose)

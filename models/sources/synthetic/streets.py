@@ -52,23 +52,23 @@ def build_streets(site: Site, plan: Plan) -> None:
 
 def _lines(plan: Plan) -> list[list[Stretch]]:
     """The stretches of every street, those along the first axis first."""
-    found: list[list[Stretch]] = []
+    lines: list[list[Stretch]] = []
     for n, line in enumerate(plan.north):
-        found.append([])
+        lines.append([])
         for e, (a, b) in enumerate(zip(plan.east[:-1], plan.east[1:], strict=True)):
             spot = LocalFrame(a.position_m + a.road_m / 2, line.position_m)
             length = b.position_m - b.road_m / 2 - spot.u
-            found[-1].append(Stretch(spot, length, line, a.road_m, (0, length), bool(plan.along_u[n, e])))
+            lines[-1].append(Stretch(spot, length, line, a.road_m, (0, length), bool(plan.along_u[n, e])))
     for e, line in enumerate(plan.east):
-        found.append([])
+        lines.append([])
         for n, (a, b) in enumerate(zip(plan.north[:-1], plan.north[1:], strict=True)):
             spot = LocalFrame(line.position_m, a.position_m + a.road_m / 2, 0, 1)
             length = b.position_m - b.road_m / 2 - spot.v
             is_crossed = e < len(plan.east) - 1 and plan.along_u[n, e]
             over = 0.0 if is_crossed else a.road_m
             curbs = (a.reach_m - a.road_m / 2, length - b.reach_m + b.road_m / 2)
-            found[-1].append(Stretch(spot, length, line, over, curbs, bool(plan.along_v[e, n])))
-    return found
+            lines[-1].append(Stretch(spot, length, line, over, curbs, bool(plan.along_v[e, n])))
+    return lines
 
 
 def _build_stretch(site: Site, stretch: Stretch) -> None:
@@ -147,8 +147,8 @@ def _place_furniture(site: Site, stretch: Stretch, flip: float, label: str) -> N
 
 def _build_rarities(site: Site, stretches: list[Stretch]) -> None:
     """Guard rails, bridges and tunnels, and at least one of what is rare, so that no town is without."""
-    rng, some = site.rng, max(1, round(len(stretches) / 35))
-    for label, count in (("guard rail", 3 * some), ("bridge", some), ("tunnel", some), ("stop", 1)):
+    rng, base_count = site.rng, max(1, round(len(stretches) / 35))
+    for label, count in (("guard rail", 3 * base_count), ("bridge", base_count), ("tunnel", base_count), ("stop", 1)):
         for row in rng.integers(len(stretches), size=count).tolist():
             stretch, flip = stretches[row], float(rng.choice([-1.0, 1.0]))
             line, length = stretch.line, stretch.length_m

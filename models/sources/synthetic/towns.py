@@ -40,7 +40,7 @@ TOWN_STYLES = {
     "val": ("mixed",),
     "test": ("ring", "village", "mixed"),
 }
-KEPT = 0.985  # share of the cells around a drive that hold enough instances
+KEPT_CELL_SHARE = 0.985  # share of the cells around a drive that hold enough instances
 TILE_POSES = 250  # of the drive, a tile
 POINT = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("red", "u1"), ("green", "u1"), ("blue", "u1")]
 POINT += [("semantic", "<i4"), ("instance", "<i4"), ("visible", "u1"), ("confidence", "<f4")]
@@ -128,7 +128,7 @@ def build_town(rng: np.random.Generator, style: Style, cells: float, own_pieces:
         own_pieces: see `Site.scan`.
     """
     plan, land, habits = draw_plan(rng, style, cells), draw_land(rng, style), draw_habits(rng, style)
-    drive = land.to_world(draw_drive(rng, plan, land, cells / KEPT))
+    drive = land.to_world(draw_drive(rng, plan, land, cells / KEPT_CELL_SHARE))
     site = Site(rng, habits, land, drive)
     build_streets(site, plan)
     build_blocks(site, plan)

@@ -10,7 +10,7 @@ import pytest
 
 from models.citymap.kinds import make, vocabulary
 from models.citymap.kinds.brands import normalize_name
-from models.citymap.kinds.vocabulary import HERE, Vocabulary, load_vocabulary
+from models.citymap.kinds.vocabulary import FOLDER, Vocabulary, load_vocabulary
 from models.citymap.kinds.words import everyday_nouns
 from models.errors import DataError
 
@@ -176,19 +176,19 @@ def test_brands_by_any_spelling(kinds):
 
 def test_hand_written_words_name_kinds_that_are(kinds):
     ids = {kind.id for kind in kinds.kinds}
-    said = everyday_nouns(tomllib.loads((HERE / "people.toml").read_text()))
+    said = everyday_nouns(tomllib.loads((FOLDER / "people.toml").read_text()))
     assert {kind for rows in said.values() for kind in rows} <= ids
-    ours = tomllib.loads((HERE / "ours.toml").read_text())
+    ours = tomllib.loads((FOLDER / "ours.toml").read_text())
     assert {*ours["same"].values(), *ours["names"]} <= ids
     assert len(ids) == len(kinds.kinds)
     assert all(0 < weight <= 1 for rows in kinds.nouns().values() for _, weight in rows)
 
 
 def test_the_vendored_files_are_small_and_say_whence(kinds):
-    assert sum((HERE / file).stat().st_size for file in vocabulary.VOCABULARY_FILES) <= 1_000_000
+    assert sum((FOLDER / file).stat().st_size for file in vocabulary.VOCABULARY_FILES) <= 1_000_000
     assert kinds.version.startswith("id-tagging-schema ")
     assert ", name-suggestion-index " in kinds.version
-    licences = (HERE / "LICENCES.md").read_text()
+    licences = (FOLDER / "LICENCES.md").read_text()
     for one in kinds.version.split(", "):
         assert one in licences
     assert "ISC License" in licences
