@@ -1,4 +1,4 @@
-"""Where maps and descriptions come from: a folder for each source.
+"""Sources of maps and descriptions: a folder for each.
 
-`source.open_source` is the one door to data, for indexing, training and evaluation alike.
+`source.open_source` is the single entry point to data, for indexing, training and evaluation.
 """

@@ -1,4 +1,4 @@
-"""Reader of .jsonl files: texts about places, each with the place."""
+"""Texts about places with their true positions, read from a .jsonl file."""
 
 import gzip
 import json
@@ -11,7 +11,7 @@ from typing import Any
 from models.errors import DataError
 
 SUFFIXES = (".jsonl", ".jsonl.gz")
-START_SIGMA_M = 800.0  # of the prior round a start
+START_SIGMA_M = 800.0  # standard deviation of the prior around a start; set by hand, not fitted
 LatLon = tuple[float, float]
 
 
@@ -20,9 +20,9 @@ class PlaceText:
     """A text about a place.
 
     Attributes:
-        text: as it was written.
-        goal: the place it tells of, degrees of latitude and longitude.
-        start: where the listener is; None if that is not known.
+        text: as written.
+        goal: the place it describes, latitude and longitude in degrees.
+        start: the listener's position; None if unknown.
     """
 
     text: str
@@ -31,13 +31,13 @@ class PlaceText:
 
 
 def load_place_texts(path: Path) -> list[PlaceText]:
-    """Read texts, one JSON object a line: `text`, `goal` [lat, lon] and, if there is one, `start` [lat, lon].
+    """Read texts, one JSON object a line: `text`, `goal` [lat, lon] and optionally `start` [lat, lon].
 
     Args:
-        path: .jsonl or .jsonl.gz; other fields are left alone.
+        path: .jsonl or .jsonl.gz; other fields are ignored.
 
     Raises:
-        DataError: it cannot be read; says which line is wrong.
+        DataError: the file cannot be read, or a line is wrong.
     """
     try:
         with gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else path.open(encoding="utf-8") as file:
@@ -57,14 +57,14 @@ def _read_texts(path: Path, lines: Any) -> Iterator[PlaceText]:
             row = json.loads(line)
             start = row.get("start")
             if not isinstance(row["text"], str):
-                raise ValueError("'text' is no text")
+                raise ValueError("'text' is not a string")
             text = PlaceText(row["text"], _parse_lat_lon(row["goal"]), None if start is None else _parse_lat_lon(start))
             if not any(c.isalnum() for c in text.text):
                 raise ValueError("no words in 'text'")
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise DataError(
                 f"{path}, line {number}: {type(error).__name__}: {error}; each line is a JSON object with 'text', "
-                "'goal' [latitude, longitude] and perhaps 'start'"
+                "'goal' [latitude, longitude] and optionally 'start'"
             ) from error
         yield text
 

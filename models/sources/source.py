@@ -1,6 +1,6 @@
-"""The one door to data: a path and a split in, cells, queries and all that can be said out.
+"""The single entry point to data: a path and a split give cells, queries and all true hints.
 
-Indexing, training and measuring come through here, so that they see the same cells and the same positions.
+Indexing, training and evaluation use it, so that they see the same cells and the same positions.
 """
 
 from abc import ABC, abstractmethod
@@ -40,20 +40,20 @@ from models.sources.osm.map import load_osm, read_frame
 from models.sources.store.files import load_data
 from models.sources.store.pose_store import PoseStore
 
-QUERY_SPACING_M = 10.0  # of the positions that are asked about in a map
-# A map's positions are the same at every run; what a model is chosen by is not what it is measured at.
+QUERY_SPACING_M = 10.0  # between the described positions of a map
+# Seeds of a map's positions: a model is chosen at other positions than it is evaluated at.
 VALIDATION_SEED, TEST_SEED = 0, 1
-SCENE_GAP_M = 1e6  # between scenes, on an axis of their own
-VOXEL_M = 0.2
+SCENE_GAP_M = 1e6  # between scenes, on an extra axis
+VOXEL_M = 0.2  # edge of the voxels of scanned scenes
 STUFF_LABELS = [rule.label for rule in CLASSES if rule.is_stuff]
 
 
 class Source(ABC):
-    """A map, some of its scenes, or a region of it, with what is known at its positions.
+    """A map, some of its scenes, or a region of it, with descriptions of its positions.
 
     Attributes:
         data: its cells.
-        facts: what it is, for the record beside weights.
+        facts: a summary for the record next to the weights.
     """
 
     data: MapData
@@ -61,23 +61,23 @@ class Source(ABC):
 
     @abstractmethod
     def queries(self, seed: int = TEST_SEED, spacing_m: float = QUERY_SPACING_M) -> Queries:
-        """Descriptions with known positions: the poses of a data set, or described positions of a map.
+        """Return descriptions with known positions: the poses of a data set, or described positions of a map.
 
         Args:
             seed: draws positions in a map.
             spacing_m: of these.
 
         Raises:
-            MapError, DataError: there is nothing to ask.
+            MapError, DataError: there is nothing to describe.
         """
 
     def as_scan(self) -> "Source":
-        """The same, told of as a scan shows it; a map that is a scan is itself."""
+        """Return the same source with hints as a scan would give them; a scan returns itself."""
         return self
 
     @abstractmethod
     def statements(self, spacing_m: float, rng: np.random.Generator) -> PositionStatements:
-        """Everything that can be said at positions to train on; arguments as `queries`.
+        """Return all true hints at positions to train on; arguments as `queries`.
 
         Raises:
             DataError: a scene has no poses.
@@ -85,24 +85,24 @@ class Source(ABC):
 
     @abstractmethod
     def geometry(self) -> PointClouds | PieceGeometry:
-        """What its surroundings are measured from: of a map everything, of a data set what its cells show."""
+        """Return the geometry from which neighbours are measured: all of a map, or the cells' points of a data set."""
 
     @abstractmethod
     def gazetteer(self) -> Gazetteer:
-        """What a passer-by could name there; empty where nothing has a name."""
+        """Return the named objects; empty if nothing has a name."""
 
     @abstractmethod
     def scenery(self, gazetteer: Gazetteer) -> Iterator[SceneryBlob]:
-        """What it looks like, in parts, as `models.citymap.scenery` encodes it, with the names of a gazetteer."""
+        """Yield the parts of the scenery (see `models.citymap.scenery`), with the names of a gazetteer."""
 
 
 class MapSource(Source):
     """A map that was cut into cells, or a region of it.
 
     Args:
-        path: what was opened, for messages.
+        path: of the map, for messages.
         city_map: the map.
-        geometry: what stands in it.
+        geometry: its geometry.
         cells: all its cells.
         split: one of SPLITS; None for the whole map.
     """
@@ -131,7 +131,7 @@ class MapSource(Source):
         }
 
     def queries(self, seed: int = TEST_SEED, spacing_m: float = QUERY_SPACING_M) -> Queries:
-        """See Source."""
+        """Describe positions of the map."""
         cells = self.data.cells
         positions = sample_positions(self._locations_m, spacing_m, np.random.default_rng(seed))
         poses = describe_poses(self._map, self._geometry, cells, positions) if len(cells) and len(positions) else []
@@ -150,11 +150,11 @@ class MapSource(Source):
         )
 
     def statements(self, spacing_m: float, rng: np.random.Generator) -> PositionStatements:
-        """See Source."""
+        """Return all true hints at sampled positions."""
         return self.statements_at(sample_positions(self._locations_m, spacing_m, rng))
 
     def statements_at(self, positions_m: Floats) -> PositionStatements:
-        """What can be said at positions [N, 3]; those further than 15 m from every centre are left out."""
+        """Return all true hints at positions [N, 3]; those farther than 15 m from every centre are left out."""
         gallery, palette = self.data.gallery, self.data.palette
         distance, best = cKDTree(gallery.cells.center_m).query(positions_m)
         near = distance <= BEST_CELL_REACH_M
@@ -166,7 +166,7 @@ class MapSource(Source):
         )
 
     def geometry(self) -> PointClouds | PieceGeometry:
-        """See Source."""
+        """Return the geometry of the whole map."""
         if not isinstance(self._geometry, ScanGeometry):
             assert isinstance(self._geometry, PieceGeometry)
             return self._geometry
@@ -176,7 +176,7 @@ class MapSource(Source):
         return PointClouds(points.xyz, points.starts, is_thing, scene, of_part, rules.thing_share, least)
 
     def as_scan(self) -> "MapSource":
-        """See Source."""
+        """Return the same source with hints as a scan would give them."""
         if not isinstance(self._geometry, PieceGeometry):
             return self
         scan = copy(self)
@@ -189,15 +189,15 @@ class MapSource(Source):
         self._map, self._locations_m = replace(self._map, instances=(), locations_m=nowhere), nowhere
 
     def defer_parts(self, cut: Callable[[Floats], PartTable]) -> None:
-        """Let go of the parts of cells, which are then cut (round centres [N, 3]) when they are asked for."""
+        """Drop the parts of cells; `cut` makes those of a cell (around centres [N, 3]) on access."""
         self.data = self.data.with_deferred_parts(cut)
 
     def gazetteer(self) -> Gazetteer:
-        """See Source; of the whole file, whatever the split."""
+        """Return the gazetteer of the whole file, whatever the split."""
         return load_gazetteer(self._path, self.data.frame)
 
     def scenery(self, gazetteer: Gazetteer) -> Iterator[SceneryBlob]:
-        """See Source; of the whole file, whatever the split."""
+        """Yield the scenery of the whole file, whatever the split."""
         places = ((gazetteer.middles_m[n].tolist(), gazetteer.objects[n]) for n in gazetteer.named.tolist())
         outlines = self._map.outlines or Outlines.from_shapes(())
         yield outlines.encode(NamedPoint((x, y), w.names[0], w.kinds[0]) for (x, y), w in places)
@@ -207,8 +207,8 @@ class StoreSource(Source):
     """Scenes of a data set.
 
     Args:
-        store: of them.
-        split: what they are.
+        store: the scenes.
+        split: their split.
     """
 
     def __init__(self, store: PoseStore, split: str | None = None) -> None:
@@ -220,7 +220,7 @@ class StoreSource(Source):
         self.facts = {"data": name, "scenes": {self.data.split: [scene.name for scene in store.scenes]}}
 
     def queries(self, seed: int = TEST_SEED, spacing_m: float = QUERY_SPACING_M) -> Queries:
-        """See Source; nothing is drawn."""
+        """Return the poses of the scenes; the arguments have no effect."""
         poses = self._store.poses
         if not len(poses):
             raise DataError(f"{self._store.source}: no poses in these scenes; name others with --split")
@@ -229,7 +229,7 @@ class StoreSource(Source):
         return Queries.from_hints(hints, poses.positions_m[:, :2], truth, poses.strategies, self.data.cells)
 
     def statements(self, spacing_m: float, rng: np.random.Generator) -> PositionStatements:
-        """See Source; nothing is drawn: what can be said is what the descriptions say."""
+        """Return the hints of all descriptions; the arguments have no effect."""
         poses, numbers = self._store.poses, self._store.instance_ids
         mentioned, scene = poses.instance, self._scene[poses.cell]
         return PositionStatements(
@@ -245,7 +245,7 @@ class StoreSource(Source):
         )
 
     def geometry(self) -> PointClouds:
-        """See Source; one point a cube of VOXEL_M."""
+        """Return the points of the cells, one in each voxel of VOXEL_M."""
         store, cells, cube = self._store, self.data.cells, self.data.cells.parts.cube
         pairs = np.column_stack([self._scene[cube], store.instance_ids])
         known, part_instance = np.unique(pairs, axis=0, return_inverse=True)
@@ -264,11 +264,11 @@ class StoreSource(Source):
         )
 
     def gazetteer(self) -> Gazetteer:
-        """See Source; scans have no names."""
+        """Return an empty gazetteer; scans have no names."""
         return EMPTY_GAZETTEER
 
     def scenery(self, gazetteer: Gazetteer) -> Iterator[SceneryBlob]:
-        """See Source; one point a cube of VOXEL_M."""
+        """Yield the points of the cells, one in each voxel of VOXEL_M."""
         del gazetteer
         cells, cube = self.data.cells, self.data.cells.parts.cube
         corner = cells.center_m[cube] - cells.size_m / 2
@@ -281,7 +281,7 @@ class StoreSource(Source):
 
 
 def _thin_by_voxel(rows: Floats) -> Floats:
-    """Rows [n, ...], of whose first three columns one a cube of VOXEL_M is kept."""
+    """Return one row [n, ...] for each voxel of VOXEL_M; the first three columns are the position."""
     voxel = np.floor(rows[:, :3] / VOXEL_M).astype(np.int64) & 0x1FFFFF
     key = (voxel[:, 0] << 42) | (voxel[:, 1] << 21) | voxel[:, 2]
     return rows[np.unique(key, return_index=True)[1]]
@@ -302,14 +302,14 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
         progress: called as the work goes on.
 
     Raises:
-        MapError, DataError: it cannot be read, or there is no such split.
+        MapError, DataError: the data cannot be read, or have no such split.
     """
     if path.is_dir():
         return [StoreSource(load_data(path, split), split) for split in splits]
     for split in splits:
         if split is not None and split not in SPLITS:
-            advice = f"choose one of {', '.join(SPLITS)}, or none for the whole map"
-            raise MapError(f"'{split}' is no split of a map; {advice}")
+            advice = f"choose one of {', '.join(SPLITS)}, or leave it out for the whole map"
+            raise MapError(f"'{split}' is not a split of a map; {advice}")
     report = progress or (lambda stage, done, total: None)
     report("read map", 0, 0)
     city_map = load_osm(path)
@@ -319,12 +319,12 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
 
 
 def open_gazetteer(path: Path) -> Gazetteer:
-    """What a map names, as `Source.gazetteer`, without the rest of it; arguments and errors as `open_sources`."""
+    """Read the gazetteer of a map without the rest of it; arguments and errors as `open_sources`."""
     return EMPTY_GAZETTEER if path.is_dir() else load_gazetteer(path, read_frame(path))
 
 
 def _grid_spacing_m(cells: CellTable, scene: Ints) -> float:
-    """Metres between neighbouring centres in the plane, the commonest; the size of a cell if there is one alone."""
+    """Return the median distance between neighbouring centres in the plane; of a single cell, its size."""
     if len(cells) < 2:
         return cells.size_m
     centers = np.column_stack([cells.center_m[:, :2], scene * SCENE_GAP_M])  # scenes may lie over each other

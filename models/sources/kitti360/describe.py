@@ -1,4 +1,4 @@
-"""What KITTI360Pose says at a position: hints from the cube around it, matched to its best cell (rules 5 to 8)."""
+"""Describe positions as KITTI360Pose does: hints from the cube around, matched to the best cell (rules 5 to 8)."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -19,7 +19,7 @@ CUBE_CENTER = 0.5  # of a cube, in its own units
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReachableParts:
-    """What is in reach of a position, in units of the cube around it; one row an instance or part, by instance.
+    """The parts within reach of a position, in units of the cube around it; R rows by instance.
 
     Attributes:
         instance: [R] row in `RawScene.instances`.
@@ -47,14 +47,14 @@ class StrategyDescription(NamedTuple):
 
 
 class _NearestObject(NamedTuple):
-    """An object of the best cell with its point nearest to the pose, cell units."""
+    """An object of the best cell, with its point nearest to the pose in cell units."""
 
     item: PublishedObject
     closest: Floats
 
 
 def find_reachable_parts(points: PointTable, config: PrepareConfig, positions_m: Floats) -> list[ReachableParts]:
-    """What is in reach of some positions.
+    """Return the parts within reach of each position.
 
     Args:
         points: the scene's points.
@@ -84,10 +84,10 @@ def _find_reachable_parts(points: PointTable, config: PrepareConfig, position_m:
 def describe_pose(
     around: ReachableParts, raw: RawScene, cell: PublishedCell, pose: Floats, config: PrepareConfig
 ) -> list[StrategyDescription]:
-    """A description by each strategy; one that mentions the same instances as an earlier one is dropped.
+    """Describe a pose by each strategy; a description of the same instances as an earlier one is dropped.
 
     Args:
-        around: what is in reach, at least `config.num_hints` rows.
+        around: the parts in reach, at least `config.num_hints` rows.
         raw: the scene.
         cell: the best cell.
         pose: [3] the position, in units of that cell.
@@ -133,7 +133,7 @@ def _hint(
 
 
 def _match(instance_id: int, offset: Floats, cell: PublishedCell, pose: Floats) -> _NearestObject | None:
-    """The part of an instance in a cell whose closest point is seen most nearly at the hint's offset; None if none."""
+    """Return the part of an instance in a cell whose closest point has the offset nearest to the hint's, or None."""
     nearest = [
         _NearestObject(item, item.xyz[((item.xyz - pose) ** 2).sum(axis=1).argmin()])
         for item in cell.objects

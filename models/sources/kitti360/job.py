@@ -1,9 +1,9 @@
-"""The preparation job: raw KITTI-360 to the published layout, scene by scene; what is finished is not made twice.
+"""The preparation job: raw KITTI-360 to the published layout, scene by scene; finished scenes are kept.
 
 <out>/cells/<scene>.pkl, poses/<scene>.pkl, direction/<scene>.json   the published layout
 <out>/prepared/<scene>.json   what a complete scene was made from (models.sources.kitti360.record)
-<out>/.preparing-<scene>      a scene while it is made; a failure removes it, what a killed run left the next one does
-<out>/.placing-<scene>        a scene that is made, while its files are moved to their places; the next run carries on
+<out>/.preparing-<scene>      a scene in progress; removed on failure, or by the next run after a kill
+<out>/.placing-<scene>        a complete scene while its files are moved into place; the next run resumes
 """
 
 import fcntl
@@ -26,7 +26,7 @@ from models.sources.kitti360pose.direction import find_neighbours, save_directio
 from models.sources.kitti360pose.files import save_scene, select_scenes, short_name
 
 RELEASED_CONFIG = PrepareConfig()
-# In the order in which they are put in place: readers list scenes by their cells; the record says that all is there.
+# In the order of moving into place: readers list scenes by their cells, and the record means that all is there.
 SCENE_FILES = {"poses": ".pkl", "direction": ".json", "cells": ".pkl", "prepared": ".json"}
 READING_SHARE, CUTTING_SHARE = 0.1, 0.8  # shares of a scene's work; the rest is writing
 
@@ -41,9 +41,9 @@ def prepare_data(
 ) -> tuple[str, ...]:
     """Prepare scenes one after the other.
 
-    A scene that is complete in `out` and was made from the same raw files (by name, size and time) by the same
-    settings is left as it is. One made otherwise is never replaced, but refused before any work begins. A scene that
-    cannot be prepared does not keep the others from being prepared.
+    A complete scene in `out` that was made from the same raw files (by name, size and time) with the same settings is
+    kept. A scene made otherwise is never replaced, but refused before any work begins. If a scene cannot be prepared,
+    the others still are.
 
     Args:
         raw: folder with data_3d_semantics and data_poses.
@@ -51,11 +51,11 @@ def prepare_data(
             different scenes may share it.
         scene: name of a folder, or the drive's digits ("0003"), or as `select_scenes`; None for all.
         config: every option.
-        seed: with the scene's name decides the scene's positions, whichever scenes are prepared with it; 0 or greater.
-        progress: called with (scene, work done, work in all); work is counted in bytes of all chosen scenes' raw files.
+        seed: 0 or greater; with the scene's name it draws the scene's positions, whatever scenes are prepared with it.
+        progress: called with (scene, work done, total work); work is counted in bytes of all chosen scenes' raw files.
 
     Returns:
-        The names of the chosen scenes' files; all of them are complete.
+        The file names of the chosen scenes; all of them are complete.
 
     Raises:
         DataError: no such scene or none at all, `out` cannot be written or holds a chosen scene that was made
@@ -73,7 +73,7 @@ def prepare_data(
                     _complete_scene(raw, folder, out, recipe, config, bar)
         except DataError as error:
             problems.append(str(error))
-        except OSError as error:  # what does not let this scene be written will not let the next
+        except OSError as error:  # it would fail for the next scene, too
             raise DataError(f"{out}: scene '{recipe.scene}' cannot be prepared: {error}") from error
         bar.finish(recipe)
     if problems and len(recipes) > 1:
@@ -85,13 +85,13 @@ def prepare_data(
 
 
 def _choose_folders(raw: Path, scene: str | None) -> tuple[str, ...]:
-    """The folders of the scenes to prepare."""
+    """Return the folders of the scenes to prepare."""
     try:
         available = list_raw_scenes(raw)
     except DataError as error:
         if any((raw / "cells").glob("*.pkl")):
             raise DataError(
-                f"{raw}: is no raw KITTI-360 ({TILES}/<scene>/static/*.ply) but the published layout "
+                f"{raw}: is not raw KITTI-360 ({TILES}/<scene>/static/*.ply) but the published layout "
                 "(cells/<scene>.pkl), which is prepared already: use it as the data"
             ) from error
         raise
@@ -108,13 +108,13 @@ def _choose_folders(raw: Path, scene: str | None) -> tuple[str, ...]:
 def _check_output(raw: Path, out: Path) -> None:
     place, root = out.resolve(), raw.resolve()
     if place == root or any(place.is_relative_to(root / part) for part in (TILES, POSES)):
-        raise DataError(f"{out}: is where the raw data is; name another directory to prepare into")
+        raise DataError(f"{out}: contains the raw data; name another directory to prepare into")
     if out.exists() and not out.is_dir():
-        raise DataError(f"{out}: is no directory; name another one to prepare into")
+        raise DataError(f"{out}: is not a directory; name another one to prepare into")
 
 
 def _file_paths(root: Path, scene: str) -> dict[str, Path]:
-    """The files of a scene, by part, in the order of PARTS."""
+    """Return the files of a scene by kind, in the order of SCENE_FILES."""
     return {part: root / part / f"{scene}{ending}" for part, ending in SCENE_FILES.items()}
 
 
@@ -131,7 +131,7 @@ def _is_finished(out: Path, recipe: Recipe) -> bool:
         strange = [path for path in places.values() if path.exists()]
         if strange:
             raise DataError(
-                f"{strange[-1]}: is there already, and no {places['prepared']} says that it was prepared here; it is "
+                f"{strange[-1]}: exists, but there is no {places['prepared']} to show that it was prepared here; it is "
                 "not overwritten: move it away, or name another directory to prepare into"
             )
         return False
@@ -169,7 +169,7 @@ def _locked(out: Path, scene: str) -> Iterator[None]:
 def _complete_scene(
     raw: Path, folder: str, out: Path, recipe: Recipe, config: PrepareConfig, bar: "_ProgressBar"
 ) -> None:
-    """Make a scene, or what is left to do of it."""
+    """Prepare a scene, or finish an interrupted preparation."""
     making, placing = (out / f".{state}-{recipe.scene}" for state in ("preparing", "placing"))
     if placing.is_dir():
         _move_into_place(placing, out, recipe.scene)
@@ -188,7 +188,7 @@ def _complete_scene(
 def _write_scene(
     raw: Path, folder: str, making: Path, recipe: Recipe, config: PrepareConfig, bar: "_ProgressBar"
 ) -> None:
-    """Write all files of a scene below a directory of its own."""
+    """Write all files of a scene into a directory of its own."""
     raw_scene = load_raw_scene(raw, folder, config.classes, lambda size: bar.read(recipe, size))
     rng = np.random.default_rng([recipe.seed, *raw_scene.name.encode()])
     try:
@@ -206,7 +206,7 @@ def _write_scene(
 
 
 def _move_into_place(placing: Path, out: Path, scene: str) -> None:
-    """Move a scene's files to their places; called again, it carries on where it was interrupted."""
+    """Move a scene's files into place; called again, it resumes."""
     made, places = _file_paths(placing, scene), _file_paths(out, scene)
     if made["cells"].exists():
         places["cells"].unlink(missing_ok=True)  # so that no reader finds parts of two preparations
@@ -229,16 +229,16 @@ class _ProgressBar:
         self._before = self._read = 0  # bytes of earlier scenes, and those read of this one
 
     def read(self, recipe: Recipe, size: int) -> None:
-        """Another file of so many bytes is read."""
+        """Count a file of `size` bytes as read."""
         self._read += size
         self._show(recipe, READING_SHARE * self._read / self._sizes[recipe.scene])
 
     def cut(self, recipe: Recipe, share: float) -> None:
-        """Cells and poses are made up to this share."""
+        """Count a share of the cells and poses as made."""
         self._show(recipe, READING_SHARE + CUTTING_SHARE * share)
 
     def finish(self, recipe: Recipe) -> None:
-        """A scene is complete, or has failed."""
+        """Count a scene as complete, or failed."""
         self._show(recipe, 1.0)
         self._before += self._sizes[recipe.scene]
         self._read = 0

@@ -1,4 +1,4 @@
-"""From a raw KITTI-360 scene to KITTI360Pose's cells and poses (docs/formats.md, preparation rules)."""
+"""Prepare KITTI360Pose's cells and poses from a raw KITTI-360 scene (docs/formats.md, preparation rules)."""
 
 from collections.abc import Callable
 from functools import partial
@@ -16,7 +16,7 @@ from models.sources.kitti360.raw import RawScene
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.kitti360pose.records import PublishedCell, PublishedObject, PublishedPose
 
-CUBES_PER_TASK = 16  # cubes a task
+CUBES_PER_TASK = 16  # cubes that one worker process cuts at a time
 Progress = Callable[[int, int], None]
 
 
@@ -28,14 +28,14 @@ def prepare_scene(
     Args:
         raw: the scene, read with the classes of the same config.
         config: every option.
-        rng: draws where positions are.
+        rng: draws the positions.
         progress: called with (cubes cut, cubes to cut).
 
     Returns:
         Cells in order of x, then y; poses in order of location, copy and strategy.
 
     Raises:
-        DataError: no location near a thing, no cell, or no position with enough around it.
+        DataError: no location near a thing, no cell, or no position with enough instances around it.
     """
     points = scene_points(raw, config)
     locations = choose_locations(raw, config)
@@ -65,13 +65,13 @@ class _CubeProgress:
 
 
 def scene_points(raw: RawScene, config: PrepareConfig) -> PointTable:
-    """The scene's points with their index, for `describe_positions`."""
+    """Return the scene's points with their index, for `describe_positions`."""
     city_map = CityMap(raw.name, raw.instances, raw.stuff, raw.trajectory_m, rules=config.cut)
     return PointTable.from_map(city_map, config.cut.eps_m)
 
 
 def choose_locations(raw: RawScene, config: PrepareConfig) -> Floats:
-    """[L, 3] poses of the trajectory, spaced, near some thing (rule 3).
+    """Return poses [L, 3] of the trajectory, spaced, near some thing (rule 3).
 
     Raises:
         DataError: there is none.
@@ -93,7 +93,7 @@ def choose_locations(raw: RawScene, config: PrepareConfig) -> Floats:
 
 
 def grid_centers(raw: RawScene, locations_m: Floats, config: PrepareConfig) -> Floats:
-    """[N, 3] centres of the cells to cut, in order of x, then y (rule 4): whole metres, the greatest bound left out.
+    """Return the centres [N, 3] of the cells to cut, by x, then y (rule 4): whole metres, without the upper bound.
 
     Raises:
         DataError: the locations span no step of the grid.
@@ -110,7 +110,7 @@ def grid_centers(raw: RawScene, locations_m: Floats, config: PrepareConfig) -> F
 
 
 def shift_locations(locations_m: Floats, config: PrepareConfig, rng: np.random.Generator) -> Floats:
-    """[L * copies, 3] positions: every location some times, moved by whole metres towards east and north (rule 5)."""
+    """Return positions [L * copies, 3]: copies of the locations, shifted by whole metres east and north (rule 5)."""
     positions = np.repeat(locations_m, config.copies, axis=0)
     share = rng.random((len(positions), 2))
     positions[:, :2] += np.trunc(share * config.cut.cell_size_m / config.shift_divisor)
@@ -120,7 +120,7 @@ def shift_locations(locations_m: Floats, config: PrepareConfig, rng: np.random.G
 def cut_cells(
     raw: RawScene, points: PointTable, centers_m: Floats, config: PrepareConfig, step: Callable[[int], None]
 ) -> list[PublishedCell]:
-    """The cells around some centres; numbers count the centres, those with too few instances too (rule 4).
+    """Cut the cells around some centres; numbers count all centres, also those with too few instances (rule 4).
 
     Raises:
         DataError: no cell has enough instances.
@@ -142,7 +142,7 @@ def cut_cells(
 
 
 def _cut_chunk(points: PointTable, config: PrepareConfig, centers_m: Floats) -> list[list[Ints] | None]:
-    """The point rows of the parts of some cubes; None for one with too few parts."""
+    """Return the point rows of the parts of some cubes; None for one with too few parts."""
     cubes = (cut_parts(points, center, config.cut) for center in centers_m)
     return [[p.astype(np.int32) for p in parts] if len(parts) >= config.cut.min_instances else None for parts in cubes]
 
@@ -169,12 +169,12 @@ def describe_positions(
     config: PrepareConfig,
     step: Callable[[int], None] = lambda cubes: None,
 ) -> list[PublishedPose]:
-    """Poses with descriptions at given positions (rules 5 to 8).
+    """Return poses with descriptions at given positions (rules 5 to 8).
 
     Args:
         raw: the scene.
         points: `scene_points(raw, config)`.
-        cells: what hints are matched to; a position without a centre in reach is left out.
+        cells: the cells that hints are matched to; a position without a centre in reach is left out.
         positions_m: [N, 3] world metres.
         config: every option.
         step: called with the number of positions done since the last call.
@@ -200,7 +200,7 @@ def describe_positions(
 
 
 def _best_cells(cells: list[PublishedCell], positions_m: Floats, config: PrepareConfig) -> tuple[Floats, Ints]:
-    """[N] distances to the nearest centre, metres, and its rows in `cells`; the first of several equally near."""
+    """Return the distance [N] to the nearest centre in metres, and its row in `cells`; the first if several are."""
     centers_m = np.array([cell.bbox_w[:3] for cell in cells]) + config.cut.cell_size_m / 2
     # On a grid at most four centres are equally near.
     distance, row = cKDTree(centers_m).query(positions_m, k=[1, 2, 3, 4])

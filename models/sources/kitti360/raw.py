@@ -1,6 +1,6 @@
-"""Raw KITTI-360 (docs/formats.md, raw): the points of a scene from its PLY tiles, as instances, and its trajectory.
+"""Read raw KITTI-360 (docs/formats.md, raw): a scene's points from PLY tiles, as instances, and its trajectory.
 
-A scene is read tile by tile and thinned as it grows, so that memory holds one tile and what is kept.
+A scene is read and thinned tile by tile, so that memory holds one tile and the thinned points.
 """
 
 import gzip
@@ -29,7 +29,7 @@ TILES, POSES = "data_3d_semantics", "data_poses"
 PROPERTIES = {"x": "f", "y": "f", "z": "f", "red": "u", "green": "u", "blue": "u", "semantic": "iu", "instance": "iu"}
 TYPE_NAMES = {"f": "float", "u": "uchar", "iu": "int"}
 HEADER_BYTES = 1 << 16
-MAX_COORDINATE_M = 1e7  # no coordinate of a place on Earth is greater
+MAX_COORDINATE_M = 1e7  # UTM coordinates are below 1e7 m
 POSE_COLUMNS = 13  # frame and a 3x4 matrix, row by row
 
 
@@ -39,7 +39,7 @@ class RawScene:
 
     Attributes:
         name: "0003" for the folder "2013_05_28_drive_0003_sync"; any other folder's name as it is.
-        instances: in the order they were met, tile by tile; `points_m` float32 [P, 3], `rgb` float32 [P, 3].
+        instances: in the order of the tiles; `points_m` float32 [P, 3], `rgb` float32 [P, 3].
         stuff: labels that are clipped to cells.
         trajectory_m: [F, 3] float64, world metres, in order of frame.
     """
@@ -70,7 +70,7 @@ class _PartialInstance:
 
 
 def list_raw_scenes(root: Path) -> tuple[str, ...]:
-    """Names of the scenes' folders of a raw data set, in order.
+    """Return the names of the scenes' folders of a raw data set, in order.
 
     Raises:
         DataError: there is none.
@@ -92,7 +92,7 @@ def load_raw_scene(
     Args:
         root: folder with data_3d_semantics and data_poses.
         scene: name of its folder, or the drive's digits ("0003").
-        classes: what is kept and how; points of other classes are ignored.
+        classes: rules of the classes to keep; points of other classes are ignored.
         step: called with the size of each tile's file in bytes, when the tile is read.
 
     Raises:
@@ -116,13 +116,13 @@ def load_raw_scene(
 
 
 def _scene_folders(root: Path) -> dict[str, Path]:
-    """The folder of each scene's tiles; downloads have them in train/ and test/, older ones beside each other."""
+    """Return the folder of each scene's tiles; downloads have them in train/ and test/, older ones at the top."""
     folders = [path.parent for pattern in ("*/static", "*/*/static") for path in (root / TILES).glob(pattern)]
     return {path.name: path for path in folders if (path / "static").is_dir()}
 
 
 def scene_folder(root: Path, scene: str) -> Path:
-    """The folder of a scene's tiles.
+    """Return the folder of a scene's tiles.
 
     Args:
         root: folder with data_3d_semantics and data_poses.
@@ -138,7 +138,7 @@ def scene_folder(root: Path, scene: str) -> Path:
 
 
 def tile_paths(folder: Path) -> list[Path]:
-    """The tiles of a scene's folder in order; a gzipped one counts where the plain one is missing.
+    """Return the tiles of a scene's folder in order; a gzipped one is used if the plain one is missing.
 
     Raises:
         DataError: there are none.
@@ -151,7 +151,7 @@ def tile_paths(folder: Path) -> list[Path]:
 
 
 def _merge(grown: dict[int, _PartialInstance], tile: Tile, classes: tuple[ClassRule, ...]) -> None:
-    """Add a tile's points to the instances they belong to, and thin those."""
+    """Add a tile's points to their instances, and thin these."""
     for rule in classes:
         of_class = np.flatnonzero(tile.semantic == rule.semantic)
         rows = of_class[np.argsort(tile.instance[of_class], kind="stable")]
@@ -168,11 +168,11 @@ def _merge(grown: dict[int, _PartialInstance], tile: Tile, classes: tuple[ClassR
 
 
 def read_tile(path: Path) -> Tile:
-    """The points of one binary PLY file, plain or gzipped.
+    """Read the points of one binary PLY file, plain or gzipped.
 
     Raises:
-        DataError: not a binary PLY file, cut short, a property missing or of another type, or a coordinate that
-            is none; the message names the file and the field.
+        DataError: not a binary PLY file, cut short, a property missing or of another type, or an impossible
+            coordinate; the message names the file and the field.
     """
     try:
         with _open_mappable(path) as stream:
@@ -194,7 +194,7 @@ def read_tile(path: Path) -> Tile:
 
 @contextmanager
 def _open_mappable(path: Path) -> Iterator[IO[bytes]]:
-    """A file that can be mapped into memory: the file itself, or a temporary one with what is gzipped in it."""
+    """Yield a file that can be mapped into memory: the file itself, or a temporary one with the unpacked content."""
     if path.suffix != ".gz":
         with path.open("rb") as plain:
             yield plain
@@ -206,7 +206,7 @@ def _open_mappable(path: Path) -> Iterator[IO[bytes]]:
 
 
 def _check_header(path: Path, stream: IO[bytes]) -> None:
-    """See from the header alone, whatever counts it claims, that the points can be mapped and are what we need."""
+    """Check by the header alone, whatever counts it claims, that the points have the right properties."""
     head = stream.read(HEADER_BYTES)
     stream.seek(0)
     end = re.search(rb"[\r\n]end_header(\r\n|\r|\n)", head)
@@ -235,7 +235,7 @@ def _failed_element(error: Any) -> str:
 
 
 def read_trajectory(path: Path) -> Floats:
-    """[F, 3] float64 world positions of the vehicle, metres, in order of line.
+    """Read the world positions [F, 3] (float64) of the vehicle, metres, in order of line.
 
     Raises:
         DataError: no file, a malformed line, a number that is not finite, or fewer than two lines.

@@ -1,4 +1,4 @@
-"""prepared/<scene>.json: what a prepared scene was made from, by which settings, and how large its files are."""
+"""prepared/<scene>.json: the raw files and settings of a prepared scene, and the sizes of its files."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -25,10 +25,10 @@ class RawFile(BaseModel):
 
 
 class Recipe(BaseModel):
-    """All that decides what comes out of a preparation.
+    """Everything that determines the result of a preparation.
 
     Attributes:
-        format: of what the software makes; another number when the same raw files would give other cells or poses.
+        format: version of the preparation; it changes when the same raw files would give other cells or poses.
         scene: name of the scene's files.
         seed: of the positions.
         config: every option.
@@ -46,10 +46,10 @@ class Recipe(BaseModel):
 
 
 class PreparationRecord(Recipe):
-    """A scene that is complete.
+    """A complete scene.
 
     Attributes:
-        cells, poses: how many.
+        cells, poses: their numbers.
         files: size in bytes by path below the root.
     """
 
@@ -59,11 +59,11 @@ class PreparationRecord(Recipe):
 
 
 def build_recipe(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Recipe:
-    """What a scene would be made from now.
+    """Return the recipe for preparing a scene now.
 
     Args:
         raw: root of the raw data.
-        folder: of the scene; files that it lacks are left out, reading it says which.
+        folder: of the scene; missing files are left out here and reported when the scene is read.
         config: every option.
         seed: of the positions.
     """
@@ -82,14 +82,14 @@ def build_recipe(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Re
 
 
 def read_record(path: Path, advice: str) -> PreparationRecord:
-    """The record of a prepared scene.
+    """Read the record of a prepared scene.
 
     Args:
         path: prepared/<scene>.json.
         advice: what to do if it is not usable.
 
     Raises:
-        DataError: it cannot be read, is none, or is of another version of this software.
+        DataError: it cannot be read, is malformed, or is of another version of this software.
     """
     try:
         return PreparationRecord.model_validate_json(path.read_bytes())
@@ -102,7 +102,7 @@ def read_record(path: Path, advice: str) -> PreparationRecord:
 
 
 def describe_differences(record: PreparationRecord, recipe: Recipe) -> str:
-    """What a scene was made from that is not so now, in words; empty if nothing."""
+    """Describe how a scene's record differs from a recipe; empty if it does not."""
     changes = list(_find_changes(record.model_dump(include=set(Recipe.model_fields)), recipe.model_dump()))
     more = f" and {len(changes) - MAX_SHOWN_DIFFERENCES} more" if len(changes) > MAX_SHOWN_DIFFERENCES else ""
     return ", ".join(changes[:MAX_SHOWN_DIFFERENCES]) + more

@@ -1,4 +1,4 @@
-"""The rules by which KITTI360Pose is made from KITTI-360, in numbers (docs/formats.md, preparation rules)."""
+"""The rules for making KITTI360Pose from KITTI-360, in numbers (docs/formats.md, preparation rules)."""
 
 from dataclasses import dataclass, field
 
@@ -13,8 +13,8 @@ class ClassRule:
     Attributes:
         label: class in words.
         semantic: KITTI-360's number of it.
-        is_stuff: True for what is clipped to cells, False for things, which are kept whole.
-        voxel_m: one point is kept a cube of this edge; None keeps all.
+        is_stuff: True if clipped to cells, False for things, which are kept whole.
+        voxel_m: one point is kept in each cube of this edge; None keeps all.
         min_points: an instance with fewer is dropped.
     """
 
@@ -25,7 +25,7 @@ class ClassRule:
     min_points: int
 
 
-# In the order in which instances are met within a tile.
+# In the order of instances within a tile.
 CLASSES = (
     ClassRule("building", 11, is_stuff=False, voxel_m=0.25, min_points=250),
     ClassRule("pole", 17, is_stuff=False, voxel_m=None, min_points=25),
@@ -49,7 +49,7 @@ CLASSES = (
     ClassRule("vegetation", 21, is_stuff=True, voxel_m=0.25, min_points=250),
     ClassRule("terrain", 22, is_stuff=True, voxel_m=0.25, min_points=250),
 )
-# Ground: KITTI-360 gives all of it in a scene number 0 of its class, so that it is one instance.
+# KITTI-360 numbers all ground of a class in a scene 0, so that it is one instance.
 GROUND = frozenset({"road", "sidewalk", "parking", "terrain"})
 
 
@@ -58,16 +58,16 @@ class PrepareConfig:
     """Every option of the preparation; the defaults are the released set's.
 
     Attributes:
-        classes: what is kept of the points, and how (rules 1 and 2).
+        classes: which points are kept, and how (rules 1 and 2).
         spacing_m: least distance between locations (rule 3).
-        thing_reach_m: a location further from every thing is left out (rule 3).
+        thing_reach_m: a location farther from every thing is left out (rule 3).
         cut: how cells are cut, and the cube around a position (rule 4).
-        copies: positions a location (rule 5).
-        shift_divisor: a position is up to the cell's size over this away from its location, in x and in y (rule 5).
-        best_cell_reach_m: a position further from every cell's centre is left out (rule 5).
-        strategies: how hints are chosen; a description each (rule 5).
-        num_hints: hints a description; a position with fewer instances in reach is left out.
-        hint_reach_m: nothing further away is mentioned (rule 5).
+        copies: positions for each location (rule 5).
+        shift_divisor: a position is moved by up to the cell's size over this, in x and in y (rule 5).
+        best_cell_reach_m: a position farther from every cell's centre is left out (rule 5).
+        strategies: how hints are chosen; each gives a description (rule 5).
+        num_hints: hints in a description; a position with fewer instances in reach is left out.
+        hint_reach_m: instances farther away are not mentioned (rule 5).
         on_top_share: nearer than this share of a cell is "on-top" (rule 6).
     """
 

@@ -1,8 +1,8 @@
 """direction/<scene>.json: the neighbours of each cell, for prototype-based map cloning (docs/method.md, fine stage).
 
-One JSON object a scene: cell id -> {"east": cell id or null, ...} with the eight points of the compass. A neighbour's
-centre is one step of the grid away in x, in y or in both; heights do not count. Text2Loc's fine stage takes a pose's
-neighbours from it by the pose's cell id, so that every cell of the scene must be in it.
+A scene has one JSON object: cell id -> {"east": cell id or null, ...} with the eight points of the compass. A
+neighbour's centre is one step of the grid away in x, in y or in both; heights do not count. Text2Loc's fine stage looks
+up a pose's neighbours by its cell id, so every cell of the scene must be in it.
 """
 
 import json
@@ -30,12 +30,12 @@ COMPASS_STEPS: dict[Compass, tuple[int, int]] = {
     "southeast": (1, -1),
     "southwest": (-1, -1),
 }
-NEIGHBOUR_TOLERANCE_M = 1e-3  # cells of one grid are whole steps apart; what is further off is of another grid
+NEIGHBOUR_TOLERANCE_M = 1e-3  # cells of one grid are whole steps apart; others belong to another grid
 ADVICE = "cells and direction must come from one preparation"
 
 
 def find_neighbours(cells: Sequence[PublishedCell], grid_m: float) -> Neighbours:
-    """The cells beside each cell of a scene.
+    """Find the neighbours of each cell of a scene.
 
     Args:
         cells: of one scene, on one grid.
@@ -55,7 +55,7 @@ def find_neighbours(cells: Sequence[PublishedCell], grid_m: float) -> Neighbours
 
 
 def load_direction(path: Path, cell_ids: Collection[str]) -> Neighbours:
-    """The neighbours of a scene's cells.
+    """Read the neighbours of a scene's cells.
 
     Args:
         path: direction/<scene>.json.
@@ -65,12 +65,14 @@ def load_direction(path: Path, cell_ids: Collection[str]) -> Neighbours:
         For each cell's id: point of the compass -> id of the cell there, where there is one.
 
     Raises:
-        DataError: the file is missing, no JSON or of another form, names a cell that the scene has not, or lacks one.
+        DataError: the file is missing, malformed, names a cell that is not in the scene, or lacks one.
     """
     try:
         stored = TypeAdapter(dict[str, dict[Compass, str | None]]).validate_json(path.read_bytes())
     except FileNotFoundError as error:
-        raise DataError(f"{path}: no neighbours for this scene; the file is missing; prepare the scene anew") from error
+        raise DataError(
+            f"{path}: no neighbours for this scene; the file is missing; prepare the scene again"
+        ) from error
     except OSError as error:
         raise DataError(f"{path}: cannot be opened: {error.strerror}") from error
     except ValidationError as error:

@@ -1,4 +1,4 @@
-"""From the stand-ins of a pickle to the published records, field by field; every refusal names file and field."""
+"""Read the published records from unpickled values, field by field; every error names file and field."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from models.sources.kitti360pose.pickle_reader import ADVICE
 from models.sources.kitti360pose.pickle_values import PickledRecord, RefusedPickle, StoredArray
 from models.sources.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 
-MAX_COORDINATE = 1e9  # a coordinate beyond it is none: UTM metres stay under 1e7
+MAX_COORDINATE = 1e9  # a larger coordinate is an error: UTM coordinates are below 1e7 m
 MIN_SIZE_M, MAX_SIZE_M = 1e-3, 1e6
 
 
@@ -26,25 +26,25 @@ class PickleFile:
     file: BinaryIO
 
     def error(self, field: str, problem: str) -> DataError:
-        """What to raise for a field of this file."""
+        """Return the error for a field of this file."""
         return DataError(f"{self.path}: {field} {problem}; {ADVICE}")
 
     def read_records(self, value: Any, field: str, kind: str) -> "list[Fields]":
-        """The records of a list.
+        """Return the records of a list.
 
         Args:
-            value: what should be a list of records.
-            field: where it stands.
-            kind: the class they must be of.
+            value: should be a list of records.
+            field: the list's place in the file.
+            kind: the class the records must have.
 
         Raises:
-            DataError: it is no list, or holds something else.
+            DataError: it is not a list, or holds something else.
         """
         if type(value) is not list:
-            raise self.error(field, f"is no list of {kind}, but {_describe_type(value)}")
+            raise self.error(field, f"is not a list of {kind}, but {_describe_type(value)}")
         for n, item in enumerate(value):
             if not isinstance(item, PickledRecord) or item.kind != kind:
-                raise self.error(f"{field}[{n}]", f"is no {kind}, but {_describe_type(item)}")
+                raise self.error(f"{field}[{n}]", f"is not a {kind}, but {_describe_type(item)}")
             if item.is_listed:
                 raise self.error(f"{field}[{n}]", "is the same object as an earlier one")
             item.is_listed = True
@@ -53,55 +53,55 @@ class PickleFile:
 
 @dataclass(frozen=True, slots=True)
 class Fields:
-    """The attributes of one record, and where it stands in the file; each method raises DataError."""
+    """The attributes of one record, and its place in the file; each method raises DataError."""
 
     pickle: PickleFile
     where: str
     fields: dict[str, Any]
 
     def error(self, name: str, problem: str) -> DataError:
-        """What to raise for an attribute."""
+        """Return the error for an attribute."""
         return self.pickle.error(f"{self.where}.{name}", problem)
 
     def value(self, name: str) -> Any:
-        """An attribute as it is."""
+        """Return an attribute as it is."""
         if name not in self.fields:
             raise self.error(name, "is missing")
         return self.fields[name]
 
     def text(self, name: str) -> str:
-        """A word or name."""
+        """Return a word or name."""
         value = self.value(name)
         if type(value) is not str or not value or not value.isprintable():
-            raise self.error(name, f"is no printable text, but {_describe_type(value)}")
+            raise self.error(name, f"is not printable text, but {_describe_type(value)}")
         return value
 
     def integer(self, name: str) -> int:
-        """A number that fits 64 bits."""
+        """Return a number that fits 64 bits."""
         value = self.value(name)
         if type(value) is not int or not -(2**63) <= value < 2**63:
-            raise self.error(name, f"is no whole number of 64 bits, but {_describe_type(value)}")
+            raise self.error(name, f"is not a whole number of 64 bits, but {_describe_type(value)}")
         return value
 
     def flag(self, name: str) -> bool:
-        """True or False."""
+        """Return True or False."""
         value = self.value(name)
         if type(value) is not bool:
             raise self.error(name, f"is neither True nor False, but {_describe_type(value)}")
         return value
 
     def length(self, name: str) -> float:
-        """A length in metres."""
+        """Return a length in metres."""
         value = self.value(name)
         if type(value) not in (int, float) or not MIN_SIZE_M <= value <= MAX_SIZE_M:
-            raise self.error(name, f"is no length in metres, but {_describe_type(value)}")
+            raise self.error(name, f"is not a length in metres, but {_describe_type(value)}")
         return float(value)
 
     def array(self, name: str) -> npt.NDArray[Any]:
-        """An array of finite numbers, dtype as stored."""
+        """Return an array of finite numbers, dtype as stored."""
         stored = self.value(name)
         if not isinstance(stored, StoredArray):
-            raise self.error(name, f"is no array, but {_describe_type(stored)}")
+            raise self.error(name, f"is not an array, but {_describe_type(stored)}")
         try:
             values = stored.read(self.pickle.file)
         except (RefusedPickle, EOFError, OSError) as error:
@@ -114,7 +114,7 @@ class Fields:
         return values
 
     def vector(self, name: str, sizes: Sequence[int]) -> Floats:
-        """A float64 vector of one of some sizes."""
+        """Return a float64 vector of one of some sizes."""
         values = self.array(name)
         if values.ndim != 1 or len(values) not in sizes:
             wanted = " or ".join(str(size) for size in sizes)
@@ -122,18 +122,18 @@ class Fields:
         return values.astype(np.float64)
 
     def optional_vector(self, name: str, sizes: Sequence[int]) -> Floats | None:
-        """A vector, None if nothing is stored."""
+        """Return a vector, or None if nothing is stored."""
         return None if self.fields.get(name) is None else self.vector(name, sizes)
 
     def colour(self, name: str) -> Floats:
-        """[3] 0..1, float32 or float64 as stored."""
+        """Return a colour [3] in 0..1, float32 or float64 as stored."""
         values = self.array(name)
         if values.shape != (3,) or values.dtype.kind != "f":
             raise self.error(name, f"has shape {list(values.shape)} and dtype {values.dtype}, not [3] of floats")
         return self.check_unit_range(name, values)
 
     def points(self, name: str) -> Floats:
-        """[P, 3] of at least one point, float32 or float64 as stored."""
+        """Return at least one point [P, 3], float32 or float64 as stored."""
         values = self.array(name)
         if values.ndim != 2 or values.shape[1] != 3 or values.dtype.kind != "f":
             raise self.error(name, f"has shape {list(values.shape)} and dtype {values.dtype}, not [P, 3] of floats")
@@ -142,17 +142,17 @@ class Fields:
         return values
 
     def check_unit_range(self, name: str, values: Floats) -> Floats:
-        """Colours, if they are in 0..1."""
+        """Return colours if they are in 0..1."""
         if values.min() < 0 or values.max() > 1:
             raise self.error(name, f"holds {values.min():g}..{values.max():g}; colours are 0..1")
         return values
 
 
 def read_cell(cell: Fields) -> PublishedCell:
-    """A cell with its points, checked."""
+    """Read and check a cell with its points."""
     box = cell.vector("bbox_w", (6,))
     if not (box[:3] < box[3:]).all():
-        raise cell.error("bbox_w", "is no box: smallest x y z, then greatest x y z")
+        raise cell.error("bbox_w", "is not a box: smallest x y z, then greatest x y z")
     records = cell.pickle.read_records(cell.value("objects"), f"{cell.where}.objects", "Object3d")
     objects = [read_object(item) for item in records]
     numbers = [item.id for item in objects]
@@ -164,7 +164,7 @@ def read_cell(cell: Fields) -> PublishedCell:
 
 
 def read_object(item: Fields) -> PublishedObject:
-    """An instance with its points, checked."""
+    """Read and check an instance with its points."""
     xyz, rgb = item.points("xyz"), item.check_unit_range("rgb", item.points("rgb"))
     if len(xyz) != len(rgb):
         raise item.error("rgb", f"has {len(rgb)} points, xyz has {len(xyz)}")
@@ -172,7 +172,7 @@ def read_object(item: Fields) -> PublishedObject:
 
 
 def read_pose(pose: Fields) -> PublishedPose:
-    """A pose with its hints, checked."""
+    """Read and check a pose with its hints."""
     value = pose.value("descriptions")
     hints = pose.pickle.read_records(value, f"{pose.where}.descriptions", "DescriptionBestCell")
     if not hints:
@@ -188,7 +188,7 @@ def read_pose(pose: Fields) -> PublishedPose:
 
 
 def read_hint(hint: Fields) -> PublishedHint:
-    """A hint, checked."""
+    """Read and check a hint."""
     direction, is_matched = hint.text("direction"), hint.flag("is_matched")
     if direction not in DIRECTIONS:
         raise hint.error("direction", f"is '{direction[:20]}', not one of {', '.join(DIRECTIONS)}")
@@ -211,7 +211,7 @@ def read_hint(hint: Fields) -> PublishedHint:
 
 
 def _describe_type(value: Any) -> str:
-    """A value in a message: never its contents, which may be long or not printable."""
+    """Return the type of a value for a message, never its content, which may be long or not printable."""
     if isinstance(value, PickledRecord):
         return f"a {value.kind}"
     return {"NoneType": "None", "StoredArray": "an array"}.get(type(value).__name__, f"a {type(value).__name__}")

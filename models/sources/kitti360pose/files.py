@@ -1,4 +1,4 @@
-"""KITTI360Pose on disk, as it is published: scenes, cells and poses (docs/formats.md, published layout)."""
+"""KITTI360Pose on disk as it is published: scenes, cells and poses (docs/formats.md, published layout)."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -21,7 +21,7 @@ STANDARD_SPLITS = {
     "val": ("0010",),
     "test": ("0003", "0005", "0009"),
 }
-POSE_TOLERANCE_M = 0.5  # `pose` and `pose_w` say one place twice; further apart, two frames are mixed
+POSE_TOLERANCE_M = 0.5  # `pose` and `pose_w` give one position twice; farther apart, two frames are mixed
 DRIVE = re.compile(r"\d{4}_\d{2}_\d{2}_drive_(.+)_sync")
 
 
@@ -40,7 +40,7 @@ class Scene(NamedTuple):
 
 
 class CellKey(NamedTuple):
-    """What poses refer to in a cell: its scene, corner (world metres), edge, and the ids of its objects."""
+    """The facts about a cell that poses refer to: scene, corner (world metres), edge, and the ids of its objects."""
 
     scene_name: str
     low_m: Floats
@@ -49,18 +49,18 @@ class CellKey(NamedTuple):
 
 
 def short_name(scene: str) -> str:
-    """The drive's digits, "0003" for "2013_05_28_drive_0003_sync"; any other name as it is."""
+    """Return the drive's digits, "0003" for "2013_05_28_drive_0003_sync"; any other name as it is."""
     drive = DRIVE.fullmatch(scene)
     return drive[1] if drive else scene
 
 
 def file_name(scene: str) -> str:
-    """What a scene's files are called: KITTI-360's name for four digits, any other name as it is."""
+    """Return the name of a scene's files: KITTI-360's name for four digits, any other name as it is."""
     return f"2013_05_28_drive_{scene}_sync" if re.fullmatch(r"\d{4}", scene) else scene
 
 
 def list_scenes(root: Path) -> tuple[str, ...]:
-    """The scenes of a published layout, by name of file, in order.
+    """Return the scenes of a published layout by name of file, in order.
 
     Raises:
         DataError: there is none.
@@ -72,16 +72,16 @@ def list_scenes(root: Path) -> tuple[str, ...]:
 
 
 def select_scenes(available: Sequence[str], split: str | None, where: Path) -> tuple[str, ...]:
-    """The scenes of a split.
+    """Return the scenes of a split.
 
     Args:
         available: names of scenes, long or short.
         split: "train", "val" or "test": those of the standard split that are available; or a comma list of names,
             long or short, all of which must be; None for all.
-        where: what to name in messages.
+        where: name of the data in messages.
 
     Raises:
-        DataError: a named scene, or every scene of a standard split, is not there, or two go by one name.
+        DataError: a named scene, or every scene of a standard split, is missing, or a name is ambiguous.
     """
     if split is None:
         return tuple(available)
@@ -102,7 +102,7 @@ def select_scenes(available: Sequence[str], split: str | None, where: Path) -> t
 
 
 def load_cells(path: Path) -> list[PublishedCell]:
-    """The cells of a scene.
+    """Load the cells of a scene.
 
     Args:
         path: cells/<scene>.pkl.
@@ -114,7 +114,7 @@ def load_cells(path: Path) -> list[PublishedCell]:
 
 
 def iter_cells(path: Path) -> Iterator[PublishedCell]:
-    """The cells of a scene one by one; no more than one cell's points are in memory at a time.
+    """Yield the cells of a scene; only one cell's points are in memory at a time.
 
     Args:
         path: cells/<scene>.pkl.
@@ -136,7 +136,7 @@ def iter_cells(path: Path) -> Iterator[PublishedCell]:
 
 
 def load_poses(path: Path) -> list[PublishedPose]:
-    """The poses of a scene.
+    """Load the poses of a scene.
 
     Args:
         path: poses/<scene>.pkl.
@@ -153,7 +153,7 @@ def load_poses(path: Path) -> list[PublishedPose]:
 
 
 def load_scene(root: Path, scene: str) -> Scene:
-    """The cells and poses of a scene.
+    """Load the cells and poses of a scene.
 
     Args:
         root: of the published layout.
@@ -171,12 +171,12 @@ def load_scene(root: Path, scene: str) -> Scene:
 
 
 def build_cell_key(cell: PublishedCell) -> CellKey:
-    """What `check_poses` needs of a cell."""
+    """Return the facts about a cell for `check_poses`."""
     return CellKey(cell.scene_name, cell.bbox_w[:3], cell.cell_size, frozenset(item.id for item in cell.objects))
 
 
 def check_poses(path: Path, poses: Sequence[PublishedPose], cells: Mapping[str, CellKey]) -> None:
-    """See that poses belong to a scene's cells.
+    """Check that poses belong to a scene's cells.
 
     Args:
         path: of the poses, for messages.
@@ -214,11 +214,11 @@ def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Se
     Args:
         root: of the published layout; made if missing.
         scene: name of the files; four digits become KITTI-360's name for them.
-        cells: may come one by one, so that they need not fit into memory.
-        poses: without any, no file of poses is left.
+        cells: may be an iterator, so that they need not fit into memory.
+        poses: if there are none, the file of poses is removed.
 
     Raises:
-        DataError: poses do not belong to the cells, or the name is not one of a file; nothing is changed.
+        DataError: poses do not belong to the cells, or the name is not a valid file name; nothing is changed.
     """
     name = file_name(scene)
     if not name or Path(name).name != name or name.startswith("."):
@@ -244,7 +244,7 @@ def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Se
 
 @contextmanager
 def _open_records(path: Path, name: str, kind: str) -> Iterator[list[Fields]]:
-    """The records of an open file."""
+    """Yield the records of a file while it is open."""
     try:
         file = path.open("rb")
     except FileNotFoundError as error:
@@ -254,7 +254,7 @@ def _open_records(path: Path, name: str, kind: str) -> Iterator[list[Fields]]:
     with file:
         records = PickleFile(path, file).read_records(read_pickle(file, path), name, kind)
         if not records:
-            raise DataError(f"{path}: holds no {name}; delete the file or prepare the scene anew")
+            raise DataError(f"{path}: holds no {name}; delete the file or prepare the scene again")
         yield records
 
 

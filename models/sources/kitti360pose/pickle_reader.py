@@ -1,8 +1,8 @@
-"""The published pickles as data: a reader that can only make records and arrays, never run anything.
+"""Read the published pickles as data: the reader makes only records and arrays, and never runs anything.
 
 A pickle is a program. `pickle.Unpickler` with an allow-list still allocates what a broken file claims (a memo
-index of 2^28 is 2 GB) and holds all points of a scene at once, so this one reads the format itself: the
-operations that records, arrays and plain values need, and no other. Points stay in the file until asked for.
+index of 2^28 is 2 GB) and holds all points of a scene at once, so this one reads the format itself: only the
+operations that records, arrays and plain values need. Points stay in the file until they are read.
 """
 
 import pickle
@@ -24,13 +24,13 @@ from models.sources.kitti360pose.pickle_values import (
     fill_array,
 )
 
-ADVICE = "the file is damaged or not of KITTI360Pose; get or prepare it anew"
+ADVICE = "the file is damaged or not of KITTI360Pose; download or prepare it again"
 LAZY_BYTES = 1024  # longer byte strings stay in the file
 MALFORMED_ERRORS = (struct.error, LookupError, TypeError, ValueError, OverflowError, MemoryError)
 
 
 class DataUnpickler:
-    """Reads one pickle of protocol 3 to 5 from a file that can seek; makes records, arrays and plain values only."""
+    """Reads one pickle of protocol 3 to 5 from a seekable file; makes records, arrays and plain values only."""
 
     def __init__(self, file: BinaryIO, size: int) -> None:
         self._file, self._size = file, size
@@ -39,11 +39,11 @@ class DataUnpickler:
         self._memo: dict[int, Any] = {}
 
     def load(self) -> Any:
-        """The value of the pickle.
+        """Return the value of the pickle.
 
         Raises:
-            Refused: it names a global or an operation that data needs none of.
-            MALFORMED: it is cut short or no pickle.
+            RefusedPickle: it names a global or an operation that data does not need.
+            MALFORMED_ERRORS: it is cut short or not a pickle.
         """
         read, steps, stop = self._file.read, OPERATIONS, pickle.STOP
         while (code := read(1)) != stop:
@@ -51,9 +51,7 @@ class DataUnpickler:
             if step is None:
                 if not code:
                     raise EOFError
-                raise RefusedPickle(
-                    f"has operation {code!r} at byte {self._file.tell() - 1}, which data has no use for"
-                )
+                raise RefusedPickle(f"has operation {code!r} at byte {self._file.tell() - 1}, which data does not need")
             step(self)
         return self._stack.pop()
 
@@ -62,7 +60,7 @@ class DataUnpickler:
         self._stack.append(value)
 
     def read(self, size: int) -> bytes:
-        """The next bytes; never allocates more than the file holds."""
+        """Return the next bytes; never allocates more than the file holds."""
         if size > LAZY_BYTES and size > self._size - self._file.tell():
             raise EOFError
         data = self._file.read(size)
@@ -71,7 +69,7 @@ class DataUnpickler:
         return data
 
     def unsigned(self, width: int) -> int:
-        """The next number of `width` bytes."""
+        """Return the next number of `width` bytes."""
         return int.from_bytes(self.read(width), "little")
 
     def text(self, width: int) -> None:
@@ -79,7 +77,7 @@ class DataUnpickler:
         self.push(self.read(self.unsigned(width)).decode("utf-8", "surrogatepass"))
 
     def data(self, width: int) -> None:
-        """Push a byte string whose length takes `width` bytes, or where it is in the file."""
+        """Push a byte string whose length takes `width` bytes, or its place in the file."""
         size = self.unsigned(width)
         if size <= LAZY_BYTES:
             return self.push(self.read(size))
@@ -90,7 +88,7 @@ class DataUnpickler:
         return self.push(StoredBytes(offset, size))
 
     def pop_marked(self) -> list[Any]:
-        """Take off the stack what lies above the last mark."""
+        """Pop the values above the last mark."""
         start = self._marks.pop()
         items = self._stack[start:]
         del self._stack[start:]
@@ -101,32 +99,32 @@ class DataUnpickler:
         self._marks.append(len(self._stack))
 
     def push_tuple(self, count: int) -> None:
-        """Make the last values one tuple."""
+        """Replace the last values by one tuple."""
         items = tuple(self._stack.pop() for _ in range(count))
         self.push(items[::-1])
 
     def extend(self, items: list[Any]) -> None:
         """Add to the list on top."""
         if type(self._stack[-1]) is not list:
-            raise RefusedPickle("appends to what is no list")
+            raise RefusedPickle("appends to something other than a list")
         self._stack[-1].extend(items)
 
     def update(self, items: list[Any]) -> None:
         """Add keys and values to the dict on top."""
         if type(self._stack[-1]) is not dict or not all(type(key) is str for key in items[::2]):
-            raise RefusedPickle("sets names in what is no dict of names")
+            raise RefusedPickle("sets names in something other than a dict of names")
         self._stack[-1].update(zip(items[::2], items[1::2], strict=True))
 
     def memoize_at(self, index: int) -> None:
-        """Remember the value on top."""
+        """Store the value on top under an index."""
         self._memo[index] = self._stack[-1]
 
     def recall(self, index: int) -> None:
-        """Push a remembered value."""
+        """Push a stored value."""
         self.push(self._memo[index])
 
     def memoize(self) -> None:
-        """Remember the value on top under the next number."""
+        """Store the value on top under the next index."""
         self.memoize_at(len(self._memo))
 
     def protocol(self) -> None:
@@ -140,14 +138,14 @@ class DataUnpickler:
             raise EOFError
 
     def line(self) -> str:
-        """The next line."""
+        """Return the next line."""
         return self._file.readline(256).decode("utf-8").removesuffix("\n")
 
     def push_global(self, module: Any, name: Any) -> None:
         """Push an allowed global; refuse every other by name."""
         allowed = ALLOWED_GLOBALS.get((module, name)) if type(module) is type(name) is str else None
         if allowed is None:
-            global_name = f"{module}.{name}" if type(module) is type(name) is str else "a nameless thing"
+            global_name = f"{module}.{name}" if type(module) is type(name) is str else "an unnamed object"
             raise RefusedPickle(f"asks for {global_name[:80]!r}, which no record or array needs")
         self.push(allowed)
 
@@ -157,10 +155,10 @@ class DataUnpickler:
         self.push_global(module, name)
 
     def reduce(self) -> None:
-        """Call what only builds a stand-in."""
+        """Call a global that only builds a stand-in."""
         arguments, function = self._stack.pop(), self._stack.pop()
         if not isinstance(function, AllowedGlobal) or function.call is None or type(arguments) is not tuple:
-            raise RefusedPickle("calls what is no array or scalar")
+            raise RefusedPickle("calls something other than an array or scalar")
         self.push(function.call(*arguments))
 
     def new(self) -> None:
@@ -172,7 +170,7 @@ class DataUnpickler:
             or type(arguments) is not tuple
             or arguments
         ):
-            raise RefusedPickle("makes what is no record")
+            raise RefusedPickle("makes something other than a record")
         self.push(PickledRecord(kind.name))
 
     def build(self) -> None:
@@ -185,7 +183,7 @@ class DataUnpickler:
         elif isinstance(target, StoredType) and type(state) is tuple and state[1] in ("<", ">", "|", "="):
             target.order = state[1]
         else:
-            raise RefusedPickle("sets the state of what is no record or array")
+            raise RefusedPickle("sets the state of something other than a record or array")
 
     def integer(self, width: int) -> None:
         """Push a signed number of `width` bytes."""
@@ -237,14 +235,14 @@ OPERATIONS: dict[bytes, Operation] = {
 
 
 def read_pickle(file: BinaryIO, path: Path) -> Any:
-    """The value of an open pickle file; arrays keep their values in the file.
+    """Return the value of an open pickle file; arrays keep their values in the file.
 
     Args:
         file: opened for reading in binary.
         path: its name, for messages.
 
     Raises:
-        DataError: it is cut short, no pickle, or asks for anything but records and arrays.
+        DataError: it is cut short, not a pickle, or asks for anything but records and arrays.
     """
     try:
         return DataUnpickler(file, path.stat().st_size).load()
@@ -253,4 +251,4 @@ def read_pickle(file: BinaryIO, path: Path) -> Any:
     except EOFError as error:
         raise DataError(f"{path}: the pickle is cut short; {ADVICE}") from error
     except MALFORMED_ERRORS as error:
-        raise DataError(f"{path}: no pickle, or a broken one ({type(error).__name__}); {ADVICE}") from error
+        raise DataError(f"{path}: not a pickle, or a broken one ({type(error).__name__}); {ADVICE}") from error

@@ -1,4 +1,4 @@
-"""What the published pickles may hold, as inert stand-ins: records, arrays, dtypes, and the names that make them."""
+"""Inert stand-ins for the content of published pickles: records, arrays, dtypes, and the globals that make them."""
 
 import math
 import re
@@ -16,7 +16,7 @@ NUMBER_DTYPE = re.compile(r"b1|[iu][1248]|f[48]")  # dtypes of plain numbers, ne
 
 
 class RefusedPickle(ValueError):
-    """What the pickle asks for is not data; the message continues "the pickle ..."."""
+    """The pickle asks for something other than data; the message continues "the pickle ..."."""
 
 
 @dataclass(slots=True, eq=False)
@@ -51,13 +51,13 @@ class StoredType:
 
     @property
     def dtype(self) -> np.dtype[Any]:
-        """The dtype as stored."""
+        """Return the dtype as stored."""
         return np.dtype(self.order + self.code)
 
 
 @dataclass(slots=True, eq=False)
 class StoredArray:
-    """A stand-in for a numpy array, whose values are read when asked for; `data` is None until it is built."""
+    """A stand-in for a numpy array, whose values are read on demand; `data` is None until it is built."""
 
     shape: tuple[int, ...] = ()
     dtype: np.dtype[Any] = field(default_factory=lambda: np.dtype("f8"))
@@ -66,7 +66,7 @@ class StoredArray:
     _alive: "weakref.ref[npt.NDArray[Any]] | None" = None
 
     def read(self, file: BinaryIO) -> npt.NDArray[Any]:
-        """The array, native byte order; the same one while it is in use, however often the pickle refers to it."""
+        """Return the array in native byte order; it is shared while in use, however often the pickle refers to it."""
         array = self._alive() if self._alive else None
         if array is None:
             if self.data is None:
@@ -86,14 +86,14 @@ class StoredArray:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AllowedGlobal:
-    """A global that a pickle may name, and what calling it makes here."""
+    """A global that a pickle may name, and the function that stands in for it."""
 
     name: str
     call: Callable[..., Any] | None = None
 
 
 def fill_array(array: StoredArray, shape: Any, dtype: Any, fortran: Any, data: Any) -> StoredArray:
-    """Give an array its contents, if they fit together."""
+    """Set the content of an array, if its parts are consistent."""
     sized = type(shape) is tuple and len(shape) <= 2 and all(type(n) is int and n >= 0 for n in shape)
     if not sized or not isinstance(dtype, StoredType) or type(fortran) is not bool or array.data is not None:
         raise RefusedPickle("has an array that is not one of plain numbers")

@@ -1,8 +1,8 @@
-"""Writing the published pickles, without the reference package.
+"""Write the published pickles without the reference package.
 
-The library's pickler would import that package, name what makes arrays as numpy before 1.26 does not know it, and keep
-all that it wrote until the end (400 cells with 600 MB of points: 1,215 MB, here 55). So it only writes plain values: a
-pickle of protocol 3 is the operations that make its value, and those of records, lists and arrays are put around them.
+The library's pickler would import that package, name array constructors that numpy before 1.26 does not know, and keep
+all that it wrote in memory (400 cells with 600 MB of points: 1,215 MB, here 55). So it only writes plain values: a
+pickle of protocol 3 is the operations that make its value, and those of records, lists and arrays are written here.
 """
 
 import pickle
@@ -16,14 +16,14 @@ from models.sources.kitti360pose.records import PublishedCell, PublishedHint, Pu
 
 
 def cell_record(cell: PublishedCell) -> PickledRecord:
-    """A cell as the reference package's `Cell`."""
+    """Return a cell as the reference package's `Cell`."""
     objects = [_object_record(item) for item in cell.objects]
     fields = {"scene_name": cell.scene_name, "id": cell.id, "objects": objects}
     return PickledRecord("Cell", {**fields, "cell_size": cell.cell_size, "bbox_w": cell.bbox_w})
 
 
 def pose_record(pose: PublishedPose) -> PickledRecord:
-    """A pose as the reference package's `Pose`."""
+    """Return a pose as the reference package's `Pose`."""
     fields = {"pose": pose.pose, "pose_w": pose.pose_w, "cell_id": pose.cell_id}
     hints = [_hint_record(hint) for hint in pose.descriptions]
     return PickledRecord(
@@ -42,7 +42,7 @@ def _hint_record(hint: PublishedHint) -> PickledRecord:
 
 
 def write_records(file: BinaryIO, records: Iterable[PickledRecord]) -> None:
-    """Write one pickle, the list of the records; holds no value longer than it takes to write it."""
+    """Write one pickle with the list of the records; each value is dropped once it is written."""
     file.write(pickle.PROTO + b"\x03" + pickle.EMPTY_LIST)
     for record in records:
         file.writelines(_operations(record))
@@ -51,7 +51,7 @@ def write_records(file: BinaryIO, records: Iterable[PickledRecord]) -> None:
 
 
 def _operations(value: Any) -> Iterator[bytes]:
-    """What makes a value: a record, a list, an array, or a plain one."""
+    """Yield the operations that make a value: a record, a list, an array, or a plain one."""
     if isinstance(value, PickledRecord):
         yield _global(RECORD_MODULE, value.kind) + pickle.EMPTY_TUPLE + pickle.NEWOBJ + pickle.EMPTY_DICT + pickle.MARK
         for name, item in value.fields.items():
@@ -78,5 +78,5 @@ def _global(module: str, name: str) -> bytes:
 
 
 def _plain_value(value: Any) -> bytes:
-    """The operations of a value, without the protocol before and the stop after them."""
+    """Return the operations of a value, without the protocol and the stop."""
     return pickle.dumps(value, protocol=3)[2:-1]

@@ -1,6 +1,6 @@
-"""KITTI360Pose as it is published: its records, name for name (docs/formats.md, published layout).
+"""The records of KITTI360Pose under their published names (docs/formats.md, published layout).
 
-Readers give these, preparation makes these, writers take these. Our own types are made from them.
+Readers return these, preparation makes these, writers take these. The project's own types are made from them.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ class PublishedObject:
 
     Attributes:
         id: number inside the cell.
-        instance_id: number in the scene; parts of one clipped instance share it.
+        instance_id: number in the scene, shared by the parts of a clipped instance.
         xyz: [P, 3] cell units, 0..1 inside the cell, may exceed it; float64 in the released set.
         rgb: [P, 3] 0..1; float32 in the released set, n / 255.
         label: class.

@@ -1,11 +1,11 @@
-"""OpenStreetMap as a city map: `map` reads elements by classes.toml, `strips` and `taking` make instances of them.
+"""OpenStreetMap as a city map: `map` reads elements by classes.toml, `feature_strips` and `imported_map` import them.
 
-`gazetteer` reads what has a name, `extract` takes a part of a file, `tiling` makes a large city of copies, which
-`renaming` names. May import models.citymap, its gazetteer and kinds.
+`gazetteer` reads named objects, `extract` takes a region of a file, `city_copies` makes a large city of copies, whose
+streets `copy_names` renames. May import models.citymap, its gazetteer and kinds.
 """
 
 import os
 
-# Of a large file osmium has some 200 MB of blocks decoded ahead, unless it is told before it reads; three will do.
+# By default osmium decodes some 200 MB of blocks ahead; three blocks are as fast.
 for _queue in ("INPUT", "OSMDATA"):
     os.environ.setdefault(f"OSMIUM_MAX_{_queue}_QUEUE_SIZE", "3")

@@ -1,4 +1,4 @@
-"""A large city made of a small one: copies of an extract side by side, as one OpenStreetMap file."""
+"""Make a large city from a small one: copies of an extract side by side, as one OpenStreetMap file."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,19 +12,21 @@ from models.errors import MapError
 from models.sources.osm.copy_names import CopyNames, ExtractNames
 from models.sources.osm.map import SUFFIXES
 
-UNITS_PER_DEGREE: Final = 10_000_000  # of a degree, in which OpenStreetMap keeps coordinates
-BOX_MARGIN_UNITS: Final = 1000  # units round the nodes of a file without a box, for what is drawn wider than its line
+UNITS_PER_DEGREE: Final = 10_000_000  # OpenStreetMap stores coordinates in these units
+BOX_MARGIN_UNITS: Final = 1000  # around the nodes of a file without a box, for features drawn wider than their line
 OSM_TYPES: Final = {"n": osmium.osm.NODE, "w": osmium.osm.WAY, "r": osmium.osm.RELATION}  # in a file's order
 Box = tuple[int, int, int, int]
 
 
 @dataclass(frozen=True, slots=True)
 class CopyGrid:
-    """How copies lie: row by row from south-west, copy 0 where the extract is; the last row may be shorter.
+    """The layout of the copies: row by row from the south-west, copy 0 where the extract is.
+
+    The last row may be shorter.
 
     Attributes:
         box: west, south, east, north of one copy, in units of 1e-7 degrees.
-        copies: how many.
+        copies: their number.
     """
 
     box: Box
@@ -32,25 +34,25 @@ class CopyGrid:
 
     @property
     def columns(self) -> int:
-        """Copies in a row, so that the block is as wide as it is high, near enough."""
+        """Return the copies in a row, so that the grid is about as wide as it is high."""
         width, height = self._size
         metres = width * cos(radians((self.box[1] + self.box[3]) / 2 / UNITS_PER_DEGREE))
         return max(1, min(self.copies, round(sqrt(self.copies * height / metres))))
 
     @property
     def _size(self) -> tuple[int, int]:
-        """Of a copy, with one unit to its neighbour."""
+        """Return the width and height of a copy, with one unit between neighbours."""
         west, south, east, north = self.box
         return east - west + 1, north - south + 1
 
     def shift(self, copy: int) -> tuple[int, int]:
-        """How far east and north of copy 0 a copy is, in units of 1e-7 degrees."""
+        """Return how far east and north of copy 0 a copy is, in units of 1e-7 degrees."""
         row, column = divmod(copy, self.columns)
         width, height = self._size
         return column * width, row * height
 
     def bounds(self) -> tuple[float, float, float, float]:
-        """West, south, east, north of the block in degrees.
+        """Return west, south, east, north of the grid in degrees.
 
         Raises:
             MapError: it does not fit on Earth.
@@ -65,7 +67,7 @@ class CopyGrid:
         return west / UNITS_PER_DEGREE, south / UNITS_PER_DEGREE, east / UNITS_PER_DEGREE, north / UNITS_PER_DEGREE
 
     def to_first_copy(self, lat: float, lon: float) -> tuple[float, float]:
-        """A place of the block in degrees as the place of copy 0 that it is a copy of."""
+        """Return the position in copy 0 of a position in the grid, in degrees."""
         width, height = self._size
         rows = -(-self.copies // self.columns)
         column = min(max(int((lon * UNITS_PER_DEGREE - self.box[0]) // width), 0), self.columns - 1)
@@ -75,12 +77,12 @@ class CopyGrid:
 
 @dataclass(frozen=True, slots=True)
 class CityExtract:
-    """What is known of an extract before it is copied.
+    """An extract to be copied.
 
     Attributes:
         path: of the file.
-        box: of the file's header and of all nodes together, of a file without a box some metres more; see Block.
-        numbers: by osmium's letter, how many numbers a copy takes: all that the file names lie closer together.
+        box: of the file's header and all nodes together, in units of 1e-7 degrees; a file without a box gets a margin.
+        numbers: by osmium's letter, the span of the ids in the file, by which each copy's ids are shifted.
         names: of its elements.
     """
 
@@ -94,10 +96,10 @@ class CityExtract:
         """Read an OpenStreetMap file once.
 
         Raises:
-            MapError: there is none, it cannot be read, or nothing is in it.
+            MapError: there is none, it cannot be read, or it has no positions.
         """
         if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
-            raise MapError(f"{path}: no OpenStreetMap file; give one that ends in {' or '.join(SUFFIXES)} as --map")
+            raise MapError(f"{path}: not an OpenStreetMap file; give one that ends in {' or '.join(SUFFIXES)} as --map")
         element: Any
         names, ids, bounds = ExtractNames(), {letter: {0} for letter in OSM_TYPES}, _BoundingBox()
         try:
@@ -118,17 +120,17 @@ class CityExtract:
         return cls(path, box, {kind: max(numbers) - min(numbers) + 1 for kind, numbers in ids.items()}, names)
 
     def write_tiled(self, copies: int, out: Path) -> CopyGrid:
-        """Write copies side by side; the file is read again for each, and one element is held at a time.
+        """Write copies side by side; the file is read again for each, with one element in memory at a time.
 
-        Copy 0 is the extract as it is. In the others numbers and coordinates are shifted and things renamed, see
+        Copy 0 is the extract as it is. The others have shifted ids and coordinates and new names, see
         `models.sources.osm.copy_names`.
 
         Args:
-            copies: how many.
-            out: where to, an .osm.pbf that is not there.
+            copies: their number.
+            out: path of the new .osm.pbf.
 
         Returns:
-            How they lie.
+            The layout of the copies.
 
         Raises:
             MapError: the copies do not fit on Earth, or a file cannot be read or written.
@@ -147,7 +149,7 @@ class CityExtract:
         return block
 
     def _copied(self, block: CopyGrid, copy: int, entity: Any) -> Iterator[Any]:
-        """The elements of one sort as they are in a copy."""
+        """Yield the elements of one type as they are in a copy."""
         elements = osmium.FileProcessor(str(self.path), entity)
         if not copy:
             yield from elements
@@ -159,7 +161,7 @@ class CityExtract:
 
 
 class _BoundingBox:
-    """A box round places."""
+    """A box around positions."""
 
     def __init__(self) -> None:
         self._west = self._south = 1 << 40
@@ -171,12 +173,12 @@ class _BoundingBox:
 
     def box(self, path: Path, margin: int) -> Box:
         if self._west > self._east:
-            raise MapError(f"{path}: no place in it; take an extract of an inhabited place")
+            raise MapError(f"{path}: it has no positions; take an extract of an inhabited place")
         return self._west - margin, self._south - margin, self._east + margin, self._north + margin
 
 
 def _references(element: Any) -> list[tuple[str, int]]:
-    """Letters and numbers of the elements that one names."""
+    """Return letters and ids of the elements that an element refers to."""
     if element.type_str() == "w":
         return [("n", node.ref) for node in element.nodes]
     if element.type_str() == "r":
@@ -185,7 +187,7 @@ def _references(element: Any) -> list[tuple[str, int]]:
 
 
 def _move(element: Any, names: CopyNames, id_shift: dict[str, int], shift: tuple[int, int]) -> Any:
-    """An element with other numbers, names and coordinates."""
+    """Return an element with other ids, names and coordinates."""
     letter = element.type_str()
     tags = names.tags((letter, element.id), {tag.k: tag.v for tag in element.tags})
     changed: dict[str, Any] = {"id": element.id + id_shift[letter], "tags": tags}

@@ -1,4 +1,4 @@
-"""The table tag -> class of instance (classes.toml)."""
+"""The table from tags to classes of instances (classes.toml)."""
 
 import tomllib
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from models.citymap.geometry.solids import Shape
 
 @dataclass(frozen=True, slots=True)
 class OsmClass:
-    """A row of `classes.toml`: which tags make an instance of which label, and its shape."""
+    """A row of `classes.toml`: the tags of a class, its label and its shape."""
 
     label: str
     shape: Shape
@@ -23,7 +23,7 @@ class OsmClass:
     forbidden: tuple[tuple[str, frozenset[str] | None], ...] = field(init=False)
 
     def __post_init__(self) -> None:
-        """Split the tag lines once, because they are asked for every element of the map."""
+        """Parse the tag lines once, because they are checked for every element of the map."""
         split = [(line.startswith("!"), line.lstrip("!").partition("=")) for line in self.tags]
         conditions = [(no, key, None if value == "*" else frozenset(value.split("|"))) for no, (key, _, value) in split]
         object.__setattr__(self, "required", tuple((key, values) for no, key, values in conditions if not no))
@@ -38,13 +38,13 @@ class OsmClass:
 
 @cache
 def load_classes() -> tuple[OsmClass, ...]:
-    """The table tag -> class that ships with the package."""
+    """Load the table that ships with the package."""
     table = tomllib.loads((Path(__file__).parent / "classes.toml").read_text())
     return tuple(OsmClass(**{**row, "tags": tuple(row["tags"])}) for row in table["class"])
 
 
 def find_class(tags: Mapping[str, str]) -> tuple[int, OsmClass] | None:
-    """The first row of the table that an element with these tags belongs to, and its number; None if there is none."""
+    """Return the first row of the table that the tags match, with its number; None if there is none."""
     rows, numbers = load_classes(), _rows_by_key()
     candidates = sorted({number for key in tags for number in numbers.get(key, ())})
     return next(((number, rows[number]) for number in candidates if rows[number].matches(tags)), None)
@@ -52,7 +52,7 @@ def find_class(tags: Mapping[str, str]) -> tuple[int, OsmClass] | None:
 
 @cache
 def _rows_by_key() -> dict[str, list[int]]:
-    """Which rows ask for each key first: most elements have none of most keys."""
+    """Return the rows by their first required key: most elements have none of most keys."""
     numbers: dict[str, list[int]] = {}
     for number, row in enumerate(load_classes()):
         numbers.setdefault(row.required[0][0], []).append(number)

@@ -1,4 +1,4 @@
-"""Names in the copies of a tiled city: streets get new ones, other things those of their like."""
+"""Names in the copies of a tiled city: streets get new ones, other objects swap names within their kind."""
 
 import re
 import zlib
@@ -10,18 +10,19 @@ import numpy as np
 
 from models.sources.osm.gazetteer import NON_STREET_HIGHWAYS
 
-# Of the keys of an element, the first of these says of what kind it is.
+# The first of these keys that an element has is its kind.
 MAIN_KEYS: Final = (
     "amenity", "shop", "tourism", "office", "leisure", "healthcare", "craft", "historic", "club", "public_transport",
     "railway", "highway", "natural", "waterway", "man_made", "building", "landuse", "boundary", "place", "route",
     "type",
 )  # fmt: skip
 STREET_RELATIONS: Final = ("street", "associatedStreet")
-STREET_KEY: Final = re.compile(r".*:street|addr:place")  # whose values are names of streets
+STREET_KEY: Final = re.compile(r".*:street|addr:place")  # keys whose values are names of streets
 TRANSLATED_STREET_KEY: Final = re.compile(r"addr:(?:street|place):.+")
 NAME_KEY: Final = re.compile(r"(?:.*[:_])?name(?::.*)?|brand(?::.*)?")
 SYLLABLES: Final = tuple(c + v for c in "bdfghjklmnprstvz" for v in "aeiou")
-SYLLABLES_PER_NAME: Final = 4  # syllables of a made-up name
+SYLLABLES_PER_NAME: Final = 4
+# Coprime to the number of words, so that no two numbers share a name
 NAME_STEP: Final = (
     15_485_863  # has no divisor in common with the number of syllables, so that no two numbers share a name
 )
@@ -33,18 +34,18 @@ Kind = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class ExtractNames:
-    """The names of an extract, taken in element by element.
+    """The names of an extract, collected element by element.
 
     Attributes:
-        streets: names of streets in lower case, also of those that only addresses name; each has a number.
-        things: by kind (main key and value) the tags that name each thing that is no street.
+        streets: names of streets in lower case, also those that only addresses have; each has a number.
+        things: by kind (main key and value) the name tags of each object that is not a street.
     """
 
     streets: dict[str, int] = field(default_factory=dict)
     things: dict[Kind, dict[Element, Tags]] = field(default_factory=dict)
 
     def add(self, element: Element, tags: Mapping[str, str]) -> None:
-        """Take in the names of one element."""
+        """Add the names of one element."""
         for key, value in tags.items():
             if _is_street_key(key):
                 self._add_street(value)
@@ -58,7 +59,7 @@ class ExtractNames:
         self.streets.setdefault(name.casefold(), len(self.streets))
 
     def in_copy(self, copy: int) -> "CopyNames":
-        """The names of a copy, from 1 on: which things swap names is drawn from its number."""
+        """Return the names of a copy, from 1 on; its number seeds which objects swap names."""
         swapped: dict[Element, Tags] = {}
         for kind, named in self.things.items():
             rng = np.random.default_rng([copy, zlib.crc32("=".join(kind).encode())])
@@ -69,12 +70,12 @@ class ExtractNames:
 
 @dataclass(frozen=True, slots=True)
 class CopyNames:
-    """What a copy's elements are called.
+    """The names in a copy.
 
     Attributes:
         names: of the extract.
         copy: its number, from 1.
-        swapped: the tags that name each thing in this copy.
+        swapped: the name tags of each object in this copy.
     """
 
     names: ExtractNames
@@ -82,7 +83,7 @@ class CopyNames:
     swapped: dict[Element, Tags]
 
     def tags(self, element: Element, tags: Tags) -> Tags:
-        """The tags of an element in this copy; `element` is as in the extract."""
+        """Return the tags of an element in this copy; `element` is as in the extract."""
         name_tags = _name_tags(tags)
         copied = {
             key: self.street(value) if _is_street_key(key) else value
@@ -94,13 +95,13 @@ class CopyNames:
         return copied | self.swapped[element] if name_tags else copied
 
     def street(self, name: str) -> str:
-        """The made-up name of a street of the extract; no other street of any copy has it."""
+        """Return the made-up name of a street of the extract; no other street of any copy has it."""
         number = (self.copy - 1) * len(self.names.streets) + self.names.streets[name.casefold()]
         return f"{_made_up_word(number)} Street"
 
 
 def is_street(element: Element, tags: Mapping[str, str]) -> bool:
-    """Whether an element with a name is (a piece of) a street or a square, after which addresses are called."""
+    """Whether a named element is (a piece of) a street or a square that addresses can refer to."""
     if element[0] == "n":
         return False
     is_way = tags.get("highway", "bus_stop") not in NON_STREET_HIGHWAYS
@@ -112,12 +113,12 @@ def _is_street_key(key: str) -> bool:
 
 
 def _name_tags(tags: Mapping[str, str]) -> Tags:
-    """The tags that say what an element is called, in any language, and of which chain it is."""
+    """Return the tags with names of an element, in any language, and of its chain."""
     return {key: value for key, value in tags.items() if NAME_KEY.fullmatch(key)}
 
 
 def _street_name(name_tags: Tags) -> str:
-    """The name to know a street by."""
+    """Return the name that identifies a street."""
     return name_tags.get("name") or next(iter(name_tags.values()))
 
 
@@ -127,7 +128,7 @@ def _main_tag(tags: Mapping[str, str]) -> Kind:
 
 
 def _made_up_word(number: int) -> str:
-    """A word that nobody has said; another for every number."""
+    """Return a made-up word, different for each number."""
     rest, word = number * NAME_STEP % len(SYLLABLES) ** SYLLABLES_PER_NAME, ""
     for _ in range(SYLLABLES_PER_NAME):
         rest, syllable = divmod(rest, len(SYLLABLES))

@@ -1,4 +1,4 @@
-"""What of a large OpenStreetMap file lies in a region, as a file of its own."""
+"""Extract a region of a large OpenStreetMap file into a file of its own."""
 
 import json
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ class Region:
 
     @classmethod
     def parse(cls, text: str) -> "Region":
-        """A region from "west,south,east,north" or the path of a GeoJSON file.
+        """Parse "west,south,east,north" or the path of a GeoJSON file.
 
         Raises:
             MapError: it is neither, or encloses nothing.
@@ -38,7 +38,7 @@ class Region:
         try:
             shape = _parse_geojson(path.read_text(encoding="utf-8")) if path.is_file() else _parse_box(text)
         except (ValueError, OSError, ShapelyError, KeyError, TypeError) as error:
-            raise MapError(f"'{text[:80]}' is no region: {REGION_FORMS}") from error
+            raise MapError(f"'{text[:80]}' is not a region: {REGION_FORMS}") from error
         if shape.is_empty or not shape.area or not shapely.box(-180, -90, 180, 90).covers(shape):
             raise MapError(f"'{text[:80]}' encloses nothing on Earth: {REGION_FORMS}")
         return cls(shape)
@@ -48,11 +48,11 @@ def _parse_box(text: str) -> shapely.Geometry:
     west, south, east, north = (float(number) for number in text.split(","))
     if west < east and south < north:
         return shapely.box(west, south, east, north)
-    return shapely.Polygon()  # and so where one is no number
+    return shapely.Polygon()  # also if one is NaN
 
 
 def _parse_geojson(text: str) -> shapely.Geometry:
-    """All polygons of a GeoJSON object."""
+    """Return all polygons of a GeoJSON object."""
     shapes = shapely.get_parts(shapely.from_geojson(json.dumps(json.loads(text))))
     areas = [shape for shape in shapely.get_parts(shapes) if shapely.get_dimensions(shape) == 2]
     return shapely.make_valid(shapely.union_all(areas))
@@ -60,16 +60,16 @@ def _parse_geojson(text: str) -> shapely.Geometry:
 
 @contextmanager
 def extracted_file(path: Path, region: Region | None) -> Iterator[Path]:
-    """A file with what of a file lies in a region, until the block ends; the file itself if there is no region.
+    """Yield a file with the part of a file in a region, until the block ends; without a region, yield the file itself.
 
     Raises:
-        MapError: it is no OpenStreetMap file, cannot be read, or has nothing there.
+        MapError: it is not an OpenStreetMap file, cannot be read, or has nothing there.
     """
     if region is None:
         yield path
         return
     if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
-        raise MapError(f"{path}: a region can be taken of an OpenStreetMap file alone; leave it out, or give one")
+        raise MapError(f"{path}: --within needs an OpenStreetMap file; leave it out, or give such a file")
     with scratch() as directory:
         out = directory / f"{path.name.split('.')[0]}.osm.pbf"
         extract(path, region, out)
@@ -77,15 +77,15 @@ def extracted_file(path: Path, region: Region | None) -> Iterator[Path]:
 
 
 def extract(path: Path, region: Region, out: Path) -> None:
-    """Write what has a node in a region, with everything that it is made of, and the region's box as the file's.
+    """Write the elements with a node in a region, with all their nodes, and the region's box as the file's.
 
-    The file is read some times over and never held: memory is a bit for each number of an element. A thing round the
-    region without a node in it is not taken.
+    The file is read several times and never held in memory, which only needs a bit for each id. An element around the
+    region without a node in it is left out.
 
     Args:
         path: an OpenStreetMap file.
-        region: of it.
-        out: where to, an .osm.pbf that is not there.
+        region: the part to extract.
+        out: path of the new .osm.pbf.
 
     Raises:
         MapError: it cannot be read, or has nothing there.
@@ -114,5 +114,5 @@ def _nodes_inside(path: Path, shape: shapely.Geometry) -> osmium.IdTracker:
             taken.add_node(node.id)
             count += 1
     if not count:
-        raise MapError(f"{path}: nothing of it lies in the region; is it the right file, and longitude first?")
+        raise MapError(f"{path}: it has nothing in the region; check the file, and that longitude comes first")
     return taken

@@ -1,4 +1,4 @@
-"""Features of a file on disk, by strips of the map: of a great city some strips are in memory, never all."""
+"""The features of a file on disk, by strips of the map, so that a large city is never in memory as a whole."""
 
 import pickle
 from collections.abc import Iterable, Sequence
@@ -25,12 +25,12 @@ UPRIGHT_SHAPE: Final = "column"
 
 @dataclass(frozen=True, slots=True)
 class NumberedFeature:
-    """A feature among all.
+    """A feature and its number.
 
     Attributes:
-        number: in the order in which they were read.
-        feature: what it is.
-        is_owned: whether this strip is the first that it reaches into, and so answers for it.
+        number: in the order in which features were read.
+        feature: the feature.
+        is_owned: whether this strip is the first that it spans, and so draws it.
     """
 
     number: int
@@ -39,14 +39,14 @@ class NumberedFeature:
 
 
 class FeatureStrips:
-    """The N features of a map, each in every strip that it reaches into.
+    """The N features of a map, each stored in every strip that it spans.
 
     Args:
         directory: an empty one.
-        features: what is read, some at a time.
+        features: in batches.
 
     Raises:
-        DataError: there is no room on disk.
+        DataError: the disk is full.
 
     Attributes:
         numbers: of the strips that have features, from west to east.
@@ -62,12 +62,12 @@ class FeatureStrips:
                 continue
             order.append(np.array([feature.order for feature in batch], np.int16))
             heights.append(np.array([(feature.base_m, feature.height_m) for feature in batch]))
-            numbers |= self._file(count, batch)
+            numbers |= self._store(count, batch)
             count += len(batch)
         self.numbers, self.order, self.heights_m = sorted(numbers), np.concatenate(order), np.concatenate(heights)
 
-    def _file(self, first: int, features: Sequence[Feature]) -> set[int]:
-        """Add features, numbered from one on, to their strips, which are returned."""
+    def _store(self, first: int, features: Sequence[Feature]) -> set[int]:
+        """Add features, numbered from `first`, to their strips; return the numbers of these strips."""
         bounds = shapely.bounds([feature.geometry for feature in features])
         ends = np.stack([bounds[:, 0] - UPRIGHT_MERGE_M, bounds[:, 2] + UPRIGHT_MERGE_M], axis=1)
         low, high = (column // TILE_COLUMNS_PER_BAND for column in tile_span(ends))
@@ -85,26 +85,26 @@ class FeatureStrips:
         return self._directory / f"{number}.pickle"
 
     def read(self, number: int) -> list[NumberedFeature]:
-        """The features of a strip, in order of their classes, then as they were read."""
+        """Read the features of a strip, in order of their classes, then as they were read."""
         features = list[NumberedFeature]()
         with self._path(number).open("rb") as file:
             while file.peek(1):
-                features += pickle.load(file)  # what this job has written
+                features += pickle.load(file)  # written by this job
         return sorted(features, key=lambda placed: (placed.feature.order, placed.number))
 
     def band(self, number: int) -> TileSpan:
-        """The columns of tiles of a strip."""
+        """Return the columns of tiles of a strip."""
         return number * TILE_COLUMNS_PER_BAND, (number + 1) * TILE_COLUMNS_PER_BAND
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FeatureInstances:
-    """Which features of a map are one instance; instances are numbered in order of the first feature of each.
+    """The features that make up each instance; instances are numbered in order of their first features.
 
     Attributes:
-        feature_instance: [N] instance of each feature, by its number; -1 of what is left out.
+        feature_instance: [N] instance of each feature, by its number; -1 if it is left out.
         first: [I] number of the first feature of each.
-        rank: [N] of each feature, by its number, in order of classes, then as they were read.
+        rank: [N] place of each feature, by its number, in order of classes, then as they were read.
     """
 
     feature_instance: Ints
@@ -113,14 +113,14 @@ class FeatureInstances:
 
     @classmethod
     def join(cls, strips: FeatureStrips) -> "FeatureInstances":
-        """Those of all features; see `find_joins`."""
+        """Join the features of all strips; see `find_joins`."""
         per_strip = list(map_forked(partial(_find_joins_in, strips), strips.numbers))
         left_out = np.concatenate([np.zeros(0, np.int64), *(rows for rows, _ in per_strip)])
         pairs = np.concatenate([np.zeros((0, 2), np.int64), *(rows for _, rows in per_strip)])
         count = len(strips.order)
         is_left_out = np.zeros(count, np.bool_)
         is_left_out[left_out] = True
-        pairs = pairs[~is_left_out[pairs].any(axis=1)]  # of what is left out, a strip may not know why
+        pairs = pairs[~is_left_out[pairs].any(axis=1)]  # one strip may leave out a feature that another one joins
         by_class = np.argsort(strips.order, kind="stable")
         rank = np.empty(count, np.int64)
         rank[by_class] = np.arange(count)
@@ -129,7 +129,7 @@ class FeatureInstances:
         first = np.full(group.max(initial=-1) + 1, count)
         np.minimum.at(first, group, rank)
         is_upright = np.array([row.shape == UPRIGHT_SHAPE for row in load_classes()])[strips.order]
-        is_member = ~is_left_out & ~(is_upright & (first[group] != rank))  # the first carries the others
+        is_member = ~is_left_out & ~(is_upright & (first[group] != rank))  # the first stands for the others
         is_first = is_member & (first[group] == rank)
         first_features = by_class[is_first[by_class]]
         number = np.full(count, -1)
@@ -138,7 +138,7 @@ class FeatureInstances:
 
 
 def _find_joins_in(strips: FeatureStrips, number: int) -> tuple[Ints, Ints]:
-    """`find_joins` of a strip, by numbers of features."""
+    """Return the result of `find_joins` for a strip, by numbers of features."""
     features = strips.read(number)
     numbers = np.array([each.number for each in features])
     left_out, pairs = find_joins([each.feature for each in features])

@@ -1,4 +1,4 @@
-"""Features of an OpenStreetMap file: what an element becomes, and which of them are one instance."""
+"""Features of an OpenStreetMap file: elements with a class, and which of them are one instance."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,8 +11,8 @@ from models.citymap.geometry.solids import Shape, Solid
 from models.citymap.points import Ints
 from models.sources.osm.classes import OsmClass
 
-STOREY_M = 3.2
-UPRIGHT_MERGE_M = 1.0  # a lamp and the sign it carries are mapped this close
+STOREY_M = 3.2  # height of a storey, where only levels are mapped
+UPRIGHT_MERGE_M = 1.0  # a lamp and the sign on it are mapped this close
 COLOUR_KEYS = ("building:colour", "colour")
 MATERIAL_KEYS = ("building:material", "material", "surface")
 
@@ -21,7 +21,7 @@ MATERIAL_KEYS = ("building:material", "material", "surface")
 class Feature:
     """A map element on its way to an instance; `geometry` is in metres.
 
-    Of a line that stands for a strip of ground `geometry` is the strip, `axis` the line, `width_m` how wide it is.
+    For a line that stands for a strip of ground, `geometry` is the strip, `axis` the line and `width_m` its width.
     """
 
     label: str
@@ -38,7 +38,7 @@ class Feature:
     width_m: float = 0.0
 
     def solid(self, instance: int, base_m: float, height_m: float) -> Solid:
-        """How it stands there as part of an instance, of which all have the same heights."""
+        """Return the feature as a solid of an instance; all solids of an instance have the same heights."""
         is_area = shapely.get_dimensions(self.geometry) == 2
         outline = self.geometry if self.shape == "ground" or not is_area else shapely.boundary(self.geometry)
         return Solid(instance, self.shape, outline, base_m, height_m)
@@ -47,7 +47,7 @@ class Feature:
 def build_feature(
     row: OsmClass, order: int, tags: Mapping[str, str], source_id: str, geometry: shapely.Geometry
 ) -> Feature:
-    """What an element of a class becomes; `order` is the row of the class in the table, `geometry` in metres."""
+    """Build the feature of an element; `order` is the row of its class in the table, `geometry` is in metres."""
     colours = (parse_colour(tags[key]) for key in COLOUR_KEYS if key in tags)
     materials = (material_colour(tags[key]) for key in MATERIAL_KEYS if key in tags)
     axis, width = None, 0.0
@@ -78,7 +78,7 @@ def _height_m(tags: Mapping[str, str], default_m: float) -> float:
 
 
 def _parse_m(text: str) -> float | None:
-    """A length as mappers write it ("12", "12 m", "12.5m"); None if it is something else."""
+    """Parse a length as mappers write it ("12", "12 m", "12.5m"); return None for anything else."""
     try:
         value = float(text.lower().removesuffix("m").strip())
     except ValueError:
@@ -87,9 +87,9 @@ def _parse_m(text: str) -> float | None:
 
 
 def find_joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
-    """What OpenStreetMap splits, of some features in order of their classes.
+    """Find the features, in order of their classes, that OpenStreetMap splits or repeats.
 
-    Lines and surfaces of one label, name and colour that touch are one (a road in five ways); upright things within a
+    Lines and surfaces of one label, name and colour that touch are one (a road in five ways); upright features within a
     metre are one, named by the first in the table (a lamp and its sign); a crossing mapped as a node is left out where
     it is also mapped as a way.
 

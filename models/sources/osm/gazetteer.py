@@ -1,4 +1,4 @@
-"""Reader: OpenStreetMap -> Gazetteer (docs/formats.md, index directory)."""
+"""Read the gazetteer of an OpenStreetMap file (docs/formats.md, index directory)."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -39,19 +39,20 @@ NAME_KEYS = (
 NON_STREET_HIGHWAYS = frozenset(
     ("proposed", "construction", "bus_stop", "street_lamp", "platform", "elevator", "corridor")
 )
+# Without a name, an object with one of these is named by its operator
 OPERATOR_NAMED_KEYS = frozenset(
     ("amenity", "shop", "office", "tourism", "leisure", "healthcare")
 )  # known by who runs them
 UNBUILT_HIGHWAYS = frozenset(("proposed", "construction"))
-UNNAMED_HIGHWAYS = frozenset(("steps", "pedestrian", "cycleway"))  # what lines without a name are taken of
+UNNAMED_HIGHWAYS = frozenset(("steps", "pedestrian", "cycleway"))  # streets without a name are left out, except these
 WALKED_HIGHWAYS = frozenset(
     (
         "footway", "pedestrian", "path", "steps", "living_street", "residential", "unclassified", "tertiary",
         "secondary", "primary", "service", "cycleway",
     )
 )  # fmt: skip
-SIMPLIFY_TOLERANCE_M = 0.5  # how far a geometry may be from the one that is mapped
-MAX_NAMES = 12
+SIMPLIFY_TOLERANCE_M = 0.5  # greatest distance of a geometry from the mapped one
+MAX_NAMES = 12  # of an object; some have a name in each of a hundred languages
 _WALKED_OBJECT = GazetteerObject((WALKED_KIND,))
 _LANGUAGE = re.compile(r"(?:alt_|official_|short_|old_)?name:[a-z]{2,3}(?:[-_][A-Za-z]+)?")
 
@@ -61,11 +62,11 @@ class _OsmObject:
     wkb: str
     object: GazetteerObject
     is_area: bool
-    nodes: dict[int, tuple[float, float]]  # of a piece of a street, by number: longitude and latitude
+    nodes: dict[int, tuple[float, float]]  # of a piece of a street, by id: longitude and latitude
 
 
 def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
-    """Everything of an OpenStreetMap file that a passer-by could name.
+    """Read all objects of an OpenStreetMap file that a passer-by could name.
 
     Args:
         path: the file that the map was read from.
@@ -118,7 +119,7 @@ def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_OsmObject]:
             yield from _with_geometry(element, create, "w", _WALKED_OBJECT)
         is_street = form == "w" and "highway" in tags and tags["highway"] not in NON_STREET_HIGHWAYS and _has_name(tags)
         if form == "w" and not is_street and element.is_closed() and not _is_line(tags):
-            continue  # it comes again as an area
+            continue  # osmium yields it again as an area
         if is_street and (tags.get("indoor") == "yes" or tags.get("level", "0").startswith("-")):
             continue
         if form == "a" and (_is_line(tags) or tags.get("indoor") == "room"):
@@ -157,7 +158,7 @@ def _street_object(tags: dict[str, str], element: Any) -> GazetteerObject:
 
 
 def _object(tags: dict[str, str], vocabulary: Vocabulary, source_id: str) -> GazetteerObject | None:
-    """What is written of an object; None of what nobody would name."""
+    """Return the kinds, names and address of an object; None if nobody would name it."""
     if tags.get("highway") in UNBUILT_HIGHWAYS:
         return None
     if (
@@ -174,12 +175,12 @@ def _object(tags: dict[str, str], vocabulary: Vocabulary, source_id: str) -> Gaz
     if not kinds and not (names and not {"type", "route", "boundary", "addr:interpolation"} & tags.keys()):
         return None
     if kinds == ("building",) and not names and not number:
-        return None  # any house; what it looks like is in the cells
+        return None  # an ordinary house; the cells have it
     return GazetteerObject(kinds, names, number, street, source_id)
 
 
 def _names(tags: dict[str, str]) -> tuple[str, ...]:
-    """All names of an object, each once, the one to show first."""
+    """Return all names of an object without repeats, the one to show first."""
     keys = [*NAME_KEYS, *sorted(key for key in tags if _LANGUAGE.fullmatch(key))]
     names = [part.strip() for key in keys if key in tags for part in tags[key].split(";")]
     if not names and "operator" in tags and OPERATOR_NAMED_KEYS & tags.keys():
@@ -188,14 +189,14 @@ def _names(tags: dict[str, str]) -> tuple[str, ...]:
 
 
 def _batch_segments(batch: Sequence[_OsmObject], frame: Frame) -> Iterator[Floats]:
-    """[n, 4] the segments of each, metres."""
+    """Return the segments [n, 4] of each object, metres."""
     lon_lat = shapely.from_wkb([item.wkb for item in batch])
     shapes = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
     return map(_segments, shapely.simplify(shapes, SIMPLIFY_TOLERANCE_M, preserve_topology=True))
 
 
 def _segments(shape: shapely.Geometry) -> Floats:
-    """[n, 4] the segments of a geometry's lines, rings and points."""
+    """Return the segments [n, 4] of a geometry's lines, rings and points."""
     parts = shapely.get_parts(shape)
     if shapely.get_dimensions(shape) == 2:
         parts = shapely.get_rings(parts)

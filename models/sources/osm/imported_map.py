@@ -1,4 +1,4 @@
-"""What becomes of the features of a map, strip by strip: pieces, instances and outlines."""
+"""Import the features of a map, strip by strip: pieces, instances and outlines."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,15 +25,15 @@ UNKNOWN_RGB: Final = (np.nan, np.nan, np.nan)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _ImportedStrip:
-    """What becomes of a strip.
+    """The results of a strip.
 
     Attributes:
         rows: its pieces.
-        drawing: of the features that it answers for.
-        instance: [n] those whose first features are among these.
-        names: [n] of these.
-        sources: [n] likewise.
-        rgb: [n, 3] likewise.
+        drawing: the features that it owns.
+        instance: [n] the instances whose first features are among these.
+        names: [n] of the instances.
+        sources: [n] of the instances.
+        rgb: [n, 3] of the instances.
     """
 
     rows: PieceRows
@@ -74,13 +74,13 @@ def _shape(feature: Feature) -> MapShape:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ImportedMap:
-    """What a map has.
+    """An imported map.
 
     Attributes:
-        instances: those of which there are pieces; others are covered by what lies above them.
-        is_walkable: [I] whether one can stand there.
-        pieces: all.
-        outlines: all.
+        instances: those with pieces; others are fully covered.
+        is_walkable: [I] whether a person can stand there.
+        pieces: all pieces.
+        outlines: all outlines.
     """
 
     instances: InstanceTable
@@ -90,7 +90,7 @@ class ImportedMap:
 
     @classmethod
     def from_strips(cls, strips: FeatureStrips) -> "ImportedMap":
-        """What becomes of features, in several processes, some strips at a time."""
+        """Import features in several processes, some strips at a time."""
         instances, classes = FeatureInstances.join(strips), load_classes()
         labels = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.feature_instance >= 0]))
         importer = _StripImporter(strips, instances, OutlinesBuilder(labels))
@@ -110,18 +110,18 @@ class ImportedMap:
 
 
 class _StripImporter:
-    """What comes of strips, beside their pieces, as these come.
+    """Collects the results of strips, except their pieces.
 
     Args:
         strips: of features.
-        instances: among these.
-        drawings: where strips are drawn.
+        instances: of these features.
+        drawings: collects the outlines.
 
     Attributes:
-        drawings: see above.
+        drawings: the argument.
         names: of the I instances that have one, by number.
         sources: [I] of the instances.
-        rgb: [I, 3] likewise.
+        rgb: [I, 3] of the instances.
     """
 
     def __init__(self, strips: FeatureStrips, instances: FeatureInstances, drawings: OutlinesBuilder) -> None:
@@ -132,7 +132,7 @@ class _StripImporter:
         self.rgb = np.empty((count, 3), np.float32)
 
     def rows(self) -> Iterator[PieceRows]:
-        """The pieces of one strip after the other."""
+        """Yield the pieces of one strip after the other."""
         for strip in map_forked(partial(_import_strip, self._strips, self._instances), self._strips.numbers):
             self.drawings.add(strip.drawing)
             self.sources[strip.instance], self.rgb[strip.instance] = strip.sources, strip.rgb

@@ -1,6 +1,6 @@
-"""Reader: OpenStreetMap (.osm.pbf, .osm) -> CityMap.
+"""Read OpenStreetMap (.osm.pbf, .osm) into a CityMap.
 
-A real map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): footprints, lines and nodes are read as
+A map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): footprints, lines and nodes are read as
 mapped and raised as `classes.toml` says. Colours come from colour, material and surface tags.
 """
 
@@ -31,9 +31,9 @@ from models.spool import scratch
 STUFF_SHAPES = ("outline", "wall", "ground")
 SUFFIXES = (".osm.pbf", ".pbf", ".osm", ".osm.bz2", ".osm.gz")
 ATTRIBUTION = "© OpenStreetMap contributors, ODbL 1.0"
-MIN_PART_POINTS = 24  # 6 m2 of ground
-ELEMENTS_PER_BATCH = 20_000  # elements
-LOCATION_SPACING_M = 2.0  # between places to stand, about
+MIN_PART_POINTS = 24  # of a part of stuff: 6 m2 of ground
+ELEMENTS_PER_BATCH = 20_000
+LOCATION_SPACING_M = 2.0  # between locations where a person can stand, about
 KM_PER_DEGREE: Final = 111.2  # of latitude
 MOST_KM2: Final = 100_000.0  # of a map: its table of tiles takes 13 GB then
 MOST_KM: Final = 1000.0  # from side to side: in a frame, metres are 0.3 % too long 500 km from the middle
@@ -62,22 +62,20 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
         name: name of the map; the file's name up to the first dot by default.
 
     Raises:
-        MapError: the file is missing, empty, cut short, no OpenStreetMap, too large, or nothing in it is usable.
+        MapError: the file is missing, empty, cut short, not OpenStreetMap, too large, or has nothing usable.
     """
     frame, box = read_frame_and_box(path)
     with scratch() as directory:
         strips = FeatureStrips(directory, read_features(path, frame, box))
         if not strips.numbers:
-            raise MapError(
-                f"{path}: nothing of it lies in the box that it names; download it again, or mend its bounds"
-            )
+            raise MapError(f"{path}: it has nothing inside its own bounds; download it again, or correct its bounds")
         return _city_map(name or path.name.split(".")[0], strips, frame)
 
 
 def read_frame_and_box(path: Path) -> tuple[Frame, Box | None]:
-    """Return the frame of a file's map, and the box that the file says, if it says one that a map can have.
+    """Return the frame of a file's map, and the box in its header if a map can be that large.
 
-    A file with such a box is not read.
+    Only a file without such a box is read in full.
     """
     box = _read_box(path)
     if box is not None and _is_possible(box):
@@ -89,7 +87,7 @@ def read_frame_and_box(path: Path) -> tuple[Frame, Box | None]:
 
 
 def read_features(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Feature]]:
-    """What a file has in a box, if there is one, in metres, some at a time; errors as `load_osm`."""
+    """Yield the features of a file, in metres and clipped to a box if given, in batches; errors as `load_osm`."""
     for elements, lon_lat in _read_elements(path):
         yield list(_build_features(elements, lon_lat, frame, box))
 
@@ -97,24 +95,24 @@ def read_features(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Fe
 def _build_features(
     elements: Sequence[_Element], lon_lat: Geometries, frame: Frame, box: Box | None
 ) -> Iterator[Feature]:
-    """What of some elements lies in a box, if there is one."""
-    geometry_factories = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
+    """Yield the features of some elements, clipped to a box if given."""
+    geometries = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
     if box:
         west, south, east, north = box
         corners = frame.from_wgs84(np.array([south, north]), np.array([west, east]))
-        geometry_factories = shapely.clip_by_rect(geometry_factories, *corners[0], *corners[1])
-    for e, g in zip(elements, geometry_factories, strict=True):
-        if not shapely.is_empty(g):
-            yield build_feature(e.osm_class, e.order, e.tags, e.source_id, g)
+        geometries = shapely.clip_by_rect(geometries, *corners[0], *corners[1])
+    for element, geometry in zip(elements, geometries, strict=True):
+        if not shapely.is_empty(geometry):
+            yield build_feature(element.osm_class, element.order, element.tags, element.source_id, geometry)
 
 
 def read_frame(path: Path) -> Frame:
-    """The frame of a file's map, for which a file that says its box is not read; arguments and errors as `load_osm`."""
+    """Return the frame of a file's map; arguments and errors as `load_osm`."""
     return read_frame_and_box(path)[0]
 
 
 def _total_bounds(batches: Iterable[Batch]) -> Box:
-    """Return the box round some geometry."""
+    """Return the box around some geometries."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)  # longitude from -180, longitude from 0, latitude
     for _, geometry in batches:
         longitude, latitude = shapely.get_coordinates(geometry).T
@@ -136,7 +134,7 @@ def _is_possible(box: Box) -> bool:
 
 
 def _too_large(path: Path, box: Box) -> MapError:
-    """Return the error for a file that spans too much, which names the element farthest from the others."""
+    """Return the error for a file that spans too much; it names the element farthest from the others."""
     names, points, element = list[str](), list[Floats](), list[Ints]()
     for elements, lon_lat in _read_elements(path):
         vertices, owner = shapely.get_coordinates(lon_lat, return_index=True)
@@ -164,12 +162,12 @@ def _centered_frame(box: Box) -> Frame:
 
 
 def _longitude(degrees: float) -> float:
-    """Return a longitude from -180 to 180 degrees."""
+    """Return a longitude in -180 to 180 degrees."""
     return degrees - 360 if degrees > 180 else degrees
 
 
 def _read_box(path: Path) -> Box | None:
-    """Return the box that an extract says, if it says one."""
+    """Return the box in a file's header, or None if it has none."""
     if not path.is_file():
         raise MapError(f"{path}: no such file; give the path of an .osm.pbf or .osm file")
     if not path.name.lower().endswith(SUFFIXES):
@@ -187,7 +185,7 @@ def _read_box(path: Path) -> Box | None:
 
 
 def _read_elements(path: Path) -> Iterator[Batch]:
-    """The elements of the file that belong to a class, some at once."""
+    """Yield the elements of the file that belong to a class, in batches."""
     keys = sorted({key for row in load_classes() for key, _ in row.required})
     is_empty = True
     with explained_errors(path):
@@ -197,20 +195,20 @@ def _read_elements(path: Path) -> Iterator[Batch]:
             yield batch, shapely.from_wkb([element.wkb for element in batch])
     if is_empty:
         raise MapError(
-            f"{path}: no building, street, tree or other known object in it; "
+            f"{path}: it has no building, street, tree or other known object; "
             "take an extract of an inhabited place, or extend models/sources/osm/classes.toml"
         )
 
 
 def batched(elements: Iterator[Element]) -> Iterator[list[Element]]:
-    """Elements of a file, some at once: what is read of all of them would take much room."""
+    """Yield elements in batches, because those of a file do not fit in memory."""
     while batch := list(islice(elements, ELEMENTS_PER_BATCH)):
         yield batch
 
 
 @contextmanager
 def explained_errors(path: Path) -> Iterator[None]:
-    """Say so where a file is broken."""
+    """Raise a MapError that names the file if osmium fails in the block."""
     try:
         yield
     except (RuntimeError, ValueError, OSError, osmium.InvalidLocationError) as error:
@@ -220,13 +218,13 @@ def explained_errors(path: Path) -> Iterator[None]:
 
 
 def geometry_factories() -> dict[str, Any]:
-    """By osmium's letter of an element what makes its geometry: a point, a line or areas."""
+    """Return, by osmium's letter of an element type, the function that makes its geometry: a point, a line or areas."""
     factory = osmium.geom.WKBFactory()
     return {"n": factory.create_point, "w": factory.create_linestring, "a": factory.create_multipolygon}
 
 
 def source_id(element: Any, kind: str) -> str:
-    """Where an element comes from, "way/1234"; `kind` is osmium's letter."""
+    """Return the source of an element, "way/1234"; `kind` is osmium's letter."""
     if kind == "a":
         return f"{'way' if element.from_way() else 'relation'}/{element.orig_id()}"
     return f"{'node' if kind == 'n' else 'way'}/{element.id}"
@@ -254,14 +252,14 @@ def _classify(processor: Any) -> Iterator[_Element]:
 
 
 def _is_visible(tags: dict[str, str]) -> bool:
-    """Whether a passer-by at ground level can see an element; cellars, subways and rooms cannot be seen."""
+    """Whether a passer-by at ground level can see an element; cellars, subways and rooms are hidden."""
     layer, level = tags.get("layer", "0"), tags.get("level", "0")
     underground = layer.startswith("-") or tags.get("location") in ("underground", "indoor")
     return not underground and tags.get("indoor", "no") == "no" and "0" in level.replace(";", ",").split(",")
 
 
 def _is_wanted(element: Any, kind: str, row: OsmClass, tags: dict[str, str]) -> bool:
-    """Whether to take this spelling of an element: a closed way comes as a way and as an area."""
+    """Whether to use this form of an element: osmium yields a closed way as a way and as an area."""
     if kind == "n":
         return row.shape in ("column", "crown", "box") or row.label == "crossing"
     if row.shape in ("column", "crown"):
@@ -279,7 +277,7 @@ def _city_map(name: str, strips: FeatureStrips, frame: Frame) -> CityMap:
     )
     imported.pieces.forget()
     if not len(locations):
-        raise MapError(f"{name}: no street, path or square in it, so there is no place to stand; take a larger extract")
+        raise MapError(f"{name}: it has no street, path or square, so nobody can stand there; take a larger extract")
     return CityMap(
         name=name,
         instances=imported.instances,

@@ -1,4 +1,4 @@
-"""Laying flat what is kept of published cells and poses, one by one, to memory or to .npy files."""
+"""Write published cells and poses as columns, one by one, to memory or to .npy files."""
 
 from contextlib import ExitStack
 from itertools import pairwise
@@ -23,7 +23,7 @@ from models.sources.store.layout import (
 
 
 class Sink(Protocol):
-    """Where columns grow."""
+    """A destination for columns that grow."""
 
     def append(self, name: str, rows: Column) -> None:
         """Add rows to a column."""
@@ -40,7 +40,7 @@ class MemorySink:
         self._rows[name].append(rows)
 
     def columns(self) -> dict[str, Column]:
-        """All columns; the sink is empty after this."""
+        """Return all columns; the sink is empty after this."""
         return {name: np.concatenate([empty_column(name), *self._rows.pop(name)]) for name in COLUMNS}
 
 
@@ -72,14 +72,14 @@ class DiskSink:
         self._rows[name] += len(rows)
 
     def _header(self, name: str) -> None:
-        """Numpy leaves room in a header for more rows, so that it can be written again in place."""
+        """Write the header; numpy leaves room for more rows, so that it can be rewritten in place."""
         _, dtype, shape = COLUMNS[name]
         header = {"descr": dtype, "fortran_order": False, "shape": (self._rows[name], *shape)}
         np.lib.format.write_array_header_1_0(self._files[name], header)
 
 
 class ColumnWriter:
-    """Lays cells and poses flat, one by one.
+    """Writes cells and poses as columns, one by one.
 
     Attributes:
         words: labels, colours and strategies; columns hold their numbers.
@@ -144,7 +144,7 @@ class ColumnWriter:
             self._put(pools[kind], values[kind] if is_whole else values[kind][of_point == kind])
 
     def add_poses(self, poses: list[PublishedPose]) -> None:
-        """Add poses of cells that were added before; they were checked against them (`check_poses`)."""
+        """Add poses of cells added before; `check_poses` must have accepted them."""
         if not poses:
             return
         put = self._put
@@ -176,6 +176,6 @@ class ColumnWriter:
 
 
 def _concatenate_points(arrays: list[Floats]) -> tuple[Floats, Ints]:
-    """All points as one float64 array, and where each part begins."""
+    """Return all points as one float64 array, and where each part begins."""
     joined = np.concatenate(arrays).astype(np.float64, copy=False)
     return joined, starts_of(np.array([len(array) for array in arrays]))

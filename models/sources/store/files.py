@@ -28,14 +28,14 @@ from models.sources.store.columns import ColumnWriter, DiskSink, MemorySink
 from models.sources.store.layout import COLUMNS, MANIFEST, STRINGS, Column, find_problem
 from models.sources.store.pose_store import PoseStore, StoredScene
 
-FORMAT = 2
+FORMAT = 2  # version of the store's layout
 ADVICE = "convert the published files again with 'hereabouts convert --data DIR --out DIR'"
 Progress = Callable[[int, int], None]
 Step = Callable[[int], None]
 
 
 class SceneRecord(BaseModel):
-    """A scene of a store; see models.sources.store.pose_store.StoredScene."""
+    """A scene in the manifest; see models.sources.store.pose_store.StoredScene."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -46,7 +46,7 @@ class SceneRecord(BaseModel):
 
 
 class StoreManifest(BaseModel):
-    """What a store holds."""
+    """The content of a store's manifest.json."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -57,7 +57,7 @@ class StoreManifest(BaseModel):
 
 
 class StoreStrings(BaseModel):
-    """What strings.json holds."""
+    """The content of strings.json."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -66,7 +66,7 @@ class StoreStrings(BaseModel):
 
 
 def load_data(data: Path, split: str | None = None) -> PoseStore:
-    """The cells and poses of a split, from a store or from the published layout.
+    """Load the cells and poses of a split, from a store or from the published layout.
 
     Args:
         data: either. The published layout is converted in memory, every time: convert large ones once.
@@ -92,14 +92,14 @@ def convert(data: Path, out: Path, split: str | None = None, progress: Progress 
     Args:
         data: root of the published layout.
         out: the store, a new or empty directory; it appears when all is written.
-        split: scenes to take, as `models.sources.kitti360pose.files.select_scenes`.
-        progress: called with (bytes of points done, about how many there are).
+        split: scenes to convert, as `models.sources.kitti360pose.files.select_scenes`.
+        progress: called with (bytes of points done, approximate total).
 
     Raises:
         DataError: `out` has files in it, or `data` is not usable; nothing is left behind.
     """
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
-        raise DataError(f"{out}: is there already and not empty; name a new directory")
+        raise DataError(f"{out}: exists and is not empty; name a new directory")
     names = select_scenes(list_scenes(data), split, data / "cells")
     step = _byte_counter(data, names, progress) if progress else None
     with new_directory(out) as directory:
@@ -113,13 +113,13 @@ def convert(data: Path, out: Path, split: str | None = None, progress: Progress 
 
 
 def open_store(path: Path) -> PoseStore:
-    """A store, its columns mapped into memory.
+    """Open a store with its columns mapped into memory.
 
     Args:
-        path: a directory that `convert` wrote. Sizes and structure are checked, sums are not (`verify_store`).
+        path: a directory that `convert` wrote. Sizes and structure are checked, checksums are not (`verify_store`).
 
     Raises:
-        DataError: it is no store, or incomplete, or its numbers point outside.
+        DataError: it is not a store, or incomplete, or inconsistent.
     """
     manifest = _read_manifest(path)
     for name, record in manifest.files.items():
@@ -141,10 +141,10 @@ def open_store(path: Path) -> PoseStore:
 
 
 def verify_store(path: Path) -> None:
-    """Read every file of a store and compare its sum.
+    """Read every file of a store and compare its checksum.
 
     Raises:
-        DataError: it is no store, or a file is missing or was changed.
+        DataError: it is not a store, or a file is missing or was changed.
     """
     open_store(path)
     for name, record in _read_manifest(path).files.items():
@@ -189,7 +189,7 @@ def _byte_counter(data: Path, names: tuple[str, ...], progress: Progress) -> Ste
 
 
 def _write_manifest(directory: Path, scenes: tuple[StoredScene, ...]) -> None:
-    """Write what the files of a directory are."""
+    """Write the manifest of a directory."""
     records = tuple(SceneRecord(name=s.name, scene_name=s.scene_name, cells=s.cells, poses=s.poses) for s in scenes)
     manifest = StoreManifest(scenes=records, files=file_records(directory))
     (directory / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
@@ -199,7 +199,7 @@ def _read_manifest(path: Path) -> StoreManifest:
     try:
         manifest = StoreManifest.model_validate_json((path / MANIFEST).read_bytes())
     except OSError as error:
-        raise DataError(f"{path / MANIFEST}: cannot be read: no store here; {ADVICE}") from error
+        raise DataError(f"{path / MANIFEST}: cannot be read, so this is not a store; {ADVICE}") from error
     except ValidationError as error:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"])
@@ -217,5 +217,5 @@ def _map_column(file: Path) -> Column:
     try:
         column: Column = np.load(file, mmap_mode="r", allow_pickle=False).view(np.ndarray)
     except (ValueError, OSError, EOFError) as error:
-        raise DataError(f"{file}: no column of numbers; {ADVICE}") from error
+        raise DataError(f"{file}: not a column of numbers; {ADVICE}") from error
     return column

@@ -1,8 +1,8 @@
-"""The columns of a pose store: what they are, how points are kept, and whether they fit together.
+"""The columns of a pose store: their formats, how points are stored, and consistency checks.
 
-Points are kept exactly, in the fewest bytes that allow it: the released cells were made from float32 world
-coordinates and 8-bit colours, so (world - box) / size and n / 255 give back what is stored in 15 bytes a point
-instead of 36. An instance for which that is not exact keeps its numbers as they are.
+Points are stored exactly, in the fewest bytes that allow it: the released cells were made from float32 world
+coordinates and 8-bit colours, so (world - box) / size and n / 255 restore them from 15 bytes a point instead of 36.
+An instance for which that is not exact keeps its numbers as they are.
 """
 
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ from models.citymap.types import DIRECTIONS, Floats
 
 MANIFEST, STRINGS = "manifest.json", "strings.json"
 Column = npt.NDArray[Any]
-# Name: what its rows are, dtype, shape of a row. Numbers of rows inside rows are counts, so that scenes append.
+# By name: what its rows are, dtype, shape of a row. Lengths are stored as counts, so that scenes can be appended.
 COLUMNS: dict[str, tuple[str, str, tuple[int, ...]]] = {
     "cell_scene": ("cells", "<i4", ()),
     "cell_size_m": ("cells", "<f8", ()),
@@ -51,31 +51,31 @@ RGB_POOLS = ("rgb_u1", "rgb_f4", "rgb_f8")
 
 
 def empty_column(name: str) -> Column:
-    """A column without rows."""
+    """Return a column without rows."""
     _, dtype, shape = COLUMNS[name]
     return np.zeros((0, *shape), dtype=dtype)
 
 
 def in_cell_units(world: Floats, low: Floats, size: float) -> Floats:
-    """[P, 3] float64 as preparation computes it (docs/formats.md, rule 4) from [P, 3] float32 world metres."""
+    """Return points [P, 3] (float64) in cell units, as preparation computes them (rule 4), from float32 metres."""
     units: Floats = (world - low) / size
     return units
 
 
 def colours_from_bytes(rgb: Column) -> Floats:
-    """[P, 3] float32 0..1 from [P, 3] bytes."""
+    """Return colours [P, 3] (float32, 0..1) from bytes [P, 3]."""
     return rgb.astype(np.float32) / np.float32(255)
 
 
 def starts_of(counts: Column) -> Ints:
-    """[N + 1] where the rows of each of N begin, and the end."""
+    """Return where the rows of each of N begin, and the end [N + 1]."""
     starts = np.zeros(len(counts) + 1, dtype=np.int64)
     np.cumsum(counts, out=starts[1:])
     return starts
 
 
 def pool_starts(kinds: Column, counts: Column) -> Ints:
-    """[N] where the points of each object begin in the pool of its kind."""
+    """Return where the points of each object [N] begin in the pool of its kind."""
     starts = np.zeros(len(kinds), dtype=np.int64)
     for kind in range(3):
         rows = np.flatnonzero(kinds == kind)
@@ -84,7 +84,7 @@ def pool_starts(kinds: Column, counts: Column) -> Ints:
 
 
 def find_problem(columns: Mapping[str, Column], num_words: int, num_scenes: int) -> str | None:
-    """What makes columns unusable: a column of other dtype, numbers that point outside; None if nothing does."""
+    """Return why columns are unusable (a wrong dtype, numbers out of range), or None if they are usable."""
     for name, (group, dtype, shape) in COLUMNS.items():
         first = next(first_name for first_name, spec in COLUMNS.items() if spec[0] == group)
         column = columns[name]

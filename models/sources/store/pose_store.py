@@ -1,4 +1,4 @@
-"""Cells and poses in columns, as training, indexing and evaluation use them; all of a data set, or some scenes."""
+"""Cells and poses in columns for training, indexing and evaluation; all of a data set, or some scenes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -33,7 +33,7 @@ class StoredScene:
     Attributes:
         name: of its files, for example "2013_05_28_drive_0003_sync".
         scene_name: of its cells, for example "0003".
-        cells, poses: how many; poses is None if there was no file of poses.
+        cells, poses: their numbers; poses is None if there was no file of poses.
     """
 
     name: str
@@ -50,11 +50,11 @@ class PoseStore:
     is row q of `poses`.
 
     Attributes:
-        source: what was opened, for messages.
+        source: the path, for messages.
         scenes: in order.
         columns: of the whole data set (models.sources.store.layout).
         words, all_cell_ids: of the whole data set.
-        cell_rows, pose_rows: [N], [Q] rows of the whole data set that this view shows.
+        cell_rows, pose_rows: [N], [Q] rows of the whole data set in this view.
     """
 
     source: Path
@@ -75,12 +75,12 @@ class PoseStore:
         words: tuple[str, ...],
         cell_ids: tuple[str, ...],
     ) -> "PoseStore":
-        """A view of everything; the columns were checked (`find_problem`)."""
+        """Return a view of everything; `find_problem` must have accepted the columns."""
         num_cells, num_poses = len(columns["cell_scene"]), len(columns["pose_cell"])
         return cls(source, scenes, columns, words, cell_ids, scenes, np.arange(num_cells), np.arange(num_poses))
 
     def split(self, split: str | None) -> "PoseStore":
-        """The view of some of its scenes.
+        """Return the view of some of its scenes.
 
         Args:
             split: as `models.sources.kitti360pose.files.select_scenes`.
@@ -100,22 +100,22 @@ class PoseStore:
 
     @cached_property
     def cell_ids(self) -> tuple[str, ...]:
-        """N ids as published."""
+        """Return the N ids as published."""
         return tuple(self.all_cell_ids[n] for n in self.cell_rows)
 
     @cached_property
     def labels(self) -> tuple[str, ...]:
-        """The class of each instance, in rows of the cell table's parts."""
+        """Return the class of each instance, in rows of the cell table's parts."""
         return tuple(self.words[n] for n in self.columns["object_label"][self._object_rows])
 
     @property
     def instance_ids(self) -> Ints:
-        """[R] the data set's number of each instance, in rows of the cell table's parts."""
+        """Return the data set's number [R] of each instance, in rows of the cell table's parts."""
         numbers: Ints = self.columns["object_instance"][self._object_rows]
         return numbers
 
     def cell_table(self) -> CellTable:
-        """The cells with what is in them, world metres; `parts.instance` counts the rows: each part is an instance.
+        """Return the cells with their parts, world metres; each part is an instance, numbered by its row.
 
         Raises:
             DataError: the cells are not of one size.
@@ -150,7 +150,7 @@ class PoseStore:
 
     @cached_property
     def poses(self) -> PoseTable:
-        """The positions with their descriptions.
+        """Return the positions with their descriptions.
 
         Raises:
             DataError: a scene has cells only.
@@ -176,7 +176,7 @@ class PoseStore:
         )
 
     def instance_points(self, row: int) -> tuple[Floats, Floats]:
-        """The points of one instance, as stored.
+        """Return the points of one instance, as stored.
 
         Returns:
             xyz: [P, 3] cell units, float32 or float64.
@@ -185,7 +185,7 @@ class PoseStore:
         return self._points(int(self._object_rows[row]))
 
     def _sample(self, cells: Ints) -> Floats:
-        """[R, 256, 6] points of what is in some cells."""
+        """Return sampled points [R, 256, 6] of the parts in some cells."""
         rows = self.cell_rows[cells]
         objects = ranges(self._cell_starts[rows], self._cell_starts[rows + 1])
         return stack_samples([sample_points(*self._points(row)) for row in objects.tolist()])
@@ -202,7 +202,7 @@ class PoseStore:
 
     @cached_property
     def _object_rows(self) -> Ints:
-        """[R] rows of the whole data set."""
+        """Return the rows [R] of the whole data set."""
         return ranges(self._cell_starts[self.cell_rows], self._cell_starts[self.cell_rows + 1])
 
     @cached_property
@@ -223,7 +223,7 @@ class PoseStore:
 
 
 def _inverse_rows(rows: Ints, size: int) -> Ints:
-    """[size] where each number stands in `rows`; -1 where it does not."""
+    """Return the position [size] of each number in `rows`, -1 if it is not there."""
     positions: npt.NDArray[np.int64] = np.full(size, -1, dtype=np.int64)
     positions[rows] = np.arange(len(rows))
     return positions

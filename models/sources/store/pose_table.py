@@ -35,7 +35,7 @@ class PoseTable:
         return len(self.cell)
 
     def hints(self, q: int) -> tuple[Hint, ...]:
-        """The hints of pose q, in stored order."""
+        """Return the hints of pose q, in stored order."""
         return tuple(
             Hint(
                 DIRECTIONS[self.direction[h]],

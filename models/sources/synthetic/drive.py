@@ -1,4 +1,4 @@
-"""Made-up towns, part 5: the drive through the streets, as long as it takes to pass some number of cells."""
+"""Synthetic towns, part 5: a drive through the streets that passes some number of cells."""
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -11,17 +11,17 @@ from models.sources.kitti360.rules import PrepareConfig
 from models.sources.synthetic.layout import Land, Node, Plan
 from models.sources.synthetic.shapes import Rng
 
-CAMERA_HEIGHT_M = 0.9  # a pose's height above the road
-SMOOTHING_WINDOW_M = 9  # corners are driven in an arc of about this length
+CAMERA_HEIGHT_M = 0.9  # above the road
+SMOOTHING_WINDOW_M = 9  # corners are rounded over this length
 CELLS_PER_M = 0.6  # of street, at most: a band of 60 m, a cell for each 100 square metres
 
 
 def draw_drive(rng: Rng, plan: Plan, land: Land, cells: float) -> Floats:
-    """A drive along the streets, every street once where it can be, until some number of cells is passed.
+    """Draw a drive along the streets, each once where possible, until some number of cells is passed.
 
     Returns:
         [F, 3] float64 poses about a metre apart, plan frame, with heights above the ground; all the plan's streets
-        if they do not do.
+        if these are too few.
     """
     walk = Walk(rng, plan)
     length_m = cells / CELLS_PER_M
@@ -35,7 +35,7 @@ def draw_drive(rng: Rng, plan: Plan, land: Land, cells: float) -> Floats:
 
 
 def _end_row(world_m: Floats, cells: float) -> int | None:
-    """How many poses of a drive pass some number of cells, as nearly as can be; None if all pass fewer."""
+    """Return how many poses of a drive pass about some number of cells; None if all of them pass fewer."""
     config = PrepareConfig()
     rows = spaced_rows(world_m, config.spacing_m)
     before = (0, 0)
@@ -51,7 +51,7 @@ def _end_row(world_m: Floats, cells: float) -> int | None:
 
 
 def spaced_rows(world_m: Floats, spacing_m: float) -> Ints:
-    """[L] rows of the poses that are locations: far enough from all before (docs/formats.md, rule 3)."""
+    """Return the rows [L] of the poses that are locations: far enough from all before (docs/formats.md, rule 3)."""
     spaced_m = np.full_like(world_m, np.inf)
     rows: list[int] = []
     for row, position in enumerate(world_m):
@@ -62,7 +62,7 @@ def spaced_rows(world_m: Floats, spacing_m: float) -> Ints:
 
 
 def count_cells(locations_m: Floats, config: PrepareConfig) -> int:
-    """How many cells will be cut around [L, 3] locations (rule 4), those with too few instances among them."""
+    """Return how many cells will be cut around [L, 3] locations (rule 4), also those with too few instances."""
     low, high = locations_m[:, :2].min(axis=0).astype(int), locations_m[:, :2].max(axis=0).astype(int)
     axes = (np.arange(a, b, config.cut.grid_m) for a, b in zip(low, high, strict=True))
     x, y = np.meshgrid(*axes, indexing="ij")
@@ -74,10 +74,10 @@ def count_cells(locations_m: Floats, config: PrepareConfig) -> int:
 
 
 class Walk:
-    """A way from crossing to crossing that grows.
+    """A growing path from crossing to crossing.
 
     Attributes:
-        track: [M, 2] places in the plan, about a metre apart, in pieces.
+        track: [M, 2] positions in the plan, about a metre apart, in pieces.
     """
 
     def __init__(self, rng: Rng, plan: Plan) -> None:
@@ -90,7 +90,7 @@ class Walk:
         self.track = [self._start[None]]
 
     def extend(self, length_m: float) -> bool:
-        """Go on until that much of the streets is walked; False if no street is left."""
+        """Extend the path to a length of distinct streets; return False if no street is left."""
         while self._length_m < length_m:
             route = self._next_route()
             if not route:
@@ -105,16 +105,16 @@ class Walk:
         return True
 
     def _unvisited_neighbours(self, node: Node) -> list[Node]:
-        """The neighbours to which a street leads that is not walked yet."""
+        """Return the neighbours of a crossing behind streets not yet walked."""
         return [b for b in self._plan.neighbours(node) if frozenset((node, b)) not in self._visited]
 
     def _cost(self, a: Node, b: Node) -> float:
-        """Least for streets near the start, so that the walk stays together."""
+        """Return a cost that is least for streets near the start, so that the walk stays compact."""
         middle = (self._plan.position_m(a) + self._plan.position_m(b)) / 2
         return float(np.linalg.norm(middle - self._start)) + float(self._rng.uniform(0, 40))
 
     def _next_route(self) -> list[Node]:
-        """Crossings to pass next: over one street not yet walked, or by old ones to the next such; none if all are."""
+        """Return the next crossings: over a street not yet walked, or over old ones to such a street; may be empty."""
         node, size = self._node, len(self._plan.north)
         if unvisited := self._unvisited_neighbours(node):
             return [min(unvisited, key=lambda b: self._cost(node, b))]
@@ -136,7 +136,7 @@ class Walk:
 
 
 def _start_node(plan: Plan, graph: coo_array) -> Node:
-    """The crossing nearest to the middle of the plan from which most others can be reached."""
+    """Return the crossing nearest to the middle of the plan from which most others can be reached."""
     part = connected_components(graph)[1]
     largest = np.flatnonzero(part == np.bincount(part).argmax())
     nodes = [(int(n) // len(plan.north), int(n) % len(plan.north)) for n in largest]
@@ -144,7 +144,7 @@ def _start_node(plan: Plan, graph: coo_array) -> Node:
 
 
 def _street_graph(plan: Plan) -> coo_array:
-    """Lengths of the open streets between neighbouring crossings, which count from south to north, then east."""
+    """Return the lengths of the open streets between crossings, which are numbered from south to north, then east."""
     size = len(plan.north)
     rows = [
         (a[0] * size + a[1], b[0] * size + b[1], float(np.abs(plan.position_m(a) - plan.position_m(b)).sum()))
@@ -156,7 +156,7 @@ def _street_graph(plan: Plan) -> coo_array:
 
 
 def _lane_points(plan: Plan, a: Node, b: Node) -> Floats:
-    """[M, 2] places a metre apart from crossing to crossing, in the right-hand lane."""
+    """Return positions [M, 2] a metre apart from crossing to crossing, in the right-hand lane."""
     start, end = plan.position_m(a), plan.position_m(b)
     length = float(np.linalg.norm(end - start))
     ahead = (end - start) / length
@@ -167,7 +167,7 @@ def _lane_points(plan: Plan, a: Node, b: Node) -> Floats:
 
 
 def smooth_track(track: Floats) -> Floats:
-    """[F, 3] a track with its corners rounded, about a metre apart, at the height of the camera."""
+    """Return a track [F, 3] with rounded corners, about a metre apart, at the height of the camera."""
     away = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
     even = np.column_stack([np.interp(np.arange(0, away[-1] + 1e-9), away, axis) for axis in track.T])
     half = SMOOTHING_WINDOW_M // 2

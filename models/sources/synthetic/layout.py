@@ -1,7 +1,7 @@
-"""Made-up towns, part 4: the plan of the streets, and how it lies in the world.
+"""Synthetic towns, part 4: the plan of the streets, and its position in the world.
 
-The plan is a grid of streets with some left out; a smooth map bends and turns it and sets it on hills. All that is
-built stands in the plan and is bent with it.
+The plan is a grid of streets with some left out; a smooth map bends and turns it and sets it on hills. All objects
+stand in the plan and are bent with it.
 """
 
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ class Line(NamedTuple):
 
     @property
     def reach_m(self) -> float:
-        """From its middle to the lots."""
+        """Return the distance from its middle to the lots."""
         return self.road_m / 2 + self.strip_m + self.sidewalk_m
 
 
@@ -46,7 +46,7 @@ class Plan:
 
     Attributes:
         east: streets that cross the first axis, and run along the second.
-        north: the other way round.
+        north: streets that cross the second axis, and run along the first.
         along_u: [N, E - 1] bool, where the street north[n] is open between east[e] and the next.
         along_v: [E, N - 1] bool, where the street east[e] is open between north[n] and the next.
     """
@@ -63,11 +63,11 @@ class Plan:
         return bool(self.along_v[a[0], min(a[1], b[1])])
 
     def position_m(self, node: Node) -> Floats:
-        """[2] metres, plan frame."""
+        """Return the position [2] of a crossing in metres, plan frame."""
         return np.array([self.east[node[0]].position_m, self.north[node[1]].position_m])
 
     def neighbours(self, node: Node) -> list[Node]:
-        """The crossings to which a street leads from one."""
+        """Return the crossings to which a street leads from one."""
         e, n = node
         adjacent = [(e + 1, n), (e, n + 1), (e - 1, n), (e, n - 1)]
         inside = [b for b in adjacent if 0 <= b[0] < len(self.east) and 0 <= b[1] < len(self.north)]
@@ -75,7 +75,7 @@ class Plan:
 
 
 def draw_plan(rng: Rng, style: Style, cells: float) -> Plan:
-    """A plan with room for a drive past some number of cells."""
+    """Draw a plan with room for a drive past some number of cells."""
     side = int(np.ceil(np.sqrt(cells * 100 * 1.5) / np.mean(style.block_m))) + 4
     lines = []
     for _ in range(2):
@@ -96,15 +96,15 @@ def _line(rng: Rng, style: Style, place_m: float) -> Line:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Land:
-    """How the plan lies in the world.
+    """The map from the plan to the world.
 
     Attributes:
         sway: [S, 2, 3] waves of the plan's axes: amplitude m, wave number 1/m, phase.
         curvature: 1/m, by which the first axis is bent into a circle; 0 for straight.
         turn: [2, 2] rotation.
-        origin_m: [3] where the plan's middle lies.
+        origin_m: [3] position of the plan's middle.
         hills: [W, 4] amplitude m, two wave numbers 1/m, phase.
-        slope: [2] metres a metre.
+        slope: [2] metres per metre.
     """
 
     sway: Floats
@@ -115,7 +115,7 @@ class Land:
     slope: Floats
 
     def to_world(self, plan: Floats) -> Floats:
-        """[P, 3] world metres of points of the plan, [P, 3] with heights above the ground."""
+        """Return world metres [P, 3] of points of the plan, [P, 3] with heights above the ground."""
         u, v, height = plan.T
         for (a, k, p), (b, m, q) in self.sway:
             u, v = u + a * np.sin(k * v + p), v + b * np.sin(m * u + q)
@@ -131,7 +131,7 @@ class Land:
 
 
 def draw_land(rng: Rng, style: Style) -> Land:
-    """Bends, direction and hills for a town of some style."""
+    """Draw bends, direction and hills for a town of some style."""
     length = rng.uniform(150, 420, (2, 2))
     slope = style.bend * rng.uniform(0.4, 1, (2, 2)) * (0.65, 0.35)
     wave = 2 * np.pi / length

@@ -1,4 +1,4 @@
-"""Made-up towns, part 7: lots, the pieces of land between streets, and what is built on each kind of them."""
+"""Synthetic towns, part 7: lots, the pieces of land between streets, and the buildings on each kind of lot."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -30,7 +30,7 @@ def build_blocks(site: Site, plan: Plan) -> None:
 
 
 def _build_block(site: Site, west: Line, east: Line, south: Line, north: Line) -> None:
-    """Two rows of lots, back to back, along the longer sides of a block."""
+    """Build two rows of lots, back to back, along the longer sides of a block."""
     u = (west.position_m + west.reach_m, east.position_m - east.reach_m)
     v = (south.position_m + south.reach_m, north.position_m - north.reach_m)
     width, height = u[1] - u[0], v[1] - v[0]
@@ -49,7 +49,7 @@ def _build_block(site: Site, west: Line, east: Line, south: Line, north: Line) -
 
 
 def _build_row(site: Site, spot: LocalFrame, width_m: float, depth_m: float, kind: str) -> None:
-    """Lots of one kind side by side."""
+    """Build lots of one kind side by side."""
     usual = LOT_KINDS[kind].width_m
     count = max(1, round(width_m / float(site.rng.uniform(*usual))))
     share = site.rng.uniform(0.8, 1.25, count)
@@ -74,7 +74,7 @@ def _draw_between(site: Site, low: float, high: float) -> float:
 
 
 def _add_lawn(site: Site, lot: Lot, y: tuple[float, float], coarse: float = 1.0) -> None:
-    """Grass over the width of a lot, one instance with the neighbour's where the chain holds."""
+    """Add grass over the width of a lot, one instance with the neighbour's while the chain holds."""
     if y[1] - y[0] > 3:
         site.add(
             "terrain", lot.spot, ground(site.rng, (0, lot.width_m), y, site.spacing_m * 1.4 * coarse), chain="lawn"
@@ -82,7 +82,7 @@ def _add_lawn(site: Site, lot: Lot, y: tuple[float, float], coarse: float = 1.0)
 
 
 def _add_court(site: Site, lot: Lot, x: tuple[float, float], y: tuple[float, float]) -> None:
-    """Paved ground to park on; grass where there is too little room."""
+    """Add paved ground to park on, or grass where there is too little room."""
     is_large = (x[1] - x[0]) * (y[1] - y[0]) > 130
     label, coarse = ("parking", 1.0) if is_large else ("terrain", 1.15)
     site.add(label, lot.spot, ground(site.rng, x, y, site.spacing_m * coarse), chain="court")
@@ -91,7 +91,7 @@ def _add_court(site: Site, lot: Lot, x: tuple[float, float], y: tuple[float, flo
 def _add_plants(
     site: Site, lot: Lot, x: tuple[float, float], y: tuple[float, float], trees: float, bushes: float
 ) -> None:
-    """Trees and bushes in a part of a lot, some of them one instance with the last."""
+    """Add trees and bushes to a part of a lot, some of them one instance with the last."""
     for kind, make, usual in (("tree", tree, trees), ("bush", bush, bushes)):
         for _ in range(_draw_count(site, kind, usual)):
             site.cut_chains(0.4, "vegetation")
@@ -104,7 +104,7 @@ def _add_plants(
 
 
 def _add_border(site: Site, spot: LocalFrame, length_m: float, bare: float = 0.3) -> None:
-    """A hedge, a fence, a wall or nothing, along x."""
+    """Add a hedge, a fence, a wall or nothing, along x."""
     rates = site.habits.rates
     kind = pick(site.rng, {"hedge": rates["hedge"], "fence": rates["fence"], "wall": 0.8 * rates["wall"], "": 5 * bare})
     make: dict[str, Callable[..., Floats]] = {"hedge": hedge, "fence": fence, "wall": wall}
@@ -114,7 +114,7 @@ def _add_border(site: Site, spot: LocalFrame, length_m: float, bare: float = 0.3
 
 
 def _add_furniture(site: Site, lot: Lot, y: float, usual: dict[str, float]) -> None:
-    """Furniture in front of or beside buildings."""
+    """Add furniture in front of or next to buildings."""
     for label, rate in usual.items():
         for _ in range(_draw_count(site, label, rate)):
             spot = lot.spot.offset(_draw_between(site, 0.8, lot.width_m - 0.8), y + _draw_between(site, 0, 1.5))
@@ -122,7 +122,7 @@ def _add_furniture(site: Site, lot: Lot, y: float, usual: dict[str, float]) -> N
 
 
 def build_houses(site: Site, lot: Lot) -> None:
-    """A house in its garden, often with a garage."""
+    """Build a house in its garden, often with a garage."""
     rng, (_, width, depth) = site.rng, lot
     front, d = _draw_between(site, 2.5, 7), _draw_between(site, 7.5, 11)
     w = min(_draw_between(site, 8, 13), width - 1.5)
@@ -149,7 +149,7 @@ def build_houses(site: Site, lot: Lot) -> None:
 
 
 def build_row(site: Site, lot: Lot) -> None:
-    """A house in a row, flush with the sidewalk, a court behind."""
+    """Build a house in a row, flush with the sidewalk, with a court behind."""
     rng, (_, width, depth) = site.rng, lot
     front, d = float(rng.choice([0.1, 0.1, 1.5])), min(_draw_between(site, 9, 13), depth - 2)
     size = (width - float(rng.choice([0.05, 0.05, 0.05, 3])), d, _draw_between(site, 7, 16))
@@ -172,7 +172,7 @@ def build_row(site: Site, lot: Lot) -> None:
 
 
 def build_flats(site: Site, lot: Lot) -> None:
-    """A slab of flats on a lawn, parking and garages behind."""
+    """Build a slab of flats on a lawn, with parking and garages behind."""
     rng, (_, width, depth) = site.rng, lot
     front, d = _draw_between(site, 3, 8), _draw_between(site, 10, 12)
     w = width * _draw_between(site, 0.55, 0.85)
@@ -195,7 +195,7 @@ def build_flats(site: Site, lot: Lot) -> None:
 
 
 def build_works(site: Site, lot: Lot) -> None:
-    """A hall or workshop behind a yard to park in."""
+    """Build a hall or workshop behind a yard to park in."""
     rng, (_, width, depth) = site.rng, lot
     front = _draw_between(site, 6, 13)
     size = (
@@ -221,7 +221,7 @@ def build_works(site: Site, lot: Lot) -> None:
 
 
 def build_farm(site: Site, lot: Lot) -> None:
-    """A house and barns around a yard, much green."""
+    """Build a house and barns around a yard, with much green."""
     rng, (_, width, depth) = site.rng, lot
     front, w, d = _draw_between(site, 0.3, 6), min(_draw_between(site, 8, 12), width * 0.55), _draw_between(site, 8, 12)
     size = (w, d, _draw_between(site, 3.5, 6.5))
@@ -245,7 +245,7 @@ def build_farm(site: Site, lot: Lot) -> None:
 
 
 def build_park(site: Site, lot: Lot) -> None:
-    """Grass, trees and a path."""
+    """Build grass, trees and a path."""
     rng, (_, width, depth) = site.rng, lot
     path = _draw_between(site, 0.3, 0.6) * depth
     _add_lawn(site, lot, (0.3, path), 1.1)
@@ -261,7 +261,7 @@ def build_park(site: Site, lot: Lot) -> None:
 
 
 class LotKind(NamedTuple):
-    """A kind of lot: how wide it usually is, metres, and what builds it."""
+    """A kind of lot: its usual width in metres, and the function that builds it."""
 
     width_m: tuple[float, float]
     build: Callable[[Site, Lot], None]

@@ -1,6 +1,6 @@
-"""Made-up towns, part 2: what stands in them, each as points around its foot.
+"""Synthetic towns, part 2: the objects in them, each as points around its foot.
 
-Shapes, sizes and numbers of points are drawn afresh for every instance, so that none is like another.
+Shapes, sizes and numbers of points are drawn for every instance, so that no two are alike.
 """
 
 from collections.abc import Callable
@@ -10,11 +10,11 @@ import numpy as np
 from models.citymap.types import Floats
 from models.sources.synthetic.shapes import Rng, blob, box, column, gable, patch, shift, subsample
 
-STOREY_M = 3.1
+STOREY_M = 3.1  # height of a storey
 
 
 def building(rng: Rng, size: tuple[float, float, float], spacing_m: float, pitched: bool) -> Floats:
-    """[P, 3] a building: its street side with windows left out, other sides and roof with fewer points."""
+    """Return the points [P, 3] of a building: a street side with windows left out, and sparser other sides and roof."""
     w, d, h = size
     spacing_m *= 0.93
     walls = box(rng, size, spacing_m, hidden=float(rng.uniform(1.5, 2.2)))
@@ -32,7 +32,7 @@ def building(rng: Rng, size: tuple[float, float, float], spacing_m: float, pitch
 
 
 def garage(rng: Rng, spacing_m: float) -> Floats:
-    """[P, 3] a garage for one or two cars, or a shed."""
+    """Return the points [P, 3] of a garage for one or two cars, or a shed."""
     size = (float(rng.uniform(2.8, 6.2)), float(rng.uniform(4.5, 7)), float(rng.uniform(2.2, 3)))
     parts = [box(rng, size, spacing_m, hidden=1.6)]
     if rng.random() < 0.3:
@@ -41,7 +41,7 @@ def garage(rng: Rng, spacing_m: float) -> Floats:
 
 
 def tree(rng: Rng, size: float = 1.0) -> Floats:
-    """[P, 3] a tree: round, tall or conical, some with a trunk to be seen."""
+    """Return the points [P, 3] of a tree: round, tall or conical, some with a trunk to be seen."""
     height, radius = size * rng.uniform(3.5, 9), size * rng.uniform(1.2, 2.6)
     bare = float(rng.uniform(0.1, 0.4)) * height
     density = rng.uniform(8, 15)
@@ -56,20 +56,20 @@ def tree(rng: Rng, size: float = 1.0) -> Floats:
 
 
 def bush(rng: Rng) -> Floats:
-    """[P, 3] a bush, dense enough to count by itself."""
+    """Return the points [P, 3] of a bush, dense enough to count by itself."""
     radii = rng.uniform(0.7, 1.9, 3) * (1, 1, 0.7)
     return blob(rng, max(290, int(rng.uniform(15, 32) * 4.19 * radii.prod())), (0, 0, radii[2]), radii)
 
 
 def hedge(rng: Rng, length_m: float) -> Floats:
-    """[P, 3] a hedge along x, from 0."""
+    """Return the points [P, 3] of a hedge along x, from 0."""
     size = (length_m, float(rng.uniform(0.6, 1.4)), float(rng.uniform(0.9, 2.2)))
     body = shift(box(rng, size, float(rng.uniform(0.22, 0.3)), hidden=1.3), length_m / 2)
     return body + rng.normal(0, 0.12, body.shape) * (1, 1, 0.5)
 
 
 def fence(rng: Rng, length_m: float) -> Floats:
-    """[P, 3] a fence along x: mesh, boards or rails with posts."""
+    """Return the points [P, 3] of a fence along x: mesh, boards or rails with posts."""
     height, spacing = float(rng.uniform(0.9, 2)), float(rng.uniform(0.13, 0.19))
     mesh = patch(rng, (0, 0, 0.05), (length_m, 0, 0), (0, 0, height), spacing)
     kind = rng.random()
@@ -81,7 +81,7 @@ def fence(rng: Rng, length_m: float) -> Floats:
 
 
 def wall(rng: Rng, length_m: float) -> Floats:
-    """[P, 3] a garden or retaining wall along x."""
+    """Return the points [P, 3] of a garden or retaining wall along x."""
     height, thick, spacing = float(rng.uniform(0.6, 2.5)), float(rng.uniform(0.15, 0.45)), float(rng.uniform(0.14, 0.2))
     face = patch(rng, (0, 0, 0), (length_m, 0, 0), (0, 0, height), spacing)
     top = patch(rng, (0, 0, height), (length_m, 0, 0), (0, thick, 0), spacing)
@@ -89,7 +89,7 @@ def wall(rng: Rng, length_m: float) -> Floats:
 
 
 def guard_rail(rng: Rng, length_m: float) -> Floats:
-    """[P, 3] a guard rail along x."""
+    """Return the points [P, 3] of a guard rail along x."""
     height = float(rng.uniform(0.55, 0.85))
     band = patch(rng, (0, 0, height - 0.35), (length_m, 0, 0), (0, 0, 0.4), 0.13)
     posts = patch(rng, (0, 0.1, 0), (length_m, 0, 0), (0, 0, height), 0.14)
@@ -97,7 +97,7 @@ def guard_rail(rng: Rng, length_m: float) -> Floats:
 
 
 def bridge(rng: Rng, span_m: float) -> Floats:
-    """[P, 3] a deck over the street, its span along y and centred, with parapets."""
+    """Return the points [P, 3] of a deck over the street, its span along y and centred, with parapets."""
     width, clear, deep = float(rng.uniform(3.5, 9)), float(rng.uniform(4.6, 6)), float(rng.uniform(0.6, 1.3))
     body = shift(box(rng, (width, span_m, deep), 0.3, z=clear), y=-span_m / 2)
     under = patch(rng, (-width / 2, -span_m / 2, clear), (width, 0, 0), (0, span_m, 0), 0.3)
@@ -109,7 +109,7 @@ def bridge(rng: Rng, span_m: float) -> Floats:
 
 
 def tunnel(rng: Rng, length_m: float, width_m: float) -> Floats:
-    """[P, 3] the two walls and the ceiling of a stretch of tunnel along x."""
+    """Return the points [P, 3] of the two walls and the ceiling of a stretch of tunnel along x."""
     clear, half = float(rng.uniform(4.6, 6)), width_m / 2
     sides = [patch(rng, (0, y, 0), (length_m, 0, 0), (0, 0, clear), 0.3) for y in (-half, half)]
     faces = [patch(rng, (x, -half, clear), (0, width_m, 0), (0, 0, 1.5), 0.3) for x in (0, length_m)]
@@ -117,18 +117,18 @@ def tunnel(rng: Rng, length_m: float, width_m: float) -> Floats:
 
 
 def pole(rng: Rng) -> Floats:
-    """[P, 3] a mast or post as high as a house, or a post of a sign."""
+    """Return the points [P, 3] of a mast or post, as high as a house or as a sign."""
     height = float(rng.uniform(2.2, 4) if rng.random() < 0.5 else rng.uniform(4, 10))
     return column(rng, int(rng.uniform(12, 40) * height), float(rng.uniform(0.04, 0.2)), (0, height))
 
 
 def smallpole(rng: Rng) -> Floats:
-    """[P, 3] a bollard or marker post."""
+    """Return the points [P, 3] of a bollard or marker post."""
     return column(rng, int(rng.uniform(35, 130)), float(rng.uniform(0.04, 0.13)), (0, float(rng.uniform(0.6, 1.3))))
 
 
 def lamp(rng: Rng) -> Floats:
-    """[P, 3] a street lamp: a post, often an arm, and a head."""
+    """Return the points [P, 3] of a street lamp: a post, often an arm, and a head."""
     height, arm = float(rng.uniform(3.2, 9)), float(rng.choice([0.0, rng.uniform(0.5, 2.5)]))
     post = column(rng, int(rng.uniform(10, 22) * height), float(rng.uniform(0.05, 0.12)), (0, height))
     beam = patch(rng, (0, 0, height), (0, -arm, 0.2), (0.08, 0, 0), 0.08) if arm else post[:0]
@@ -137,7 +137,7 @@ def lamp(rng: Rng) -> Floats:
 
 
 def traffic_sign(rng: Rng) -> Floats:
-    """[P, 3] one to three plates, round, three-cornered or four-cornered, at the height of a head or above."""
+    """Return the points [P, 3] of one to three plates, round, triangular or square, at head height or above."""
     plates, z = [], float(rng.uniform(1.8, 2.8))
     for _ in range(int(rng.choice([1, 1, 1, 2, 2, 3]))):
         w, h = float(rng.uniform(0.4, 0.9)), float(rng.uniform(0.35, 0.9))
@@ -156,7 +156,7 @@ def traffic_sign(rng: Rng) -> Floats:
 
 
 def traffic_light(rng: Rng) -> Floats:
-    """[P, 3] a head of lights on its post, sometimes with a second head out over the road."""
+    """Return the points [P, 3] of a head of lights on its post, sometimes with a second head out over the road."""
     z, spacing = float(rng.uniform(2.1, 3)), float(rng.uniform(0.07, 0.11))
     parts = [box(rng, (0.3, 0.3, float(rng.uniform(0.7, 1.1))), spacing, z=z)]
     if rng.random() < 0.4:
@@ -167,7 +167,7 @@ def traffic_light(rng: Rng) -> Floats:
 
 
 def trash_bin(rng: Rng) -> Floats:
-    """[P, 3] a bin: round, a wheeled one, or several in a row."""
+    """Return the points [P, 3] of a bin: round, a wheeled one, or several in a row."""
     if rng.random() < 0.4:
         return column(
             rng, int(rng.uniform(80, 250)), float(rng.uniform(0.2, 0.35)), (0.2, float(rng.uniform(0.8, 1.3)))
@@ -177,7 +177,7 @@ def trash_bin(rng: Rng) -> Floats:
 
 
 def vending_machine(rng: Rng) -> Floats:
-    """[P, 3] a machine for cigarettes on a post, or one for tickets or drinks."""
+    """Return the points [P, 3] of a machine for cigarettes on a post, or one for tickets or drinks."""
     spacing = float(rng.uniform(0.07, 0.11))
     if rng.random() < 0.5:
         return box(rng, (0.8, 0.35, 0.9), spacing, z=0.9)
@@ -185,13 +185,13 @@ def vending_machine(rng: Rng) -> Floats:
 
 
 def cabinet(rng: Rng) -> Floats:
-    """[P, 3] a box: a cabinet of a telephone or power company, or a post box."""
+    """Return the points [P, 3] of a box: a cabinet of a telephone or power company, or a post box."""
     size = (float(rng.uniform(0.5, 1.9)), float(rng.uniform(0.3, 0.6)), float(rng.uniform(0.7, 1.6)))
     return box(rng, size, float(rng.uniform(0.08, 0.13)), hidden=1.5)
 
 
 def stop(rng: Rng) -> Floats:
-    """[P, 3] the shelter of a bus stop."""
+    """Return the points [P, 3] of the shelter of a bus stop."""
     w, d, spacing = float(rng.uniform(2.5, 5)), float(rng.uniform(1.2, 1.8)), float(rng.uniform(0.13, 0.2))
     shell = box(rng, (w, d, float(rng.uniform(2.2, 2.7))), spacing)
     return shell[shell[:, 1] > 0.1]  # open towards the street

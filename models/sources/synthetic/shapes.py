@@ -1,6 +1,6 @@
-"""Made-up towns, part 1: points on the surfaces of simple bodies.
+"""Synthetic towns, part 1: points on the surfaces of simple bodies.
 
-Bodies stand in a frame of their own: x along the street, y away from it, z up from the ground, metres.
+A body has its own frame: x along the street, y away from it, z up from the ground, metres.
 """
 
 from typing import Any, NamedTuple
@@ -10,17 +10,17 @@ import numpy.typing as npt
 
 from models.citymap.types import Floats
 
-SURFACE_NOISE_M = 0.015  # how far points lie off the surface that they are of
+SURFACE_NOISE_M = 0.015  # of points around their surface
 Rng = np.random.Generator
 
 
 class LocalFrame(NamedTuple):
-    """A place in a town's plan, and a direction there.
+    """A position in a town's plan, and a direction there.
 
     Attributes:
-        u, v: its place, metres, plan frame.
-        cos, sin: of the angle from the plan's first axis to the spot's x axis.
-        flip: -1 where the spot's y axis lies to the right of its x axis, else 1.
+        u, v: the position, metres, plan frame.
+        cos, sin: of the angle from the plan's first axis to the frame's x axis.
+        flip: -1 where the frame's y axis lies to the right of its x axis, else 1.
     """
 
     u: float
@@ -30,19 +30,19 @@ class LocalFrame(NamedTuple):
     flip: float = 1.0
 
     def to_plan(self, xyz: Floats) -> Floats:
-        """[P, 3] points of this frame in the plan's frame."""
+        """Return points [P, 3] of this frame in the plan's frame."""
         x, y = xyz[:, 0], xyz[:, 1] * self.flip
         return np.column_stack([self.u + self.cos * x - self.sin * y, self.v + self.sin * x + self.cos * y, xyz[:, 2]])
 
     def offset(self, x: float, y: float, turn: float = 0.0) -> "LocalFrame":
-        """The spot at a place of this frame, turned by an angle in radians."""
+        """Return the frame at a position of this one, turned by an angle in radians."""
         u, v = self.to_plan(np.array([[x, y, 0.0]]))[0, :2].tolist()
         cos, sin = float(np.cos(turn)), float(np.sin(turn)) * self.flip
         return LocalFrame(u, v, self.cos * cos - self.sin * sin, self.sin * cos + self.cos * sin, self.flip)
 
 
 def patch(rng: Rng, corner: npt.ArrayLike, along: npt.ArrayLike, up: npt.ArrayLike, spacing_m: float) -> Floats:
-    """[P, 3] points about `spacing_m` apart on the parallelogram from a corner, by its two edges."""
+    """Return points [P, 3] about `spacing_m` apart on the parallelogram from a corner, by its two edges."""
     edges = np.array([along, up], dtype=np.float64)
     counts = np.maximum(1, np.round(np.linalg.norm(edges, axis=1) / spacing_m)).astype(int)
     steps = np.indices(tuple(counts)).reshape(2, -1).T
@@ -54,18 +54,18 @@ def patch(rng: Rng, corner: npt.ArrayLike, along: npt.ArrayLike, up: npt.ArrayLi
 
 
 def ground(rng: Rng, x: tuple[float, float], y: tuple[float, float], spacing_m: float, z: float = 0.0) -> Floats:
-    """[P, 3] points of a level rectangle."""
+    """Return points [P, 3] of a level rectangle."""
     return patch(rng, (x[0], y[0], z), (x[1] - x[0], 0, 0), (0, y[1] - y[0], 0), spacing_m)
 
 
 def box(rng: Rng, size: tuple[float, float, float], spacing_m: float, hidden: float = 1.0, z: float = 0.0) -> Floats:
-    """[P, 3] points on a box whose front is at y = 0, in the middle of x.
+    """Return points [P, 3] on a box whose front is at y = 0, in the middle of x.
 
     Args:
-        rng: draws where points lie.
+        rng: draws the points.
         size: width, depth, height.
         spacing_m: between points of the front.
-        hidden: how many times further apart points lie on the back and top; half of that on the sides.
+        hidden: factor of the spacing on the back and top; half as much on the sides.
         z: height of its bottom.
     """
     w, d, h = size
@@ -82,7 +82,7 @@ def box(rng: Rng, size: tuple[float, float, float], spacing_m: float, hidden: fl
 
 
 def gable(rng: Rng, size: tuple[float, float, float], rise_m: float, spacing_m: float) -> Floats:
-    """[P, 3] points of a pitched roof over a box, its ridge along x, `size` as that of the box."""
+    """Return points [P, 3] of a pitched roof over a box of `size`, its ridge along x."""
     w, d, h = size
     return np.concatenate(
         [
@@ -93,13 +93,13 @@ def gable(rng: Rng, size: tuple[float, float, float], rise_m: float, spacing_m: 
 
 
 def column(rng: Rng, count: int, radius_m: float, z: tuple[float, float], lean: float = 0.0) -> Floats:
-    """[P, 3] points around an upright column, from one height to another."""
+    """Return points [P, 3] around an upright column, from one height to another."""
     angle, height = rng.uniform(0, 2 * np.pi, count), rng.uniform(*z, count)
     return np.column_stack([radius_m * np.cos(angle) + lean * height, radius_m * np.sin(angle), height])
 
 
 def blob(rng: Rng, count: int, center: npt.ArrayLike, radii: npt.ArrayLike) -> Floats:
-    """[P, 3] points in an ellipsoid, more of them towards its surface."""
+    """Return points [P, 3] in an ellipsoid, denser towards its surface."""
     direction = rng.normal(size=(count, 3))
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
     reach = rng.uniform(0.15, 1, (count, 1)) ** 0.4
@@ -108,18 +108,18 @@ def blob(rng: Rng, count: int, center: npt.ArrayLike, radii: npt.ArrayLike) -> F
 
 
 def shift(xyz: Floats, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Floats:
-    """[P, 3] the same points elsewhere."""
+    """Return the points [P, 3] shifted."""
     shifted: Floats = xyz + np.array([x, y, z])
     return shifted
 
 
 def subsample(rng: Rng, xyz: Floats, share: float) -> Floats:
-    """A random share of some points, in their order."""
+    """Return a random share of some points, in their order."""
     chosen: Floats = xyz[rng.random(len(xyz)) < share]
     return chosen
 
 
 def pick(rng: Rng, weights: dict[str, float]) -> str:
-    """One of the keys, as often as its weight says."""
+    """Return a random key, as often as its weight says."""
     share: Any = np.array(list(weights.values()))
     return list(weights)[int(rng.choice(len(share), p=share / share.sum()))]

@@ -1,4 +1,4 @@
-"""Made-up towns, part 6: the site on which a town is built: what stands near the drive, as points with numbers."""
+"""Synthetic towns, part 6: the site of a town, which collects objects near the drive as numbered points."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ from models.sources.synthetic.layout import Land
 from models.sources.synthetic.shapes import LocalFrame, Rng
 from models.sources.synthetic.styles import Habits, draw_shade, speckle
 
-SCAN_REACH_M = 44.0  # what stands further from the drive was not scanned
+SCAN_REACH_M = 44.0  # objects farther from the drive are not scanned
 RASTER_SPACING_M = 2.0
 RASTER_MARGIN_M = 120.0
 CLASS_ROW = {rule.label: row for row, rule in enumerate(CLASSES)}
@@ -39,10 +39,10 @@ class Scan:
 
 
 class Site:
-    """Takes what is built in the plan's frame, and keeps what stands near the drive.
+    """Collects objects in the plan's frame, and keeps those near the drive.
 
     Attributes:
-        rng: draws everything on it.
+        rng: draws all objects.
         habits: of the town.
     """
 
@@ -60,11 +60,11 @@ class Site:
 
     @property
     def spacing_m(self) -> float:
-        """Between points of what was scanned well."""
+        """Return the distance between points of well-scanned surfaces."""
         return self.habits.spacing_m
 
     def distance_to_drive_m(self, spot: LocalFrame) -> float:
-        """From a spot to the drive, to the metre or two."""
+        """Return the distance from a position to the drive, exact to a metre or two."""
         return float(self._distance[self._raster_cells(self._land.to_world(np.array([[spot.u, spot.v, 0.0]])))][0])
 
     def _raster_cells(self, world: Floats) -> tuple[Ints, Ints]:
@@ -74,13 +74,13 @@ class Site:
         return cell[:, 0], cell[:, 1]
 
     def add(self, label: str, spot: LocalFrame, xyz: Floats, chain: str = "") -> None:
-        """Put something down, if the drive comes near it.
+        """Add an object, if the drive comes near it.
 
         Args:
             label: its class.
             spot: its frame.
             xyz: [P, 3] points in that frame.
-            chain: what is added with one name is one instance, until the chain is cut; "" for an instance of its own.
+            chain: objects added under one name are one instance, until the chain is cut; "" for an instance of its own.
         """
         rule = CLASSES[CLASS_ROW[label]]
         if not rule.is_stuff and self.distance_to_drive_m(spot) > SCAN_REACH_M:
@@ -106,12 +106,12 @@ class Site:
                 del self._chains[key]
 
     def scan(self, own_pieces: bool = False) -> Scan:
-        """All points, by instance as far as those were put down at once, numbered and coloured.
+        """Return all points, numbered and coloured, by instance as far as these were added together.
 
-        More than 999 instances of a class, which KITTI-360 cannot have, go on from (100 + semantic) * 1000.
+        More than 999 instances of a class, which KITTI-360 cannot have, are numbered from (100 + semantic) * 1000.
 
         Args:
-            own_pieces: give each piece of ground a number, in place of KITTI-360's one for all of a class.
+            own_pieces: number each piece of ground, instead of KITTI-360's single number for all of a class.
         """
         classes = np.array(self._classes)
         shades = [draw_shade(self.rng, self.habits, row) for row in self._classes]

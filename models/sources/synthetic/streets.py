@@ -1,4 +1,4 @@
-"""Made-up towns, part 8: streets, their crossings, and the furniture along them."""
+"""Synthetic towns, part 8: streets, their crossings, and the furniture along them."""
 
 from typing import NamedTuple
 
@@ -10,13 +10,14 @@ from models.sources.synthetic.shapes import LocalFrame, ground
 from models.sources.synthetic.site import SCAN_REACH_M, Site
 
 QUARTER_TURN = np.pi / 2
-# Along a side of a street, one in 100 m; in clusters of so many, a step apart.
+# Furniture per 100 m of a street's side; some comes in clusters of this many.
 FURNITURE_RATES = {"lamp": 0.9, "pole": 0.85, "traffic sign": 0.95, "smallpole": 0.3, "trash bin": 0.2, "box": 0.28}
 FURNITURE_RATES |= {"vending machine": 0.12, "stop": 0.12}
 CLUSTER_SIZES = {"smallpole": (1, 5)}
-FACING_STREET = frozenset({"stop", "vending machine", "box", "trash bin", "lamp"})  # stand square to the street
+# Classes that stand square to the street
+FACING_STREET = frozenset({"stop", "vending machine", "box", "trash bin", "lamp"})
 PAVEMENT_SPACING_M = 0.275  # between points of the pavement, scanned from near
-DRIVEN_REACH_M = 6.0  # a street is driven if the drive comes so near to its middle
+DRIVEN_REACH_M = 6.0  # a street is driven if the drive comes this near to its middle
 
 
 class Stretch(NamedTuple):
@@ -51,7 +52,7 @@ def build_streets(site: Site, plan: Plan) -> None:
 
 
 def _lines(plan: Plan) -> list[list[Stretch]]:
-    """The stretches of every street, those along the first axis first."""
+    """Return the stretches of every street, those along the first axis first."""
     lines: list[list[Stretch]] = []
     for n, line in enumerate(plan.north):
         lines.append([])
@@ -96,7 +97,7 @@ def _build_stretch(site: Site, stretch: Stretch) -> None:
 
 
 def _build_side(site: Site, stretch: Stretch, flip: float) -> None:
-    """Parking bays or grass beside the carriageway, then the sidewalk."""
+    """Build parking bays or grass next to the carriageway, then the sidewalk."""
     rng, line, (begin, end) = site.rng, stretch.line, stretch.curbs_m
     y, spot, name = line.road_m / 2, stretch.side(flip), str(flip)
     if line.strip_m:
@@ -110,7 +111,7 @@ def _build_side(site: Site, stretch: Stretch, flip: float) -> None:
 
 
 def _build_trees(site: Site, stretch: Stretch, flip: float) -> None:
-    """A row of trees at the curb, neighbours in part one instance."""
+    """Build a row of trees at the curb; some neighbours are one instance."""
     rng, line = site.rng, stretch.line
     step, size = float(rng.uniform(8, 14)), float(rng.uniform(0.6, 0.9))
     for x in np.arange(stretch.curbs_m[0] + 5, stretch.curbs_m[1] - 5, step).tolist():
@@ -123,7 +124,7 @@ def _build_trees(site: Site, stretch: Stretch, flip: float) -> None:
 
 
 def _add_furniture(site: Site, stretch: Stretch, flip: float) -> None:
-    """Furniture of all classes along one side, at random places near the curb or near the lots."""
+    """Add furniture of all classes along one side, at random places near the curb or near the lots."""
     for label, rate in FURNITURE_RATES.items():
         usual = site.habits.rate(label, rate) * stretch.length_m / 100 * (1.4 if stretch.line.is_main else 1)
         for _ in range(int(site.rng.poisson(usual))):
@@ -131,7 +132,7 @@ def _add_furniture(site: Site, stretch: Stretch, flip: float) -> None:
 
 
 def _place_furniture(site: Site, stretch: Stretch, flip: float, label: str) -> None:
-    """One piece of furniture, or a row of it, somewhere along a side; a sign with what bears it."""
+    """Place one piece of furniture, or a row of it, on a side; a sign often with a pole."""
     rng, line = site.rng, stretch.line
     x = float(rng.uniform(1, stretch.length_m - 1))
     at_curb = rng.random() < (0.3 if label in {"box", "vending machine", "stop"} else 0.7)
@@ -146,7 +147,7 @@ def _place_furniture(site: Site, stretch: Stretch, flip: float, label: str) -> N
 
 
 def _build_rarities(site: Site, stretches: list[Stretch]) -> None:
-    """Guard rails, bridges and tunnels, and at least one of what is rare, so that no town is without."""
+    """Build guard rails, bridges and tunnels, and at least one of each rare class, so that every town has them."""
     rng, base_count = site.rng, max(1, round(len(stretches) / 35))
     for label, count in (("guard rail", 3 * base_count), ("bridge", base_count), ("tunnel", base_count), ("stop", 1)):
         for row in rng.integers(len(stretches), size=count).tolist():
@@ -168,7 +169,7 @@ def _build_rarities(site: Site, stretches: list[Stretch]) -> None:
 
 
 def _build_lights(site: Site, plan: Plan) -> None:
-    """Traffic lights at the corners of some crossings, most where main streets meet; at one at least."""
+    """Build traffic lights at the corners of some crossings, mostly of main streets, and of at least one."""
     rng = site.rng
     crossings = [(LocalFrame(e.position_m, n.position_m), e, n) for e in plan.east for n in plan.north]
     near = [c for c in crossings if site.distance_to_drive_m(c[0]) <= SCAN_REACH_M]

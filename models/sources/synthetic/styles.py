@@ -1,4 +1,4 @@
-"""Made-up towns, part 3: what sets one town apart from another, and the near-grey colours of its instances."""
+"""Synthetic towns, part 3: the differences between towns, and the greyish colours of their instances."""
 
 from dataclasses import dataclass
 
@@ -38,16 +38,16 @@ COLOUR_WEIGHTS: dict[str, tuple[float, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """A kind of town. Pairs are least and greatest values, of which each town or street draws its own.
+    """A type of town. Pairs are least and greatest values, of which each town or street draws its own.
 
     Attributes:
-        lots: how often a block is of a kind (`synthetic_lots.LOTS`).
+        lots: how often a block is of a kind (`lots.LOT_KINDS`).
         block_m: between streets.
         road_m: width of the carriageway; a main street's is half as much again.
         sidewalk_m: width.
         missing: share of the streets between two crossings that are left out.
-        bend: greatest slope by which streets sway from a straight line.
-        fan: true if streets bend all the same way, as around a centre.
+        bend: greatest slope by which streets deviate from a straight line.
+        fan: true if all streets bend the same way, as around a centre.
         relief_m: height of its hills.
         parking, verge, trees: share of street sides with bays, with a strip of grass, with a row of trees.
     """
@@ -95,15 +95,15 @@ STYLES: dict[str, Style] = {
 
 @dataclass(frozen=True, slots=True)
 class Habits:
-    """What one town draws for itself.
+    """The random parameters of one town.
 
     Attributes:
-        lots: as in the style, shaken.
-        rates: how much more or less often than usual something stands there: a class of furniture, or "tree", "hedge",
+        lots: as in the style, perturbed.
+        rates: factor on how often an object occurs: a class of furniture, or "tree", "hedge",
             "fence", "wall", "garage", "bush".
-        spacing_m: between the points of what was scanned well.
+        spacing_m: between the points of well-scanned surfaces.
         colours: [21, 8] how often a class has each centre of the palette, in order of `CLASSES`.
-        exposure: what all colours are multiplied by.
+        exposure: factor on all colours.
     """
 
     lots: dict[str, float]
@@ -113,7 +113,7 @@ class Habits:
     exposure: float
 
     def rate(self, kind: str, usual: float) -> float:
-        """How often something stands here, given how often it does elsewhere."""
+        """Return how often an object occurs here, given its usual rate."""
         return usual * self.rates.get(kind, 1.0)
 
 
@@ -124,7 +124,7 @@ RATED_OBJECTS = (
 
 
 def draw_habits(rng: Rng, style: Style) -> Habits:
-    """The habits of a town of some style."""
+    """Draw the habits of a town of some style."""
     colours = np.array([COLOUR_WEIGHTS[rule.label] for rule in CLASSES], dtype=np.float64)
     colours *= rng.gamma(2.5, 1 / 2.5, colours.shape)
     return Habits(
@@ -137,7 +137,7 @@ def draw_habits(rng: Rng, style: Style) -> Habits:
 
 
 def draw_shade(rng: Rng, habits: Habits, class_row: int) -> tuple[Floats, float]:
-    """The mean colour of an instance and how far its points' colours stray from it.
+    """Draw the mean colour of an instance, and how much its points' colours vary.
 
     Args:
         rng: draws it.
@@ -153,7 +153,7 @@ def draw_shade(rng: Rng, habits: Habits, class_row: int) -> tuple[Floats, float]
 
 
 def speckle(rng: Rng, mean: Floats, spread: Floats) -> Floats:
-    """[P, 3] uint8 colours of points, given [P, 3] the mean of the instance of each and [P] its spread."""
+    """Return the colours [P, 3] (uint8) of points, given the mean [P, 3] and the spread [P] of the instance of each."""
     light = rng.standard_normal(len(mean), dtype=np.float32) * spread
     grain = rng.standard_normal((len(mean), 3), dtype=np.float32) * 3
     coloured: Floats = np.clip(np.rint(mean + light[:, None] + grain), 0, 255).astype(np.uint8)

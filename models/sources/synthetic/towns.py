@@ -1,8 +1,8 @@
-"""Made-up towns in KITTI-360's raw format: nothing in them was ever scanned.
+"""Synthetic towns in KITTI-360's raw format; nothing in them was scanned.
 
-They stand in for KITTI-360, which cannot be redistributed: streets, blocks and furniture with its classes, near-grey
-colours and point densities, so that they pass through the same preparation (docs/formats.md) and give cells like its
-own. The scenes take the names of KITTI-360's drives, so that the standard split works on what is prepared from them.
+They stand in for KITTI-360, which cannot be redistributed: streets, blocks and furniture with its classes, greyish
+colours and point densities, so that they pass through the same preparation (docs/formats.md) and give similar cells.
+The scenes have the names of KITTI-360's drives, so that the standard split works on the prepared scenes.
 Every number drawn comes from the seed: one seed, one set of files.
 """
 
@@ -27,28 +27,28 @@ from models.sources.synthetic.site import Scan, Site
 from models.sources.synthetic.streets import build_streets
 from models.sources.synthetic.styles import STYLES, Style, draw_habits
 
-# Cells a town, in order of STANDARD_SPLITS; "full" is KITTI360Pose's size: 11,259 / 1,434 / 4,308.
+# Cells of each town, in order of STANDARD_SPLITS; "full" is KITTI360Pose's size: 11,259 / 1,434 / 4,308.
 SIZES: dict[str, dict[str, tuple[int, ...]]] = {
     "demo": {"train": (540, 330, 450, 270, 410), "val": (450,), "test": (520, 340, 440)},
     "full": {"train": (3050, 1750, 2650, 1450, 2359), "val": (1434,), "test": (1750, 1050, 1508)},
 }
 SCALES = tuple(SIZES)
-PIECES = ("official", "own")  # ground is one instance a class, as in KITTI-360; or each piece is one
-# The style of each town, in the same order; each town draws its own streets, habits and colours besides.
+PIECES = ("official", "own")  # ground is one instance of its class, as in KITTI-360, or one for each piece
+# The style of each town, in the same order; each town also draws its own streets, habits and colours.
 TOWN_STYLES = {
     "train": ("suburb", "grid", "mixed", "village", "ring"),
     "val": ("mixed",),
     "test": ("ring", "village", "mixed"),
 }
 KEPT_CELL_SHARE = 0.985  # share of the cells around a drive that hold enough instances
-TILE_POSES = 250  # of the drive, a tile
+TILE_POSES = 250  # poses of the drive in each tile
 POINT = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("red", "u1"), ("green", "u1"), ("blue", "u1")]
 POINT += [("semantic", "<i4"), ("instance", "<i4"), ("visible", "u1"), ("confidence", "<f4")]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Town:
-    """A made-up town as it would have been scanned.
+    """A synthetic town as it would have been scanned.
 
     Attributes:
         scan: its points.
@@ -106,7 +106,7 @@ def write_towns(
 
 @contextmanager
 def _whole_or_not(out: Path) -> Iterator[Path]:
-    """`new_directory`.
+    """Wrap `new_directory`.
 
     Raises:
         DataError: it cannot be written.
@@ -123,8 +123,8 @@ def build_town(rng: np.random.Generator, style: Style, cells: float, own_pieces:
 
     Args:
         rng: draws everything.
-        style: what kind of town (`STYLES`).
-        cells: how many cells the preparation should find in it, about; the drive ends when they are reached.
+        style: type of town (`STYLES`).
+        cells: about how many cells the preparation should find; the drive ends when they are reached.
         own_pieces: see `Site.scan`.
     """
     plan, land, habits = draw_plan(rng, style, cells), draw_land(rng, style), draw_habits(rng, style)
@@ -136,7 +136,7 @@ def build_town(rng: np.random.Generator, style: Style, cells: float, own_pieces:
 
 
 def write_town(root: Path, scene: str, town: Town) -> None:
-    """Write one town as a scene of the raw layout; a tile holds what is nearest to a part of the drive."""
+    """Write one town as a scene of the raw layout; each tile holds the points nearest to a part of the drive."""
     tiles, poses = root / TILES / scene / "static", root / POSES / scene
     tiles.mkdir(parents=True)
     poses.mkdir(parents=True)
@@ -160,7 +160,7 @@ def _write_tile(path: Path, scan: Scan, rows: Ints) -> None:
 
 
 def _matrices(drive_m: Floats) -> Floats:
-    """[F, 12] poses: a rotation by the heading and the position, row by row."""
+    """Return the poses [F, 12]: a rotation by the heading and the position, row by row."""
     ahead = np.gradient(drive_m[:, :2], axis=0)
     ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
     rows = np.zeros((len(drive_m), 3, 4))

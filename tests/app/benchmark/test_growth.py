@@ -79,7 +79,7 @@ def test_a_size_below_one_copy_is_refused_before_anything_is_built(run, osm_file
 def test_no_such_map_and_no_map_are_said(run, tmp_path) -> None:
     result = run("--cells", "1e4", "--map", tmp_path / "nothing.osm.pbf")
     assert result.exit_code == 1
-    assert "no OpenStreetMap file" in result.output
+    assert "not an OpenStreetMap file" in result.output
     assert run().exit_code == 2, "without --cells a map is needed"
     assert measure.SHIPPED_MAP.is_file()
 

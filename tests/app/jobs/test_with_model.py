@@ -96,5 +96,5 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
 def test_what_is_wrong_with_the_data_is_the_jobs_error(served, strip_file):
     found = evaluate(served, {"data": "strip", "split": "north"})
     assert found["status"] == "failed"
-    assert "'north' is no split" in found["error"]["detail"]
+    assert "'north' is not a split" in found["error"]["detail"]
     assert str(strip_file.parent) not in found["error"]["detail"]

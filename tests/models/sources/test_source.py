@@ -98,7 +98,9 @@ def test_scenes_without_poses_can_be_indexed_but_not_asked(prepared, tmp_path) -
 
 
 def test_an_unknown_split_is_refused_before_a_map_is_read(tmp_path, prepared) -> None:
-    with pytest.raises(MapError, match="'east' is no split of a map; choose one of train, val, test, or none"):
+    with pytest.raises(
+        MapError, match="'east' is not a split of a map; choose one of train, val, test, or leave it out"
+    ):
         open_sources(tmp_path / "no.osm", ("train", "east"))
     with pytest.raises(MapError, match="no such file"):
         open_source(tmp_path / "no.osm", "train")

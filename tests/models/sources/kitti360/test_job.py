@@ -126,7 +126,7 @@ def test_a_scene_that_lost_a_file_is_made_again(part: str, raw_root: Path, tmp_p
 def test_files_of_others_are_not_overwritten(name: str, raw_root: Path, tmp_path: Path) -> None:
     (tmp_path / name).parent.mkdir()
     (tmp_path / name).write_bytes(b"downloaded")
-    with pytest.raises(DataError, match=rf"{name}: is there already.*not overwritten"):
+    with pytest.raises(DataError, match=rf"{name}: exists.*not overwritten"):
         prepare_data(raw_root, tmp_path, None, QUICK)
     assert contents(tmp_path) == {name: b"downloaded"}
     assert prepare_data(raw_root, tmp_path, "0010", QUICK) == (VAL,)
@@ -182,12 +182,12 @@ def test_progress_covers_all_scenes_and_never_goes_back(raw_root: Path, tmp_path
 
 def test_places_that_cannot_be(raw_root: Path, prepared: Path, tmp_path: Path) -> None:
     for out in (raw_root, raw_root / "data_poses", raw_root / "data_3d_semantics/new"):
-        with pytest.raises(DataError, match="is where the raw data is"):
+        with pytest.raises(DataError, match="contains the raw data"):
             prepare_data(raw_root, out)
     (tmp_path / "file").touch()
-    with pytest.raises(DataError, match="is no directory"):
+    with pytest.raises(DataError, match="is not a directory"):
         prepare_data(raw_root, tmp_path / "file")
-    with pytest.raises(DataError, match=rf"{prepared}: is no raw KITTI-360 .* but the published layout"):
+    with pytest.raises(DataError, match=rf"{prepared}: is not raw KITTI-360 .* but the published layout"):
         prepare_data(prepared, tmp_path / "out")
     with pytest.raises(DataError, match=r"nowhere/data_3d_semantics: no scene; the raw layout is"):
         prepare_data(raw_root / "nowhere", tmp_path / "out")

@@ -91,18 +91,20 @@ HOSTILE = {
     ("attribute of an allowed name", "asks for 'numpy.ndarray.__class__'"): lambda _: crafted(
         b"\x8c\x05numpy\x8c\x11ndarray.__class__\x93"
     ),
-    ("call of a class", "calls what is no array"): lambda _: crafted(named("numpy", "ndarray"), b"K\x05\x85R"),
-    ("call of a record", "calls what is no array"): lambda _: crafted(named(RECORD_MODULE, "Cell"), b")R"),
-    ("record of a dtype", "makes what is no record"): lambda _: crafted(named("numpy", "dtype"), b")\x81"),
+    ("call of a class", "calls something other than an array"): lambda _: crafted(
+        named("numpy", "ndarray"), b"K\x05\x85R"
+    ),
+    ("call of a record", "calls something other than an array"): lambda _: crafted(named(RECORD_MODULE, "Cell"), b")R"),
+    ("record of a dtype", "makes something other than a record"): lambda _: crafted(named("numpy", "dtype"), b")\x81"),
     ("subclass of array", "an array that is not"): lambda _: crafted(
         named(MULTIARRAY, "_reconstruct"), named(RECORD_MODULE, "Cell"), b"K\0\x85C\x01b\x87R"
     ),
     ("state of a class", "sets the state of"): lambda _: crafted(named(RECORD_MODULE, "Cell"), b"}\x8c\x01aK\x01sb"),
     ("state of slots", "sets the state of"): lambda _: crafted(named(RECORD_MODULE, "Cell"), b")\x81N}\x86b"),
-    ("append to a record", "appends to what is no list"): lambda _: crafted(
+    ("append to a record", "appends to something other than a list"): lambda _: crafted(
         named(RECORD_MODULE, "Cell"), b")\x81K\x01a"
     ),
-    ("set items of a record", "sets names in what is no dict"): lambda _: crafted(
+    ("set items of a record", "sets names in something other than a dict"): lambda _: crafted(
         named(RECORD_MODULE, "Cell"), b")\x81K\x01K\x02s"
     ),
     ("array without values", ""): lambda _: crafted(
@@ -114,9 +116,9 @@ HOSTILE = {
     ("instance operation", "operation b'S'"): lambda mark: f"(S'touch {mark}'\nios\nsystem\n.".encode(),
     ("nothing", "cut short"): lambda _: b"",
     ("only a stop", "broken"): lambda _: b".",
-    ("text", "no pickle"): lambda _: b"hello, world\n" * 10,
+    ("text", "not a pickle"): lambda _: b"hello, world\n" * 10,
     ("a list of numbers", "[0] is no"): lambda _: pickle.dumps([1, 2, 3], protocol=4),
-    ("a dict", "is no list"): lambda _: pickle.dumps({"cells": []}, protocol=4),
+    ("a dict", "is not a list"): lambda _: pickle.dumps({"cells": []}, protocol=4),
     ("no cells", "holds no"): lambda _: pickle.dumps([], protocol=4),
 }
 
@@ -141,9 +143,9 @@ def test_the_hostile_pickles_do_run_when_trusted(tmp_path: Path) -> None:
 
 
 def test_poses_are_no_cells(root: Path) -> None:
-    with pytest.raises(DataError, match=r"cells\[0\] is no Cell, but a Pose"):
+    with pytest.raises(DataError, match=r"cells\[0\] is not a Cell, but a Pose"):
         load_cells(root / f"poses/{LONG}.pkl")
-    with pytest.raises(DataError, match=r"poses\[0\] is no Pose, but a Cell"):
+    with pytest.raises(DataError, match=r"poses\[0\] is not a Pose, but a Cell"):
         load_poses(root / f"cells/{LONG}.pkl")
 
 

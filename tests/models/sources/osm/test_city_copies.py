@@ -204,7 +204,7 @@ def test_what_does_not_fit_on_earth_and_what_is_no_map_is_said(extract, tmp_path
     with pytest.raises(MapError, match="download it again"):
         CityExtract.read(tmp_path / "bad.osm.pbf")
     (tmp_path / "empty.osm").write_text("<?xml version='1.0'?><osm version='0.6'></osm>")
-    with pytest.raises(MapError, match="no place in it"):
+    with pytest.raises(MapError, match="no positions"):
         CityExtract.read(tmp_path / "empty.osm")
     with pytest.raises(MapError, match="cannot be written"):
         extract.write_tiled(2, tmp_path / "no" / "such.osm.pbf")

@@ -107,9 +107,12 @@ def test_a_file_without_a_polygon_is_no_region(content, tmp_path) -> None:
 
 
 def test_where_nothing_is_and_what_is_no_map_is_said(tmp_path) -> None:
-    with pytest.raises(MapError, match="nothing of it"), extracted_file(SHIPPED_PATH, Region.parse("1,1,2,2")):
+    with pytest.raises(MapError, match="nothing in the region"), extracted_file(SHIPPED_PATH, Region.parse("1,1,2,2")):
         pass
-    with pytest.raises(MapError, match="OpenStreetMap file alone"), extracted_file(tmp_path, Region.parse("1,1,2,2")):
+    with (
+        pytest.raises(MapError, match="needs an OpenStreetMap file"),
+        extracted_file(tmp_path, Region.parse("1,1,2,2")),
+    ):
         pass
     (tmp_path / "bad.osm.pbf").write_bytes(b"no" * 100)
     with (

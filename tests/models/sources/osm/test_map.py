@@ -71,7 +71,7 @@ def test_the_frame_is_known_before_the_map_is_read(tmp_path, box) -> None:
 def test_a_map_beside_its_box_is_refused(tmp_path) -> None:
     path = tmp_path / "map.osm"
     path.write_text(HEADER + '<bounds minlat="50" minlon="24" maxlat="51" maxlon="25"/>' + STREET + "</osm>")
-    with pytest.raises(MapError, match="nothing of it lies in the box"):
+    with pytest.raises(MapError, match="nothing inside its own bounds"):
         load_osm(path)
 
 

@@ -150,7 +150,9 @@ DAMAGE = {
     ),
     "pose_world_m has dtype": lambda s: rewrite(s / "pose_world_m.npy", lambda c: c.astype(np.float32)),
     "pose_strategy has dtype .* shape": lambda s: rewrite(s / "pose_strategy.npy", lambda c: c[1:]),
-    r"object_label\.npy: no column of numbers": lambda s: rewrite(s / "object_label.npy", lambda c: c.astype(object)),
+    r"object_label\.npy: not a column of numbers": lambda s: rewrite(
+        s / "object_label.npy", lambda c: c.astype(object)
+    ),
     "cell_objects does not add up": lambda s: rewrite(s / "cell_objects.npy", lambda c: c + 1),
     "pose_hints does not add up": lambda s: rewrite(s / "pose_hints.npy", filled(-1)),
     "object_xyz_kind and": lambda s: rewrite(s / "object_xyz_kind.npy", filled(1)),
