@@ -13,7 +13,7 @@ from models.training.experiments import TrainingRun, TrainingScale
 
 @pytest.mark.slow
 def test_rankings_are_of_one_model_by_each_way(text_encoder, osm_file) -> None:
-    torch.manual_seed(0)
+    torch.manual_seed(1)
     retriever = Mncl(text_encoder, MnclConfig(width=32, level_weights=(1.0, 0.0, 0.0))).eval()
     found = module._rankings(retriever, osm_file)
     assert list(found) == [ALONE, LISTED, ALL, Z_SCORES]
