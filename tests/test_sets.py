@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from models.files import sha256
-from models.training.posterior.cue_texts import LABELLED
+from models.training.posterior.cue_texts import LABELLED_DIR
 
 ROOT = Path(__file__).parents[1]
 REPORTS = ROOT / "models" / "reports"
@@ -53,6 +53,6 @@ def test_sets_of_different_roles_share_no_text() -> None:
 
 
 def test_the_reader_of_cues_has_not_read_what_was_written_as_a_test() -> None:
-    read = {json.loads(line)["text"] for path in LABELLED.glob("*.jsonl") for line in path.read_text().splitlines()}
+    read = {json.loads(line)["text"] for path in LABELLED_DIR.glob("*.jsonl") for line in path.read_text().splitlines()}
     for path in REPORTS.glob("people/*_test*.jsonl"):
         assert not read & {text["text"] for text in texts_of(path)}

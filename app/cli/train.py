@@ -87,7 +87,7 @@ def _train_places(
     """Train the reader of cues and fit the kernels of places."""
     from app.cli.progress import stage_bars
     from models.errors import TrainingError
-    from models.training.posterior.fit_places import STEPS
+    from models.training.posterior.fit_kernels import STEPS
     from models.training.posterior.train_places import train_places
 
     if method != "places" or len(texts) != len(data):

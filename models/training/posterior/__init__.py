@@ -1,5 +1,5 @@
-"""What the posterior is fitted to: reader of hints, likelihood, reader of cues, kernels of places (docs/method.md).
+"""Training of the posterior: hint reader, likelihood, cue reader and place kernels (docs/method.md, fitting).
 
-`fit_posterior` and `train_places` are the two runs; `places` makes the examples of the first.
+`fit_posterior` and `train_places` are the two runs; `training_sites` makes the examples of the first.
 May import what models.training may.
 """

@@ -1,4 +1,4 @@
-"""Labelled texts that the reader of cues is trained on, and how they are varied (docs/method.md)."""
+"""Labelled texts for the training of the cue reader, and their augmentation (docs/method.md)."""
 
 import json
 import re
@@ -12,16 +12,19 @@ import numpy as np
 from models.errors import TrainingError
 from models.language.mentions.cue_reader import ANGLES, FORMS, RELATIONS
 
-LABELLED: Final = Path(__file__).parents[2] / "language" / "mentions" / "labelled"
-REAL_PLACES: Final = "real_places"  # the kernels of places are fitted to some of these, so they are read by halves
-OTHERS: Final = ("invented", "meeting")
-TRAINED_ON: Final = (REAL_PLACES, *OTHERS)
-MIRRORED, SPOILT, LEFT_OUT = 0.5, 0.4, 0.15  # shares of texts
-RENAMED, RENAMED_TRIES = 0.4, 3  # so often, and so many times, a thing or street gets another's name
+LABELLED_DIR: Final = Path(__file__).parents[2] / "language" / "mentions" / "labelled"
+REAL_PLACES: Final = (
+    "real_places"  # the place kernels are fitted to some of these, read by a cue reader trained on the other half
+)
+OTHER_SETS: Final = ("invented", "meeting")
+TRAINING_SETS: Final = (REAL_PLACES, *OTHER_SETS)
+# Shares of the texts that are mirrored, misspelt, and lose a mention.
+MIRRORED_SHARE, MISSPELT_SHARE, OMITTED_SHARE = 0.5, 0.4, 0.15
+RENAMING_SHARE, RENAMINGS = 0.4, 3  # chance of each renaming of a mention, and number of renamings
 _SIDES = re.compile(r"\b(left|right)\b", re.IGNORECASE)
 _LONG_WORD = re.compile(r"\w{4,}")
-_OTHER = {"left": "right", "right": "left"}
-# "right" is an adverb too, which has no mirror image
+_OPPOSITE_SIDE = {"left": "right", "right": "left"}
+# "right" and "left" with other meanings, which have no mirror image
 _ADVERB = re.compile(
     r"\bright\s+(?!(?:hand|side|of|and|is|are|s|then|there|with|now)\b)(?:[a-z]+)|\bleft\s+(?:the|my|a)\b|\b(?:just|have|i|we)\s+left\b",
     re.IGNORECASE,
@@ -30,8 +33,8 @@ Names = Mapping[tuple[int, bool], Sequence[str]]
 
 
 @dataclass(frozen=True, slots=True)
-class Item:
-    """A mention of a labelled text: characters, and rows of FORMS, ANGLES, RELATIONS; whether it is meant at all."""
+class CueMention:
+    """A mention in a labelled text: its characters, indices into FORMS, ANGLES, RELATIONS, and the flags."""
 
     start: int
     end: int
@@ -44,139 +47,144 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class CueText:
-    """A labelled text."""
+    """A text with its labelled mentions."""
 
     text: str
-    items: tuple[Item, ...]
+    mentions: tuple[CueMention, ...]
 
 
 def load_labelled(path: Path) -> list[CueText]:
-    """Labelled texts, one JSON object a line.
+    """Load labelled texts, one JSON object per line.
 
     Raises:
-        TrainingError: a line is no labelled text.
+        TrainingError: a line is not a labelled text.
     """
-    found = []
+    texts = []
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         try:
             row = json.loads(line)
-            items = [_item(one) for one in row["mentions"]]
-            items += [
-                Item(one["start"], one["end"], FORMS.index(one["form"]), is_meant=False)
-                for one in row.get("not_meant", ())
+            mentions = [_mention(label) for label in row["mentions"]]
+            mentions += [
+                CueMention(label["start"], label["end"], FORMS.index(label["form"]), is_meant=False)
+                for label in row.get("not_meant", ())
             ]
-            found.append(CueText(row["text"], tuple(sorted(items, key=lambda item: item.start))))
+            texts.append(CueText(row["text"], tuple(sorted(mentions, key=lambda mention: mention.start))))
         except (ValueError, KeyError, TypeError) as error:
             raise TrainingError(
                 f"{path}, line {number}: {type(error).__name__}: {error}; see labelled/README.md"
             ) from error
-    return found
+    return texts
 
 
-def labelled_texts() -> list[CueText]:
-    """All that ship, but for those that are held out."""
-    return [text for name in TRAINED_ON for text in load_labelled(LABELLED / f"{name}.jsonl")]
+def load_training_texts() -> list[CueText]:
+    """Load all shipped labelled texts except the held-out ones."""
+    return [text for name in TRAINING_SETS for text in load_labelled(LABELLED_DIR / f"{name}.jsonl")]
 
 
-def _item(row: dict[str, Any]) -> Item:
-    angle = row["angle"]
-    return Item(
-        row["start"],
-        row["end"],
-        FORMS.index(row["form"]),
+def _mention(label: dict[str, Any]) -> CueMention:
+    angle = label["angle"]
+    return CueMention(
+        label["start"],
+        label["end"],
+        FORMS.index(label["form"]),
         ANGLES.index(None if angle is None else float(angle)),
-        RELATIONS.index(row["relation"]),
-        bool(row.get("wind")),
+        RELATIONS.index(label["relation"]),
+        bool(label.get("wind")),
     )
 
 
-def names_of(texts: Sequence[CueText]) -> Names:
-    """What things and streets are called in texts, by row of FORMS and whether they begin with a capital letter."""
-    found: dict[tuple[int, bool], list[str]] = {}
+def collect_names(texts: Sequence[CueText]) -> Names:
+    """Collect the names of things and streets in texts, by index of FORMS and whether they are capitalized."""
+    names: dict[tuple[int, bool], list[str]] = {}
     for text in texts:
-        for item in text.items:
-            if item.is_meant and FORMS[item.form] in ("thing", "street"):
-                name = text.text[item.start : item.end]
-                found.setdefault((item.form, name[:1].isupper()), []).append(name)
-    return found
+        for mention in text.mentions:
+            if mention.is_meant and FORMS[mention.form] in ("thing", "street"):
+                name = text.text[mention.start : mention.end]
+                names.setdefault((mention.form, name[:1].isupper()), []).append(name)
+    return names
 
 
-def varied(text: CueText, names: Names, rng: np.random.Generator) -> CueText:
-    """A text, often with other names, now and then its mirror image, misspelt, without punctuation or a mention less.
+def augment(text: CueText, names: Names, rng: np.random.Generator) -> CueText:
+    """Return a variant of a text: other names, the mirror image, misspellings, no punctuation, a mention fewer.
 
     Args:
-        text: as it was labelled.
-        names: see `names_of`.
-        rng: draws what is changed.
+        text: a labelled text.
+        names: see `collect_names`.
+        rng: draws the changes.
     """
-    for _ in range(RENAMED_TRIES):
-        if rng.random() < RENAMED:
-            text = renamed(text, names, rng)
-    if rng.random() < MIRRORED:
-        text = mirrored(text)
-    if rng.random() < SPOILT:
-        text = replace(text, text=_spoilt(text.text, rng))
-    if rng.random() < LEFT_OUT and len(text.items) > 1:
-        gone = int(rng.integers(len(text.items)))
-        text = replace(text, items=text.items[:gone] + text.items[gone + 1 :])
+    for _ in range(RENAMINGS):
+        if rng.random() < RENAMING_SHARE:
+            text = replace_name(text, names, rng)
+    if rng.random() < MIRRORED_SHARE:
+        text = mirror(text)
+    if rng.random() < MISSPELT_SHARE:
+        text = replace(text, text=_misspell(text.text, rng))
+    if rng.random() < OMITTED_SHARE and len(text.mentions) > 1:
+        omitted = int(rng.integers(len(text.mentions)))
+        text = replace(text, mentions=text.mentions[:omitted] + text.mentions[omitted + 1 :])
     return text
 
 
-def renamed(text: CueText, names: Names, rng: np.random.Generator) -> CueText:
-    """A text with another name for one of its things or streets; as it is where that is named or meant elsewhere."""
-    if not text.items:
+def replace_name(text: CueText, names: Names, rng: np.random.Generator) -> CueText:
+    """Rename a thing or street of a text; a name that overlaps another mention or occurs twice stays."""
+    if not text.mentions:
         return text
-    item = text.items[int(rng.integers(len(text.items)))]
-    name = text.text[item.start : item.end]
-    others = names.get((item.form, name[:1].isupper()))
-    if not others or any(one is not item and one.start < item.end and item.start < one.end for one in text.items):
+    target = text.mentions[int(rng.integers(len(text.mentions)))]
+    name = text.text[target.start : target.end]
+    candidates = names.get((target.form, name[:1].isupper()))
+    overlaps = (
+        other is not target and other.start < target.end and target.start < other.end for other in text.mentions
+    )
+    if not candidates or any(overlaps):
         return text
     if any(len(re.findall(re.escape(word), text.text, re.IGNORECASE)) > 1 for word in _LONG_WORD.findall(name)):
         return text
-    other = others[int(rng.integers(len(others)))]
-    more = len(other) - len(name)
+    new_name = candidates[int(rng.integers(len(candidates)))]
+    growth = len(new_name) - len(name)
 
-    def moved(one: Item) -> Item:
-        if one.start < item.start:
-            return one
-        return replace(one, start=one.start + (0 if one is item else more), end=one.end + more)
+    def shift(mention: CueMention) -> CueMention:
+        if mention.start < target.start:
+            return mention
+        return replace(mention, start=mention.start + (0 if mention is target else growth), end=mention.end + growth)
 
-    return CueText(text.text[: item.start] + other + text.text[item.end :], tuple(moved(one) for one in text.items))
+    return CueText(text.text[: target.start] + new_name + text.text[target.end :], tuple(map(shift, text.mentions)))
 
 
-def mirrored(text: CueText) -> CueText:
-    """A text with left and right exchanged; as it is where "right" is an adverb."""
+def mirror(text: CueText) -> CueText:
+    """Exchange left and right in a text; a text with another meaning of these words stays."""
     sides = list(_SIDES.finditer(text.text))
     if not sides or _ADVERB.search(text.text):
         return text
 
-    def moved(at: int) -> int:
-        return at + sum(len(_OTHER[side[0].lower()]) - len(side[0]) for side in sides if side.end() <= at)
+    def shift(offset: int) -> int:
+        growth = (len(_OPPOSITE_SIDE[side[0].lower()]) - len(side[0]) for side in sides if side.end() <= offset)
+        return offset + sum(growth)
 
-    items = [
-        replace(item, start=moved(item.start), end=moved(item.end), angle=_mirror(item.angle)) for item in text.items
+    mentions = [
+        replace(mention, start=shift(mention.start), end=shift(mention.end), angle=_mirror_angle(mention.angle))
+        for mention in text.mentions
     ]
-    return CueText(_SIDES.sub(_exchanged, text.text), tuple(items))
+    return CueText(_SIDES.sub(_opposite_side, text.text), tuple(mentions))
 
 
-def _exchanged(found: re.Match[str]) -> str:
-    other = _OTHER[found[0].lower()]
-    return other.capitalize() if found[0][0].isupper() else other
+def _opposite_side(side: re.Match[str]) -> str:
+    opposite = _OPPOSITE_SIDE[side[0].lower()]
+    return opposite.capitalize() if side[0][0].isupper() else opposite
 
 
-def _mirror(angle: int) -> int:
+def _mirror_angle(angle: int) -> int:
     degrees = ANGLES[angle]
     return angle if degrees in (None, 180.0) else ANGLES.index(-degrees if degrees else 0.0)
 
 
-def _spoilt(text: str, rng: np.random.Generator) -> str:
-    """As typed in a hurry: without capitals, without punctuation, or with letters exchanged; as long as before."""
+def _misspell(text: str, rng: np.random.Generator) -> str:
+    """Drop capitals, drop punctuation, or swap letters; the length stays the same."""
     drawn = rng.random()
     if drawn < 0.4:
         text = text.lower()
         return re.sub(r"[.,;!?]", " ", text) if drawn < 0.25 else text
     letters = list(text)
-    for at in rng.integers(1, max(2, len(letters) - 1), size=int(rng.integers(1, 4))):
-        if "".join(letters[at - 1 : at + 2]).isalpha():
-            letters[at - 1], letters[at] = letters[at], letters[at - 1]
+    for n in rng.integers(1, max(2, len(letters) - 1), size=int(rng.integers(1, 4))):
+        if "".join(letters[n - 1 : n + 2]).isalpha():
+            letters[n - 1], letters[n] = letters[n], letters[n - 1]
     return "".join(letters)

@@ -14,87 +14,88 @@ from models.citymap.points import Ints, ranges
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.node_batch import NodeBatch
 from models.posterior.posterior import HintPosterior
-from models.training.posterior.training_sites import Place
+from models.training.posterior.training_sites import TrainingSite
 
-NEAR_M = 25.0  # cells this near to the truth are always looked at
-HARD, RANDOM = 40, 40  # and so many that fit the text, and others
-BLUR_M = 1.5  # the truth is a normal distribution of this width, so that no node is right alone
-BATCH = 16
+# A text is compared with the cells near the truth, the best-scoring cells and random cells.
+TRUE_CELL_RADIUS_M = 25.0
+HARD_CELLS, RANDOM_CELLS = 40, 40
+BLUR_M = 1.5  # width of the normal distribution around the true position, about the spacing of the nodes
+BATCH_TEXTS = 16
 LEARNING_RATE = 0.05
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Texts:
-    """Texts about a place, as they were read.
+class SiteTexts:
+    """Read texts about positions of a training site.
 
     Attributes:
-        place: where.
-        rows: [Q] their positions among the place's.
-        readings: Q of them.
+        site: the site.
+        rows: [Q] rows of the positions in the site.
+        readings: Q bound hints.
     """
 
-    place: Place
+    site: TrainingSite
     rows: Ints
     readings: Sequence[Reading]
 
 
 def fit_likelihood(
     likelihood: Likelihood,
-    texts: Sequence[Texts],
+    texts: Sequence[SiteTexts],
     steps: int,
     rng: np.random.Generator,
     progress: Callable[[int, int, float], None] | None = None,
 ) -> None:
-    """Make what was said likely where it was said, in place.
+    """Fit a likelihood in place, by the posterior density at the true positions.
 
     Args:
-        likelihood: from where to start.
-        texts: what to fit to, drawn from in turn, by their numbers.
-        steps: of Adam, `BATCH` texts each.
+        likelihood: with its initial weights.
+        texts: texts of each site; a site is drawn in proportion to its number of texts.
+        steps: of Adam, with `BATCH_TEXTS` texts each.
         rng: draws texts and cells.
-        progress: called with (steps done, steps, mean loss of the last ones).
+        progress: called with (steps done, steps, recent mean loss).
     """
     sizes = np.array([len(part.readings) for part in texts], dtype=np.float64)
-    start = [part.place.posterior(likelihood) for part in texts]  # for choosing cells, and what is usual there
-    trees = [_tree(part.place.cells) for part in texts]
+    start = [part.site.posterior(likelihood) for part in texts]  # selects cells; has the means over the map
+    trees = [_tree(part.site.cells) for part in texts]
     optimizer = torch.optim.Adam(likelihood.parameters(), LEARNING_RATE)
     losses: list[float] = []
     for step in range(steps):
         for group in optimizer.param_groups:
             group["lr"] = LEARNING_RATE * (1 - 0.9 * step / steps)
         optimizer.zero_grad()
-        for _ in range(BATCH):
+        for _ in range(BATCH_TEXTS):
             n = int(rng.choice(len(texts), p=sizes / sizes.sum()))
             query = int(rng.integers(len(texts[n].readings)))
             cells = _cells(texts[n], start[n], trees[n], query, rng)
-            loss = surprise(likelihood, texts[n], query, cells, start[n].usual)
-            (loss / BATCH).backward()
+            loss = negative_log_density(likelihood, texts[n], query, cells, start[n].usual)
+            (loss / BATCH_TEXTS).backward()
             losses.append(loss.item())
         torch.nn.utils.clip_grad_norm_(likelihood.parameters(), 5.0)
         optimizer.step()
         if progress:
-            progress(step + 1, steps, float(np.mean(losses[-20 * BATCH :])))
+            progress(step + 1, steps, float(np.mean(losses[-20 * BATCH_TEXTS :])))
 
 
-def surprise(likelihood: Likelihood, texts: Texts, query: int, cells: Ints, usual: Tensor) -> Tensor:
-    """-log of the posterior density at the truth, among the nodes of some cells; `usual` of the place."""
-    place, row = texts.place, int(texts.rows[query])
-    nodes, around = around_cells(place, cells)
-    log_p = likelihood(texts.readings[query], around, place.palette, usual)
-    scene = np.unique(place.cells.scenes, return_inverse=True)[1]
-    owner = np.repeat(cells, np.diff(place.surroundings.cell_starts)[cells])
-    away = ((place.surroundings.positions_m(nodes) - place.positions_m[row]) ** 2).sum(axis=1)
-    away = np.where(scene[owner] == scene[place.truth[row]], away, np.inf)
-    blur = torch.from_numpy(-away / (2 * BLUR_M**2)).float()
+def negative_log_density(likelihood: Likelihood, texts: SiteTexts, query: int, cells: Ints, usual: Tensor) -> Tensor:
+    """Return -log of the posterior density at the truth over the nodes of some cells; `usual` is the map mean."""
+    site, row = texts.site, int(texts.rows[query])
+    nodes, batch = nodes_of_cells(site, cells)
+    log_p = likelihood(texts.readings[query], batch, site.palette, usual)
+    scene = np.unique(site.cells.scenes, return_inverse=True)[1]
+    owner = np.repeat(cells, np.diff(site.surroundings.cell_starts)[cells])
+    squared_m2 = ((site.surroundings.positions_m(nodes) - site.positions_m[row]) ** 2).sum(axis=1)
+    squared_m2 = np.where(scene[owner] == scene[site.truth[row]], squared_m2, np.inf)
+    blur = torch.from_numpy(-squared_m2 / (2 * BLUR_M**2)).float()
     loss: Tensor = log_p.logsumexp(0) - (log_p + blur).logsumexp(0)
     return loss
 
 
-def around_cells(place: Place, cells: Ints) -> tuple[Ints, NodeBatch]:
-    """The nodes of some cells, and their surroundings."""
-    s = place.surroundings
+def nodes_of_cells(site: TrainingSite, cells: Ints) -> tuple[Ints, NodeBatch]:
+    """Return the nodes of some cells with their neighbours."""
+    s = site.surroundings
     nodes = ranges(s.cell_starts[cells], s.cell_starts[cells + 1])
-    label, rgb = torch.from_numpy(place.label), torch.from_numpy(s.things.rgb.astype(np.float32))
+    label, rgb = torch.from_numpy(site.label), torch.from_numpy(s.things.rgb.astype(np.float32))
     is_vague = torch.from_numpy(s.things.is_vague)
     return nodes, NodeBatch.of(s.around(nodes), len(nodes), label, rgb, is_vague)
 
@@ -105,10 +106,11 @@ def _tree(cells: CellTable) -> cKDTree:
 
 
 def _cells(
-    texts: Texts, start: HintPosterior, tree: cKDTree, query: int, rng: np.random.Generator
+    texts: SiteTexts, start: HintPosterior, tree: cKDTree, query: int, rng: np.random.Generator
 ) -> npt.NDArray[np.int64]:
-    """Cells to tell the truth from: those around it, those that fit, and any."""
+    """Select the cells near the truth, the best-scoring cells, and random cells."""
     scores = start.cell_scores(texts.readings[query])
-    hard = np.argpartition(-scores, min(HARD, len(scores) - 1))[:HARD]
-    near = tree.query_ball_point(tree.data[texts.place.truth[texts.rows[query]]], NEAR_M)
-    return np.unique(np.concatenate([near, hard, rng.choice(len(scores), min(RANDOM, len(scores)), replace=False)]))
+    hard = np.argpartition(-scores, min(HARD_CELLS, len(scores) - 1))[:HARD_CELLS]
+    near = tree.query_ball_point(tree.data[texts.site.truth[texts.rows[query]]], TRUE_CELL_RADIUS_M)
+    random = rng.choice(len(scores), min(RANDOM_CELLS, len(scores)), replace=False)
+    return np.unique(np.concatenate([near, hard, random]))

@@ -1,4 +1,4 @@
-"""Training the reader of free language on texts from the paraphrase grammar."""
+"""Training of the hint reader on texts from the grammar."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
@@ -16,14 +16,14 @@ from models.language.parsed_hint import RELATIONS
 from models.language.reader import COLOURS, TAGS, Reader
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
-ENCODED_AT_ONCE = 32
-MOST_FACTS = 8
-LIKE_LENGTH = 8  # a batch is drawn from so many batches' worth of texts, neighbours in length
-WHOLE = 0.4  # share of the texts that are one long passage
-PUBLISHED = 0.3  # share of the others in the benchmark's words, of those that it can say
-ALIKE = (0.3, 0.25, 0.2)  # how often a fact has the class, the direction, the colour of an earlier one
-CARDINAL = (0, 2, 4, 6)  # of COMPASS; people and the benchmark say them most
-# Names are made of these, so that the reader learns how a name is used and no name by heart.
+ENCODE_BATCH = 32  # texts
+MAX_FACTS = 8
+BATCHES_PER_WINDOW = 8  # a batch is drawn from a window of this many batches of texts with similar length
+PASSAGE_SHARE = 0.4  # of the texts are one long passage
+BENCHMARK_SHARE = 0.3  # of the other texts use the wording of the benchmark, where it can express the facts
+REPEAT_SHARES = (0.3, 0.25, 0.2)  # of facts repeat the class, direction or colour of an earlier fact
+CARDINAL_DIRECTIONS = (0, 2, 4, 6)  # indices into COMPASS; the most frequent ones in texts and the benchmark
+# Made-up names, so that the reader learns how names are used instead of the names.
 NAME_WORDS = (
     "Stockmann", "Esplanadi", "Lidl", "Kamp", "Alexa", "Galeria", "Sokos", "Karl", "Tesco", "Roma", "Aroma", "Nine",
     "Mary", "Nordic", "Union", "Kauppatori", "Lehto", "Schiller", "Marx", "Turner", "Hakaniemi", "Linden", "Orion",
@@ -38,26 +38,26 @@ NAME_FRAMES = (
 
 
 def draw_text(wording: Wording, rng: np.random.Generator) -> tuple[list[Fact], LabelledText]:
-    """Made-up facts, and a text that tells them."""
-    if rng.random() >= WHOLE:
+    """Draw made-up facts, and a text that states them."""
+    if rng.random() >= PASSAGE_SHARE:
         facts = draw_facts(wording, rng)
-        return facts, _say(wording, facts, rng)
-    simple = [_draw_simple(tuple(wording.labels), rng) for _ in range(MOST_FACTS)]
-    return wording.whole([_alike(fact, simple[int(rng.integers(n + 1))], rng) for n, fact in enumerate(simple)], rng)
+        return facts, _write(wording, facts, rng)
+    simple = [_draw_simple(tuple(wording.labels), rng) for _ in range(MAX_FACTS)]
+    return wording.whole([_repeat(fact, simple[int(rng.integers(n + 1))], rng) for n, fact in enumerate(simple)], rng)
 
 
 def draw_facts(wording: Wording, rng: np.random.Generator, labels: Sequence[str] | None = None) -> list[Fact]:
-    """Made-up facts of a text: what a reader must be ready for, not what a place looks like."""
+    """Draw made-up facts that cover what texts can say, not realistic places."""
     names = labels or tuple(wording.labels)
-    facts = [_draw_fact(names, rng) for _ in range(int(rng.integers(1, MOST_FACTS + 1)))]
-    return [_alike(fact, facts[int(rng.integers(n + 1))], rng) for n, fact in enumerate(facts)]
+    facts = [_draw_fact(names, rng) for _ in range(int(rng.integers(1, MAX_FACTS + 1)))]
+    return [_repeat(fact, facts[int(rng.integers(n + 1))], rng) for n, fact in enumerate(facts)]
 
 
-def _alike(fact: Fact, other: Fact, rng: np.random.Generator) -> Fact:
-    """Now and then of another's class, where it is, or of its colour, as the things of a place are."""
+def _repeat(fact: Fact, other: Fact, rng: np.random.Generator) -> Fact:
+    """Sometimes repeat the class, direction or colour of another fact, as real texts do."""
     if not (fact.is_simple and other.is_simple):
         return fact
-    label, relation, colour = rng.random(3) < ALIKE
+    label, relation, colour = rng.random(3) < REPEAT_SHARES
     return Fact(
         other.label if label else fact.label,
         other.relation if relation else fact.relation,
@@ -68,7 +68,7 @@ def _alike(fact: Fact, other: Fact, rng: np.random.Generator) -> Fact:
 def _draw_simple(labels: Sequence[str], rng: np.random.Generator) -> Fact:
     label = labels[int(rng.integers(len(labels)))]
     colour = COLOURS[int(rng.integers(len(COLOURS)))] if rng.random() < 0.65 else None
-    wind = COMPASS[CARDINAL[int(rng.integers(4))]] if rng.random() < 0.85 else COMPASS[int(rng.integers(8))]
+    wind = COMPASS[CARDINAL_DIRECTIONS[int(rng.integers(4))]] if rng.random() < 0.85 else COMPASS[int(rng.integers(8))]
     return Fact(label, wind, colour)
 
 
@@ -86,25 +86,25 @@ def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> Fact:
 
 
 def _draw_name(rng: np.random.Generator) -> str:
-    frame, word = (some[int(rng.integers(len(some)))] for some in (NAME_FRAMES, NAME_WORDS))
+    frame, word = (table[int(rng.integers(len(table)))] for table in (NAME_FRAMES, NAME_WORDS))
     return frame.format(word)
 
 
-def _say(wording: Wording, facts: Sequence[Fact], rng: np.random.Generator) -> LabelledText:
+def _write(wording: Wording, facts: Sequence[Fact], rng: np.random.Generator) -> LabelledText:
     plain = all(f.relation != "near" and not f.absent and f.name is None and f.distance_m is None for f in facts)
-    return wording.published(facts) if plain and rng.random() < PUBLISHED else wording.write(facts, rng)
+    return wording.published(facts) if plain and rng.random() < BENCHMARK_SHARE else wording.write(facts, rng)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReadingBatch:
-    """B texts and their S mentions.
+    """A batch of B texts with S mentions.
 
     Attributes:
         tokens: of the texts.
-        tags: [B, T] -100 where there is no token.
-        text: [S] text of each mention.
-        start, end: [S] its tokens.
-        relation, colour, absent: [S] what is said; -100 where the text does not settle it.
+        tags: [B, T], -100 at padding.
+        text: [S] index of each mention's text.
+        start, end: [S] token range of each mention.
+        relation, colour, absent: [S] labels; -100 where the text leaves them open.
     """
 
     tokens: TokenFeatures
@@ -117,20 +117,20 @@ class ReadingBatch:
     absent: Tensor
 
     def to(self, device: torch.device) -> "ReadingBatch":
-        """The same on a device."""
+        """Return a copy on a device."""
         return ReadingBatch(*(getattr(self, field.name).to(device) for field in fields(self)))
 
 
 class ReadingSet:
-    """Texts of a grammar with what the frozen layers make of them, encoded once and kept on the CPU.
+    """Texts of a grammar with the output of the frozen layers, encoded once and stored on the CPU.
 
     Args:
         encoder: the text encoder, on any device.
-        depth: its frozen layers.
-        grammar: which wording.
-        size: how many texts.
-        seed: of facts and words.
-        progress: called with (texts encoded, texts in all).
+        depth: number of frozen layers.
+        grammar: name of the grammar.
+        size: number of texts.
+        seed: of facts and wording.
+        progress: called with (texts encoded, texts).
     """
 
     def __init__(
@@ -144,27 +144,28 @@ class ReadingSet:
     ) -> None:
         wording, rng = Wording(grammar), np.random.default_rng(seed)
         drawn = [draw_text(wording, rng) for _ in range(size)]
-        self.facts, self.said = [facts for facts, _ in drawn], [said for _, said in drawn]
-        self.by_length = np.argsort([len(s.text) for s in self.said], kind="stable")
+        self.facts, self.texts = [facts for facts, _ in drawn], [text for _, text in drawn]
+        self.by_length = np.argsort([len(text.text) for text in self.texts], kind="stable")
         self._values: list[Tensor] = [torch.empty(0)] * size
         self._targets: list[tuple[Tensor, list[tuple[int, int]]]] = [(torch.empty(0), [])] * size
-        for start in range(0, size, ENCODED_AT_ONCE):
-            rows = self.by_length[start : start + ENCODED_AT_ONCE]
-            tokens, characters = encoder.read([self.said[n].text for n in rows], depth)
+        for start in range(0, size, ENCODE_BATCH):
+            rows = self.by_length[start : start + ENCODE_BATCH]
+            tokens, characters = encoder.read([self.texts[n].text for n in rows], depth)
             values, mask = tokens.values.cpu(), tokens.mask.cpu()
             for k, n in enumerate(rows.tolist()):
                 length = int(mask[k].sum())
                 self._values[n] = values[k, :length].half()
-                whole = torch.ones(length, dtype=torch.bool)
-                self._targets[n] = example_targets(self.said[n].mentions, characters[k, :length], whole)
+                self._targets[n] = example_targets(
+                    self.texts[n].mentions, characters[k, :length], torch.ones(length, dtype=torch.bool)
+                )
             if progress:
-                progress(min(start + ENCODED_AT_ONCE, size), size)
+                progress(min(start + ENCODE_BATCH, size), size)
 
     def __len__(self) -> int:
-        return len(self.said)
+        return len(self.texts)
 
     def batch(self, rows: Sequence[int]) -> ReadingBatch:
-        """Some of the texts."""
+        """Return some of the texts as a batch."""
         longest = max(len(self._values[n]) for n in rows)
         values = torch.zeros(len(rows), longest, self._values[rows[0]].shape[1])
         tags = torch.full((len(rows), longest), -100)
@@ -173,16 +174,16 @@ class ReadingSet:
             length = len(self._values[n])
             values[k, :length] = self._values[n].float()
             tags[k, :length] = self._targets[n][0]
-            for mention, (a, b) in zip(self.said[n].mentions, self._targets[n][1], strict=True):
+            for mention, (a, b) in zip(self.texts[n].mentions, self._targets[n][1], strict=True):
                 if b > a and mention.facts:
-                    spans.append((k, a, b, *_wanted(self.facts[n][mention.facts[0]], mention)))
+                    spans.append((k, a, b, *_labels(self.facts[n][mention.facts[0]], mention)))
         mask = tags != -100
         columns = torch.tensor(spans, dtype=torch.long).reshape(-1, 6).T
         return ReadingBatch(TokenFeatures(values, mask, torch.zeros_like(tags)), tags, *columns)
 
 
-def _wanted(fact: Fact, mention: Mention) -> tuple[int, int, int]:
-    """Relation, colour and absence that a text settles of a fact where it mentions it."""
+def _labels(fact: Fact, mention: Mention) -> tuple[int, int, int]:
+    """Return the labels (relation, colour, absent) of a fact at a mention."""
     relation = -100 if fact.absent else RELATIONS.index(fact.relation)
     return relation, COLOURS.index(str(fact.colour)) if mention.coloured else len(COLOURS), int(fact.absent)
 
@@ -190,7 +191,7 @@ def _wanted(fact: Fact, mention: Mention) -> tuple[int, int, int]:
 def example_targets(
     mentions: Sequence[Mention], characters: Tensor, mask: Tensor
 ) -> tuple[Tensor, list[tuple[int, int]]]:
-    """What training wants of one text: tags [T] and the token range of each mention (empty if it was cut off)."""
+    """Return the tags [T] of a text and the token range of each mention (empty if it was truncated)."""
     tags = torch.zeros(len(mask), dtype=torch.long)
     ranges = []
     for mention in mentions:
@@ -204,12 +205,12 @@ def example_targets(
 
 
 class ReadingTask:
-    """What `run_training` makes of the reader (models.training.engine.loop.Task).
+    """The training task of the hint reader (models.training.engine.loop.Task).
 
     Args:
         model: trained in place.
         training, validation: texts of two grammars.
-        batch_size: texts a step.
+        batch_size: texts per step.
     """
 
     criterion = "f1"
@@ -218,29 +219,29 @@ class ReadingTask:
         self.model, self.training, self.validation, self.batch_size = model, training, validation, batch_size
 
     def batch(self, rng: np.random.Generator) -> ReadingBatch:
-        """Texts of like length, so that little is padding."""
-        window = min(len(self.training), LIKE_LENGTH * self.batch_size)
+        """Draw texts of similar length, to save padding."""
+        window = min(len(self.training), BATCHES_PER_WINDOW * self.batch_size)
         first = int(rng.integers(len(self.training) - window + 1))
         rows = self.training.by_length[first : first + window]
         return self.training.batch(rng.choice(rows, self.batch_size, replace=False).tolist())
 
     def loss(self, batch: ReadingBatch) -> Tensor:
-        """Cross-entropies of tags and attributes, added."""
+        """Return the sum of the cross-entropies of tags and attributes."""
         examples = batch.to(next(self.model.parameters()).device)
         features = self.model(examples.tokens)
         tags = nn.functional.cross_entropy(self.model.tag(features).flatten(0, 1), examples.tags.flatten())
-        relation, colour, absent = self.model.attributes(pooled(features, examples))
-        said = nn.functional.cross_entropy(relation, examples.relation)
-        said = said + nn.functional.cross_entropy(colour, examples.colour)
-        return tags * 3 + said + nn.functional.binary_cross_entropy_with_logits(absent, examples.absent.float())
+        relation, colour, absent = self.model.attributes(pool_mentions(features, examples))
+        attributes = nn.functional.cross_entropy(relation, examples.relation)
+        attributes = attributes + nn.functional.cross_entropy(colour, examples.colour)
+        return tags * 3 + attributes + nn.functional.binary_cross_entropy_with_logits(absent, examples.absent.float())
 
     def validate(self) -> dict[str, float]:
-        """Shares of validation mentions that are read right, see `reading_figures`."""
-        return reading_figures(self.model, self.validation)
+        """Return the `reading_metrics` of the validation texts."""
+        return reading_metrics(self.model, self.validation)
 
 
-def pooled(features: Tensor, batch: ReadingBatch) -> Tensor:
-    """[S, D] mean features of the mentions' tokens."""
+def pool_mentions(features: Tensor, batch: ReadingBatch) -> Tensor:
+    """Return the mean features [S, D] of the tokens of each mention."""
     sums = torch.cat([torch.zeros_like(features[:, :1]), features.cumsum(dim=1)], dim=1)
     width = (batch.end - batch.start)[:, None]
     mean: Tensor = (sums[batch.text, batch.end] - sums[batch.text, batch.start]) / width
@@ -248,10 +249,11 @@ def pooled(features: Tensor, batch: ReadingBatch) -> Tensor:
 
 
 @torch.no_grad()
-def reading_figures(model: Reader, texts: ReadingSet) -> dict[str, float]:
-    """Shares of mentions: noun found, relation, colour, absence right; "hints" all four; "extra" nouns a text.
+def reading_metrics(model: Reader, texts: ReadingSet) -> dict[str, float]:
+    """Return the shares of correct nouns, relations, colours and absences, of "hints" with all four correct, and "f1".
 
-    "f1" weighs both: the harmonic mean of "hints" and of the share of the nouns found that are hints read right.
+    "extra" is the number of false nouns per text. "f1" is the harmonic mean of "hints" and of its precision, the share
+    of predicted nouns that are correct hints.
     """
     rows: dict[str, list[Any]] = {"noun": [], "relation": [], "colour": [], "absent": []}
     extra, device = 0, next(model.parameters()).device
@@ -260,14 +262,13 @@ def reading_figures(model: Reader, texts: ReadingSet) -> dict[str, float]:
         features = model(batch.tokens)
         tags = model.tag(features).argmax(dim=-1)
         extra += int(((tags > 1) & (batch.tags == 0)).sum())
-        relation, colour, absent = model.attributes(pooled(features, batch))
-        found = tags[batch.text, batch.start] == batch.tags[batch.text, batch.start]
-        rows["noun"].append(found)
+        relation, colour, absent = model.attributes(pool_mentions(features, batch))
+        rows["noun"].append(tags[batch.text, batch.start] == batch.tags[batch.text, batch.start])
         rows["relation"].append((relation.argmax(-1) == batch.relation) | (batch.relation < 0))
         rows["colour"].append(colour.argmax(-1) == batch.colour)
         rows["absent"].append((absent > 0) == (batch.absent > 0))
     columns = {name: torch.cat(parts) for name, parts in rows.items()}
     whole = torch.stack(list(columns.values())).all(dim=0)
-    figures = {name: float(column.float().mean()) for name, column in columns.items()}
+    metrics = {name: float(column.float().mean()) for name, column in columns.items()}
     f1 = 2 * int(whole.sum()) / max(len(whole) + int(columns["noun"].sum()) + extra, 1)
-    return figures | {"hints": float(whole.float().mean()), "extra": extra / len(texts), "f1": f1}
+    return metrics | {"hints": float(whole.float().mean()), "extra": extra / len(texts), "f1": f1}

@@ -1,4 +1,4 @@
-"""Training of what reads texts about real places: the reader of cues, then the kernels."""
+"""Training of the cue reader and the place kernels on texts about real places."""
 
 import json
 from collections.abc import Callable, Sequence
@@ -17,9 +17,9 @@ from models.posterior.model import PosteriorModel, load_posterior, save_posterio
 from models.posterior.places.kernels import PlaceKernels
 from models.sources.place_texts import load_place_texts
 from models.sources.source import open_source
-from models.training.posterior.cue_texts import LABELLED, OTHERS, REAL_PLACES, CueText, load_labelled
+from models.training.posterior.cue_texts import LABELLED_DIR, OTHER_SETS, REAL_PLACES, CueText, load_labelled
 from models.training.posterior.fit_cues import EPOCHS, accuracy, fit_cues
-from models.training.posterior.fit_places import ToldPlace, calibrate_places, fit_places, read_cases
+from models.training.posterior.fit_kernels import MapTexts, calibrate_kernels, fit_kernels, read_examples
 
 
 def train_places(
@@ -30,50 +30,52 @@ def train_places(
     seed: int,
     progress: Callable[[str, int, int, float], None] | None = None,
 ) -> dict[str, float]:
-    """Train the reader of cues, fit and calibrate the kernels on maps with texts about them, save it all.
+    """Train the cue reader, fit and calibrate the kernels on maps with texts, and save the weights.
 
-    The kernels are fitted to texts as a reader reads them that was not trained on these: of two, each on half of them.
-    All of it runs on the CPU.
+    Two cue readers are trained on half of the texts each. The kernels are fitted to every text as read by the reader
+    that was not trained on it. All of this runs on the CPU.
 
     Args:
-        maps: each an OpenStreetMap file, with files of texts about it (`load_place_texts`).
-        weights: of the posterior whose other parts are kept; None for those that ship with the package.
-        out: directory for model.safetensors and config.json; may be that of the weights.
-        steps: see `fit_places`; twice as many are spent on calibration.
-        seed: of what is drawn.
-        progress: called with what is done, (steps done, steps, mean loss).
+        maps: OpenStreetMap files, each with files of texts about it (`load_place_texts`).
+        weights: of the posterior whose other parts stay; None for those that ship with the package.
+        out: directory for model.safetensors and config.json; may be the directory of the weights.
+        steps: see `fit_kernels`; the calibration takes twice as many.
+        seed: of all random choices.
+        progress: called with the name of the phase, steps done, steps, and the mean loss.
 
     Returns:
-        How the readers read what they were not trained on, the mean surprise, and the scales of the radii.
+        Accuracy of the two cue readers on new texts, the mean loss of the kernels, and the scales of the radii.
 
     Raises:
-        WeightsError, MapError, DataError: something cannot be read.
-        TrainingError: no text names anything of its map.
+        WeightsError, MapError, DataError: an input cannot be read.
+        TrainingError: no text mentions anything of its map.
     """
     model = load_posterior(weights)
     record = json.loads(((weights or SHIPPED_WEIGHTS_DIR / "posterior") / CONFIG_FILE).read_text())["training"]
     torch.manual_seed(seed)
     rng, kernels = np.random.default_rng(seed), PlaceKernels()
     cues_for, figures = _train_readers(model, weights, seed, rng, progress)
-    places = [_told_place(path, files) for path, files in maps]
-    cases = [case for place in places for case in read_cases(kernels, place, model.text_encoder, cues_for, rng)]
-    temper, own, meeting = calibrate_places(kernels, cases, steps, rng)
-    surprise = fit_places(kernels, cases, steps, rng, progress and partial(progress, "fit kernels"))
+    map_texts = [_load_texts(path, files) for path, files in maps]
+    examples = [
+        example for texts in map_texts for example in read_examples(kernels, texts, model.text_encoder, cues_for, rng)
+    ]
+    temper, own, meeting = calibrate_kernels(kernels, examples, steps, rng)
+    loss = fit_kernels(kernels, examples, steps, rng, progress and partial(progress, "fit kernels"))
     with torch.no_grad():
         kernels.temper.add_(log(temper))
     model.places = kernels
     model.config = model.config.model_copy(update={"place_scale": own, "meeting_scale": meeting})
-    figures |= {"surprise": surprise, "temper_scale": temper, "place_scale": own, "meeting_scale": meeting}
+    figures |= {"surprise": loss, "temper_scale": temper, "place_scale": own, "meeting_scale": meeting}
     fitted_to = {path.name: [file.name for file in files] for path, files in maps}
     save_posterior(model, out, record | {"places": figures | {"texts": fitted_to, "seed": seed, "steps": steps}})
     return figures
 
 
-def _told_place(path: Path, files: Sequence[Path]) -> ToldPlace:
+def _load_texts(path: Path, files: Sequence[Path]) -> MapTexts:
     source = open_source(path)
     centers_m = source.data.cells.center_m[:, :2].astype(np.float64)
     texts = [text for file in files for text in load_place_texts(file)]
-    return ToldPlace(source.gazetteer(), source.data.frame, centers_m, source.data.grid_m, texts)
+    return MapTexts(source.gazetteer(), source.data.frame, centers_m, source.data.grid_m, texts)
 
 
 def _train_readers(
@@ -83,16 +85,16 @@ def _train_readers(
     rng: np.random.Generator,
     progress: Callable[[str, int, int, float], None] | None,
 ) -> tuple[Callable[[str], CueReader], dict[str, float]]:
-    """Train the model's reader of cues on all labelled texts, and one on each half of those about real places.
+    """Train the cue reader of a model on all labelled texts, and one reader on each half of those about real places.
 
     Returns:
-        For a text a reader that was not trained on it, and shares of what those two read right of the other half.
+        A function from a text to a reader that was not trained on it, and the accuracy of the two on the other half.
     """
-    real = load_labelled(LABELLED / f"{REAL_PLACES}.jsonl")
-    others = [text for name in OTHERS for text in load_labelled(LABELLED / f"{name}.jsonl")]
+    real = load_labelled(LABELLED_DIR / f"{REAL_PLACES}.jsonl")
+    others = [text for name in OTHER_SETS for text in load_labelled(LABELLED_DIR / f"{name}.jsonl")]
     half = rng.permutation(len(real)) % 2
     halves = [[text for text, side in zip(real, half, strict=True) if side == n] for n in (0, 1)]
-    trained_on = [[*some, *others] for some in (*halves, real)]
+    trained_on = [[*part, *others] for part in (*halves, real)]
     losses = [0.0] * len(trained_on)
     readers = [_new_reader(model) for _ in trained_on]
     with ProcessPoolExecutor(len(readers), get_context("spawn")) as pool:
@@ -101,18 +103,18 @@ def _train_readers(
             state, losses[fits[fit]] = fit.result()
             readers[fits[fit]].load_state_dict(state)
             if progress:
-                progress("train readers of cues", done, len(readers), losses[fits[fit]])
+                progress("train cue readers", done, len(readers), losses[fits[fit]])
     *crossed, model.cues = (reader.eval() for reader in readers)
-    right = [accuracy(reader, halves[1 - n]) for n, reader in enumerate(crossed)]
-    by_text = {text.text: crossed[1 - n] for n, some in enumerate(halves) for text in some}
-    figures = {f"{name}_right": (right[0][name] + right[1][name]) / 2 for name in right[0]}
+    accuracies = [accuracy(reader, halves[1 - n]) for n, reader in enumerate(crossed)]
+    by_text = {text.text: crossed[1 - n] for n, part in enumerate(halves) for text in part}
+    figures = {f"{name}_right": (accuracies[0][name] + accuracies[1][name]) / 2 for name in accuracies[0]}
     return lambda text: by_text.get(text, model.cues), figures
 
 
 def _fit_reader(
     weights: Path | None, texts: Sequence[CueText], epochs: int, seed: tuple[int, int]
 ) -> tuple[dict[str, torch.Tensor], float]:
-    """The weights of a reader of cues trained on texts, and its last loss; in a process of its own."""
+    """Train a cue reader in a process of its own; return its weights and last loss."""
     torch.set_num_threads(1)
     torch.manual_seed(seed[0] + seed[1])
     reader = _new_reader(load_posterior(weights))

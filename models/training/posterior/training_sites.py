@@ -1,4 +1,4 @@
-"""Maps with texts, read as they would be in service: what the hint posterior is fitted to and calibrated on."""
+"""Maps with texts that are read as in service, for the fit and calibration of the hint posterior."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -22,26 +22,26 @@ from models.posterior.neighbours.neighbour_index import Surroundings, surroundin
 from models.posterior.posterior import HintPosterior
 from models.sources.source import QUERY_SPACING_M, VALIDATION_SEED, Source
 
-READ_AT_ONCE = 16
-SLIPS = 0.15  # share of the texts that say something wrong, as people do
-FEWER, FEWEST = 0.3, 2  # share of the texts that tell of less, and of how few things
-DISTANT, DISTANT_M = 0.2, (20.0, 60.0)  # share of the texts in free wording that also tell of what is so far away
-MEASURED = 0.5  # of that, with its distance
-SLIPS_OF_CLASS = 0.4  # of those, that name something else; the others give another direction and colour
+READ_BATCH = 16  # texts
+SLIP_SHARE = 0.15  # of the texts contain a false fact, as texts by people do
+CLASS_SLIP_SHARE = 0.4  # of the false facts have a wrong class; the others a wrong direction and colour
+OMISSION_SHARE, MIN_FACTS = 0.3, 2  # share of the texts with fewer facts, and their minimum number
+DISTANT_SHARE, DISTANT_M = 0.2, (20.0, 60.0)  # share of the texts in free wording with a distant thing; its distance
+MEASURED_SHARE = 0.5  # of the distant things are mentioned with their distance
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Place:
-    """A map (or a part of it) with what was said in it.
+class TrainingSite:
+    """A map, or a part of it, with hints at known positions.
 
     Attributes:
         surroundings, cells: of the gallery.
-        label: [P] number of the label of each of the surroundings' things.
+        label: [P] index into `labels` of each object of the surroundings.
         labels: all labels.
         palette: colour words.
-        hints: Q lists of what was said.
-        positions_m: [Q, 2] where it was said.
-        truth: [Q] cells.
+        hints: Q lists of hints.
+        positions_m: [Q, 2] true positions.
+        truth: [Q] true cells.
     """
 
     surroundings: Surroundings
@@ -54,17 +54,18 @@ class Place:
     truth: Ints
 
     @classmethod
-    def of(cls, source: Source, spacing_m: float = QUERY_SPACING_M) -> "Place":
-        """A source with what is said in it: by who knows the map, and by who looks at it as a scan shows it."""
-        scan, told = source.as_scan(), [source.queries(VALIDATION_SEED, spacing_m)]
-        queries = Queries.concatenate(told if scan is source else [*told, scan.queries(VALIDATION_SEED, spacing_m)])
+    def from_source(cls, source: Source, spacing_m: float = QUERY_SPACING_M) -> "TrainingSite":
+        """Return the site of a source, with queries from the map and from the map as a scan shows it."""
+        scan, queries = source.as_scan(), source.queries(VALIDATION_SEED, spacing_m)
+        if scan is not source:
+            queries = Queries.concatenate([queries, scan.queries(VALIDATION_SEED, spacing_m)])
         data, hints = source.data, queries.hints
         assert hints is not None
         surroundings = surroundings_of(source.geometry(), data.cells)
         labels, label = surroundings.things.labels(data.gallery)
         return cls(
             surroundings=surroundings,
-            cells=replace(data.cells, sample=None),  # lets go of the map's points
+            cells=replace(data.cells, sample=None),  # drops the points of the map
             label=label,
             labels=labels,
             palette=data.palette,
@@ -74,21 +75,22 @@ class Place:
         )
 
     def posterior(self, likelihood: Likelihood) -> HintPosterior:
-        """The posterior of this gallery."""
+        """Return the posterior of the gallery."""
         return HintPosterior(likelihood, self.surroundings, self.cells, self.label, self.palette)
 
     def read(
         self, model: PosteriorModel, rows: Ints, grammars: Sequence[Grammar | None], rng: np.random.Generator
     ) -> list[Reading]:
-        """Texts about some positions, worded and read.
+        """Write and read texts about some positions.
 
-        Some of them say something wrong (`SLIPS`), tell of less (`FEWER`), or of what is further off (`DISTANT`).
+        Some texts contain a false fact (`SLIP_SHARE`), fewer facts (`OMISSION_SHARE`), or distant things
+        (`DISTANT_SHARE`).
 
         Args:
-            model: reads them.
-            rows: of the positions.
-            grammars: drawn from for each text; None is the benchmark's wording.
-            rng: draws grammars and words.
+            model: reads the texts.
+            rows: rows of the positions.
+            grammars: one is drawn for each text; None is the wording of the benchmark.
+            rng: draws grammars and wording.
         """
         binding = Binding(model.matcher, self.labels, self.palette)
         wordings = {grammar: Wording(grammar or "train") for grammar in grammars}
@@ -96,44 +98,44 @@ class Place:
         for row in rows:
             grammar = grammars[int(rng.integers(len(grammars)))]
             facts = [Fact(hint.label, hint.direction, hint.colour) for hint in self.hints[row]]
-            if rng.random() < SLIPS:
+            if rng.random() < SLIP_SHARE:
                 facts = _slip(facts, self.palette, self.labels, rng)
-            if rng.random() < FEWER and len(facts) > FEWEST:
-                facts = [facts[n] for n in rng.permutation(len(facts))[: int(rng.integers(FEWEST, len(facts)))]]
-            if grammar and rng.random() < DISTANT:
-                facts += self._further_off(int(row), rng)
+            if rng.random() < OMISSION_SHARE and len(facts) > MIN_FACTS:
+                facts = [facts[n] for n in rng.permutation(len(facts))[: int(rng.integers(MIN_FACTS, len(facts)))]]
+            if grammar and rng.random() < DISTANT_SHARE:
+                facts += self._distant_facts(int(row), rng)
             wording = wordings[grammar]
             texts.append((wording.write(facts, rng) if grammar else wording.published(facts)).text)
         readings = []
-        for start in range(0, len(texts), READ_AT_ONCE):
-            read = model.reader.read(texts[start : start + READ_AT_ONCE])
+        for start in range(0, len(texts), READ_BATCH):
+            read = model.reader.read(texts[start : start + READ_BATCH])
             readings += [binding.reading(noticed) if noticed else binding.nothing() for noticed in read]
         return readings
 
-    def _further_off(self, row: int, rng: np.random.Generator) -> list[Fact]:
-        """One or two things that are told of at other positions, some tens of metres away."""
+    def _distant_facts(self, row: int, rng: np.random.Generator) -> list[Fact]:
+        """Return one or two facts from the hints of positions some tens of metres away."""
         scenes = np.asarray(self.cells.scenes)[self.truth]
-        way = self.positions_m[row] - self.positions_m
-        metres = np.hypot(*way.T)
-        others = np.flatnonzero((metres > DISTANT_M[0]) & (metres < DISTANT_M[1]) & (scenes == scenes[row]))
+        offset_m = self.positions_m[row] - self.positions_m
+        distance_m = np.hypot(*offset_m.T)
+        others = np.flatnonzero((distance_m > DISTANT_M[0]) & (distance_m < DISTANT_M[1]) & (scenes == scenes[row]))
         facts = []
         for n in rng.permutation(others)[: int(rng.integers(1, 3))]:
             hint = self.hints[n][int(rng.integers(len(self.hints[n])))]
-            wind = compass_name(float(np.degrees(np.arctan2(*way[n]))))
-            said = float(metres[n].round()) if rng.random() < MEASURED else None
-            facts.append(Fact(hint.label, wind, hint.colour, distance_m=said))
+            wind = compass_name(float(np.degrees(np.arctan2(*offset_m[n]))))
+            stated_m = float(distance_m[n].round()) if rng.random() < MEASURED_SHARE else None
+            facts.append(Fact(hint.label, wind, hint.colour, distance_m=stated_m))
         return facts
 
 
 def _slip(facts: Sequence[Fact], palette: Palette, labels: Sequence[str], rng: np.random.Generator) -> list[Fact]:
-    """The same but for one: it is of another class, or of another colour and in another direction, than is true."""
-    at = int(rng.integers(len(facts)))
-    fact = facts[at]
-    if rng.random() < SLIPS_OF_CLASS:
+    """Return facts of which one has a wrong class, or a wrong direction and colour."""
+    n = int(rng.integers(len(facts)))
+    fact = facts[n]
+    if rng.random() < CLASS_SLIP_SHARE:
         others = [label for label in labels if label != fact.label] or [fact.label]
-        return [*facts[:at], replace(fact, label=others[int(rng.integers(len(others)))]), *facts[at + 1 :]]
+        return [*facts[:n], replace(fact, label=others[int(rng.integers(len(others)))]), *facts[n + 1 :]]
     winds = [wind for wind in DIRECTIONS[:4] if wind != fact.relation]
     words = [word for word in dict.fromkeys(palette.words) if word != fact.colour]
     colour = words[int(rng.integers(len(words)))] if fact.colour else None
     wrong = replace(fact, relation=winds[int(rng.integers(len(winds)))], colour=colour)
-    return [*facts[:at], wrong, *facts[at + 1 :]]
+    return [*facts[:n], wrong, *facts[n + 1 :]]

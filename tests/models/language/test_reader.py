@@ -17,7 +17,7 @@ from models.posterior.binding import Binding, colour_table
 from models.posterior.model import load_posterior
 from models.posterior.node_batch import colour_words
 from models.training.engine.loop import LoopConfig, run_training
-from models.training.posterior.fit_reader import ReadingSet, ReadingTask, draw_facts, example_targets, reading_figures
+from models.training.posterior.fit_reader import ReadingSet, ReadingTask, draw_facts, example_targets, reading_metrics
 
 KITTI = ("building", "lamp", "pole", "road", "stop", "terrain", "trash bin", "vegetation")
 
@@ -90,9 +90,9 @@ def test_a_small_reader_learns_the_benchmarks_sentences(text_encoder):
     texts = ReadingSet(text_encoder, 5, "train", 32, 0)
     shape = ReaderConfig(frozen_layers=5, tuned_layers=1, width=64, dropout=0.0)
     task = ReadingTask(Reader(text_encoder, shape), texts, texts, 8)
-    before = reading_figures(task.model.eval(), texts)
+    before = reading_metrics(task.model.eval(), texts)
     run_training(task, LoopConfig(steps=40, batch_size=8, validate_every=40, learning_rate=2e-3))
-    after = reading_figures(task.model, texts)
+    after = reading_metrics(task.model, texts)
     assert after["noun"] > max(0.8, before["noun"])
     assert after["relation"] > before["relation"] + 0.1
 
@@ -101,7 +101,7 @@ def test_a_colour_is_wanted_only_where_it_is_said(text_encoder):
     texts = ReadingSet(text_encoder, 1, "train", 40, 0)
     wanted = iter(texts.batch(range(len(texts))).colour.tolist())
     unsaid = 0
-    for facts, said in zip(texts.facts, texts.said, strict=True):
+    for facts, said in zip(texts.facts, texts.texts, strict=True):
         for mention in said.mentions:
             if mention.facts:
                 colour = facts[mention.facts[0]].colour

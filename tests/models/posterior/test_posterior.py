@@ -13,18 +13,18 @@ from models.posterior.locate import MEAN_M, locate
 from models.posterior.node_batch import colour_words
 from models.posterior.posterior import HintPosterior
 from models.sources.source import VALIDATION_SEED
-from models.training.posterior.fit_likelihood import Texts, around_cells, fit_likelihood, surprise
-from models.training.posterior.training_sites import Place
+from models.training.posterior.fit_likelihood import SiteTexts, fit_likelihood, negative_log_density, nodes_of_cells
+from models.training.posterior.training_sites import TrainingSite
 
 
 @dataclass
 class Town:
-    place: Place
+    site: TrainingSite
     posterior: HintPosterior
     readings: list[Reading]
 
-    def texts(self) -> Texts:
-        return Texts(self.place, np.arange(len(self.readings)), self.readings)
+    def texts(self) -> SiteTexts:
+        return SiteTexts(self.site, np.arange(len(self.readings)), self.readings)
 
 
 def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> Reading:
@@ -40,7 +40,7 @@ def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> Reading:
 
 @pytest.fixture(scope="module")
 def town(source) -> Town:
-    place = Place.of(source, 25.0)
+    place = TrainingSite.from_source(source, 25.0)
     words = colour_words(place.palette)
     readings = [exact(hints, place.labels, words) for hints in place.hints]
     return Town(place, place.posterior(Likelihood()), readings)
@@ -48,27 +48,27 @@ def town(source) -> Town:
 
 def test_a_map_is_told_of_as_it_is_and_as_a_scan_shows_it(town, source) -> None:
     told = [each.queries(VALIDATION_SEED, 25.0) for each in (source, source.as_scan())]
-    assert town.place.hints == [hints for queries in told for hints in queries.hints]
+    assert town.site.hints == [hints for queries in told for hints in queries.hints]
 
 
 def all_nodes_m(town):
     """[M, 2] where the nodes are."""
-    return town.place.surroundings.positions_m(np.arange(town.place.surroundings.cell_starts[-1]))
+    return town.site.surroundings.positions_m(np.arange(town.site.surroundings.cell_starts[-1]))
 
 
 def test_the_field_is_the_likelihood_of_its_nodes(town):
     cells = np.array([3, 40, 11])
     for reading in town.readings[:3]:
         field = town.posterior.field(reading, cells)
-        nodes, around = around_cells(town.place, cells)
+        nodes, around = nodes_of_cells(town.site, cells)
         assert (field.nodes == nodes).all()
         with torch.no_grad():
-            direct = town.posterior.likelihood(reading, around, town.place.palette, town.posterior.usual)
+            direct = town.posterior.likelihood(reading, around, town.site.palette, town.posterior.usual)
         assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
 
 
 def test_two_threads_find_what_one_finds(town, monkeypatch):
-    cells, reading = np.arange(0, len(town.place.cells), 2), town.readings[2]
+    cells, reading = np.arange(0, len(town.site.cells), 2), town.readings[2]
     found = {}
     for shared in (1, 10**9):
         monkeypatch.setattr("models.posterior.posterior.SHARED", shared)
@@ -92,10 +92,10 @@ def test_descriptions_are_found_where_they_were_said(town):
     hits, near, candidates = [], [], []
     for q, reading in enumerate(town.readings[:60]):
         found = locate(town.posterior, reading)
-        hits.append(found.rows[0] == town.place.truth[q])
-        near.append(np.linalg.norm(found.positions[0] - town.place.positions_m[q]) <= 5)
+        hits.append(found.rows[0] == town.site.truth[q])
+        near.append(np.linalg.norm(found.positions[0] - town.site.positions_m[q]) <= 5)
         scores = town.posterior.cell_scores(reading)
-        candidates.append((scores > scores[town.place.truth[q]]).sum() < 50)
+        candidates.append((scores > scores[town.site.truth[q]]).sum() < 50)
     assert np.mean(candidates) > 0.95
     assert np.mean(hits) > 0.4, "a repetitive toy town; chance is 1 in some hundreds"
     assert np.mean(near) > 0.5
@@ -166,27 +166,27 @@ def test_one_hint_leaves_much_open(town):
 def test_a_filter_is_exact(town):
     nodes_m = all_nodes_m(town)
     for q in range(0, 30, 3):
-        truth = town.place.positions_m[q]
+        truth = town.site.positions_m[q]
         held = np.abs(nodes_m - truth).max(axis=1) <= 20.0
-        cells = np.repeat(np.arange(len(town.place.cells)), np.diff(town.place.surroundings.cell_starts))[held]
-        has_one = np.bincount(cells, minlength=len(town.place.cells)) > 0
+        cells = np.repeat(np.arange(len(town.site.cells)), np.diff(town.site.surroundings.cell_starts))[held]
+        has_one = np.bincount(cells, minlength=len(town.site.cells)) > 0
         inside = Inside(has_one, lambda points_m, truth=truth: np.abs(points_m - truth).max(axis=1) <= 20.0)
         found = locate(town.posterior, town.readings[q], inside=inside, candidates=10)
         assert (np.abs(found.points_m - truth).max(axis=1) <= 20.0).all()
         every = locate(town.posterior, town.readings[q], inside=inside, candidates=10_000)
         assert found.rows[0] == every.rows[0]
         assert set(every.rows.tolist()) == set(cells.tolist()), "nothing inside is lost"
-    nowhere = Inside(np.zeros(len(town.place.cells), np.bool_), lambda points_m: np.zeros(len(points_m), np.bool_))
+    nowhere = Inside(np.zeros(len(town.site.cells), np.bool_), lambda points_m: np.zeros(len(points_m), np.bool_))
     assert locate(town.posterior, town.readings[0], inside=nowhere) is None
 
 
 def test_a_prior_is_multiplied_in(town):
-    center = town.place.positions_m[5] + 4.0
+    center = town.site.positions_m[5] + 4.0
 
     def log_prior(positions_m):
         return -((positions_m - center) ** 2).sum(axis=1) / (2 * 6.0**2)
 
-    cells, reading = np.arange(len(town.place.cells)), town.readings[5]
+    cells, reading = np.arange(len(town.site.cells)), town.readings[5]
     plain, biased = (town.posterior.field(reading, cells, prior) for prior in (None, log_prior))
     assert np.allclose(biased.log_p - plain.log_p, log_prior(town.posterior.surroundings.positions_m(plain.nodes)))
     found = locate(town.posterior, town.readings[5], log_prior)
@@ -197,16 +197,16 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
     number = {instance.id: n for n, instance in enumerate(city.instances)}
     right = total = 0
     for q in range(0, 60, 3):
-        node = int(np.linalg.norm(all_nodes_m(town) - town.place.positions_m[q], axis=1).argmin())
-        for hint, found in zip(town.place.hints[q], town.posterior.explain(town.readings[q], node), strict=True):
+        node = int(np.linalg.norm(all_nodes_m(town) - town.site.positions_m[q], axis=1).argmin())
+        for hint, found in zip(town.site.hints[q], town.posterior.explain(town.readings[q], node), strict=True):
             total += 1
-            meant = found.part >= 0 and town.place.surroundings.things.instance[found.part] == number[hint.instance_id]
+            meant = found.part >= 0 and town.site.surroundings.things.instance[found.part] == number[hint.instance_id]
             right += meant and found.probability > 0.5
     assert right / total > 0.7, "things alike stand side by side in this town"
 
 
 def test_what_fits_only_because_a_label_may_be_wrong_does_not_explain(town):
-    node = int(np.linalg.norm(all_nodes_m(town) - town.place.positions_m[0], axis=1).argmin())
+    node = int(np.linalg.norm(all_nodes_m(town) - town.site.positions_m[0], axis=1).argmin())
     doubted = replace(town.readings[0], label=0.05 * town.readings[0].label)
     surely, hardly = (
         np.array([found.probability for found in town.posterior.explain(reading, node)])
@@ -218,13 +218,16 @@ def test_what_fits_only_because_a_label_may_be_wrong_does_not_explain(town):
 
 @pytest.mark.slow
 def test_fitting_makes_the_truth_likelier(town):
-    texts, cells = town.texts(), np.arange(0, len(town.place.cells), 3)
+    texts, cells = town.texts(), np.arange(0, len(town.site.cells), 3)
 
     def surprised(likelihood):
-        asked = [np.union1d(cells, town.place.truth[q : q + 1]) for q in range(0, 40, 4)]
+        asked = [np.union1d(cells, town.site.truth[q : q + 1]) for q in range(0, 40, 4)]
         with torch.no_grad():
             return np.mean(
-                [float(surprise(likelihood, texts, 4 * n, some, town.posterior.usual)) for n, some in enumerate(asked)]
+                [
+                    float(negative_log_density(likelihood, texts, 4 * n, some, town.posterior.usual))
+                    for n, some in enumerate(asked)
+                ]
             )
 
     fitted = [Likelihood() for _ in range(2)]

@@ -35,10 +35,10 @@ CONFIG = TrainingConfig(steps=1, batch_size=8, spacing_m=30.0)
 SMALL: dict[Any, dict[str, Any]] = {
     fit_points: {"load_settings": lambda *_: (None, CONFIG), "CELLS_A_SOURCE": 10, "CHOSEN_BY_CELLS": 10},
     point_encoder: {"_LEVELS": ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128)))},
-    validation: {"QUERIES": 8},
+    validation: {"CALIBRATION_QUERIES": 8},
     fit_posterior: {
-        "TEXTS": 33, "VALIDATION_TEXTS": 9, "FITTED_TEXTS": 2, "CALIBRATED_TEXTS": 2, "FIT_STEPS": 1,
-        "CALIBRATION_STEPS": 1, "EPOCHS": 1,
+        "READER_TEXTS": 33, "READER_VALIDATION_TEXTS": 9, "FIT_TEXTS_PER_SITE": 2, "CALIBRATION_TEXTS_PER_SITE": 2,
+        "FIT_STEPS": 1, "CALIBRATION_STEPS": 1, "EPOCHS": 1,
     },
 }  # fmt: skip
 
@@ -73,8 +73,8 @@ def shared_points(sources: Any, out: Path) -> None:
 
 def posterior(sources: Any, out: Path) -> None:
     """The reader of hints and that of cues; the likelihood on the CPU."""
-    labelled = fit_posterior.labelled_texts()[:16]
-    given = {"labelled_texts": lambda: labelled, "PosteriorModel": with_names, "open_sources": lambda *_: sources}
+    labelled = fit_posterior.load_training_texts()[:16]
+    given = {"load_training_texts": lambda: labelled, "PosteriorModel": with_names, "open_sources": lambda *_: sources}
     given["ReadingSet"] = reading_set
     for name, value in given.items():
         setattr(fit_posterior, name, value)

@@ -1,7 +1,7 @@
 import pytest
 
 from models.language.mentions.cue_reader import LONGEST, CueReader
-from models.training.posterior.cue_texts import LABELLED, load_labelled
+from models.training.posterior.cue_texts import LABELLED_DIR, load_labelled
 from models.training.posterior.fit_cues import accuracy
 
 
@@ -12,7 +12,7 @@ def angles(cues: CueReader, text: str, *things: str) -> list[float | None]:
 
 
 def test_texts_that_it_was_not_trained_on_are_read_well(cues) -> None:
-    right = accuracy(cues, load_labelled(LABELLED / "held_out.jsonl"))
+    right = accuracy(cues, load_labelled(LABELLED_DIR / "held_out.jsonl"))
     assert right["angle"] >= 0.85
     assert right["relation"] >= 0.7
     assert right["meant"] >= 0.95

@@ -7,13 +7,21 @@ import torch
 from models.errors import TrainingError
 from models.language.mentions.cue_reader import ANGLES, CueReader
 from models.posterior.model import load_posterior
-from models.training.posterior.cue_texts import CueText, Item, load_labelled, mirrored, names_of, renamed, varied
+from models.training.posterior.cue_texts import (
+    CueMention,
+    CueText,
+    augment,
+    collect_names,
+    load_labelled,
+    mirror,
+    replace_name,
+)
 from models.training.posterior.fit_cues import accuracy, fit_cues
 
 TEXTS = [
-    CueText("the bank is on my left", (Item(4, 8, 0, ANGLES.index(-90.0)),)),
-    CueText("the cafe is behind me", (Item(4, 8, 0, ANGLES.index(180.0)),)),
-    CueText("bring me a bagel please", (Item(11, 16, 0, is_meant=False),)),
+    CueText("the bank is on my left", (CueMention(4, 8, 0, ANGLES.index(-90.0)),)),
+    CueText("the cafe is behind me", (CueMention(4, 8, 0, ANGLES.index(180.0)),)),
+    CueText("bring me a bagel please", (CueMention(11, 16, 0, is_meant=False),)),
 ] * 6
 
 
@@ -25,7 +33,7 @@ def reader() -> CueReader:
 
 
 def test_it_learns_and_leaves_the_other_reader_as_it_was(reader, monkeypatch) -> None:
-    monkeypatch.setattr("models.training.posterior.fit_cues.WARM_UP", 5)
+    monkeypatch.setattr("models.training.posterior.fit_cues.WARM_UP_STEPS", 5)
     base = [p.clone() for p in load_posterior().reader.tuned.parameters()]
     losses = []
     fit_cues(reader, TEXTS, 30, np.random.default_rng(0), lambda *row: losses.append(row[2]))
@@ -41,47 +49,51 @@ def test_nothing_to_learn_from_is_refused(reader) -> None:
 
 
 def test_the_mirror_image_of_a_text() -> None:
-    text = CueText("On the left is the bank, cafe ahead on the right", (Item(19, 23, 0, 8), Item(25, 29, 0, 3)))
-    other = mirrored(text)
+    text = CueText(
+        "On the left is the bank, cafe ahead on the right", (CueMention(19, 23, 0, 8), CueMention(25, 29, 0, 3))
+    )
+    other = mirror(text)
     assert other.text == "On the right is the bank, cafe ahead on the left"
-    assert [other.text[item.start : item.end] for item in other.items] == ["bank", "cafe"]
-    assert [ANGLES[item.angle] for item in other.items] == [90.0, -45.0]
+    assert [other.text[item.start : item.end] for item in other.mentions] == ["bank", "cafe"]
+    assert [ANGLES[item.angle] for item in other.mentions] == [90.0, -45.0]
 
 
 @pytest.mark.parametrize("text", ["the bank is right next to me", "I just left the bank", "the bank"])
 def test_what_has_no_mirror_image_is_left_alone(text) -> None:
     at = text.index("bank")
-    given = CueText(text, (Item(at, at + 4, 0),))
-    assert mirrored(given) == given
+    given = CueText(text, (CueMention(at, at + 4, 0),))
+    assert mirror(given) == given
 
 
 def test_a_thing_gets_another_name_and_keeps_what_is_said_of_it() -> None:
-    text = CueText("The bank is left, the cafe is behind.", (Item(4, 8, 0, 8), Item(22, 26, 0, 6)))
-    names = names_of([CueText("a hairdresser", (Item(2, 13, 0),)), CueText("Elmo", (Item(0, 4, 0),))])
-    found = {renamed(text, names, np.random.default_rng(n)) for n in range(20)}
+    text = CueText("The bank is left, the cafe is behind.", (CueMention(4, 8, 0, 8), CueMention(22, 26, 0, 6)))
+    names = collect_names([CueText("a hairdresser", (CueMention(2, 13, 0),)), CueText("Elmo", (CueMention(0, 4, 0),))])
+    found = {replace_name(text, names, np.random.default_rng(n)) for n in range(20)}
     assert {one.text for one in found} == {
         "The hairdresser is left, the cafe is behind.",
         "The bank is left, the hairdresser is behind.",
     }
     for one in found:
-        assert sorted(one.text[item.start : item.end] for item in one.items)[-1] == "hairdresser"
-        assert [item.angle for item in one.items] == [8, 6]
+        assert sorted(one.text[item.start : item.end] for item in one.mentions)[-1] == "hairdresser"
+        assert [item.angle for item in one.mentions] == [8, 6]
 
 
 def test_what_is_named_twice_keeps_its_name() -> None:
-    text = CueText("At the bank, the bank is on my left.", (Item(7, 11, 0, 8),))
+    text = CueText("At the bank, the bank is on my left.", (CueMention(7, 11, 0, 8),))
     names = {(0, False): ["hairdresser"]}
-    assert renamed(text, names, np.random.default_rng(0)) == text
+    assert replace_name(text, names, np.random.default_rng(0)) == text
 
 
 def test_variants_keep_their_mentions_where_they_are() -> None:
     rng = np.random.default_rng(0)
-    text = CueText("The bank, on my left, is shut; the cafe's behind me.", (Item(4, 8, 0, 8), Item(35, 39, 0, 6)))
-    names = names_of([text, CueText("a bakery", (Item(2, 8, 0),))])
-    variants = [varied(text, names, rng) for _ in range(200)]
+    text = CueText(
+        "The bank, on my left, is shut; the cafe's behind me.", (CueMention(4, 8, 0, 8), CueMention(35, 39, 0, 6))
+    )
+    names = collect_names([text, CueText("a bakery", (CueMention(2, 8, 0),))])
+    variants = [augment(text, names, rng) for _ in range(200)]
     assert len({variant.text for variant in variants}) > 20
     for variant in variants:
-        for item in variant.items:
+        for item in variant.mentions:
             assert 0 <= item.start < item.end <= len(variant.text)
 
 

@@ -17,21 +17,28 @@ from models.language.measures import COMPASS
 from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
 from models.training.posterior import fit_posterior
-from models.training.posterior.training_sites import Place
+from models.training.posterior.training_sites import TrainingSite
 from models.training.settings import TrainingConfig
 
 
 @pytest.mark.slow
 def test_the_posterior_is_trained_calibrated_and_saved(strip_file, tmp_path, monkeypatch):
-    small = {"TEXTS": 24, "VALIDATION_TEXTS": 8, "FITTED_TEXTS": 4, "CALIBRATED_TEXTS": 4}
+    small = {
+        "READER_TEXTS": 24,
+        "READER_VALIDATION_TEXTS": 8,
+        "FIT_TEXTS_PER_SITE": 4,
+        "CALIBRATION_TEXTS_PER_SITE": 4,
+    }
     for name, value in (small | {"FIT_STEPS": 1, "CALIBRATION_STEPS": 1}).items():
         monkeypatch.setattr(fit_posterior, name, value)
-    labelled = fit_posterior.labelled_texts()[:16]
-    monkeypatch.setattr(fit_posterior, "labelled_texts", lambda: labelled)
+    labelled = fit_posterior.load_training_texts()[:16]
+    monkeypatch.setattr(fit_posterior, "load_training_texts", lambda: labelled)
     monkeypatch.setattr(fit_posterior, "EPOCHS", 1)
-    calibrate, places = fit_posterior.calibrate_places, []
+    calibrate, places = fit_posterior.calibrate_near_factor, []
     monkeypatch.setattr(
-        fit_posterior, "calibrate_places", lambda m, some, rng: (places.append(len(some)), calibrate(m, some, rng))[1]
+        fit_posterior,
+        "calibrate_near_factor",
+        lambda m, some, rng: (places.append(len(some)), calibrate(m, some, rng))[1],
     )
     config = TrainingConfig(steps=2, batch_size=8, validate_every=2)
     seen = []
@@ -79,7 +86,7 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
         truth=np.array([1, 1]), positions_m=np.zeros((2, 2)),
         cells=SimpleNamespace(center_m=np.zeros((2, 3)), size_m=30.0, scenes=("town", "town")),
     )  # fmt: skip
-    figures = fit_posterior.calibrate_places(model, [place, place], np.random.default_rng(0))
+    figures = fit_posterior.calibrate_near_factor(model, [place, place], np.random.default_rng(0))
     assert float(model.likelihood.temper.detach()) - fitted == pytest.approx(np.log(0.6))
     assert figures["recall@1"] == 0.5
     assert model.config.radius_held == pytest.approx((0.8, 0.8)), "what a radius of 90 % must hold to hold 90 %"
@@ -99,7 +106,7 @@ def read_texts(monkeypatch, wording, **shares) -> list[str]:
     hints = (Hint("north", "bench", "gray"), Hint("on-top", "tree", None), Hint("east", "road", "black"))
     there = (Hint("north", "fountain", None),)
     nowhere: Any = None
-    place = Place(
+    place = TrainingSite(
         nowhere, SimpleNamespace(scenes=("town", "other")), np.zeros(0, np.int64),
         ("bench", "fountain", "road", "tree"),
         KITTI360_PALETTE, [*[hints] * 20, there, there, there],
@@ -111,19 +118,19 @@ def read_texts(monkeypatch, wording, **shares) -> list[str]:
 
 
 def test_some_texts_tell_of_less(monkeypatch) -> None:
-    whole = read_texts(monkeypatch, None, SLIPS=0.0, FEWER=0.0)
+    whole = read_texts(monkeypatch, None, SLIP_SHARE=0.0, OMISSION_SHARE=0.0)
     assert {text.count("The pose") for text in whole} == {3}
-    some = read_texts(monkeypatch, None, SLIPS=0.0, FEWER=1.0)
+    some = read_texts(monkeypatch, None, SLIP_SHARE=0.0, OMISSION_SHARE=1.0)
     assert {text.count("The pose") for text in some} == {2}
 
 
 @pytest.mark.parametrize("measured", [0.0, 1.0])
 def test_some_texts_tell_of_what_is_further_off(monkeypatch, measured) -> None:
     """Of a thing that is told of 45 m away in the same scene."""
-    given = {"SLIPS": 0.0, "FEWER": 0.0, "MEASURED": measured}
+    given = {"SLIP_SHARE": 0.0, "OMISSION_SHARE": 0.0, "MEASURED_SHARE": measured}
     told = []
     monkeypatch.setattr(Wording, "write", lambda self, facts, rng: told.extend(facts) or LabelledText("", ()))
-    read_texts(monkeypatch, "train", **given, DISTANT=1.0)
+    read_texts(monkeypatch, "train", **given, DISTANT_SHARE=1.0)
     distant = [fact for fact in told if fact.label == "fountain"]
     assert len(distant) == 20
     assert {(fact.relation, fact.distance_m) for fact in distant} == {("west", 45.0 if measured else None)}
@@ -131,7 +138,7 @@ def test_some_texts_tell_of_what_is_further_off(monkeypatch, measured) -> None:
 
 def test_a_slip_changes_one_fact_to_what_is_not_true(monkeypatch) -> None:
     """Of texts in the benchmark's wording."""
-    texts = read_texts(monkeypatch, None, SLIPS=1.0, FEWER=0.0)
+    texts = read_texts(monkeypatch, None, SLIP_SHARE=1.0, OMISSION_SHARE=0.0)
     facts = [("north", "gray bench"), ("on-top", "tree"), ("east", "black road")]
     seen = set()
     for text in texts:

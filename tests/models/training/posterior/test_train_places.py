@@ -18,7 +18,7 @@ SAID = {
 def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypatch) -> None:
     """Three readers in three processes, one of them for what answers; the kernels are fitted to the texts."""
     where = "models.training.posterior.train_places."
-    monkeypatch.setattr(where + "LABELLED", tmp_path)
+    monkeypatch.setattr(where + "LABELLED_DIR", tmp_path)
     monkeypatch.setattr(where + "EPOCHS", 1)
     mention = {"start": 0, "end": 5, "form": "thing", "relation": "seen", "angle": 90}
     for name in ("real_places", "invented", "meeting"):
@@ -32,7 +32,7 @@ def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypat
     done: list[tuple[str, int, int, float]] = []
     figures = train_places([(osm_file, [texts])], None, out, 2, 0, lambda *row: done.append(row))
     assert 0.0 <= figures["angle_right"] <= 1.0
-    assert [row[1:3] for row in done if row[0].startswith("train readers")] == [(1, 3), (2, 3), (3, 3)]
+    assert [row[1:3] for row in done if row[0].startswith("train cue readers")] == [(1, 3), (2, 3), (3, 3)]
     before, after = load_posterior(), load_posterior(out)
     assert not torch.equal(before.places.scale, after.places.scale)
     assert not torch.equal(before.cues.head[0].weight, after.cues.head[0].weight)

@@ -7,7 +7,7 @@ from models.errors import TrainingError
 from models.posterior.model import load_posterior
 from models.posterior.places.kernels import PlaceKernels
 from models.sources.place_texts import PlaceText
-from models.training.posterior.fit_places import Case, ToldPlace, calibrate_places, fit_places, read_cases
+from models.training.posterior.fit_kernels import KernelExample, MapTexts, calibrate_kernels, fit_kernels, read_examples
 from tests.models.citymap.gazetteer.made_town import is_common, made_gazetteer
 
 FRAME = Frame("map", 40.75, -74.0)
@@ -30,18 +30,18 @@ class Everyday:
         return is_common(word)
 
 
-def told(texts: dict[str, tuple[float, float]]) -> ToldPlace:
+def told(texts: dict[str, tuple[float, float]]) -> MapTexts:
     def degrees(at: tuple[float, float]) -> tuple[float, float]:
         lat, lon = FRAME.to_wgs84(np.array(at, dtype=float))
         return float(lat), float(lon)
 
     start = degrees((380, 0))
     rows = [PlaceText(text, degrees(at), start if "you" in text else None) for text, at in texts.items()]
-    return ToldPlace(made_gazetteer(), FRAME, CENTERS, GRID_M, rows)
+    return MapTexts(made_gazetteer(), FRAME, CENTERS, GRID_M, rows)
 
 
-def cases_of(kernels: PlaceKernels, texts: dict[str, tuple[float, float]] = SAID) -> list[Case]:
-    return read_cases(kernels, told(texts), Everyday(), lambda _: load_posterior().cues, np.random.default_rng(0))
+def cases_of(kernels: PlaceKernels, texts: dict[str, tuple[float, float]] = SAID) -> list[KernelExample]:
+    return read_examples(kernels, told(texts), Everyday(), lambda _: load_posterior().cues, np.random.default_rng(0))
 
 
 def fitted(steps: int, **changed: float) -> tuple[PlaceKernels, list[tuple[int, int, float]]]:
@@ -50,19 +50,25 @@ def fitted(steps: int, **changed: float) -> tuple[PlaceKernels, list[tuple[int, 
         for name, value in changed.items():
             getattr(kernels, name).add_(value)
     cases = cases_of(kernels)
-    fit_places(kernels, cases, steps, np.random.default_rng(0), lambda *row: done.append(row))
+    fit_kernels(kernels, cases, steps, np.random.default_rng(0), lambda *row: done.append(row))
     return kernels, done
 
 
 @pytest.fixture(autouse=True)
 def _small(monkeypatch):
     """Few cells, so that a step takes hundredths of a second; means of the last step alone."""
-    for name, value in {"HARD": 60, "RANDOM": 20, "SAMPLED": 300, "BATCH": 1, "PULL": 0.0}.items():
-        monkeypatch.setattr(f"models.training.posterior.fit_places.{name}", value)
+    for name, value in {
+        "HARD_CELLS": 60,
+        "RANDOM_CELLS": 20,
+        "SAMPLED_CELLS": 300,
+        "BATCH_TEXTS": 1,
+        "PULL_WEIGHT": 0.0,
+    }.items():
+        monkeypatch.setattr(f"models.training.posterior.fit_kernels.{name}", value)
 
 
 def test_fitting_lowers_the_surprise(monkeypatch) -> None:
-    monkeypatch.setattr("models.training.posterior.fit_places.BATCH", 5)
+    monkeypatch.setattr("models.training.posterior.fit_kernels.BATCH_TEXTS", 5)
     _, done = fitted(30, scale=1.5)  # far too wide
     assert [step for step, _, _ in done] == list(range(1, 31))
     first, last = done[0][2], done[-1][2]
@@ -84,7 +90,7 @@ def test_a_strong_pull_keeps_the_weights(monkeypatch) -> None:
         return sum(float(((a - b) ** 2).sum().detach()) for a, b in pairs)
 
     free = moved(fitted(12)[0])
-    monkeypatch.setattr("models.training.posterior.fit_places.PULL", 100.0)
+    monkeypatch.setattr("models.training.posterior.fit_kernels.PULL_WEIGHT", 100.0)
     assert moved(fitted(12)[0]) < free / 2
 
 
@@ -100,7 +106,7 @@ def test_who_is_told_to_meet_is_known() -> None:
 
 def test_nothing_to_fit_to_is_refused() -> None:
     with pytest.raises(TrainingError):
-        fit_places(PlaceKernels(), [], 2, np.random.default_rng(0))
+        fit_kernels(PlaceKernels(), [], 2, np.random.default_rng(0))
 
 
 def test_calibrating_makes_what_is_too_sure_less_sure() -> None:
@@ -109,7 +115,7 @@ def test_calibrating_makes_what_is_too_sure_less_sure() -> None:
     for name, texts in (("right", SAID), ("wrong", wrong)):
         kernels = PlaceKernels()
         before = kernels.scale.detach().clone()
-        scale, own, meeting = calibrate_places(kernels, cases_of(kernels, texts), 2, np.random.default_rng(0))
+        scale, own, meeting = calibrate_kernels(kernels, cases_of(kernels, texts), 2, np.random.default_rng(0))
         assert own > 0
         assert meeting > 0
         assert torch.equal(kernels.scale, before), "it is as it was given"
@@ -120,6 +126,6 @@ def test_calibrating_makes_what_is_too_sure_less_sure() -> None:
 def test_without_meetings_their_radii_are_as_they_are() -> None:
     kernels = PlaceKernels()
     texts = {"right next to Bottino": (213, 96), "I'm at 25th and 10th": (202, 84)}
-    _, own, meeting = calibrate_places(kernels, cases_of(kernels, texts), 2, np.random.default_rng(0))
+    _, own, meeting = calibrate_kernels(kernels, cases_of(kernels, texts), 2, np.random.default_rng(0))
     assert meeting == 1.0
     assert own != 1.0

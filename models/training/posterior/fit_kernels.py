@@ -1,0 +1,269 @@
+"""Fit the place kernels to texts about real places (docs/method.md, fitting)."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import log
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from models.citymap.frame import Frame
+from models.citymap.gazetteer.closest_points import ClosestPoints, PointGroups
+from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.kinds.vocabulary import load_vocabulary
+from models.citymap.points import Ints
+from models.citymap.types import Floats
+from models.errors import TrainingError
+from models.language.mentions.cue_reader import CueReader
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, with_goal
+from models.language.text_encoder import TextEncoder
+from models.posterior.locate import PLACE_HIT_M
+from models.posterior.places.explanations import Places
+from models.posterior.places.field import PlaceField, Rough
+from models.posterior.places.kernels import HEADINGS, PlaceKernels
+from models.sources.place_texts import START_SIGMA_M, PlaceText
+
+# A text is compared with the best-scoring cells, the cells near the truth and random cells.
+HARD_CELLS, TRUE_CELL_RADIUS_M, RANDOM_CELLS = 250, 25.0, 60
+NODE_SPACING_M = 3.0
+BLUR_M = 4.0  # width of the normal distribution around the true position
+MAX_LOSS_NATS = 9.0  # caps the gradient of texts that cannot be explained
+BATCH_TEXTS = 48
+STEPS = 100
+LEARNING_RATE = 0.06
+PULL_WEIGHT = 0.005  # of the squared distance from the initial weights, in the loss
+TEMPER_SCALES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)  # candidate factors of `temper`
+RADIUS_MASS = 0.9  # probability that the calibrated radius contains
+HEAVY_NODES = 256  # nodes among which the best position is searched
+SAMPLED_CELLS = 4000  # for the mean of a kernel over the map
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapTexts:
+    """A map and the texts about it.
+
+    Attributes:
+        gazetteer: names of the map.
+        frame: of the map.
+        centers_m: [N, 2] centres of the cells.
+        grid_m: spacing of the cells.
+        texts: with goals on the map.
+    """
+
+    gazetteer: Gazetteer
+    frame: Frame
+    centers_m: Floats
+    grid_m: float
+    texts: Sequence[PlaceText]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KernelExample:
+    """A text with everything that does not depend on the weights: nodes of some cells, and the true position."""
+
+    field: PlaceField
+    places: Places
+    points_m: Floats
+    ways: Sequence[ClosestPoints]
+    rough: Sequence[Rough]
+    log_prior: Tensor
+    walked: Tensor
+    blur: Tensor
+    goal_m: Floats
+    cell: Ints
+    centers_m: Floats
+    is_meeting: bool
+
+
+def fit_kernels(
+    kernels: PlaceKernels,
+    examples: Sequence[KernelExample],
+    steps: int,
+    rng: np.random.Generator,
+    progress: Callable[[int, int, float], None] | None = None,
+) -> float:
+    """Fit kernels in place, by the posterior density at the true positions.
+
+    Args:
+        kernels: the kernels of the examples, with their initial weights.
+        examples: the texts to fit to.
+        steps: of Adam, with `BATCH_TEXTS` texts each.
+        rng: draws texts.
+        progress: called with (steps done, steps, recent mean loss).
+
+    Returns:
+        The mean loss of the last steps, nats.
+
+    Raises:
+        TrainingError: there are no examples.
+    """
+    if not examples:
+        raise TrainingError("no text names anything of its map; are they about these maps?")
+    start = [p.detach().clone() for p in kernels.parameters()]
+    optimizer = torch.optim.Adam(kernels.parameters(), LEARNING_RATE)
+    losses: list[float] = []
+    for step in range(steps):
+        for group in optimizer.param_groups:
+            group["lr"] = LEARNING_RATE * (1 - 0.9 * step / steps)
+        optimizer.zero_grad()
+        for n in rng.permutation(len(examples))[:BATCH_TEXTS]:
+            loss = _loss(examples[n])
+            (loss / BATCH_TEXTS).backward()
+            losses.append(loss.item())
+        pull = sum(((p - q) ** 2).sum() for p, q in zip(kernels.parameters(), start, strict=True))
+        (PULL_WEIGHT * torch.as_tensor(pull)).backward()
+        optimizer.step()
+        if progress:
+            progress(step + 1, steps, float(np.mean(losses[-5 * BATCH_TEXTS :])))
+    return float(np.mean(losses[-10 * BATCH_TEXTS :]))
+
+
+def read_examples(
+    kernels: PlaceKernels,
+    texts: MapTexts,
+    encoder: TextEncoder,
+    cues_for: Callable[[str], CueReader],
+    rng: np.random.Generator,
+) -> list[KernelExample]:
+    """Read the texts about a map; texts without a mention of the map are left out.
+
+    Args:
+        kernels: the kernels to fit.
+        texts: the map and its texts.
+        encoder: tells which words are common.
+        cues_for: returns the cue reader for a text.
+        rng: draws cells.
+    """
+    field = PlaceField(kernels, texts.gazetteer, texts.centers_m, texts.grid_m)
+    lookup = Lookup(texts.gazetteer, load_vocabulary(), encoder.is_everyday)
+    sample = rng.choice(len(texts.centers_m), min(SAMPLED_CELLS, len(texts.centers_m)), replace=False)
+    examples = (_example(field, lookup, cues_for(text.text), texts, text, sample, rng) for text in texts.texts)
+    return [example for example in examples if example is not None]
+
+
+def _example(
+    field: PlaceField,
+    lookup: Lookup,
+    cues: CueReader,
+    texts: MapTexts,
+    text: PlaceText,
+    sample: Ints,
+    rng: np.random.Generator,
+) -> KernelExample | None:
+    mentions = find_mentions(text.text, lookup, cues)
+    listener_m = None if text.start is None else texts.frame.from_wgs84(*text.start)
+    meets = listener_m is not None or is_meeting(text.text)
+    if meets:
+        mentions = with_goal(mentions)
+    wind = None if listener_m is None else listener_wind(text.text)
+    evidence = field.told(mentions, listener_m, wind, is_meeting=meets)
+    if not evidence.places.mentions:
+        return None
+    goal, centers = texts.frame.from_wgs84(*text.goal), texts.centers_m
+    scores = evidence.cells + _log_prior(centers, listener_m)
+    near = np.flatnonzero(np.hypot(*(centers - goal).T) < TRUE_CELL_RADIUS_M)
+    cells = np.unique(np.concatenate([np.argsort(-scores)[:HARD_CELLS], near, rng.choice(len(centers), RANDOM_CELLS)]))
+    points, group = _nodes(centers[cells], texts.grid_m)
+    around = PointGroups.from_groups(points, group)
+    squared_m2 = ((points - goal) ** 2).sum(axis=1)
+    return KernelExample(
+        field=field,
+        places=evidence.places,
+        points_m=points,
+        ways=[field.ways_from(mention, around) for mention in evidence.places.mentions],
+        rough=[field.rough(mention, sample) for mention in evidence.places.mentions],
+        log_prior=torch.from_numpy(_log_prior(points, listener_m)).float(),
+        walked=field.walked(evidence.places, points),
+        blur=torch.from_numpy(-squared_m2 / (2 * BLUR_M**2)).float(),
+        goal_m=goal,
+        cell=group,
+        centers_m=centers[cells],
+        is_meeting=meets,
+    )
+
+
+def _loss(example: KernelExample) -> Tensor:
+    """Return -log of the posterior density at the truth over the nodes, softly capped at MAX_LOSS_NATS."""
+    log_p = _log_p(example)
+    gain = (log_p + example.blur).logsumexp(0) - log_p.logsumexp(0)
+    return -torch.logaddexp(gain, torch.tensor(-MAX_LOSS_NATS))
+
+
+def _log_p(example: KernelExample) -> Tensor:
+    """Return the unnormalised log posterior [M] of the nodes."""
+    field, total = example.field, torch.zeros(len(example.points_m), HEADINGS)
+    for mention, ways, rough in zip(example.places.mentions, example.ways, example.rough, strict=True):
+        total = total + field.worth(
+            mention, field.fits(mention, ways, len(example.points_m)), field.usual(mention, rough)
+        )
+    log_p = field.kernels.temper.exp() * (total.logsumexp(dim=1) - log(HEADINGS))
+    log_p = log_p + field.kernels.standing(example.walked)
+    return log_p + field.from_listener(example.places, example.points_m) + example.log_prior
+
+
+def calibrate_kernels(
+    kernels: PlaceKernels, examples: Sequence[KernelExample], steps: int, rng: np.random.Generator
+) -> tuple[float, float, float]:
+    """Calibrate probabilities and radii by two-fold cross-fitting.
+
+    Args:
+        kernels: the kernels of the examples; unchanged afterwards.
+        examples: the texts to fit to and to calibrate on.
+        steps: of each fit.
+        rng: draws the halves.
+
+    Returns:
+        The factor of `temper` that makes the probability of the best cell match its hit rate; then the .9 quantile of
+        error / 90 % radius for texts about the own position, and for meeting points (1 without any).
+    """
+    start = {name: value.clone() for name, value in kernels.state_dict().items()}
+    half = rng.permutation(len(examples)) % 2
+    outcomes = np.zeros((len(TEMPER_SCALES), len(examples), 3))
+    for side in (0, 1):
+        kernels.load_state_dict(start)
+        fit_kernels(kernels, [example for n, example in enumerate(examples) if half[n] != side], steps, rng)
+        fitted = kernels.temper.detach().clone()
+        for k, scale in enumerate(TEMPER_SCALES):
+            with torch.no_grad():
+                kernels.temper.copy_(fitted + log(scale))
+                for n, example in enumerate(examples):
+                    if half[n] == side:
+                        outcomes[k, n] = _outcome(example)
+    kernels.load_state_dict(start)
+    best = int(np.argmin(np.abs(outcomes[:, :, 0].mean(axis=1) - outcomes[:, :, 1].mean(axis=1))))
+    meets = np.array([example.is_meeting for example in examples])
+    ratio = outcomes[best, :, 2]
+    own, meeting = (float(np.quantile(ratio[mask], RADIUS_MASS)) if mask.any() else 1.0 for mask in (~meets, meets))
+    return TEMPER_SCALES[best], own, meeting
+
+
+def _outcome(example: KernelExample) -> tuple[float, float, float]:
+    """Return the probability of the best cell, whether it is the true one, and error / 90 % radius of the position."""
+    weight = _log_p(example).softmax(0).double().numpy()
+    mass = np.bincount(example.cell, weight, len(example.centers_m))
+    best = int(mass.argmax())
+    hit = best == int(np.hypot(*(example.centers_m - example.goal_m).T).argmin())
+    heavy = np.argsort(-weight)[:HEAVY_NODES]
+    squared_m2 = ((example.points_m[heavy][:, None] - example.points_m[heavy][None]) ** 2).sum(axis=2)
+    position = example.points_m[heavy[(np.exp(-((squared_m2 / PLACE_HIT_M**2) ** 3)) @ weight[heavy]).argmax()]]
+    radius = np.hypot(*(example.points_m - position).T)
+    order = np.argsort(radius)
+    p90 = radius[order][np.searchsorted(np.cumsum(weight[order]), RADIUS_MASS)]
+    return float(mass[best]), float(hit), float(np.hypot(*(position - example.goal_m)) / max(p90, NODE_SPACING_M))
+
+
+def _log_prior(points_m: Floats, listener_m: Floats | None) -> Floats:
+    if listener_m is None:
+        return np.zeros(len(points_m))
+    density: Floats = -((points_m - listener_m) ** 2).sum(axis=1) / (2 * START_SIGMA_M**2)
+    return density
+
+
+def _nodes(centers_m: Floats, grid_m: float) -> tuple[Floats, Ints]:
+    """Return the nodes of some cells, and the index of each node's cell."""
+    steps = np.arange(-grid_m / 2 + NODE_SPACING_M / 2, grid_m / 2, NODE_SPACING_M)
+    offsets = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    points = (centers_m[:, None] + offsets[None]).reshape(-1, 2)
+    return points, np.repeat(np.arange(len(centers_m)), len(offsets))
