@@ -1,7 +1,8 @@
-"""Limits that clients can run into; GET /info shows them, and the OpenAPI document has those of request fields."""
+"""Limits that clients can run into; GET /info shows most of them, the OpenAPI document those of request fields."""
 
 from typing import Final
 
+MAX_CONNECTIONS: Final = 900  # above it 503; leaves descriptors for files and workers where `ulimit -n` is 1,024
 MAX_BODY_BYTES: Final = 262_144  # 16 times what the longest description takes in UTF-8
 MAX_BATCH_BODY_BYTES: Final = 4 * MAX_BODY_BYTES
 MAX_EVALUATE_BODY_BYTES: Final = 16_777_216  # MAX_EVALUATE_QUERIES of 1.6 kB each

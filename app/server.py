@@ -5,18 +5,28 @@ import threading
 from ipaddress import IPv6Address
 from socket import socket
 from types import FrameType
+from typing import Any, Final
 
 import structlog
 import uvicorn
 from fastapi import FastAPI
 
-from app.http.connection import Connection
 from app.http.indexes import Indexes
 from app.jobs.runner import EvaluationJobs
-from app.limits import MAX_DEADLINE_MS
+from app.limits import MAX_CONNECTIONS, MAX_DEADLINE_MS
 from app.settings import Settings, address_of, is_local
 
 CLOSING_S = 5
+KEEP_ALIVE_S: Final = 10
+MAX_HEAD_BYTES: Final = 65_536  # of a request's line and headers
+CONNECTION_OPTIONS: Final[dict[str, Any]] = {  # of uvicorn; a reverse proxy guards against slow clients
+    "http": "h11",
+    "timeout_keep_alive": KEEP_ALIVE_S,
+    "limit_concurrency": MAX_CONNECTIONS,
+    "h11_max_incomplete_event_size": MAX_HEAD_BYTES,
+    "proxy_headers": False,  # the client is whoever connects: app/http/keys.py decides by it
+    "server_header": False,
+}
 
 log = structlog.get_logger()
 
@@ -76,10 +86,8 @@ def serve(app: FastAPI, settings: Settings) -> None:
         port=settings.port,
         access_log=False,
         log_config=None,
-        server_header=False,
-        proxy_headers=False,  # the client is whoever connects: app/http/keys.py decides by it
-        http=Connection,
         timeout_graceful_shutdown=MAX_DEADLINE_MS // 1000 + CLOSING_S,
+        **CONNECTION_OPTIONS,
     )
     DrainingServer(config, app.state.indexes, app.state.jobs).run()
 

@@ -1,10 +1,10 @@
-"""Bodies that are plain JSON, not too large, alone and together, and there in time."""
+"""Limits on request bodies: strict JSON, not too large, alone and together, and complete in time."""
 
 import asyncio
 import json
 import re
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Any, Final
 
 from starlette.datastructures import Headers as RequestHeaders
@@ -12,13 +12,12 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
 
-MAX_DEPTH = 32
-LARGE_BYTES = 65_536  # from here on a body is checked beside the event loop, which would stand still
-LARGE_AT_ONCE = 4  # of the largest bodies
-MAX_VALUES = 400_000  # of one body, commas in its texts among them
-BODY_S = 30.0  # for all of a body to come
-DISCARDED_BYTES, DISCARDING_S = 33_554_432, 5.0  # of a body that is refused
-REFUSALS: Final = (  # of a body, whatever the route
+MAX_JSON_DEPTH: Final = 32
+MAX_JSON_VALUES: Final = 400_000  # of one body, commas in its texts included
+LARGE_BODY_BYTES: Final = 65_536  # from here on a body is checked in a thread, or the event loop would stand still
+MAX_LARGE_BODIES: Final = 4  # of the largest size, that are held at once
+BODY_TIMEOUT_S: Final = 30.0  # for a whole body to arrive
+REFUSALS: Final = (  # of a body, on any route
     Code.INVALID_JSON,
     Code.BODY_TOO_SLOW,
     Code.BODY_TOO_LARGE,
@@ -32,19 +31,19 @@ _CHARSET = re.compile(r";\s*charset=([^\s;]*)", re.I)
 
 
 class StrictBody:
-    """Checks a body when the route first asks for it, so that an unknown path is a 404 whatever the body.
+    """Checks a body when the route first reads it, so that an unknown path is a 404 whatever the body.
 
     Args:
-        app: what is served.
-        max_bytes: of a body.
-        larger: paths whose bodies have another limit.
+        app: the application behind this middleware.
+        max_bytes: limit of a body.
+        larger: limits of the paths that have another one.
     """
 
     def __init__(self, app: ASGIApp, max_bytes: int, larger: Mapping[str, int] | None = None) -> None:
         self.app = app
         self.max_bytes = max_bytes
         self.larger = larger or {}
-        self._large = LargeBodies(LARGE_AT_ONCE * max(max_bytes, *self.larger.values(), LARGE_BYTES))
+        self._large = LargeBodies(MAX_LARGE_BODIES * max(max_bytes, *self.larger.values(), LARGE_BODY_BYTES))
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one request with its body checked."""
@@ -64,21 +63,17 @@ class StrictBody:
             if is_read:
                 return await receive()
             is_read = True
+            check_headers(RequestHeaders(scope=scope), max_bytes)
             try:
-                check_headers(RequestHeaders(scope=scope), max_bytes)
-            except Problem as problem:
-                await discard(receive)
-                raise _closing(problem) from None
-            try:
-                async with asyncio.timeout(BODY_S):
+                async with asyncio.timeout(BODY_TIMEOUT_S):
                     body = await read_body(receive, max_bytes, share)
             except TimeoutError:
-                raise _closing(Problem(Code.BODY_TOO_SLOW)) from None
-            except Problem as problem:
-                raise _closing(problem) from None
+                problem = Problem(Code.BODY_TOO_SLOW)
+                problem.headers = {"Connection": "close"}  # RFC 9110, 15.5.9
+                raise problem from None
             if body is None:
                 return {"type": "http.disconnect"}
-            if len(body) < LARGE_BYTES:
+            if len(body) < LARGE_BODY_BYTES:
                 check_json(body)
             else:
                 await asyncio.to_thread(check_json, body)
@@ -88,10 +83,10 @@ class StrictBody:
 
 
 class LargeBodies:
-    """Bounds what all bodies take together that are large.
+    """Bounds the memory of all large bodies together.
 
     Args:
-        max_bytes: of all of them.
+        max_bytes: limit of their sum.
     """
 
     def __init__(self, max_bytes: int) -> None:
@@ -99,7 +94,7 @@ class LargeBodies:
 
     @contextmanager
     def share(self) -> Iterator["Share"]:
-        """A request's part of it, given back when it is answered."""
+        """Yield the share of one request; it is given back when the request is answered."""
         share = Share(self)
         try:
             yield share
@@ -108,18 +103,18 @@ class LargeBodies:
 
 
 class Share:
-    """What one request has of `LargeBodies`."""
+    """The share of one request in `LargeBodies`."""
 
     def __init__(self, large: LargeBodies) -> None:
         self._large, self.taken = large, 0
 
     def grow(self, size: int) -> None:
-        """Take what a body of this many bytes needs; nothing if it is small.
+        """Take as much as a body of this size needs; a small body needs none.
 
         Raises:
-            Problem: 429, others have it.
+            Problem: 429, other requests hold it.
         """
-        more = size - self.taken if size >= LARGE_BYTES else 0
+        more = size - self.taken if size >= LARGE_BODY_BYTES else 0
         if self._large.bytes + more > self._large.max_bytes:
             raise Problem(Code.BODIES_FULL)
         self._large.bytes += more
@@ -144,7 +139,7 @@ def check_headers(headers: RequestHeaders, max_bytes: int) -> None:
 
 
 async def read_body(receive: Receive, max_bytes: int, share: Share) -> bytes | None:
-    """The body, read no further than the limit; None if the client left.
+    """Return the body, read no further than the limit; None if the client left.
 
     Raises:
         Problem: 413, or 429.
@@ -155,28 +150,11 @@ async def read_body(receive: Receive, max_bytes: int, share: Share) -> bytes | N
         if message["type"] == "http.disconnect":
             return None
         body += message.get("body", b"")
-        try:
-            if len(body) > max_bytes:
-                raise _too_large(max_bytes)
-            share.grow(len(body))
-        except Problem:
-            if message.get("more_body", False):
-                await discard(receive)
-            raise
+        if len(body) > max_bytes:
+            raise _too_large(max_bytes)
+        share.grow(len(body))
         if not message.get("more_body", False):
             return bytes(body)
-
-
-async def discard(receive: Receive) -> None:
-    """Take what a client still sends: one that sends all before it reads would else find its connection reset."""
-    left = DISCARDED_BYTES
-    with suppress(TimeoutError):
-        async with asyncio.timeout(DISCARDING_S):
-            while left > 0:
-                message = await receive()
-                left -= len(message.get("body", b""))
-                if not message.get("more_body", False):
-                    return
 
 
 def check_json(body: bytes) -> None:
@@ -185,8 +163,8 @@ def check_json(body: bytes) -> None:
     Raises:
         Problem: 400: not UTF-8, not JSON, NaN or Infinity, a key twice, nested too deeply; 413: too many values.
     """
-    if len(body) > MAX_VALUES and sum(map(body.count, (b"[", b"{", b","))) > MAX_VALUES:
-        raise Problem(Code.BODY_TOO_LARGE, f"The body has more than {MAX_VALUES} values; send less.")
+    if len(body) > MAX_JSON_VALUES and sum(map(body.count, (b"[", b"{", b","))) > MAX_JSON_VALUES:
+        raise Problem(Code.BODY_TOO_LARGE, f"The body has more than {MAX_JSON_VALUES} values; send less.")
     try:
         value = json.loads(body.decode(), object_pairs_hook=_unique, parse_constant=_refuse_constant)
     except UnicodeDecodeError:
@@ -199,7 +177,7 @@ def check_json(body: bytes) -> None:
     except ValueError:
         raise Problem(Code.INVALID_JSON, "A number in the body has too many digits; send fewer.") from None
     level: list[Any] = [value]
-    for _ in range(MAX_DEPTH):
+    for _ in range(MAX_JSON_DEPTH):
         level = [inner for outer in level for inner in _children(outer)]
         if not level:
             return
@@ -223,15 +201,9 @@ def _refuse_constant(_name: str) -> None:
     raise Problem(Code.INVALID_JSON, "NaN and Infinity are not JSON; send a number, or leave the field out.")
 
 
-def _closing(problem: Problem) -> Problem:
-    """A problem after which the connection is closed, else the server goes on reading what it throws away."""
-    problem.headers = {**(problem.headers or {}), "Connection": "close"}
-    return problem
-
-
 def _too_large(max_bytes: int) -> Problem:
     return Problem(Code.BODY_TOO_LARGE, f"The body has more than {max_bytes} bytes; send less.")
 
 
 def _too_deep() -> Problem:
-    return Problem(Code.INVALID_JSON, f"The body is nested more than {MAX_DEPTH} levels deep; send it flatter.")
+    return Problem(Code.INVALID_JSON, f"The body is nested more than {MAX_JSON_DEPTH} levels deep; send it flatter.")

@@ -34,7 +34,6 @@ class Code(Enum):
     A member holds: HTTP status, title, what to do about it, seconds for Retry-After.
     """
 
-    INVALID_HTTP = (400, "The request is not HTTP", "Send HTTP/1.1, with a head of at most 64 KiB.", None)
     INVALID_JSON = (400, "The body is not JSON", "Send one JSON object in UTF-8.", None)
     KEY_REQUIRED = (
         401,

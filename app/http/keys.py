@@ -73,7 +73,7 @@ class KeyCheck:
         if self._key is not None:
             check_key(scope["headers"], self._key)
         elif changes_state(scope) and not is_direct(scope):
-            raise _refusal(scope["headers"], Code.KEY_NOT_SET)
+            raise _refusal(Code.KEY_NOT_SET)
 
     def _is_open(self, scope: Scope) -> bool:
         if scope["type"] != "http":
@@ -130,9 +130,9 @@ def check_key(headers: Headers, key: bytes) -> None:
     """
     sent = sent_keys(headers)
     if not sent:
-        raise _refusal(headers, Code.KEY_REQUIRED, CHALLENGE)
+        raise _refusal(Code.KEY_REQUIRED, CHALLENGE)
     if not all([hmac.compare_digest(each, key) for each in sent]):  # noqa: C419  # compare all, whatever the first is
-        raise _refusal(headers, Code.KEY_WRONG, f'{CHALLENGE}, error="invalid_token"')
+        raise _refusal(Code.KEY_WRONG, f'{CHALLENGE}, error="invalid_token"')
 
 
 def sent_keys(headers: Headers) -> list[bytes]:
@@ -148,9 +148,7 @@ def sent_keys(headers: Headers) -> list[bytes]:
     return [key for key in keys if key]
 
 
-def _refusal(headers: Headers, code: Code, challenge: str | None = None) -> Problem:
+def _refusal(code: Code, challenge: str | None = None) -> Problem:
     problem = Problem(code)
     problem.headers = {} if challenge is None else {"WWW-Authenticate": challenge}
-    if not {b"content-length", b"transfer-encoding"}.isdisjoint(name for name, _ in headers):
-        problem.headers["Connection"] = "close"  # else the server goes on reading what it throws away
     return problem

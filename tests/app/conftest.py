@@ -17,11 +17,11 @@ sys.path.append(str(Path(__file__).parent))  # importlib mode does not; see also
 from fake_localizer import FakeLocalizer
 from local_client import local_client
 
-from app.http.connection import Connection
 from app.http.errors import Code, Problem, field_name
 from app.jobs.runner import EvaluationJobs
 from app.logs import configure_logging
 from app.main import create_app
+from app.server import CONNECTION_OPTIONS
 from app.settings import Settings
 from app.workers.pool import WorkerPool
 from tests.warm import Warm
@@ -101,7 +101,7 @@ def in_a_thread():
     @contextmanager
     def serve(app):
         server = uvicorn.Server(
-            uvicorn.Config(app, port=0, http=Connection, access_log=False, log_config=None, lifespan="on")
+            uvicorn.Config(app, port=0, access_log=False, log_config=None, lifespan="on", **CONNECTION_OPTIONS)
         )
         thread = threading.Thread(target=server.run)
         thread.start()

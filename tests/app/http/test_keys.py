@@ -168,7 +168,6 @@ def test_refused_before_the_body_is_read(problem):
     headers = [(b"content-length", b"99")]
     start, _ = asyncio.run(ask({"type": "http", "method": "POST", "path": "/localize", "headers": headers}))
     assert start["status"] == 401
-    assert (b"connection", b"close") in start["headers"], "or the server reads what nobody wants"
     start, _ = asyncio.run(ask({"type": "websocket", "path": "/info", "headers": []}))
     assert (start["type"], start["status"]) == ("websocket.http.response.start", 401)
 

@@ -125,7 +125,7 @@ def map_that_is_nowhere(services, operation, patch):
 
 @provokes(408, "body_too_slow", *WITH_BODY)
 def body_that_does_not_come(services, operation, patch):
-    patch.setattr("app.http.bodies.BODY_S", 0.01)
+    patch.setattr("app.http.bodies.BODY_TIMEOUT_S", 0.01)
 
     async def late():
         await asyncio.sleep(60)
@@ -189,7 +189,7 @@ def jobs_without_a_place(services, operation, patch):
 
 @provokes(429, "bodies_full", *WITH_BODY)
 def memory_without_a_place(services, operation, patch):
-    patch.setattr("app.http.bodies.LARGE_AT_ONCE", 0)  # read when the service starts
+    patch.setattr("app.http.bodies.MAX_LARGE_BODIES", 0)  # read when the service starts
     return ask(services("crowded"), operation, content=b" " * 65_536, headers=JSON)
 
 

@@ -1689,7 +1689,7 @@ export interface components {
             detail: string;
             /**
              * Code
-             * @description invalid_http (400); invalid_json (400); key_required (401); key_wrong (401); key_not_set (403); not_found (404); index_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); index_broken (409); not_writable (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); store_unavailable (503); load_failed (503); deadline_exceeded (504)
+             * @description invalid_json (400); key_required (401); key_wrong (401); key_not_set (403); not_found (404); index_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); index_broken (409); not_writable (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); store_unavailable (503); load_failed (503); deadline_exceeded (504)
              */
             code: string;
             /** Request Id */
