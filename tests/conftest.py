@@ -168,25 +168,25 @@ def points(scan: CityMap) -> PointTable:
 
 
 @pytest.fixture(scope="session")
-def bodies(city: CityMap) -> MapGeometry:
+def geometry(city: CityMap) -> MapGeometry:
     return build_geometry(city)
 
 
 @pytest.fixture(scope="session")
-def cells(city: CityMap, bodies: MapGeometry) -> CellTable:
-    return cut_cells(city, bodies)
+def cells(city: CityMap, geometry: MapGeometry) -> CellTable:
+    return cut_cells(city, geometry)
 
 
 @pytest.fixture(scope="session")
-def source(osm_file: Path, city: CityMap, bodies: MapGeometry, cells: CellTable) -> MapSource:
+def source(osm_file: Path, city: CityMap, geometry: MapGeometry, cells: CellTable) -> MapSource:
     """As `open_source` gives it."""
-    return MapSource(osm_file, city, bodies, cells)
+    return MapSource(osm_file, city, geometry, cells)
 
 
 @pytest.fixture(scope="session")
-def regions(osm_file: Path, city: CityMap, bodies: MapGeometry, cells: CellTable) -> list[MapSource]:
+def regions(osm_file: Path, city: CityMap, geometry: MapGeometry, cells: CellTable) -> list[MapSource]:
     """The west to train on, and the strip beside it to choose by."""
-    return [MapSource(osm_file, city, bodies, cells, split) for split in ("train", "val")]
+    return [MapSource(osm_file, city, geometry, cells, split) for split in ("train", "val")]
 
 
 @pytest.fixture(scope="session")

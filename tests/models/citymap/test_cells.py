@@ -109,23 +109,23 @@ def test_the_rows_of_all_cubes_but_empty_ones_are_not_copied(scan, points) -> No
     centers = grid_centers(scan.locations_m, scan.rules)
     centers = np.concatenate([centers[:9], centers[:1] + 1e5, centers[9:]])
     parts = cut_cubes(points, centers, scan.rules)
-    kept = np.flatnonzero(np.diff(parts.starts))
-    assert 9 not in kept
-    taken = parts.take(kept)
+    remaining = np.flatnonzero(np.diff(parts.starts))
+    assert 9 not in remaining
+    taken = parts.take(remaining)
     assert taken.instance is parts.instance
-    assert np.array_equal(np.diff(taken.starts), np.diff(parts.starts)[kept])
-    assert len(parts.take(kept[:-1]).instance) == parts.starts[kept[-1]]
-    assert parts.take(kept[::-1]).instance.tolist() != parts.instance.tolist()
+    assert np.array_equal(np.diff(taken.starts), np.diff(parts.starts)[remaining])
+    assert len(parts.take(remaining[:-1]).instance) == parts.starts[remaining[-1]]
+    assert parts.take(remaining[::-1]).instance.tolist() != parts.instance.tolist()
 
 
 def test_cells_are_numbered_and_rich_enough(city, cells) -> None:
     sizes = np.diff(cells.parts.starts)
     assert sizes.min() >= city.rules.min_instances
     assert cells.ids[:2] == ("tinytown_00000", "tinytown_00001")
-    some = cells.take(np.array([5, 2]))
-    assert some.ids == (cells.ids[5], cells.ids[2])
+    part = cells.take(np.array([5, 2]))
+    assert part.ids == (cells.ids[5], cells.ids[2])
     assert (
-        some.parts.instance
+        part.parts.instance
         == np.concatenate([cells.parts.instance[cells.parts.starts[n] : cells.parts.starts[n + 1]] for n in (5, 2)])
     ).all()
 

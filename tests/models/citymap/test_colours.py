@@ -13,9 +13,9 @@ def test_a_colour_written_as_a_basic_word_is_that_word(word) -> None:
 def test_centres_name_themselves_and_match_a_naive_search(palette) -> None:
     assert len(palette.words) == len(palette.centers)
     rgb = np.random.default_rng(0).random((50, 3))
-    for colour, found in zip(rgb, palette.word_index(rgb), strict=True):
+    for colour, result in zip(rgb, palette.word_index(rgb), strict=True):
         distances = [sum((c * 255 - k) ** 2 for c, k in zip(colour, center, strict=True)) for center in palette.centers]
-        assert found == distances.index(min(distances))
+        assert result == distances.index(min(distances))
 
 
 def test_many_colours_are_compared_some_at_a_time(monkeypatch) -> None:

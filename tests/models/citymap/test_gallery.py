@@ -48,26 +48,26 @@ def test_numbered_names_are_found_without_a_list_of_them() -> None:
 def test_names_that_are_no_numbers_of_one_scene_come_back_too(source, tmp_path) -> None:
     gallery = source.data.gallery
     rows = np.array([5, 2])
-    some = Gallery(gallery.cells.take(rows), gallery.labels, gallery.names, gallery.sources)
-    some.save(tmp_path)
+    part = Gallery(gallery.cells.take(rows), gallery.labels, gallery.names, gallery.sources)
+    part.save(tmp_path)
     assert Gallery.load(tmp_path).cells.ids == tuple(gallery.cells.ids[row] for row in rows)
 
 
-def test_parts_are_cut_when_they_are_asked_for(source, bodies, tmp_path) -> None:
-    gallery, asked = source.data.gallery, []
+def test_parts_are_cut_when_they_are_asked_for(source, geometry, tmp_path) -> None:
+    gallery, requested = source.data.gallery, []
 
     def cut(rows):
-        asked.append(rows.tolist())
-        return bodies.cut(gallery.cells.center_m[rows])
+        requested.append(rows.tolist())
+        return geometry.cut(gallery.cells.center_m[rows])
 
     gallery.save(tmp_path, with_parts=False)
     cells = Gallery.load(tmp_path, cut).cells
-    some = cells.take(np.array([9, 4])).take(np.array([1]))
-    assert asked == []
+    part = cells.take(np.array([9, 4])).take(np.array([1]))
+    assert requested == []
     begin, end = gallery.cells.parts.starts[4:6]
-    assert (some.parts.instance == gallery.cells.parts.instance[begin:end]).all()
-    assert some.parts is some.parts
-    assert asked == [[4]]
+    assert (part.parts.instance == gallery.cells.parts.instance[begin:end]).all()
+    assert part.parts is part.parts
+    assert requested == [[4]]
     assert (cells.parts.starts == gallery.cells.parts.starts).all()
 
 

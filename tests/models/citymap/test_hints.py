@@ -31,19 +31,19 @@ def test_direction(offset, direction) -> None:
 
 
 @pytest.fixture(scope="module")
-def poses(city, bodies, cells):
+def poses(city, geometry, cells):
     positions = sample_positions(city.locations_m, 25.0, np.random.default_rng(0))
-    return describe_poses(city, bodies, cells, positions)
+    return describe_poses(city, geometry, cells, positions)
 
 
 def test_hints_are_true(city, poses) -> None:
     pieces = city.pieces
     for pose in poses:
-        at = shapely.Point(pose.position_m[:2])
+        position = shapely.Point(pose.position_m[:2])
         for hint in pose.description.hints:
             instance = city.instances[hint.instance_id]
             assert hint.label == instance.label
-            lines = shapely.shortest_line(at, pieces.geometry(np.flatnonzero(pieces.instance == instance.id)))
+            lines = shapely.shortest_line(position, pieces.geometry(np.flatnonzero(pieces.instance == instance.id)))
             offset = pose.position_m[:2] - shapely.get_coordinates(lines)[1::2]
             metres = np.linalg.norm(offset, axis=1)
             # Clipped stuff may be described by another part of it, so any near piece may have the closest point.
@@ -68,15 +68,15 @@ def test_best_cell_is_the_nearest(cells, poses) -> None:
 
 
 def test_descriptions_of_a_position_differ(poses) -> None:
-    seen = [(tuple(p.position_m), frozenset(h.instance_id for h in p.description.hints)) for p in poses]
-    assert len(set(seen)) == len(seen)
+    mentioned = [(tuple(p.position_m), frozenset(h.instance_id for h in p.description.hints)) for p in poses]
+    assert len(set(mentioned)) == len(mentioned)
     assert {p.strategy for p in poses} == set(STRATEGIES)
     assert {len(p.description.hints) for p in poses} == {6}
 
 
-def test_strategies_against_a_naive_round_robin(city, bodies) -> None:
+def test_strategies_against_a_naive_round_robin(city, geometry) -> None:
     positions = sample_positions(city.locations_m, 60.0, np.random.default_rng(1))
-    table = build_hint_table(city.palette, bodies.cut(positions), positions)
+    table = build_hint_table(city.palette, geometry.cut(positions), positions)
     labels = np.unique([i.label for i in city.instances], return_inverse=True)[1]
     assert table.distance_m.max() <= 15
     for n in range(len(positions)):

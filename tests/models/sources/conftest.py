@@ -1,4 +1,4 @@
-"""What the tests of the data set share: published records made by hand or at random."""
+"""Shared by the tests of data sets: published records made by hand or at random."""
 
 import io
 import pickle
@@ -32,7 +32,7 @@ COLOURS = ["gray", "green", "beige"]
 
 
 class Anything:
-    """What the oracle makes of the reference package's classes."""
+    """A stand-in that the oracle makes for the reference package's classes."""
 
 
 def oracle(data: bytes, names: set[tuple[str, str]] | None = None):
@@ -86,7 +86,7 @@ def assert_same(a: object, b: object) -> None:
 
 def assert_kept(store: PoseStore, cells: list[PublishedCell], poses: list[PublishedPose]) -> None:
     """A store shows published cells and poses, all of its points and numbers to the last bit."""
-    table, found = store.cell_table(), store.poses
+    table, result = store.cell_table(), store.poses
     assert [*zip(table.ids, table.scenes, strict=True)] == [(cell.id, cell.scene_name) for cell in cells]
     assert np.array_equal(table.center_m, [(cell.bbox_w[:3] + cell.bbox_w[3:]) / 2 for cell in cells])
     assert np.diff(table.parts.starts).tolist() == [len(cell.objects) for cell in cells]
@@ -95,14 +95,14 @@ def assert_kept(store: PoseStore, cells: list[PublishedCell], poses: list[Publis
     assert [*zip(store.instance_ids, store.labels, strict=True)] == [(item.instance_id, item.label) for item in items]
     for row, item in enumerate(items):
         assert_same(store.instance_points(row), (item.xyz, item.rgb))
-    assert np.array_equal(found.positions_m, [pose.pose_w for pose in poses])
-    assert found.strategies == tuple(pose.described_by for pose in poses)
+    assert np.array_equal(result.positions_m, [pose.pose_w for pose in poses])
+    assert result.strategies == tuple(pose.described_by for pose in poses)
     for q, pose in enumerate(poses):
-        cell, start = cells[found.cell[q]], table.parts.starts[found.cell[q]]
+        cell, start = cells[result.cell[q]], table.parts.starts[result.cell[q]]
         assert cell.id == pose.cell_id
-        for hint, ours in zip(pose.descriptions, found.hints(q), strict=True):
-            said = hint.direction, hint.object_label, hint.object_color_text
-            assert (ours.direction, ours.label, ours.colour) == said
+        for hint, ours in zip(pose.descriptions, result.hints(q), strict=True):
+            text = hint.direction, hint.object_label, hint.object_color_text
+            assert (ours.direction, ours.label, ours.colour) == text
             meant = None if ours.instance_id is None else cell.objects[ours.instance_id - start].id
             assert meant == (hint.object_id if hint.is_matched else None)
 
@@ -235,7 +235,7 @@ def data(scenes: list[Scene], tmp_path: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def prepared(raw_root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Of this process alone: who prepares a scene again, and finds it done, locks it."""
+    """Prepare the scene for this process alone, because preparing locks it."""
     out = tmp_path_factory.mktemp("prepared")
     assert prepare_data(raw_root, out, config=QUICK) == (LONG, VAL)
     return out

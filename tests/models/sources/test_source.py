@@ -45,21 +45,21 @@ def test_queries_are_true_and_in_their_region(source, regions) -> None:
 
 
 def test_as_a_scan_shows_it_a_map_is_told_of_with_other_winds(source, prepared) -> None:
-    known, seen = (each.queries(VALIDATION_SEED) for each in (source, source.as_scan()))
-    alike = _nearest_told(known)
-    differ = [said != alike[xy] for xy, said in _nearest_told(seen).items() if xy in alike]
+    known, scanned = (each.queries(VALIDATION_SEED) for each in (source, source.as_scan()))
+    alike = _nearest_hints(known)
+    differ = [text != alike[xy] for xy, text in _nearest_hints(scanned).items() if xy in alike]
     assert 0.02 < np.mean(differ) < 0.5
-    both = Queries.concatenate([known, seen])
-    assert len(both) == len(known) + len(seen)
-    assert both.take(np.array([len(known)])).hints == seen.take(np.array([0])).hints
+    both = Queries.concatenate([known, scanned])
+    assert len(both) == len(known) + len(scanned)
+    assert both.take(np.array([len(known)])).hints == scanned.take(np.array([0])).hints
     data = open_source(prepared)
     assert data.as_scan() is data, "it is one"
 
 
-def _nearest_told(queries):
-    """What is said of the nearest things, by where."""
-    told = zip(queries.positions_m.tolist(), queries.hints, queries.strategies, strict=True)
-    return {tuple(xy): {(h.label, h.direction) for h in said} for xy, said, how in told if how == "closest"}
+def _nearest_hints(queries):
+    """Return the hints about the nearest instances by position."""
+    rows = zip(queries.positions_m.tolist(), queries.hints, queries.strategies, strict=True)
+    return {tuple(xy): {(h.label, h.direction) for h in hints} for xy, hints, how in rows if how == "closest"}
 
 
 def test_a_data_set_and_its_store_are_one(prepared, tmp_path) -> None:
@@ -71,9 +71,9 @@ def test_a_data_set_and_its_store_are_one(prepared, tmp_path) -> None:
     rng = np.random.default_rng(0)
     one, other = (part.queries() for part in (published, stored))
     assert (one.sentences, one.hints) == (other.sentences, other.hints)
-    said = stored.statements(10.0, rng)
-    assert (said.positions_m[:, :2] == other.positions_m).all()
-    assert (said.best == other.truth).all()
+    statements = stored.statements(10.0, rng)
+    assert (statements.positions_m[:, :2] == other.positions_m).all()
+    assert (statements.best == other.truth).all()
     assert rng.random() == np.random.default_rng(0).random(), "nothing is drawn"
 
 
@@ -81,9 +81,9 @@ def test_a_scan_looks_like_its_points(prepared) -> None:
     source = open_source(prepared)
     (part,) = (part.tensors for part in source.scenery(source.gazetteer()))
     xyz = part["steps"].cumsum(axis=0) / 10
-    bodies = source.geometry().xyz
-    assert 0.5 * len(bodies) < len(xyz) <= len(bodies) + 1, "one point a cube, whatever cells it is in"
-    assert np.abs(xyz.min(axis=0) - bodies.min(axis=0)).max() < VOXEL_M
+    geometry = source.geometry().xyz
+    assert 0.5 * len(geometry) < len(xyz) <= len(geometry) + 1, "one point a cube, whatever cells it is in"
+    assert np.abs(xyz.min(axis=0) - geometry.min(axis=0)).max() < VOXEL_M
     assert part["rgb"].std() > 0
 
 
@@ -110,8 +110,12 @@ def test_an_unknown_split_is_refused_before_a_map_is_read(tmp_path, prepared) ->
         open_source(tmp_path)
 
 
-@pytest.mark.parametrize("elsewhere", [lambda at: at[:0], lambda at: at + 1e4], ids=["nowhere", "far from every cell"])
-def test_a_map_with_nothing_to_describe_says_so(osm_file, city, bodies, cells, elsewhere) -> None:
-    moved = MapSource(osm_file, replace(city, locations_m=elsewhere(city.locations_m)), bodies, cells)
+@pytest.mark.parametrize(
+    "elsewhere",
+    [lambda position: position[:0], lambda position: position + 1e4],
+    ids=["nowhere", "far from every cell"],
+)
+def test_a_map_with_nothing_to_describe_says_so(osm_file, city, geometry, cells, elsewhere) -> None:
+    moved = MapSource(osm_file, replace(city, locations_m=elsewhere(city.locations_m)), geometry, cells)
     with pytest.raises(MapError, match=r"tinytown\.osm: no position in split 'all' can be described; take"):
         moved.queries()

@@ -39,28 +39,28 @@ def point(x: float, y: float) -> np.ndarray:
 
 def line(*xy: tuple[float, float]) -> np.ndarray:
     """[n, 4] a line through points."""
-    at = np.array(xy, dtype=float)
-    return np.concatenate([at[:-1], at[1:]], axis=1)
+    position = np.array(xy, dtype=float)
+    return np.concatenate([position[:-1], position[1:]], axis=1)
 
 
 def made_gazetteer() -> Gazetteer:
     """The town."""
     words, segments, is_area = [], [], []
 
-    def add(some: GazetteerObject, shape: np.ndarray, area: bool = False) -> int:
-        words.append(some)
+    def add(part: GazetteerObject, shape: np.ndarray, area: bool = False) -> int:
+        words.append(part)
         segments.append(shape)
         is_area.append(area)
         return len(words) - 1
 
-    for name, (at, kinds) in POINTS.items():
-        add(GazetteerObject(kinds, (name,)), point(*at))
+    for name, (position, kinds) in POINTS.items():
+        add(GazetteerObject(kinds, (name,)), point(*position))
     add(GazetteerObject(("leisure/park",), ("Chelsea Park",)), ring(*PARK), True)
     add(GazetteerObject(("shop/supermarket", "shop"), ("Whole Foods Market", "Whole Foods")), ring(*MARKET), True)
-    for number, at in NUMBERS.items():
-        add(GazetteerObject((ADDRESS_KIND,), (), number, "West 25th Street"), point(*at))
-    for at in BENCHES:
-        add(GazetteerObject(("amenity/bench",)), point(*at))
+    for number, position in NUMBERS.items():
+        add(GazetteerObject((ADDRESS_KIND,), (), number, "West 25th Street"), point(*position))
+    for position in BENCHES:
+        add(GazetteerObject(("amenity/bench",)), point(*position))
     rows = {
         name: add(GazetteerObject((STREET_KIND,), (name,)), line((-50, y), (450, y))) for name, y in EAST_WEST.items()
     }
@@ -80,9 +80,9 @@ def numbered(gazetteer: Gazetteer, name: str) -> int:
 
 
 def called(gazetteer: Gazetteer, objects: np.ndarray) -> set[str]:
-    """What some objects are called."""
-    of = [gazetteer.objects[n] for n in objects]
-    return {words.names[0] if words.names else words.number or words.kinds[0] for words in of}
+    """Return the names of some objects."""
+    chosen = [gazetteer.objects[n] for n in objects]
+    return {item.names[0] if item.names else item.number or item.kinds[0] for item in chosen}
 
 
 # Everyday words, as a tokenizer's commonest are.

@@ -12,15 +12,15 @@ HOLED = np.concatenate([ring(0, 0, 90, 90), ring(30, 30, 60, 60)])
 FAR = 1e4
 
 
-def way(shape: np.ndarray, at: tuple[float, float], area: bool = False, reach: float = FAR) -> list[float] | None:
+def way(shape: np.ndarray, position: tuple[float, float], area: bool = False, reach: float = FAR) -> list[float] | None:
     """The way from a position to one object."""
-    around = PointGroups.from_groups(np.array([at], dtype=float), np.zeros(1, np.int64))
-    found = find_closest_points(around, shape, np.array([0, len(shape)]), np.array([area]), reach)
-    return found.offset_m[0].tolist() if len(found.target) else None
+    around = PointGroups.from_groups(np.array([position], dtype=float), np.zeros(1, np.int64))
+    result = find_closest_points(around, shape, np.array([0, len(shape)]), np.array([area]), reach)
+    return result.offset_m[0].tolist() if len(result.target) else None
 
 
 @pytest.mark.parametrize(
-    ("shape", "at", "area", "expected"),
+    ("shape", "position", "area", "expected"),
     [
         (point(3, 4), (0, 0), False, [3, 4]),
         (point(3, 4), (3, 4), False, [0, 0]),
@@ -36,8 +36,8 @@ def way(shape: np.ndarray, at: tuple[float, float], area: bool = False, reach: f
         (np.concatenate([ring(0, 0, 9, 9), ring(50, 0, 59, 9)]), (55, 3), True, [0, 0]),
     ],
 )
-def test_ways(shape, at, area, expected) -> None:
-    assert way(shape, at, area) == pytest.approx(expected, abs=1e-9)
+def test_ways(shape, position, area, expected) -> None:
+    assert way(shape, position, area) == pytest.approx(expected, abs=1e-9)
 
 
 def test_what_is_beyond_reach_is_left_out() -> None:
@@ -48,15 +48,15 @@ def test_what_is_beyond_reach_is_left_out() -> None:
 
 def test_an_area_is_no_way_off_for_those_inside_only_of_a_wide_group() -> None:
     points = np.array([(-300.0, 0.0), (0.0, 0.0), (300.0, 0.0)])
-    found = find_closest_points(
+    result = find_closest_points(
         PointGroups.from_groups(points, np.zeros(3, np.int64)),
         ring(-200, -9, 200, 9),
         np.array([0, 4]),
         np.array([True]),
         150,
     )
-    assert found.point.tolist() == [0, 1, 2]
-    assert found.offset_m == pytest.approx(np.array([(100, 0), (0, 0), (-100, 0)]))
+    assert result.point.tolist() == [0, 1, 2]
+    assert result.offset_m == pytest.approx(np.array([(100, 0), (0, 0), (-100, 0)]))
 
 
 def random_town(rng: np.random.Generator) -> tuple[Gazetteer, list[shapely.Geometry]]:
@@ -90,17 +90,20 @@ def test_ways_are_those_of_shapely(seed, groups) -> None:
     points = rng.uniform(-100, 700, (80, 2))
     group = np.sort(rng.integers(groups, size=80))
     objects = rng.permutation(len(town))[:40]
-    found = find_closest_points(PointGroups.from_groups(points, group), *select_objects(town, objects), 120.0)
-    truth = np.array([[shapely.distance(shapes[o], at) for o in objects] for at in shapely.points(points)])
+    result = find_closest_points(PointGroups.from_groups(points, group), *select_objects(town, objects), 120.0)
+    truth = np.array([[shapely.distance(shapes[o], position) for o in objects] for position in shapely.points(points)])
     measured = np.full(truth.shape, np.inf)
-    measured[found.point, found.target] = found.distance_m
-    assert len(found.target) == len(set(zip(found.point.tolist(), found.target.tolist(), strict=True))), (
+    measured[result.point, result.target] = result.distance_m
+    assert len(result.target) == len(set(zip(result.point.tolist(), result.target.tolist(), strict=True))), (
         "each pair once"
     )
     assert np.allclose(np.where(truth <= 119.99, truth, 0), np.where(truth <= 119.99, measured, 0), atol=1e-3)
     assert np.isinf(measured[truth > 120.01]).all()
-    ends = points[found.point] + found.offset_m
-    off = [shapely.distance(shapes[objects[o]], shapely.Point(at)) for o, at in zip(found.target, ends, strict=True)]
+    ends = points[result.point] + result.offset_m
+    off = [
+        shapely.distance(shapes[objects[o]], shapely.Point(position))
+        for o, position in zip(result.target, ends, strict=True)
+    ]
     assert np.max(off) < 1e-3, "a way ends at the object"
 
 

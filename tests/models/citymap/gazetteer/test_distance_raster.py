@@ -23,14 +23,14 @@ def raster(town):
 
 def away(raster: DistanceRaster, objects: np.ndarray) -> np.ndarray:
     """[N] metres from all cells to the nearest of some objects."""
-    [found] = raster.distances_m(raster.distances_to([objects]), np.arange(len(raster.cell_pixel)))
-    return np.asarray(found)
+    [result] = raster.distances_m(raster.distances_to([objects]), np.arange(len(raster.cell_pixel)))
+    return np.asarray(result)
 
 
 def lines_away(raster: DistanceRaster, lines_m: np.ndarray) -> np.ndarray:
     """The same for lines."""
-    [found] = raster.distances_m(raster.distances_to([], lines_m), np.arange(len(raster.cell_pixel)))
-    return np.asarray(found)
+    [result] = raster.distances_m(raster.distances_to([], lines_m), np.arange(len(raster.cell_pixel)))
+    return np.asarray(result)
 
 
 def metres(shape: shapely.Geometry) -> np.ndarray:
@@ -48,11 +48,11 @@ def metres(shape: shapely.Geometry) -> np.ndarray:
     ],
 )
 def test_metres_are_true_to_the_grid(town, raster, name, shape) -> None:
-    found, truth = away(raster, np.array([numbered(town, name)])), metres(shape)
+    result, truth = away(raster, np.array([numbered(town, name)])), metres(shape)
     near = truth <= EXACT_REACH_M - GRID_M
-    assert np.abs(found - truth)[near].max(initial=0.0) <= GRID_M
-    assert np.abs(found - truth).max() <= np.sqrt(2) * BLOCK_PX * GRID_M, "by block"
-    assert (found[~near] > EXACT_REACH_M - 2 * GRID_M).all()
+    assert np.abs(result - truth)[near].max(initial=0.0) <= GRID_M
+    assert np.abs(result - truth).max() <= np.sqrt(2) * BLOCK_PX * GRID_M, "by block"
+    assert (result[~near] > EXACT_REACH_M - 2 * GRID_M).all()
 
 
 @pytest.fixture(scope="module")
@@ -84,8 +84,8 @@ def test_far_cells_are_as_far_as_they_are_on_a_map_of_any_width(spacing_m, cells
     centers = np.stack(np.meshgrid(*(np.arange(count) * spacing_m for count in cells)), axis=-1).reshape(-1, 2)
     town = build_gazetteer([GazetteerObject(("x",))] * 2, [point(0, 0), point(9e7, 0)], [False] * 2)
     raster = DistanceRaster(town, centers, spacing_m)
-    [found, nowhere] = raster.distances_m(raster.distances_to([np.array([0]), np.array([1])]), np.arange(len(centers)))
-    assert np.abs(found - np.linalg.norm(centers, axis=1)).max() <= np.sqrt(2) * BLOCK_PX * spacing_m
+    [result, nowhere] = raster.distances_m(raster.distances_to([np.array([0]), np.array([1])]), np.arange(len(centers)))
+    assert np.abs(result - np.linalg.norm(centers, axis=1)).max() <= np.sqrt(2) * BLOCK_PX * spacing_m
     assert np.isinf(nowhere).all()
 
 
@@ -148,7 +148,7 @@ def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
     raster = DistanceRaster(town, CENTERS, GRID_M)
     first = [away(raster, np.array([n])).copy() for n in range(5)]
     assert 2 <= len(raster._cache) < 5
-    assert sum(kept.nbytes for kept in raster._cache.values()) <= most, "no more than was allowed"
+    assert sum(remaining.nbytes for remaining in raster._cache.values()) <= most, "no more than was allowed"
     assert all((away(raster, np.array([n])) == was).all() for n, was in enumerate(first))
 
 

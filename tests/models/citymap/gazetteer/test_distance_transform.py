@@ -20,11 +20,11 @@ def test_distances_of_pixels_are_those_of_a_distance_transform(drawn) -> None:
     empty = np.ones(shape, np.bool_)
     empty.ravel()[pixels] = False
     truth = distance_transform_edt(empty).ravel() if drawn else np.full(empty.size, np.inf)
-    asked = rng.permutation(empty.size)[:900]
-    found = pixel_distances(column_distances(pixels, shape, reach), asked, reach)
-    near = truth[asked] <= reach
-    assert found[near] == pytest.approx(truth[asked][near])
-    assert np.isinf(found[~near]).all()
+    requested = rng.permutation(empty.size)[:900]
+    result = pixel_distances(column_distances(pixels, shape, reach), requested, reach)
+    near = truth[requested] <= reach
+    assert result[near] == pytest.approx(truth[requested][near])
+    assert np.isinf(result[~near]).all()
     squares = squared_distances(column_distances(pixels, shape, reach), reach).ravel()
     near = truth <= reach
     assert squares[near].tolist() == np.round(truth[near] ** 2).tolist()
@@ -33,8 +33,8 @@ def test_distances_of_pixels_are_those_of_a_distance_transform(drawn) -> None:
 
 def test_the_largest_reach_does_not_overflow() -> None:
     away = column_distances(np.array([0]), (600, 2), MAX_REACH_PX)
-    found = pixel_distances(away, np.array([0, 2 * MAX_REACH_PX, 2 * (MAX_REACH_PX + 1), 2 * 599]), MAX_REACH_PX)
-    assert found.tolist() == [0, MAX_REACH_PX, np.inf, np.inf]
+    result = pixel_distances(away, np.array([0, 2 * MAX_REACH_PX, 2 * (MAX_REACH_PX + 1), 2 * 599]), MAX_REACH_PX)
+    assert result.tolist() == [0, MAX_REACH_PX, np.inf, np.inf]
     squares = squared_distances(column_distances(np.array([0]), (600, 400), MAX_SQUARED_REACH_PX), MAX_SQUARED_REACH_PX)
     assert squares[[0, MAX_SQUARED_REACH_PX, 0, 3], [0, 0, MAX_SQUARED_REACH_PX, 4]].tolist() == [
         0,

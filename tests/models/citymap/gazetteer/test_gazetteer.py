@@ -45,9 +45,9 @@ def test_what_is_saved_is_loaded(town, tmp_path) -> None:
     loaded = Gazetteer.load(tmp_path)
     assert list(loaded.objects) == list(town.objects), "accents, Cyrillic and Chinese too"
     for name in ARRAYS:
-        was, found = getattr(town, name), getattr(loaded, name)
-        assert (was == found).all()
-        assert was.dtype == found.dtype
+        was, result = getattr(town, name), getattr(loaded, name)
+        assert (was == result).all()
+        assert was.dtype == result.dtype
 
 
 def test_a_gazetteer_of_nothing_is_saved_and_loaded(tmp_path) -> None:

@@ -43,9 +43,9 @@ def test_lines_have_the_pixels_of_points_no_farther_apart_than_was_said(seed) ->
         [start + dense * (end - start) for start, end in segments.astype(np.float64).reshape(-1, 2, 2)]
     )
     reached = np.unique(pixels_at(FINE, points))
-    found = np.unique(pixels)
-    assert np.isin(found, reached).mean() > 0.99, "nothing else, but for pixels that a corner of is met"
-    assert np.isin(reached, found).mean() > 0.9
+    result = np.unique(pixels)
+    assert np.isin(result, reached).mean() > 0.99, "nothing else, but for pixels that a corner of is met"
+    assert np.isin(reached, result).mean() > 0.9
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -59,11 +59,11 @@ def test_areas_have_the_points_of_a_lattice_that_are_inside_one_by_one(seed) -> 
     outer, hole = rings
     segments = np.concatenate([outer + 100.0, outer, hole]).astype(np.float32)
     starts = np.array([0, len(outer), len(segments)])
-    found, until = draw_areas(FINE, segments, starts, np.array([1, 0]), apart_m)
+    result, until = draw_areas(FINE, segments, starts, np.array([1, 0]), apart_m)
     ends = segments[starts[1] :].astype(np.float64)
     low, high = (edge(ends.reshape(-1, 2), axis=0) for edge in (np.min, np.max))
     xs, ys = (np.arange(low[axis] + apart_m / 2, high[axis], apart_m) for axis in (0, 1))
     naive = np.array([(x, y) for x in xs for y in ys if is_inside(x, y, ends)])
-    assert found.tolist() == pixels_at(FINE, naive).tolist()
+    assert result.tolist() == pixels_at(FINE, naive).tolist()
     assert len(naive) > 50
     assert until.tolist() == [0, len(naive), len(naive)], "the other is outside"

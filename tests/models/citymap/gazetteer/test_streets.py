@@ -22,16 +22,16 @@ def piece(
 
 def joined_of(ways: list[StreetPiece]) -> Streets:
     pieces = StreetPieces()
-    for some in (ways[:1], ways[1:]):
-        pieces.add(some)
+    for part in (ways[:1], ways[1:]):
+        pieces.add(part)
     return join_streets(pieces, FIRST)
 
 
 def corners(pieces: list[StreetPiece]) -> list[tuple[set[str], list[float]]]:
     joined = joined_of(pieces)
     return [
-        ({joined.objects[n - FIRST].names[0] for n in pair}, at.tolist())
-        for pair, at in zip(joined.corner_streets, joined.corners_m, strict=True)
+        ({joined.objects[n - FIRST].names[0] for n in pair}, position.tolist())
+        for pair, position in zip(joined.corner_streets, joined.corners_m, strict=True)
     ]
 
 
@@ -84,18 +84,18 @@ def test_streets_that_meet_twice_have_two_corners() -> None:
         piece("Main Street", (1, 2, 3), (0, 0), (10, 0), (200, 0)),
         piece("Crescent", (1, 4, 3), (0, 0), (100, 80), (200, 0)),
     ]
-    assert [at for _, at in corners(pieces)] == [[0, 0], [200, 0]], "along the first"
+    assert [position for _, position in corners(pieces)] == [[0, 0], [200, 0]], "along the first"
 
 
 def test_three_streets_at_a_node_meet_in_pairs() -> None:
     pieces = [piece(name, (n, 9), (n * 10, 50), (0, 0)) for n, name in enumerate(("A Street", "B Street", "C Street"))]
-    found = corners(pieces)
-    assert [names for names, _ in found] == [
+    result = corners(pieces)
+    assert [names for names, _ in result] == [
         {"A Street", "B Street"},
         {"A Street", "C Street"},
         {"B Street", "C Street"},
     ]
-    assert all(at == [0, 0] for _, at in found)
+    assert all(position == [0, 0] for _, position in result)
 
 
 def test_the_lower_street_of_a_corner_is_first() -> None:
@@ -107,8 +107,10 @@ def test_the_lower_street_of_a_corner_is_first() -> None:
 
 
 def test_streets_on_top_of_each_other_have_a_finite_corner() -> None:
-    ((_, at),) = corners([piece("Main Street", (1, 2), (0, 0), (30, 0)), piece("Route 66", (3, 4), (10, 0), (20, 0))])
-    assert at == pytest.approx([15, 0])
+    ((_, position),) = corners(
+        [piece("Main Street", (1, 2), (0, 0), (30, 0)), piece("Route 66", (3, 4), (10, 0), (20, 0))]
+    )
+    assert position == pytest.approx([15, 0])
 
 
 def test_a_town_without_streets() -> None:

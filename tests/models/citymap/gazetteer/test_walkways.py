@@ -24,7 +24,7 @@ def walkways() -> Walkways:
 
 
 @pytest.mark.parametrize(
-    ("at", "metres"),
+    ("position", "metres"),
     [
         ((50, 20), 0),
         ((50, 30), 10),
@@ -34,8 +34,8 @@ def walkways() -> Walkways:
         ((1e6, 0), MAX_DISTANCE_M),
     ],
 )
-def test_metres_to_lines_and_squares(walkways, at, metres) -> None:
-    assert walkways.distances_m(np.array([at], dtype=float))[0] == pytest.approx(metres, abs=1.5)
+def test_metres_to_lines_and_squares(walkways, position, metres) -> None:
+    assert walkways.distances_m(np.array([position], dtype=float))[0] == pytest.approx(metres, abs=1.5)
 
 
 def test_many_positions_at_once(walkways) -> None:

@@ -1,4 +1,4 @@
-"""What is around positions against shapely and a disjoint set, one after the other."""
+"""Instances around positions, compared with shapely and a disjoint set one after the other."""
 
 import numpy as np
 import pytest
@@ -31,28 +31,28 @@ def naive_groups(table, rules, center):
         for other in near:
             if is_thing[k] and is_thing[other] and table.instance[k] == table.instance[other]:
                 sets.merge(k, other)
-    groups = [sorted(some) for some in sets.subsets()]
-    inside = [some for some in groups if inner[some[0]] or is_thing[some[0]]]
-    joined = [list(some) for some in inside]
-    for some in groups:
-        if some in inside:
+    groups = [sorted(part) for part in sets.subsets()]
+    inside = [part for part in groups if inner[part[0]] or is_thing[part[0]]]
+    joined = [list(part) for part in inside]
+    for part in groups:
+        if part in inside:
             continue
         touched = [
-            n for k in some for other in table.links[table.link_starts[k] : table.link_starts[k + 1]]
+            n for k in part for other in table.links[table.link_starts[k] : table.link_starts[k + 1]]
             for n, those in enumerate(inside) if other in those
         ]  # fmt: skip
         if touched:
-            joined[touched[-1]] += some
+            joined[touched[-1]] += part
         else:
-            joined.append(some)
+            joined.append(part)
     alone = {
-        n: [table.instance[some[0]] for some in joined].count(table.instance[joined[n][0]]) for n in range(len(joined))
+        n: [table.instance[part[0]] for part in joined].count(table.instance[joined[n][0]]) for n in range(len(joined))
     }
     return [
-        np.array(some)
-        for n, some in enumerate(joined)
-        if is_thing[some[0]]
-        or table.point_count[some].sum() >= MIN_GROUP_SHARE * rules.min_part_points
+        np.array(part)
+        for n, part in enumerate(joined)
+        if is_thing[part[0]]
+        or table.point_count[part].sum() >= MIN_GROUP_SHARE * rules.min_part_points
         or alone[n] == 1
     ]
 
@@ -71,16 +71,16 @@ def test_ways_are_those_of_shapely_to_what_hangs_together(city, cells, seed) -> 
         groups = naive_groups(table, city.rules, cells.center_m[row, :2])
         for p in range(starts[n], starts[n + 1]):
             mine, naive = point == p, []
-            for some in groups:
-                away = shapely.distance(table.geometry(some), shapely.Point(points[p]))
-                metres = (away - crown_reach_m(away, table.crown_m[some])).min()
+            for part in groups:
+                away = shapely.distance(table.geometry(part), shapely.Point(points[p]))
+                metres = (away - crown_reach_m(away, table.crown_m[part])).min()
                 if metres <= REACH_M:
-                    naive.append((int(table.instance[some[0]]), metres))
+                    naive.append((int(table.instance[part[0]]), metres))
             metres = np.hypot(*way[mine].T.astype(float)) * WAY_STEP_M
             assert (np.diff((way[mine].astype(int) ** 2).sum(axis=1)) >= 0).all(), "the nearest first"
-            found = sorted(zip(instance[mine].tolist(), metres.tolist(), strict=True))
-            assert [i for i, _ in found] == [i for i, _ in sorted(naive)]
-            assert [m for _, m in found] == pytest.approx([m for _, m in sorted(naive)], abs=0.75 * WAY_STEP_M)
+            result = sorted(zip(instance[mine].tolist(), metres.tolist(), strict=True))
+            assert [i for i, _ in result] == [i for i, _ in sorted(naive)]
+            assert [m for _, m in result] == pytest.approx([m for _, m in sorted(naive)], abs=0.75 * WAY_STEP_M)
             for i, (east, north) in zip(instance[mine], way[mine] * WAY_STEP_M, strict=True):
                 whole = table.geometry(np.flatnonzero(table.instance == i))
                 there = shapely.Point(points[p] - [east, north])
@@ -89,7 +89,7 @@ def test_ways_are_those_of_shapely_to_what_hangs_together(city, cells, seed) -> 
 
 
 def test_no_position_has_nothing_around_it(city, cells) -> None:
-    found = closest_instances(
+    result = closest_instances(
         city.pieces, city.rules, cells.center_m[:2], np.zeros((0, 2)), np.zeros(3, int), 15.0, 0.1
     )
-    assert [len(some) for some in found] == [0, 0, 0]
+    assert [len(part) for part in result] == [0, 0, 0]

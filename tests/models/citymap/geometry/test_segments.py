@@ -11,17 +11,17 @@ from models.citymap.geometry.segments import STEP_M, ring_starts, snap, to_geome
 def test_pieces_are_put_together_again_from_their_segments(city) -> None:
     table = city.pieces
     pieces = np.random.default_rng(0).integers(0, len(table.instance), 400)
-    found = table.geometry(pieces)
+    result = table.geometry(pieces)
     dimension = table.dimension[pieces]
     assert {0, 2} <= set(dimension.tolist())
-    assert (shapely.get_dimensions(found) == dimension).all()
-    assert shapely.is_valid(found).all()
+    assert (shapely.get_dimensions(result) == dimension).all()
+    assert shapely.is_valid(result).all()
     area = dimension == 2
-    assert np.allclose(shapely.bounds(found[area]), table.bounds_m[pieces][area], atol=2 * STEP_M)
-    for geometry, piece in zip(found, pieces.tolist(), strict=True):
-        of = slice(*table.segment_starts[[piece, piece + 1]])
+    assert np.allclose(shapely.bounds(result[area]), table.bounds_m[pieces][area], atol=2 * STEP_M)
+    for geometry, piece in zip(result, pieces.tolist(), strict=True):
+        owner = slice(*table.segment_starts[[piece, piece + 1]])
         segments = to_segments(np.array([geometry]), table.tile[[piece]])[1]
-        assert sorted(_undirected(segments)) == sorted(_undirected(table.segments[of]))
+        assert sorted(_undirected(segments)) == sorted(_undirected(table.segments[owner]))
 
 
 def test_a_table_of_a_file_finds_the_same_tiles(city) -> None:
@@ -62,5 +62,5 @@ def test_what_is_thinner_than_a_step_is_nothing_and_spoils_nothing() -> None:
     sliver = shapely.Polygon([(0, 0), (3, 0), (0, STEP_M / 9)])
     assert shapely.is_empty(snap(np.array([sliver])))[0]
     house = shapely.MultiPolygon([sliver, shapely.box(1, 1, 3, 3)])
-    [found] = again(house)
-    assert found.area == pytest.approx(4)
+    [result] = again(house)
+    assert result.area == pytest.approx(4)

@@ -8,9 +8,9 @@ from models.citymap.geometry.tiling import ALL_TILES, TILE_M, clip_to_tiles, spl
 
 
 def array(*geometries):
-    found = np.empty(len(geometries), dtype=object)
-    found[:] = geometries
-    return found
+    result = np.empty(len(geometries), dtype=object)
+    result[:] = geometries
+    return result
 
 
 def blob(rng, size):
@@ -44,19 +44,19 @@ def test_what_comes_first_covers_what_comes_later(seed):
     rng = np.random.default_rng(seed)
     tile = np.repeat(np.arange(5), rng.integers(1, 6, 5))
     areas = array(*(blob(rng, 30) for _ in tile))
-    seen = subtract_covers(tile, areas)
+    visible = subtract_covers(tile, areas)
     for n in range(len(tile)):
         above = [areas[m] for m in range(n) if tile[m] == tile[n]]
         naive = areas[n].difference(shapely.union_all(above)) if above else areas[n]
-        assert shapely.area(seen[n]) == pytest.approx(naive.area, abs=1e-6)
-        assert shapely.area(shapely.symmetric_difference(seen[n], naive)) < 1e-6
+        assert shapely.area(visible[n]) == pytest.approx(naive.area, abs=1e-6)
+        assert shapely.area(shapely.symmetric_difference(visible[n], naive)) < 1e-6
 
 
 def test_parts_that_nearly_touch_hang_together():
     square = shapely.box(0, 0, 2, 2)
     near, far = shapely.box(2.5, 0, 3, 2), shapely.box(6, 0, 7, 2)
-    of, pieces = split_connected(array(shapely.MultiPolygon([far, square, near]), square, shapely.Polygon()), 2)
-    assert of.tolist() == [0, 0, 1]
+    owner, pieces = split_connected(array(shapely.MultiPolygon([far, square, near]), square, shapely.Polygon()), 2)
+    assert owner.tolist() == [0, 0, 1]
     assert sorted(shapely.area(pieces[:2]).tolist()) == [2.0, 5.0]
     assert split_connected(array(shapely.Point(0, 0)), 2)[0].tolist() == []
 
@@ -107,9 +107,9 @@ def test_pieces_of_some_columns_at_a_time_hang_together_as_all_do(columns, monke
     assert whole.shape[0] > 6
     assert len(whole.links)
     monkeypatch.setattr("models.citymap.geometry.pieces.TILE_COLUMNS_PER_BLOCK", columns)
-    some = PieceTable.from_solids(solids)
-    assert np.array_equal(some.link_starts, whole.link_starts)
-    assert np.array_equal(some.links, whole.links)
+    part = PieceTable.from_solids(solids)
+    assert np.array_equal(part.link_starts, whole.link_starts)
+    assert np.array_equal(part.links, whole.links)
 
 
 @pytest.mark.parametrize("at_once", [1, 5, 17])

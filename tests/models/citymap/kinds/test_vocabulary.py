@@ -176,8 +176,8 @@ def test_brands_by_any_spelling(kinds):
 
 def test_hand_written_words_name_kinds_that_are(kinds):
     ids = {kind.id for kind in kinds.kinds}
-    said = everyday_nouns(tomllib.loads((FOLDER / "people.toml").read_text()))
-    assert {kind for rows in said.values() for kind in rows} <= ids
+    text = everyday_nouns(tomllib.loads((FOLDER / "people.toml").read_text()))
+    assert {kind for rows in text.values() for kind in rows} <= ids
     ours = tomllib.loads((FOLDER / "ours.toml").read_text())
     assert {*ours["same"].values(), *ours["names"]} <= ids
     assert len(ids) == len(kinds.kinds)

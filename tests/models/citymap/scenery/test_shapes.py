@@ -13,12 +13,12 @@ HOUSE = shapely.Polygon([(0, 0), (20, 0), (20, 10), (0, 10)], [[(5, 2), (8, 2), 
 
 
 def decoded(part):
-    tensors, told = part
+    tensors, facts = part
     xy = tensors["steps"].cumsum(axis=0) / 10
     paths = np.split(xy, tensors["size"].cumsum()[:-1])
     owner = np.repeat(np.arange(len(tensors["label"])), tensors["paths"])
     objects = [[p for p, o in zip(paths, owner, strict=True) if o == n] for n in range(len(tensors["label"]))]
-    return {key: json.loads(value) if key != "kind" else value for key, value in told.items()}, tensors, objects
+    return {key: json.loads(value) if key != "kind" else value for key, value in facts.items()}, tensors, objects
 
 
 def test_shapes_are_what_was_encoded() -> None:
@@ -30,9 +30,9 @@ def test_shapes_are_what_was_encoded() -> None:
             MapShape("tree", shapely.Point(), source_id="node/8"),
         ]
     )
-    told, tensors, objects = decoded(outlines.encode([NamedPoint((1.04, -2.0), "Café Ö", "amenity/cafe")]))
-    assert told["labels"] == ["tree", "building", "road"]
-    assert [told["labels"][n] for n in tensors["label"]] == ["tree", "building", "road"], (
+    facts, tensors, objects = decoded(outlines.encode([NamedPoint((1.04, -2.0), "Café Ö", "amenity/cafe")]))
+    assert facts["labels"] == ["tree", "building", "road"]
+    assert [facts["labels"][n] for n in tensors["label"]] == ["tree", "building", "road"], (
         "what has no place is left out"
     )
     assert tensors["form"].tolist() == [0, 2, 1]
@@ -45,8 +45,8 @@ def test_shapes_are_what_was_encoded() -> None:
     assert tensors["hole"].tolist() == [0, 0, 1, 0, 0]
     assert shapely.Polygon(rings[0], [rings[1]]).equals(HOUSE)
     assert [line.tolist() for line in objects[2]] == [[[0, 0], [100, 1]], [[200, 5], [300, 5]]]
-    assert told["names"] == {"1": "Kauppahalli"}
-    assert told["places"] == [[10, -20, "Café Ö", "amenity/cafe"]]
+    assert facts["names"] == {"1": "Kauppahalli"}
+    assert facts["places"] == [[10, -20, "Café Ö", "amenity/cafe"]]
 
 
 def test_what_a_clip_leaves_over_is_not_drawn() -> None:
@@ -69,26 +69,29 @@ def test_what_is_drawn_a_part_at_a_time_is_the_same(at_once, monkeypatch) -> Non
     rng = np.random.default_rng(0)
     shapes = [
         MapShape(label, geometry, name=f"{label} {n}" if n % 3 == 0 else None, source_id=f"way/{n}")
-        for n, at in enumerate(rng.uniform(-900, 900, (40, 2)))
-        for label, geometry in (("tree", shapely.Point(at)), ("building", shapely.affinity.translate(HOUSE, *at)))
+        for n, position in enumerate(rng.uniform(-900, 900, (40, 2)))
+        for label, geometry in (
+            ("tree", shapely.Point(position)),
+            ("building", shapely.affinity.translate(HOUSE, *position)),
+        )
     ]
     shapes.sort(key=lambda shape: shape.label)
     expected = Outlines.from_shapes(shapes)
     monkeypatch.setattr("models.citymap.scenery.shapes.AT_ONCE", at_once)
     drawings, order = OutlinesBuilder(["building", "tree"]), rng.permutation(len(shapes))
-    for some in np.array_split(order, 5):
-        drawings.add(DrawnObjects.from_shapes([shapes[n] for n in some], some))
-    found = drawings.build()
-    assert (found.labels, found.names) == (expected.labels, expected.names)
-    assert list(found.names) == sorted(found.names)
+    for part in np.array_split(order, 5):
+        drawings.add(DrawnObjects.from_shapes([shapes[n] for n in part], part))
+    result = drawings.build()
+    assert (result.labels, result.names) == (expected.labels, expected.names)
+    assert list(result.names) == sorted(result.names)
     for name, column in expected.tensors.items():
-        assert np.array_equal(found.tensors[name], column), name
-        assert found.tensors[name].dtype == column.dtype
+        assert np.array_equal(result.tensors[name], column), name
+        assert result.tensors[name].dtype == column.dtype
 
 
 def test_nothing_is_a_map_too() -> None:
-    told, tensors, _ = decoded(Outlines.from_shapes([]).encode())
-    assert told["labels"] == []
+    facts, tensors, _ = decoded(Outlines.from_shapes([]).encode())
+    assert facts["labels"] == []
     assert len(tensors["steps"]) == 0
 
 
@@ -100,7 +103,7 @@ def test_a_map_from_openstreetmap_has_its_geometry(osm_file, label, form) -> Non
     of_label = tensors["label"] == city_map.outlines.labels.index(label)
     assert set(tensors["form"][of_label].tolist()) == {form}
     ids = {i.source_id for i in city_map.instances if i.label == label and i.source_id}
-    numbers = {4 * int(number) + OSM_TYPES.index(kind) for kind, number in (of.split("/") for of in ids)}
+    numbers = {4 * int(number) + OSM_TYPES.index(kind) for kind, number in (owner.split("/") for owner in ids)}
     assert numbers <= set(tensors["source"][of_label].tolist())
     if label == "road":
         assert (tensors["width"][of_label] > 0).all()

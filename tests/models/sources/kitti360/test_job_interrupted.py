@@ -17,10 +17,12 @@ def stop(*args: object):
     raise KeyboardInterrupt
 
 
-@pytest.mark.parametrize("at", ["load_raw_scene", "prepare_scene", "save_scene", "save_direction", "replace_file"])
-def test_an_interrupted_scene_leaves_nothing(at: str, raw_root: Path, tmp_path: Path, monkeypatch) -> None:
+@pytest.mark.parametrize(
+    "position", ["load_raw_scene", "prepare_scene", "save_scene", "save_direction", "replace_file"]
+)
+def test_an_interrupted_scene_leaves_nothing(position: str, raw_root: Path, tmp_path: Path, monkeypatch) -> None:
     with monkeypatch.context() as patch:
-        patch.setattr(kitti360_job, at, stop)
+        patch.setattr(kitti360_job, position, stop)
         with pytest.raises(KeyboardInterrupt):
             prepare_data(raw_root, tmp_path, "0003", QUICK)
     assert not list(tmp_path.iterdir())

@@ -82,12 +82,12 @@ def test_cells_equal_the_rules_read_literally(raw) -> None:
             assert np.array_equal(item.rgb, instance.rgb[rows])
 
 
-def naive_strategy(seen: list[dict], strategy: str) -> list[dict]:
+def naive_strategy(nearby: list[dict], strategy: str) -> list[dict]:
     """Six of what is seen: the nearest, or by turns from each class or direction."""
     if strategy == "closest":
-        return sorted(seen, key=lambda s: s["distance"])[:6]
+        return sorted(nearby, key=lambda s: s["distance"])[:6]
     pools: dict = {}
-    for s in seen:
+    for s in nearby:
         pools.setdefault(s["label" if strategy == "class" else "direction"], []).append(s)
     turns = max(map(len, pools.values()))
     return [pool[turn] for turn in range(turns) for pool in pools.values() if turn < len(pool)][:6]
@@ -109,18 +109,18 @@ def test_descriptions_equal_the_rules_read_literally(raw) -> None:
     assert len(positions) >= 8
     split = False
     for position in map(np.array, positions):
-        seen = []
+        nearby = []
         for instance, rows in naive_parts(raw, position):
             xyz = instance.points_m[rows].astype(float)
             distance = np.linalg.norm(xyz - position, axis=1)
             offset = (position - xyz[distance.argmin()])[:2]
-            seen.append({"id": instance.id, "label": instance.label, "distance": distance.min(), "offset": offset,
+            nearby.append({"id": instance.id, "label": instance.label, "distance": distance.min(), "offset": offset,
                          "direction": naive_direction(*offset), "center": (position - xyz.mean(axis=0))[:2],
                          "rgb": instance.rgb[rows].mean(axis=0)})  # fmt: skip
-        seen = [s for s in seen if s["distance"] <= 15]
+        nearby = [s for s in nearby if s["distance"] <= 15]
         expected = []
         for strategy in ("closest", "class", "direction"):
-            chosen = naive_strategy(seen, strategy)
+            chosen = naive_strategy(nearby, strategy)
             if {s["id"] for s in chosen} not in [{s["id"] for s in earlier} for _, earlier in expected]:
                 expected.append((strategy, chosen))
         mine = [pose for pose in poses if tuple(pose.pose_w) == tuple(position)]
@@ -135,17 +135,17 @@ def test_descriptions_equal_the_rules_read_literally(raw) -> None:
     assert split, "some hint is matched to one of several parts of its instance"
 
 
-def assert_said(hint: PublishedHint, seen: dict) -> None:
-    assert (hint.object_instance_id, hint.object_label) == (seen["id"], seen["label"])
-    assert hint.direction == seen["direction"]
-    assert hint.offset_closest * 30 == pytest.approx(seen["offset"], abs=1e-6)
-    assert hint.offset_center * 30 == pytest.approx(seen["center"], abs=1e-6)
-    assert hint.object_color_rgb == pytest.approx(seen["rgb"], abs=1e-6)
-    assert hint.object_color_text == KITTI360_PALETTE.word(seen["rgb"])
+def assert_said(hint: PublishedHint, nearby: dict) -> None:
+    assert (hint.object_instance_id, hint.object_label) == (nearby["id"], nearby["label"])
+    assert hint.direction == nearby["direction"]
+    assert hint.offset_closest * 30 == pytest.approx(nearby["offset"], abs=1e-6)
+    assert hint.offset_center * 30 == pytest.approx(nearby["center"], abs=1e-6)
+    assert hint.object_color_rgb == pytest.approx(nearby["rgb"], abs=1e-6)
+    assert hint.object_color_text == KITTI360_PALETTE.word(nearby["rgb"])
 
 
 def assert_matched(hint: PublishedHint, pose: np.ndarray, items: list) -> bool:
-    """See that the best part is taken; True if there were several."""
+    """Check that the best part was chosen; return True if there were several."""
     assert hint.is_matched == bool(items)
     if not items:
         assert (hint.object_id, hint.best_offset_center, hint.best_offset_closest) == (None, None, None)
@@ -214,14 +214,14 @@ def test_every_option_of_the_poses_counts(raw) -> None:
     assert len(poses_of(hint_reach_m=9.0)) < len(standard)
     unmoved = {tuple(pose.pose_w) for pose in poses_of(shift_divisor=1e9)}
     assert unmoved <= {tuple(location) for location in choose_locations(raw, PrepareConfig())}
-    said = [hint.direction for pose in poses_of(on_top_share=0.5) for hint in pose.descriptions]
-    assert set(said) == {"on-top"}
+    text = [hint.direction for pose in poses_of(on_top_share=0.5) for hint in pose.descriptions]
+    assert set(text) == {"on-top"}
     assert {pose.cell_id for pose in poses_of(cut=CutRules(grid_m=30.0))} < {f"town_{n:05d}" for n in range(12)}
 
 
 def test_the_same_seed_gives_the_same_scene_and_progress_ends(raw) -> None:
     steps: list = []
-    one = prepare_scene(raw, PrepareConfig(), np.random.default_rng(3), lambda *at: steps.append(at))[1]
+    one = prepare_scene(raw, PrepareConfig(), np.random.default_rng(3), lambda *position: steps.append(position))[1]
     two = prepare_scene(raw, PrepareConfig(), np.random.default_rng(3))[1]
     assert [tuple(p.pose_w) for p in one] == [tuple(p.pose_w) for p in two]
     done = [done for done, _ in steps]
@@ -252,8 +252,8 @@ def test_a_scene_without_cells_or_poses_is_refused(raw, change, message) -> None
 def test_round_robin_equals_taking_turns(seed) -> None:
     keys = np.random.default_rng(seed).integers(0, 5, 23)
     pools: dict = {}
-    for at, key in enumerate(keys.tolist()):
-        pools.setdefault(key, []).append(at)
+    for position, key in enumerate(keys.tolist()):
+        pools.setdefault(key, []).append(position)
     expected = []
     while any(pools.values()):
         expected += [pool.pop(0) for pool in pools.values() if pool]

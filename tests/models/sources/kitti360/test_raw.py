@@ -49,16 +49,16 @@ def tiles_of(root: Path) -> list[Path]:
 
 def naive_merge(number: int, voxel: float | None) -> tuple[np.ndarray, np.ndarray]:
     """Rule 2 as it reads: after each tile, the first point of each voxel, in the order they came."""
-    kept: list = []
+    remaining: list = []
     for tile in TILES:
-        kept += [tuple(v) for v in tile[tile["instance"] == number].tolist()]
-        low = [min((v[axis] for v in kept), default=0) for axis in range(3)]
-        seen: dict = {}
-        for v in kept:
+        remaining += [tuple(v) for v in tile[tile["instance"] == number].tolist()]
+        low = [min((v[axis] for v in remaining), default=0) for axis in range(3)]
+        first_in_cube: dict = {}
+        for v in remaining:
             key = v[:3] if voxel is None else tuple((v[a] - low[a] + voxel / 2) // voxel for a in range(3))
-            seen.setdefault(key, v)
-        kept = list(seen.values())
-    return np.array([v[:3] for v in kept], dtype=np.float32), np.array([v[3:6] for v in kept]) / 255
+            first_in_cube.setdefault(key, v)
+        remaining = list(first_in_cube.values())
+    return np.array([v[:3] for v in remaining], dtype=np.float32), np.array([v[3:6] for v in remaining]) / 255
 
 
 def test_instances_are_merged_over_tiles_and_thinned(root) -> None:
@@ -197,21 +197,21 @@ def mutated(data: bytes, header: int, rng: np.random.Generator) -> bytes:
     """A file with bytes changed, cut out, put in or doubled; in the header more often than among the points."""
     out = bytearray(data)
     for _ in range(rng.integers(1, 4)):
-        at = int(rng.integers(0, header if rng.random() < 0.7 else len(out) + 1))
+        position = int(rng.integers(0, header if rng.random() < 0.7 else len(out) + 1))
         junk = rng.integers(0, 256, rng.integers(1, 6), dtype=np.uint8).tobytes()
         digits = str(rng.integers(0, 10 ** int(rng.integers(1, 18)))).encode()
-        end = at + int(rng.integers(1, 40))
+        end = position + int(rng.integers(1, 40))
         kind = rng.integers(0, 5)
         if kind == 0:
-            out[at : at + len(junk)] = junk
+            out[position : position + len(junk)] = junk
         elif kind == 1:
-            del out[at:end]
+            del out[position:end]
         elif kind == 2:
-            out[at:at] = out[at:end]
+            out[position:position] = out[position:end]
         elif kind == 3:
-            out[at : at + 1] = digits
+            out[position : position + 1] = digits
         else:
-            del out[at + len(out) // 2 :]
+            del out[position + len(out) // 2 :]
     return bytes(out)
 
 

@@ -17,22 +17,22 @@ from tests.models.sources.conftest import MINI, make_cell, needs_mini
 POINTS = ["east", "west", "north", "south", "northeast", "northwest", "southeast", "southwest"]
 
 
-def at(number: int, x: float, y: float, z: float = 0.0) -> PublishedCell:
+def cell_at(number: int, x: float, y: float, z: float = 0.0) -> PublishedCell:
     low = np.array([x, y, z])
     return replace(make_cell(number), bbox_w=np.concatenate([low, low + 30]))
 
 
 def naive(cells: list[PublishedCell], grid_m: float) -> dict:
     """Each pair of cells, one after the other."""
-    found: dict = {cell.id: {} for cell in cells}
+    result: dict = {cell.id: {} for cell in cells}
     words = {-1: ("west", "south"), 0: ("", ""), 1: ("east", "north")}
     for one in cells:
         for other in cells:
             x, y = ((other.bbox_w[axis] - one.bbox_w[axis]) / grid_m for axis in range(2))
             if one is not other and x in words and y in words:
                 word = words[y][1] + words[x][0]
-                found[one.id][word] = other.id
-    return found
+                result[one.id][word] = other.id
+    return result
 
 
 @pytest.fixture
@@ -40,27 +40,27 @@ def cells() -> list[PublishedCell]:
     """A grid of 10 m with holes, at any height, and a cell that is not on it."""
     rng = np.random.default_rng(0)
     places = [(x, y) for x in range(-35, 25, 10) for y in range(105, 155, 10) if rng.random() < 0.7]
-    grid = [at(n, x, y, rng.uniform(0, 9)) for n, (x, y) in enumerate(places)]
-    return [*grid, at(999, 102.5, 107.0)]
+    grid = [cell_at(n, x, y, rng.uniform(0, 9)) for n, (x, y) in enumerate(places)]
+    return [*grid, cell_at(999, 102.5, 107.0)]
 
 
 def test_neighbours_equal_a_slow_search(cells: list[PublishedCell]) -> None:
-    found = find_neighbours(cells, 10.0)
-    assert found == naive(cells, 10.0)
-    assert list(found) == [cell.id for cell in cells]
-    assert {len(points) for points in found.values()} >= {0, 3, 5}
+    result = find_neighbours(cells, 10.0)
+    assert result == naive(cells, 10.0)
+    assert list(result) == [cell.id for cell in cells]
+    assert {len(points) for points in result.values()} >= {0, 3, 5}
     assert find_neighbours(cells, 20.0) == naive(cells, 20.0)
     assert find_neighbours(cells[:1], 10.0) == {"0003_00000": {}}
 
 
 def test_the_file_is_as_published_and_read_back(cells: list[PublishedCell], tmp_path: Path) -> None:
-    path, found = tmp_path / "direction/town.json", find_neighbours(cells, 10.0)
-    save_direction(path, found)
-    assert load_direction(path, found) == found
+    path, result = tmp_path / "direction/town.json", find_neighbours(cells, 10.0)
+    save_direction(path, result)
+    assert load_direction(path, result) == result
     stored = json.loads(path.read_text())
     for cell_id, points in stored.items():
         assert list(points) == POINTS
-        assert {point: name for point, name in points.items() if name is not None} == found[cell_id]
+        assert {point: name for point, name in points.items() if name is not None} == result[cell_id]
     assert [p.name for p in path.parent.iterdir()] == ["town.json"]
 
 
@@ -108,8 +108,8 @@ def test_neighbours_in_the_sample(scene: str, tmp_path: Path) -> None:
     path = tmp_path / "cells.pkl"
     path.write_bytes(lzma.decompress((MINI / f"cells/2013_05_28_drive_{scene}_sync.pkl.xz").read_bytes()))
     cells = load_cells(path)
-    found = find_neighbours(cells, 10.0)
-    assert found == naive(cells, 10.0)
-    assert max(len(points) for points in found.values()) == 8
-    save_direction(tmp_path / "direction.json", found)
-    assert load_direction(tmp_path / "direction.json", [cell.id for cell in cells]) == found
+    result = find_neighbours(cells, 10.0)
+    assert result == naive(cells, 10.0)
+    assert max(len(points) for points in result.values()) == 8
+    save_direction(tmp_path / "direction.json", result)
+    assert load_direction(tmp_path / "direction.json", [cell.id for cell in cells]) == result

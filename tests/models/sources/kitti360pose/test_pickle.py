@@ -198,15 +198,15 @@ def mutate(data: bytes, other: bytes, rng: np.random.Generator) -> bytes:
         return data[: rng.integers(len(data))]
     changed = bytearray(data)
     if kind == 1:
-        for at in rng.integers(len(data), size=rng.integers(1, 6)):
-            changed[at] = rng.integers(256)
+        for position in rng.integers(len(data), size=rng.integers(1, 6)):
+            changed[position] = rng.integers(256)
     elif kind == 2:
         source = (data, other)[rng.integers(2)]
-        at, start, size = rng.integers(len(data)), rng.integers(len(source)), rng.integers(1, 60)
-        changed[at : at + rng.integers(60)] = source[start : start + size]
+        position, start, size = rng.integers(len(data)), rng.integers(len(source)), rng.integers(1, 60)
+        changed[position : position + rng.integers(60)] = source[start : start + size]
     else:  # one operation for another, where harm would come from
-        at = rng.integers(2, len(data))
-        changed[at] = rng.choice(np.frombuffer(b"RbiocP\x81\x82\x83\x84\x92\x93\x94h0.", dtype=np.uint8))
+        position = rng.integers(2, len(data))
+        changed[position] = rng.choice(np.frombuffer(b"RbiocP\x81\x82\x83\x84\x92\x93\x94h0.", dtype=np.uint8))
     return bytes(changed)
 
 
@@ -230,11 +230,11 @@ def test_ten_thousand_mutated_pickles(root: Path, tmp_path: Path, monkeypatch: p
         load, data = ((load_cells, cells), (load_poses, poses), (load_cells, theirs), (load_poses, poses))[n % 4]
         path.write_bytes(mutate(data, evil, rng))
         try:
-            found = load(path)
+            result = load(path)
         except DataError:
             refused += 1
             continue
-        assert found
-        if isinstance(found[0], PublishedCell):
-            assert all(np.isfinite(item.xyz).all() and len(item.xyz) for cell in found for item in cell.objects)
+        assert result
+        if isinstance(result[0], PublishedCell):
+            assert all(np.isfinite(item.xyz).all() and len(item.xyz) for cell in result for item in cell.objects)
     assert 5_000 < refused < 10_000

@@ -61,32 +61,32 @@ def tiled(extract, tmp_path_factory):
     return path
 
 
-def element(found) -> tuple:
-    """What there is of an element: tags, and place, refs or members."""
-    letter = found.type_str()
+def element(result) -> tuple:
+    """Return the tags of an element, and its position, refs or members."""
+    letter = result.type_str()
     rest: tuple = ()
     if letter == "n":
-        rest = found.location.x, found.location.y
+        rest = result.location.x, result.location.y
     elif letter == "w":
-        rest = tuple(node.ref for node in found.nodes)
+        rest = tuple(node.ref for node in result.nodes)
     elif letter == "r":
-        rest = tuple((member.type, member.ref, member.role) for member in found.members)
-    return dict(found.tags), rest
+        rest = tuple((member.type, member.ref, member.role) for member in result.members)
+    return dict(result.tags), rest
 
 
 def elements(path) -> list[tuple]:
-    return [(found.type_str(), found.id, *element(found)) for found in osmium.FileProcessor(str(path))]
+    return [(result.type_str(), result.id, *element(result)) for result in osmium.FileProcessor(str(path))]
 
 
 @pytest.fixture(scope="module")
 def by_copy(tiled, extract):
-    """Of each copy {(letter, number in the extract): (tags, rest)}."""
-    found = defaultdict(dict)
+    """Map each copy to {(letter, number in the extract): (tags, rest)}."""
+    result = defaultdict(dict)
     for letter, number, *what in elements(tiled):
         copy, own = divmod(number, extract.numbers[letter])
-        assert (letter, own) not in found[copy], "numbers are unique"
-        found[copy][letter, own] = what
-    return found
+        assert (letter, own) not in result[copy], "numbers are unique"
+        result[copy][letter, own] = what
+    return result
 
 
 def test_copy_0_is_the_extract(town, by_copy) -> None:
@@ -96,13 +96,13 @@ def test_copy_0_is_the_extract(town, by_copy) -> None:
 def test_every_copy_has_every_element_and_refers_to_its_own(by_copy, extract, tiled) -> None:
     assert sorted(by_copy) == list(range(COPIES))
     nodes = {number for letter, number, *_ in elements(tiled) if letter == "n"}
-    for copy, found in by_copy.items():
-        assert found.keys() == by_copy[0].keys()
+    for copy, result in by_copy.items():
+        assert result.keys() == by_copy[0].keys()
         assert 99 + copy * extract.numbers["n"] not in nodes, "what the extract lacks is in no other copy"
         by = {letter: copy * count for letter, count in extract.numbers.items()}
-        assert found["w", 5][1] == tuple(ref + by["n"] for ref in (21, 22, 99))
-        assert found["r", 3][1] == (("w", 8 + by["w"], "outer"), ("n", 11 + by["n"], "x"))
-        assert found["r", 3][0] == {"type": "multipolygon", "building": "yes"}
+        assert result["w", 5][1] == tuple(ref + by["n"] for ref in (21, 22, 99))
+        assert result["r", 3][1] == (("w", 8 + by["w"], "outer"), ("n", 11 + by["n"], "x"))
+        assert result["r", 3][0] == {"type": "multipolygon", "building": "yes"}
 
 
 def test_a_file_is_in_osmium_s_order(tiled) -> None:
@@ -112,8 +112,8 @@ def test_a_file_is_in_osmium_s_order(tiled) -> None:
 
 def test_copies_lie_side_by_side_in_the_header_s_box(by_copy, tiled) -> None:
     boxes = []
-    for found in by_copy.values():
-        places = np.array([rest for (letter, _), (_, rest) in found.items() if letter == "n"])
+    for result in by_copy.values():
+        places = np.array([rest for (letter, _), (_, rest) in result.items() if letter == "n"])
         boxes.append((places.min(axis=0), places.max(axis=0)))
         assert np.array_equal(boxes[-1][1] - boxes[-1][0], boxes[0][1] - boxes[0][0])
     for (low, high), (other_low, other_high) in combinations(boxes, 2):
@@ -128,24 +128,24 @@ def test_copies_lie_side_by_side_in_the_header_s_box(by_copy, tiled) -> None:
 
 
 def test_streets_of_a_copy_have_names_that_no_other_has(by_copy) -> None:
-    seen = Counter()
+    uses = Counter()
     for copy in range(1, COPIES):
-        found = by_copy[copy]
-        high, again, low = (found["w", number][0]["name"] for number in (5, 6, 7))
+        result = by_copy[copy]
+        high, again, low = (result["w", number][0]["name"] for number in (5, 6, 7))
         assert high == again, "one street in two pieces, in whatever case"
-        assert found["w", 5][0] == {"highway": "residential", "name": high}, "no other language, no old name"
-        assert found["n", 13][0] == {"addr:housenumber": "7", "addr:street": high}
-        seen.update([high, low, found["n", 14][0]["addr:street"]])
-    assert set(seen.values()) == {1}
-    assert len(seen) == 3 * (COPIES - 1)
-    assert not {"high road", "low road", "far lane"} & {name.casefold() for name in seen}
+        assert result["w", 5][0] == {"highway": "residential", "name": high}, "no other language, no old name"
+        assert result["n", 13][0] == {"addr:housenumber": "7", "addr:street": high}
+        uses.update([high, low, result["n", 14][0]["addr:street"]])
+    assert set(uses.values()) == {1}
+    assert len(uses) == 3 * (COPIES - 1)
+    assert not {"high road", "low road", "far lane"} & {name.casefold() for name in uses}
 
 
 def test_things_of_a_kind_swap_names_with_all_that_belongs_to_them(by_copy) -> None:
     names = dict(BAKERIES)
     orders = []
-    for found in by_copy.values():
-        tags = [found["n", number][0] for number in range(1, len(BAKERIES) + 1)]
+    for result in by_copy.values():
+        tags = [result["n", number][0] for number in range(1, len(BAKERIES) + 1)]
         assert sorted(one["name"] for one in tags) == sorted(names)
         for one in tags:
             own = names[one["name"]]
@@ -153,8 +153,8 @@ def test_things_of_a_kind_swap_names_with_all_that_belongs_to_them(by_copy) -> N
             assert one.get("name:fi") == own
             assert one.get("brand") == (f"{one['name']}s" if own else None)
         orders.append(tuple(one["name"] for one in tags))
-        assert found["n", 11][0]["name"] == "Alone", "the only one of its kind"
-        assert found["n", 12][0]["name"] == "High Road", "a stop is no street"
+        assert result["n", 11][0]["name"] == "Alone", "the only one of its kind"
+        assert result["n", 12][0]["name"] == "High Road", "a stop is no street"
     assert len(set(orders)) > COPIES / 2
 
 
@@ -166,23 +166,23 @@ def test_the_same_names_come_again(town, tiled, tmp_path) -> None:
 def test_a_tiled_city_is_read_with_as_many_times_the_streets(osm_file, city, tmp_path) -> None:
     out = tmp_path / "city.osm.pbf"
     block = CityExtract.read(osm_file).write_tiled(4, out)
-    found = load_osm(out)
+    result = load_osm(out)
     names = Counter(instance.label for instance in city.instances if instance.name)
     assert names
-    assert Counter(instance.label for instance in found.instances if instance.name) == Counter(
+    assert Counter(instance.label for instance in result.instances if instance.name) == Counter(
         {label: 4 * count for label, count in names.items()}
     )
-    assert len({i.name for i in found.instances}) - 1 == 4 * (len({i.name for i in city.instances}) - 1)
-    own = [load_gazetteer(path, map_.frame) for path, map_ in ((osm_file, city), (out, found))]
+    assert len({i.name for i in result.instances}) - 1 == 4 * (len({i.name for i in city.instances}) - 1)
+    own = [load_gazetteer(path, map_.frame) for path, map_ in ((osm_file, city), (out, result))]
     streets, corners = ([len(g.by_kind[STREET_KIND]) for g in own], [len(g.corners_m) for g in own])
     assert streets[1] == 4 * streets[0]
     assert corners[1] > 3 * corners[0], "streets that end on another one's line meet it or not, by rounding"
-    assert len(found.locations_m) == pytest.approx(4 * len(city.locations_m), rel=0.15)
+    assert len(result.locations_m) == pytest.approx(4 * len(city.locations_m), rel=0.15)
     lat, lon = city.frame.to_wgs84(city.locations_m[:1])
     shifted = lat[0] + block.shift(3)[1] / 1e7, lon[0] + block.shift(3)[0] / 1e7
     assert block.to_first_copy(*shifted) == pytest.approx((lat[0], lon[0]), abs=1e-9)
-    near = found.frame.from_wgs84(*map(np.array, shifted))
-    assert np.hypot(*(found.locations_m[:, :2] - near).T).min() < 2.5
+    near = result.frame.from_wgs84(*map(np.array, shifted))
+    assert np.hypot(*(result.locations_m[:, :2] - near).T).min() < 2.5
 
 
 @pytest.mark.parametrize(("copies", "columns"), [(1, 1), (4, 2), (5, 2), (100, 10), (101, 10)])

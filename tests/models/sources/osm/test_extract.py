@@ -71,9 +71,9 @@ def test_a_polygon_leaves_out_what_is_beside_it(taken, tmp_path) -> None:
     assert region.shape.bounds == pytest.approx((west, south, east, north))
     with extracted_file(SHIPPED_PATH, region) as path:
         assert path.name == "helsinki.osm.pbf"
-        some, all_of = elements(path), elements(taken)
-    assert set(some) < set(all_of)
-    assert len(some) < 0.8 * len(all_of)
+        part, all_of = elements(path), elements(taken)
+    assert set(part) < set(all_of)
+    assert len(part) < 0.8 * len(all_of)
     assert not path.exists()
 
 

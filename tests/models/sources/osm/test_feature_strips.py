@@ -28,18 +28,18 @@ def test_a_map_is_the_same_in_strips_of_any_width(band, osm_file, monkeypatch) -
     monkeypatch.setattr("models.sources.osm.feature_strips.TILE_COLUMNS_PER_BAND", 10_000)
     whole = load_osm(osm_file)
     monkeypatch.setattr("models.sources.osm.feature_strips.TILE_COLUMNS_PER_BAND", band)
-    some = load_osm(osm_file)
-    assert len(some.instances) == len(whole.instances) > 20
-    for one, other in zip(some.instances, whole.instances, strict=True):
-        told = [
+    part = load_osm(osm_file)
+    assert len(part.instances) == len(whole.instances) > 20
+    for one, other in zip(part.instances, whole.instances, strict=True):
+        facts = [
             (i.id, i.label, i.name, i.source_id, i.shape, None if i.rgb is None else i.rgb.tolist())
             for i in (one, other)
         ]
-        assert told[0] == told[1]
+        assert facts[0] == facts[1]
     for field in fields(whole.pieces):
-        assert np.array_equal(getattr(some.pieces, field.name), getattr(whole.pieces, field.name)), field.name
-    assert np.array_equal(some.locations_m, whole.locations_m)
-    drawn, wanted = some.outlines.encode(), whole.outlines.encode()
+        assert np.array_equal(getattr(part.pieces, field.name), getattr(whole.pieces, field.name)), field.name
+    assert np.array_equal(part.locations_m, whole.locations_m)
+    drawn, wanted = part.outlines.encode(), whole.outlines.encode()
     assert drawn.metadata == wanted.metadata
     assert [*drawn.tensors] == [*wanted.tensors]
     for name, tensor in drawn.tensors.items():
@@ -60,17 +60,17 @@ def test_what_is_one_instance_is_so_across_strips(band, tmp_path, monkeypatch) -
         feature("street lamp", shapely.Point(204.8, 20), "node/8"),
         feature("street lamp", shapely.Point(209, 20), "node/9"),
     ]
-    found = FeatureInstances.join(filed(tmp_path, features, monkeypatch, band))
+    result = FeatureInstances.join(filed(tmp_path, features, monkeypatch, band))
     alike = {}
-    for number, instance in enumerate(found.feature_instance.tolist()):
+    for number, instance in enumerate(result.feature_instance.tolist()):
         alike.setdefault(instance, []).append(number)
     upright = sorted([6, 7], key=lambda n: features[n].order)[0]  # carries the other
     left_out = sorted({4, 6, 7} - {upright})
     assert sorted(alike.pop(-1)) == left_out
     assert sorted(alike.values()) == sorted([[0, 1], [2], [3], [5], [upright], [8]])
-    order = [features[n].order for n in found.first]
+    order = [features[n].order for n in result.first]
     assert order == sorted(order)
-    assert [features[n].order for n in np.argsort(found.rank)] == sorted(each.order for each in features)
+    assert [features[n].order for n in np.argsort(result.rank)] == sorted(each.order for each in features)
 
 
 @pytest.mark.parametrize("band", [1, 100])
@@ -79,12 +79,12 @@ def test_an_instance_is_as_high_as_its_first_feature_in_every_strip(band, tmp_pa
         feature("wall", shapely.LineString([(200, 0), (300, 0)]), "way/1", 3.0),
         feature("wall", shapely.LineString([(0, 0), (200, 0)]), "way/2", 1.5),
     ]
-    found = ImportedMap.from_strips(filed(tmp_path, features, monkeypatch, band))
-    assert len(found.instances) == 1
-    assert len(found.pieces.heights_m) == 31
-    assert np.ptp(found.pieces.heights_m[:, 1]) == 0
-    assert found.pieces.heights_m[0, 1] > 2.5
-    tops = dict(zip(found.outlines.tensors["source"].tolist(), found.outlines.tensors["top"].tolist(), strict=True))
+    result = ImportedMap.from_strips(filed(tmp_path, features, monkeypatch, band))
+    assert len(result.instances) == 1
+    assert len(result.pieces.heights_m) == 31
+    assert np.ptp(result.pieces.heights_m[:, 1]) == 0
+    assert result.pieces.heights_m[0, 1] > 2.5
+    tops = dict(zip(result.outlines.tensors["source"].tolist(), result.outlines.tensors["top"].tolist(), strict=True))
     assert tops == {4 * 1 + 1: 30, 4 * 2 + 1: 15}, "each as it is drawn"
 
 
@@ -93,5 +93,5 @@ def test_what_is_drawn_side_by_side_is_in_order_across_strips(band, tmp_path, mo
     features = [
         feature("tree", shapely.Point(x, 5), f"node/{n}", 8.0) for n, x in enumerate([106.3, 105.7, 106.1, 105.9], 1)
     ]
-    found = ImportedMap.from_strips(filed(tmp_path, features, monkeypatch, band))
-    assert found.outlines.tensors["source"].tolist() == [4, 8, 12, 16]
+    result = ImportedMap.from_strips(filed(tmp_path, features, monkeypatch, band))
+    assert result.outlines.tensors["source"].tolist() == [4, 8, 12, 16]

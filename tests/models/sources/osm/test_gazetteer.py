@@ -20,8 +20,8 @@ class Map:
     def __init__(self) -> None:
         self.nodes, self.ways, self.relations = [], [], []
 
-    def node(self, at: Place, **tags: str) -> int:
-        x, y = at
+    def node(self, position: Place, **tags: str) -> int:
+        x, y = position
         number = len(self.nodes) + 1
         lat, lon = f"{60 + y * LAT_M:.8f}", f"{25 + x * LON_M:.8f}"
         self.nodes.append(f'<node id="{number}" version="1" lat="{lat}" lon="{lon}">{written(tags)}</node>')
@@ -33,11 +33,11 @@ class Map:
         self.ways.append(f'<way id="{number}" version="1">{body}{written(tags)}</way>')
         return number
 
-    def line(self, *at: Place, **tags: str) -> int:
-        return self.way([self.node(place) for place in at], **tags)
+    def line(self, *position: Place, **tags: str) -> int:
+        return self.way([self.node(place) for place in position], **tags)
 
     def ring(self, low: float, high: float, **tags: str) -> int:
-        refs = [self.node(at) for at in ((low, low), (high, low), (high, high), (low, high))]
+        refs = [self.node(position) for position in ((low, low), (high, low), (high, high), (low, high))]
         return self.way([*refs, refs[0]], **tags)
 
     def relation(self, members: dict[int, str], **tags: str) -> int:
@@ -78,72 +78,72 @@ def test_streets_that_share_a_node_meet_there(tmp_path) -> None:
     middle = osm.node((50, 0))
     osm.way([osm.node((0, 0)), middle, osm.node((100, 0))], highway="residential", name="Main Street")
     osm.way([osm.node((50, -60)), middle, osm.node((50, 60))], highway="secondary", name="Oak Avenue")
-    found = osm.load(tmp_path)
-    assert [words.kinds for words in found.objects] == [(STREET_KIND,), (STREET_KIND,), (WALKED_KIND,)]
-    assert names(found) == ["Main Street", "Oak Avenue"]
-    assert found.corner_streets.tolist() == [[0, 1]]
-    assert found.corners_m[0] == pytest.approx([50, 0], abs=0.3)
-    assert not found.is_area.any()
+    result = osm.load(tmp_path)
+    assert [words.kinds for words in result.objects] == [(STREET_KIND,), (STREET_KIND,), (WALKED_KIND,)]
+    assert names(result) == ["Main Street", "Oak Avenue"]
+    assert result.corner_streets.tolist() == [[0, 1]]
+    assert result.corners_m[0] == pytest.approx([50, 0], abs=0.3)
+    assert not result.is_area.any()
 
 
 def test_a_bridge_crosses_without_a_shared_node(tmp_path) -> None:
     osm = Map()
     osm.line((0, 0), (100, 0), highway="residential", name="Main Street")
     osm.line((30, -60), (30, 60), highway="primary", name="High Bridge", bridge="yes", layer="1")
-    found = osm.load(tmp_path)
-    assert found.corner_streets.tolist() == [[0, 1]]
-    assert found.corners_m[0] == pytest.approx([30, 0], abs=0.3)
+    result = osm.load(tmp_path)
+    assert result.corner_streets.tolist() == [[0, 1]]
+    assert result.corners_m[0] == pytest.approx([30, 0], abs=0.3)
 
 
 def test_a_street_in_pieces_is_one_object(tmp_path, osm) -> None:
     osm.line((100, 900), (160, 900), highway="residential", name="High Street")
     osm.line((300, 900), (360, 900), highway="footway", name="High Street")
-    found = osm.load(tmp_path)
-    assert names(found) == ["High Street"]
-    assert len(segments(found, 0)) == 3
-    assert found.reach_m[0] == pytest.approx(180, abs=1)
+    result = osm.load(tmp_path)
+    assert names(result) == ["High Street"]
+    assert len(segments(result, 0)) == 3
+    assert result.reach_m[0] == pytest.approx(180, abs=1)
 
 
 def test_a_named_shop_has_its_kinds_and_its_place(tmp_path, osm) -> None:
     osm.node((40, 880), shop="bakery", name="Rossi")
-    found = osm.load(tmp_path)
-    shop = found.objects[0]
+    result = osm.load(tmp_path)
+    shop = result.objects[0]
     assert shop.names == ("Rossi",)
     assert shop.kinds[0] == "shop/bakery"
     assert "shop" in shop.kinds
     assert shop.source_id == f"node/{len(osm.nodes)}"
-    assert segments(found, 0)[0] == pytest.approx([40, 880, 40, 880], abs=0.5)
-    assert found.by_kind[STREET_KIND].tolist() == [1], "streets come last"
+    assert segments(result, 0)[0] == pytest.approx([40, 880, 40, 880], abs=0.5)
+    assert result.by_kind[STREET_KIND].tolist() == [1], "streets come last"
 
 
 def test_a_building_with_a_house_number_has_its_address(tmp_path, osm) -> None:
     way = osm.ring(20, 40, building="yes", addr__housenumber="12a", addr__street="High Street")
-    found = osm.load(tmp_path)
-    house = found.objects[0]
+    result = osm.load(tmp_path)
+    house = result.objects[0]
     assert (house.number, house.street, house.names) == ("12a", "High Street", ())
     assert house.kinds == ("building",)
     assert house.source_id == f"way/{way}"
-    assert found.is_area[0]
-    assert found.middles_m[0] == pytest.approx([30, 30], abs=0.5)
+    assert result.is_area[0]
+    assert result.middles_m[0] == pytest.approx([30, 30], abs=0.5)
 
 
 def test_a_node_with_a_house_number_alone_is_an_address(tmp_path, osm) -> None:
     osm.node((5, 5), addr__housenumber="7", addr__street="High Street")
     osm.node((9, 9), addr__housenumber="8")
-    found = osm.load(tmp_path)
-    kinds = [words.kinds for words in found.objects]
+    result = osm.load(tmp_path)
+    kinds = [words.kinds for words in result.objects]
     assert kinds == [(ADDRESS_KIND,), (STREET_KIND,), (WALKED_KIND,)], "a number without a street is no address"
 
 
 def test_a_multipolygon_park_keeps_its_hole(tmp_path, osm) -> None:
     outer, inner = osm.ring(100, 300), osm.ring(150, 250)
     relation = osm.relation({outer: "outer", inner: "inner"}, type="multipolygon", leisure="park", name="Green Park")
-    found = osm.load(tmp_path)
-    assert found.objects[0].source_id == f"relation/{relation}"
-    assert "leisure/park" in found.objects[0].kinds
-    assert found.is_area[0]
-    assert len(segments(found, 0)) == 8
-    assert np.ptp(segments(found, 0)[:, 0]) == pytest.approx(200, abs=1)
+    result = osm.load(tmp_path)
+    assert result.objects[0].source_id == f"relation/{relation}"
+    assert "leisure/park" in result.objects[0].kinds
+    assert result.is_area[0]
+    assert len(segments(result, 0)) == 8
+    assert np.ptp(segments(result, 0)[:, 0]) == pytest.approx(200, abs=1)
 
 
 @pytest.mark.parametrize(
@@ -166,9 +166,9 @@ def test_all_names_of_a_thing(tmp_path, osm, tags, expected) -> None:
 
 def test_names_are_not_without_end(tmp_path, osm) -> None:
     osm.node((1, 1), amenity="cafe", name=";".join(f"Name {n}" for n in range(90)))
-    found = osm.load(tmp_path).objects[0].names
-    assert len(found) == MAX_NAMES
-    assert found[0] == "Name 0"
+    result = osm.load(tmp_path).objects[0].names
+    assert len(result) == MAX_NAMES
+    assert result[0] == "Name 0"
 
 
 def test_what_nobody_would_name_is_left_out(tmp_path, osm) -> None:
@@ -192,10 +192,10 @@ def test_a_way_with_an_operator_alone_is_no_street(tmp_path, osm) -> None:
 
 def test_steps_without_a_name_are_kept_as_a_kind(tmp_path, osm) -> None:
     osm.line((0, 0), (10, 0), highway="steps")
-    found = osm.load(tmp_path)
-    assert found.objects[0].kinds[0] == "highway/steps"
-    assert found.objects[0].names == ()
-    assert not found.is_area[0]
+    result = osm.load(tmp_path)
+    assert result.objects[0].kinds[0] == "highway/steps"
+    assert result.objects[0].names == ()
+    assert not result.is_area[0]
 
 
 def test_what_is_underground_can_be_named(tmp_path, osm) -> None:
@@ -211,7 +211,7 @@ def test_a_room_is_no_place_of_the_city(tmp_path, osm) -> None:
 def test_a_broken_ring_is_left_out(tmp_path, osm) -> None:
     half = osm.line((0, 0), (50, 0), (50, 50))
     osm.relation({half: "outer"}, type="multipolygon", leisure="park", name="Half Park")
-    bow = [osm.node(at) for at in ((0, 0), (50, 50), (50, 0), (0, 50))]
+    bow = [osm.node(position) for position in ((0, 0), (50, 50), (50, 0), (0, 50))]
     osm.way([*bow, bow[0]], leisure="park", name="Crossed Park")
     osm.node((5, 5), shop="bakery", name="Rossi")
     assert names(osm.load(tmp_path)) == ["Rossi", "High Street"]
@@ -226,14 +226,14 @@ def test_ways_whose_nodes_the_extract_lacks_are_left_out(tmp_path, osm) -> None:
 def test_a_round_street_is_a_line_and_a_square_an_area(tmp_path, osm) -> None:
     osm.ring(0, 60, highway="residential", name="Ring Street")
     osm.ring(100, 160, place="square", name="Old Square")
-    found = osm.load(tmp_path)
-    area = {w.names[0]: bool(is_area) for w, is_area in zip(found.objects, found.is_area, strict=True) if w.names}
+    result = osm.load(tmp_path)
+    area = {w.names[0]: bool(is_area) for w, is_area in zip(result.objects, result.is_area, strict=True) if w.names}
     assert area == {"Old Square": True, "High Street": False, "Ring Street": False}
 
 
 def test_outlines_are_simplified_but_little(tmp_path, osm) -> None:
     corners = [(0.0, 0.0), (50.0, 0.2), (100.0, 0.0), (100.0, 80.0), (0.0, 80.0)]
-    refs = [osm.node(at) for at in corners]
+    refs = [osm.node(position) for position in corners]
     osm.way([*refs, refs[0]], leisure="park", name="Park")
     assert len(segments(osm.load(tmp_path), 0)) == 4
 
@@ -241,27 +241,27 @@ def test_outlines_are_simplified_but_little(tmp_path, osm) -> None:
 def test_a_map_without_names_is_empty(tmp_path) -> None:
     osm = Map()
     osm.line((0, 0), (50, 0), highway="footway")
-    found = osm.load(tmp_path)
-    assert len(found) == 0
-    assert found.corners_m.shape == (0, 2)
+    result = osm.load(tmp_path)
+    assert len(result) == 0
+    assert result.corners_m.shape == (0, 2)
 
 
 def test_all_that_people_walk_on_is_one_object(tmp_path, osm) -> None:
     osm.line((0, 0), (50, 0), highway="footway")
     osm.line((0, 30), (50, 30), highway="motorway")
     osm.line((0, 60), (50, 60), highway="footway", indoor="yes")
-    found = osm.load(tmp_path)
-    [walked] = found.by_kind[WALKED_KIND]
-    assert sorted(segments(found, walked)[:, 1].round().tolist()) == [0, 900], "the footway and the street"
-    assert not found.objects[walked].names
+    result = osm.load(tmp_path)
+    [walked] = result.by_kind[WALKED_KIND]
+    assert sorted(segments(result, walked)[:, 1].round().tolist()) == [0, 900], "the footway and the street"
+    assert not result.objects[walked].names
 
 
 def test_a_map_without_streets(tmp_path) -> None:
     osm = Map()
     osm.node((5, 5), shop="bakery", name="Rossi")
-    found = osm.load(tmp_path)
-    assert names(found) == ["Rossi"]
-    assert not len(found.corners_m)
+    result = osm.load(tmp_path)
+    assert names(result) == ["Rossi"]
+    assert not len(result.corners_m)
 
 
 @pytest.mark.parametrize("content", [None, b"no XML"])
@@ -274,8 +274,8 @@ def test_files_that_cannot_be_read_are_refused(tmp_path, content) -> None:
 
 
 def test_the_made_up_town_has_its_streets(osm_file, city) -> None:
-    found = load_gazetteer(osm_file, city.frame)
-    streets = {found.objects[n].names[0] for n in found.by_kind[STREET_KIND]}
+    result = load_gazetteer(osm_file, city.frame)
+    streets = {result.objects[n].names[0] for n in result.by_kind[STREET_KIND]}
     assert streets == {f"East Street {n}" for n in range(6)} | {f"North Path {n}" for n in range(6)}
-    assert 16 <= len(found.corner_streets) <= 36, "those at the edge may miss each other by a millimetre"
-    assert {"amenity/bench", "highway/street_lamp", "natural/tree"} <= found.by_kind.keys()
+    assert 16 <= len(result.corner_streets) <= 36, "those at the edge may miss each other by a millimetre"
+    assert {"amenity/bench", "highway/street_lamp", "natural/tree"} <= result.by_kind.keys()

@@ -31,8 +31,8 @@ def instances(tmp_path: Path, body: str, label: str):
 def only(tmp_path: Path, body: str, label: str):
     """The one instance of a class, what it is made of, and its map."""
     city = load_osm(write(tmp_path, body))
-    (found,) = (i for i in city.instances if i.label == label)
-    return found, geometry_of(city, found), city
+    (result,) = (i for i in city.instances if i.label == label)
+    return result, geometry_of(city, result), city
 
 
 def test_reads_all_kinds_of_a_town(city) -> None:
@@ -313,11 +313,11 @@ def test_written_colours(text, rgb) -> None:
 def test_the_class_of_tags_is_the_first_row_that_they_match() -> None:
     rows, rng = load_classes(), np.random.default_rng(0)
     conditions = [condition for row in rows for condition in (*row.required, *row.forbidden)]
-    found = set()
+    result = set()
     for _ in range(3000):
-        some = [conditions[n] for n in rng.integers(len(conditions), size=rng.integers(6))]
-        tags = {key: str(rng.choice(sorted(values or {"yes"}))) for key, values in some}
+        part = [conditions[n] for n in rng.integers(len(conditions), size=rng.integers(6))]
+        tags = {key: str(rng.choice(sorted(values or {"yes"}))) for key, values in part}
         expected = next(((n, row) for n, row in enumerate(rows) if row.matches(tags)), None)
         assert find_class(tags) == expected
-        found.add(expected and expected[0])
-    assert len(found) > len(rows) / 2
+        result.add(expected and expected[0])
+    assert len(result) > len(rows) / 2

@@ -206,5 +206,5 @@ def test_the_sample_comes_back_to_the_last_bit(tmp_path: Path) -> None:
         stored = load_scene(tmp_path, scene)
         assert_kept(store.split(scene), stored.cells, stored.poses)
     assert not len(store.columns["xyz_f8"])  # the compact form holds for all of it
-    said = " ".join(map(render_hint, store.poses.hints(0)))
-    assert said.startswith("The pose is north of a gray building. The pose is east of a gray-green")
+    text = " ".join(map(render_hint, store.poses.hints(0)))
+    assert text.startswith("The pose is north of a gray building. The pose is east of a gray-green")

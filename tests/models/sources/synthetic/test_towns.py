@@ -150,9 +150,9 @@ def test_a_drive_bends_and_ends_when_it_has_passed_enough_cells(style):
 
 @pytest.mark.slow
 def test_one_seed_makes_one_set_of_files_and_another_seed_another(tmp_path, tiny_scale):
-    seen = []
-    names = write_towns(tmp_path / "a", "demo", 1, lambda done, total: seen.append((done, total)))
-    assert seen == [(1, 3), (2, 3), (3, 3)]
+    calls = []
+    names = write_towns(tmp_path / "a", "demo", 1, lambda done, total: calls.append((done, total)))
+    assert calls == [(1, 3), (2, 3), (3, 3)]
     assert [short_name(name) for name in names] == ["0000", "0002", "0010"]
     assert list_raw_scenes(tmp_path / "a") == tuple(sorted(names))
     write_towns(tmp_path / "b", "demo", 1)
@@ -198,7 +198,9 @@ def test_scales_cover_the_standard_split_at_the_published_size():
     assert {split: sum(sizes) for split, sizes in SIZES["full"].items()} == {"train": 11259, "val": 1434, "test": 4308}
     assert sum(SIZES["demo"]["train"]) == 2000
     for sizes in (*SIZES.values(), TOWN_STYLES):
-        assert {split: len(of) for split, of in sizes.items()} == {s: len(of) for s, of in STANDARD_SPLITS.items()}
+        assert {split: len(owner) for split, owner in sizes.items()} == {
+            s: len(owner) for s, owner in STANDARD_SPLITS.items()
+        }
     assert COLOUR_WEIGHTS.keys() == LABELS
 
 
