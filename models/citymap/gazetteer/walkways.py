@@ -9,8 +9,8 @@ from models.citymap.gazetteer.gazetteer import WALKED_KIND, Gazetteer
 from models.citymap.gazetteer.rasterize import PixelGrid, draw_areas, draw_lines, pixels_at
 from models.citymap.types import Floats
 
-PIXEL_SIZE_M: Final = 2.0
-MAX_DISTANCE_M: Final = 50.0
+PIXEL_SIZE_M: Final = 2.0  # of the raster
+MAX_DISTANCE_M: Final = 50.0  # greater distances are reported as this
 SQUARE_KINDS: Final = ("highway/pedestrian_area", "place/square")  # areas that people walk on
 REACH_PX: Final = round(MAX_DISTANCE_M / PIXEL_SIZE_M)
 

@@ -8,17 +8,14 @@ import numpy.typing as npt
 from models.citymap.geometry.groups import group_pieces, pieces_near
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.geometry.segments import STEP_M, Steps
-from models.citymap.geometry.solids import FORMS
-from models.citymap.geometry.tiling import TILE_M
+from models.citymap.geometry.solids import AREA
+from models.citymap.geometry.tiling import TILE_M, TILE_SLACK_M
 from models.citymap.points import Ints
 from models.citymap.types import CutRules, Floats
 from models.compiled import compiled, longer
 
-AREA: Final = FORMS.index("area")  # index into FORMS
-THING: Final = FORMS.index("thing")  # index into FORMS
 CROWN_M: Final = 3.0  # a crown may be nearer than the tile of its trunk by this much
 MIN_GROUP_SHARE: Final = 0.6  # a group counts by itself if it has at least this share of `min_part_points`
-TILE_SLACK_M: Final = 1e-3  # by which a piece that fills its tile may stand over
 GROUPS_LIMIT: Final = 1 << 32  # no cell has as many groups around it
 EXPECTED_ROWS_PER_POINT: Final = 16  # initial capacity
 # Single precision is exact to millimetres near a position, and a processor handles twice as many at once.

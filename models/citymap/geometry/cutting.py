@@ -13,8 +13,8 @@ from scipy.sparse.csgraph import connected_components
 
 from models.citymap.cells import PartTable
 from models.citymap.geometry.pieces import PieceTable
-from models.citymap.geometry.solids import FORMS, Shape, Solid, crown_reach_m, sample_solid
-from models.citymap.geometry.tiling import TILE_M, Geometries
+from models.citymap.geometry.solids import THING, Shape, Solid, crown_reach_m, sample_solid
+from models.citymap.geometry.tiling import TILE_M, TILE_SLACK_M, Geometries
 from models.citymap.point_sample import sample_points, stack_samples
 from models.citymap.points import Ints, ranges
 from models.citymap.types import CutRules, Floats
@@ -22,8 +22,6 @@ from models.processes import map_forked
 from models.spool import spooled
 
 CUBES_PER_TASK = 1024  # cubes that one worker process cuts at a time
-THING = FORMS.index("thing")  # index into FORMS
-TILE_SLACK_M = 1e-3  # by which a piece that fills its tile may stand over
 
 
 @dataclass(frozen=True, slots=True, eq=False)

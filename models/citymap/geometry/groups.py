@@ -1,16 +1,12 @@
 """Group the pieces around a cell that are connected there, in machine code."""
 
-from typing import Final
-
 import numpy as np
 
-from models.citymap.geometry.solids import FORMS
+from models.citymap.geometry.solids import THING
 from models.citymap.geometry.tiling import TILE_M
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
-
-THING: Final = FORMS.index("thing")
 
 
 @compiled

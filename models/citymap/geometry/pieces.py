@@ -11,7 +11,7 @@ import shapely
 
 from models.citymap.geometry.piece_rows import TILE_COLUMNS_PER_BAND, PieceRows, cut_band
 from models.citymap.geometry.segments import STEP_M, Steps, to_geometry
-from models.citymap.geometry.solids import FORMS, Solid
+from models.citymap.geometry.solids import THING, Solid
 from models.citymap.geometry.tiling import BEYOND_MAP_M, TILE_M, TOUCHING_M, Geometries, tile_span
 from models.citymap.points import Ints, block_keys, ranges, thin_to_spacing
 from models.citymap.types import Floats
@@ -22,7 +22,6 @@ from models.spool import forget, in_turn, spooled, starts_of
 PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometries are built at a time, to bound memory
 TILE_COLUMNS_PER_BLOCK: Final = 64  # columns of tiles whose pieces are linked together
 TILE_EDGE_STEPS: Final = round(TILE_M / 2 / STEP_M)  # from the middle of a tile to its edge
-THING: Final = FORMS.index("thing")  # index into FORMS
 _STORED_NAMES: Final = {"point_count": "worth"}  # fields whose column has another name in an index
 _FIELD_NAMES: Final = {stored: name for name, stored in _STORED_NAMES.items()}
 

@@ -12,11 +12,13 @@ from models.citymap.types import Floats
 Shape = Literal["outline", "wall", "ground", "column", "crown", "box"]
 Form = Literal["area", "line", "thing"]
 FORMS: Final[tuple[Form, ...]] = ("area", "line", "thing")
+AREA: Final = FORMS.index("area")
+THING: Final = FORMS.index("thing")
 GROUND_SPACING_M: Final = 0.5  # so that diagonal neighbours are within the 0.75 m that connect (rule 4)
 RAISED_SPACING_M: Final = {"outline": 0.7, "wall": 0.5, "box": 0.5}
-COLUMN_SPACING_M: Final = 0.25
+COLUMN_SPACING_M: Final = 0.25  # between points of poles, trunks and small boxes
 VISIBLE_HEIGHT_M: Final = 15.0  # top of a 30 m cell on the ground
-CROWN_POINTS: Final = 64
+CROWN_POINTS: Final = 64  # of a tree's ball of leaves
 BOX_HALF_WIDTH_M: Final = 0.3  # of a small box
 
 

@@ -18,6 +18,7 @@ TileSpan = tuple[int, int]  # first column or row of tiles, and the one after th
 ALL_TILES: Final = (-(2**31), 2**31)
 TILE_M = 10.0  # the spacing of the grid of cells: a tile is the square around a centre
 BEYOND_MAP_M = 1e9  # larger than every coordinate
+TILE_SLACK_M = 1e-3  # by which a piece that fills its tile may stand over
 TOUCHING_M = 0.75  # parts this near are connected (rule 4)
 
 

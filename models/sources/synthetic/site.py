@@ -14,8 +14,8 @@ from models.sources.synthetic.shapes import LocalFrame, Rng
 from models.sources.synthetic.styles import Habits, draw_shade, speckle
 
 SCAN_REACH_M = 44.0  # objects farther from the drive are not scanned
-RASTER_SPACING_M = 2.0
-RASTER_MARGIN_M = 120.0
+RASTER_SPACING_M = 2.0  # of the raster of distances to the drive
+RASTER_MARGIN_M = 120.0  # around the drive
 CLASS_ROW = {rule.label: row for row, rule in enumerate(CLASSES)}
 INSTANCES_PER_CLASS = 1000  # instances a class, as KITTI-360 counts them
 

@@ -6,9 +6,8 @@ import shapely
 from scipy.cluster.hierarchy import DisjointSet
 
 from models.citymap.geometry.closest_points import MIN_GROUP_SHARE, closest_instances
-from models.citymap.geometry.cutting import THING
 from models.citymap.geometry.segments import STEP_M
-from models.citymap.geometry.solids import crown_reach_m
+from models.citymap.geometry.solids import THING, crown_reach_m
 from models.citymap.geometry.tiling import TILE_M
 
 REACH_M, WAY_STEP_M = 15.0, 15.0 / 127
