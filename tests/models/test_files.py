@@ -127,12 +127,12 @@ def test_what_a_killed_process_left_is_removed_and_what_another_fills_is_not(tmp
 def test_what_is_taken_for_abandoned_before_it_was_locked_is_begun_again(tmp_path, monkeypatch, write) -> None:
     lock, calls = fcntl.flock, []
 
-    def cleaned_first(held, how):
+    def cleaned_first(descriptor, how):
         if how == fcntl.LOCK_EX:
-            calls.append(held)
+            calls.append(descriptor)
             if len(calls) == 1:
                 remove_abandoned(tmp_path)
-        lock(held, how)
+        lock(descriptor, how)
 
     monkeypatch.setattr("fcntl.flock", cleaned_first)
     with write(tmp_path / "a"):
@@ -143,13 +143,13 @@ def test_what_is_taken_for_abandoned_before_it_was_locked_is_begun_again(tmp_pat
 
 def test_metadata_of_a_safetensors_file_is_in_order_and_the_rest_as_it_was(tmp_path) -> None:
     tensors = {"a": np.arange(7, dtype=np.int16), "b": np.ones((2, 3))}
-    told = {"ä": "1", "z": "Ōmiya\u2028 大宮 🚉", "b": '"3" \\ \x01\x1f\x7f\b\f\n\r\t/'}
+    metadata = {"ä": "1", "z": "Ōmiya\u2028 大宮 🚉", "b": '"3" \\ \x01\x1f\x7f\b\f\n\r\t/'}
     blobs = set()
-    for items in (told.items(), reversed(told.items()), told.items()):
+    for items in (metadata.items(), reversed(metadata.items()), metadata.items()):
         save_safetensors(tensors, dict(items), tmp_path / "a")
         blobs.add((tmp_path / "a").read_bytes())
     [blob] = blobs
-    assert map_arrays(tmp_path / "a")[1] == told
+    assert map_arrays(tmp_path / "a")[1] == metadata
     size = int.from_bytes(blob[:8], "little")
     assert list(json.loads(blob[8 : 8 + size])["__metadata__"]) == ["b", "z", "ä"]
     assert size % 8 == 0

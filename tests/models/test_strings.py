@@ -5,15 +5,15 @@ import pytest
 
 from models.strings import Categorical, Postings, StringArray, merge_columns
 
-SOME = ["", "Café Zoë", "Кафе", "", "北京", "a"]
+STRINGS = ["", "Café Zoë", "Кафе", "", "北京", "a"]
 
 
 def test_strings_come_back_as_they_were() -> None:
-    strings = StringArray.from_strings(SOME)
-    assert list(strings) == SOME
+    strings = StringArray.from_strings(STRINGS)
+    assert list(strings) == STRINGS
     assert strings[-1] == "a"
-    assert strings[1:4] == SOME[1:4]
-    assert list(StringArray.from_columns(strings.columns("x"), "x")) == SOME
+    assert strings[1:4] == STRINGS[1:4]
+    assert list(StringArray.from_columns(strings.columns("x"), "x")) == STRINGS
     with pytest.raises(IndexError):
         strings[6]
 
@@ -34,8 +34,8 @@ def postings(request) -> Postings:
 
 
 def again(postings: Postings) -> Postings:
-    found: Postings = pickle.loads(pickle.dumps(postings))
-    return found
+    unpickled: Postings = pickle.loads(pickle.dumps(postings))
+    return unpickled
 
 
 def test_numbers_are_found_in_the_order_in_which_they_came(postings) -> None:
@@ -76,26 +76,26 @@ def test_no_postings() -> None:
 
 @pytest.mark.parametrize("strings", [("b", None, "ä", "b", ""), ("x",) * 300, (), (None,)])
 def test_categories_come_back(strings) -> None:
-    found = Categorical.from_strings(strings)
-    again = Categorical.from_columns(merge_columns([found.columns("x")]), "x")
-    for one in (found, again):
+    categorical = Categorical.from_strings(strings)
+    again = Categorical.from_columns(merge_columns([categorical.columns("x")]), "x")
+    for one in (categorical, again):
         assert one == strings
         assert Categorical.from_strings(one) is one
         assert one[1:] == strings[1:]
         assert np.array(one).tolist() == list(strings)
     assert list(again.categories) == sorted({*strings} - {None})
-    assert found.codes.dtype == np.int8
-    assert found != (*strings, "x")
+    assert categorical.codes.dtype == np.int8
+    assert categorical != (*strings, "x")
 
 
 @pytest.mark.parametrize("at_once", [1, 2, 3, 1000])
 @pytest.mark.parametrize("strings", [("b", "a", "b", "ab", "", "b", "a"), ("x",) * 7, ("one",), ()])
 def test_categories_of_bytes_are_those_of_strings_however_many_are_looked_at(at_once, strings, monkeypatch) -> None:
     monkeypatch.setattr("models.strings.STRINGS_PER_BLOCK", at_once)
-    found, expected = Categorical.from_bytes(np.array(strings, "S8")), Categorical.from_strings(strings)
+    from_bytes, expected = Categorical.from_bytes(np.array(strings, "S8")), Categorical.from_strings(strings)
     for name, column in merge_columns([expected.columns("x")]).items():
-        assert np.array_equal(found.columns("x")[name], column)
-        assert found.columns("x")[name].dtype == column.dtype
+        assert np.array_equal(from_bytes.columns("x")[name], column)
+        assert from_bytes.columns("x")[name].dtype == column.dtype
 
 
 def test_many_categories_take_more_bytes() -> None:

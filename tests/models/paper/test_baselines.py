@@ -1,4 +1,4 @@
-"""What every method's retriever must do: padding and order do not matter, all of it trains, it comes back from disk."""
+"""Behaviour of every retriever: invariance to padding and order, training of all weights, saving and loading."""
 
 from dataclasses import replace
 
@@ -65,9 +65,11 @@ def test_a_cell_alone_and_in_a_batch(retriever, features, labels) -> None:
     with torch.inference_mode():
         together = retriever.embed_cells(features.batch(rows), labels).global_vectors
         assert together.norm(dim=-1).tolist() == pytest.approx([1] * 4)
-        for row, found in zip(rows, together, strict=True):
+        for row, expected_vector in zip(rows, together, strict=True):
             assert torch.allclose(
-                retriever.embed_cells(features.batch(np.array([row])), labels).global_vectors[0], found, atol=1e-5
+                retriever.embed_cells(features.batch(np.array([row])), labels).global_vectors[0],
+                expected_vector,
+                atol=1e-5,
             )
 
 
@@ -136,8 +138,8 @@ def test_a_small_batch_is_learned(retriever, examples, labels) -> None:
 def described(features, row):
     """Three hints of a cell's first instances: what is where."""
     hints = []
-    for at in range(features.starts[row], features.starts[row] + 3):
-        east, north = features.geometry[at, 3:5]
+    for instance in range(features.starts[row], features.starts[row] + 3):
+        east, north = features.geometry[instance, 3:5]
         along = ("east" if east > 0 else "west") if abs(east) > abs(north) else ("north" if north > 0 else "south")
-        hints.append(f"A {features.labels[features.label[at]]} is to my {along}.")
+        hints.append(f"A {features.labels[features.label[instance]]} is to my {along}.")
     return hints

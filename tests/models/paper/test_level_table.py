@@ -35,13 +35,13 @@ def texts(model):
 
 def test_scores_are_those_of_the_padded_form(model, features, table, texts) -> None:
     rows = np.array([5, 0, 17, len(features) - 1])
-    found = table.scores(texts, rows)
-    assert set(found) == {"instance", "relation"}
+    by_level = table.scores(texts, rows)
+    assert set(by_level) == {"instance", "relation"}
     with torch.inference_mode():
         cells = model.embed_cells(features.batch(rows), model.text_encoder.embed(features.labels))
         for n, text in enumerate(texts):
             expected = level_scores(text, cells, LEVELS)
-            for level, scores in found.items():
+            for level, scores in by_level.items():
                 assert scores[n] == pytest.approx(expected[level][0].numpy(), abs=1e-5)
 
 

@@ -20,11 +20,11 @@ def sets():
 
 def test_set_similarity_against_a_loop(sets) -> None:
     hints, hint_mask, instances, instance_mask = sets
-    found = set_similarity(*sets)
+    similarity = set_similarity(*sets)
     for q in range(3):
         for n in range(2):
             best = [max(h @ i for i in instances[n, instance_mask[n]]) for h in hints[q, hint_mask[q]]]
-            assert found[q, n].item() == pytest.approx(sum(best).item() / len(best), abs=1e-6)
+            assert similarity[q, n].item() == pytest.approx(sum(best).item() / len(best), abs=1e-6)
 
 
 def test_z_scores_make_levels_comparable() -> None:
@@ -72,12 +72,12 @@ def test_external_space_attention_against_equation_11(query, axis) -> None:
     if query == "mixed":
         attention.mix.data = torch.tensor([0.7, 1.3])
     edges, real = torch.randn(1, 5, 5, 4), torch.arange(5) < 3
-    found = attention(edges, real[None, None, :, None])
+    relations = attention(edges, real[None, None, :, None])
     for i in range(3):
         e = edges[0, i, :3]
         w = 0.7 * torch.eye(3) + 1.3 / 3 * torch.ones(3, 3) if query == "mixed" else torch.eye(3)
         attended = attention.key(w @ e).softmax(dim=0 if axis == "edges" else 1) * e
-        assert torch.allclose(found[0, i], attended.sum(dim=0), atol=1e-6)
+        assert torch.allclose(relations[0, i], attended.sum(dim=0), atol=1e-6)
 
 
 def test_edges_are_of_pairs() -> None:

@@ -22,8 +22,8 @@ def batch():
     return texts, cells, same
 
 
-def softmax_of(row, of, kept):
-    return math.exp(row[of] / TAU) / sum(math.exp(row[j] / TAU) for j in kept)
+def softmax_of(row, column, columns):
+    return math.exp(row[column] / TAU) / sum(math.exp(row[j] / TAU) for j in columns)
 
 
 def test_contrastive_loss_against_a_loop(batch) -> None:
@@ -31,9 +31,9 @@ def test_contrastive_loss_against_a_loop(batch) -> None:
     scores = (texts @ cells.T).tolist()
     total = 0.0
     for i in range(6):
-        kept = [j for j in range(6) if j == i or not same[i, j]]
-        total -= math.log(softmax_of(scores[i], i, kept))
-        total -= math.log(softmax_of([row[i] for row in scores], i, kept))
+        columns = [j for j in range(6) if j == i or not same[i, j]]
+        total -= math.log(softmax_of(scores[i], i, columns))
+        total -= math.log(softmax_of([row[i] for row in scores], i, columns))
     assert contrastive_loss(texts @ cells.T, same, TAU).item() == pytest.approx(total / 12)
 
 
@@ -46,15 +46,15 @@ def test_negative_contrastive_loss_against_a_loop(batch, exponent, least) -> Non
     farthest = max(max(row) for row in distance)
     total = 0.0
     for i in range(6):
-        kept = [j for j in range(6) if j == i or not same[i, j]]
+        columns = [j for j in range(6) if j == i or not same[i, j]]
         for j in (j for j in range(6) if not same[i, j]):
             weight = min(1.0, max(least, (1 - distance[i][j] / farthest) ** (1 / exponent)))
-            total -= weight * math.log(1 - softmax_of(scores[i], j, kept))
+            total -= weight * math.log(1 - softmax_of(scores[i], j, columns))
             column = [row[j] for row in scores]
             others = [k for k in range(6) if k == j or not same[k, j]]
             total -= weight * math.log(1 - softmax_of(column, i, others))
-    found = negative_contrastive_loss(texts @ cells.T, texts, cells, same, TAU, exponent, least)
-    assert found.item() == pytest.approx(total / 6)
+    loss = negative_contrastive_loss(texts @ cells.T, texts, cells, same, TAU, exponent, least)
+    assert loss.item() == pytest.approx(total / 6)
 
 
 def test_gradients_are_those_of_the_loss(batch) -> None:

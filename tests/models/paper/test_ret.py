@@ -20,7 +20,7 @@ def test_relation_enhanced_attention_against_a_loop() -> None:
     x, relation = torch.randn(2, 5, WIDTH), torch.randn(2, 5, WIDTH)
     part = WIDTH // NUM_HEADS
     with torch.no_grad():
-        found = layer.attend(x, relation, MASK)
+        attended = layer.attend(x, relation, MASK)
         for b, size in enumerate(SIZES):
             query, key, value = layer.project(x[b]).split(WIDTH, dim=-1)
             value = value + relation[b]
@@ -31,7 +31,7 @@ def test_relation_enhanced_attention_against_a_loop() -> None:
                     logits = [(query[i, own] @ key[j, own]).item() / math.sqrt(part) for j in range(size)]
                     total = sum(math.exp(v) for v in logits)
                     heads.append(sum(math.exp(v) / total * value[j, own] for j, v in enumerate(logits)))
-                assert torch.allclose(found[b, i], layer.merge(torch.cat(heads)), atol=1e-5)
+                assert torch.allclose(attended[b, i], layer.merge(torch.cat(heads)), atol=1e-5)
 
 
 def test_a_layer_is_attention_and_feed_forward_with_residuals() -> None:

@@ -51,9 +51,9 @@ def test_padding_a_description_changes_nothing(model) -> None:
     hints = torch.randn(1, 3, 32)
     padded = torch.cat([hints, torch.full((1, 4, 32), 1e3)], dim=1)
     mask = torch.arange(7)[None] < 3
-    alone, beside = model.embed_texts(hints, torch.ones(1, 3, dtype=torch.bool)), model.embed_texts(padded, mask)
+    alone, in_batch = model.embed_texts(hints, torch.ones(1, 3, dtype=torch.bool)), model.embed_texts(padded, mask)
     for level in LEVELS:
-        assert torch.allclose(beside.vectors(level)[:, :3], alone.vectors(level)[:, :3], atol=1e-5)
+        assert torch.allclose(in_batch.vectors(level)[:, :3], alone.vectors(level)[:, :3], atol=1e-5)
 
 
 def test_order_of_hints_does_not_matter(model) -> None:
@@ -73,11 +73,11 @@ def test_a_cell_alone_and_in_a_batch(model, features) -> None:
     for n in (0, 7, len(features) - 1):
         with torch.inference_mode():
             alone = model.embed_cells(features.batch(np.array([n])), labels)
-            beside = model.embed_cells(features.batch(np.array([n, 3, 11])), labels)
+            in_batch = model.embed_cells(features.batch(np.array([n, 3, 11])), labels)
         assert np.abs(alone.global_vectors[0].numpy() - every[n]).max() < 1e-5
         real = int(alone.mask.sum())
         for level in ("instance", "relation"):
-            assert torch.allclose(alone.vectors(level)[0, :real], beside.vectors(level)[0, :real], atol=1e-5)
+            assert torch.allclose(alone.vectors(level)[0, :real], in_batch.vectors(level)[0, :real], atol=1e-5)
 
 
 def test_cached_hints_give_the_same_vector_and_are_forgotten_when_weights_change(model, text_encoder) -> None:

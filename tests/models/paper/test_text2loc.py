@@ -1,4 +1,4 @@
-"""What is Text2Loc's own: the residual hierarchy over hints and the loss."""
+"""The residual hierarchy over hints and the loss of Text2Loc."""
 
 import math
 
@@ -34,9 +34,9 @@ def test_loss_against_a_loop(model) -> None:
     same[0, 3] = same[3, 0] = True  # two descriptions of one cell
     scores, total = (text @ cells.T / 0.1).tolist(), 0.0
     for i in range(5):
-        kept = [j for j in range(5) if j == i or not same[i, j]]
-        total -= math.log(math.exp(scores[i][i]) / sum(math.exp(scores[i][j]) for j in kept))
-        total -= math.log(math.exp(scores[i][i]) / sum(math.exp(scores[j][i]) for j in kept))
+        columns = [j for j in range(5) if j == i or not same[i, j]]
+        total -= math.log(math.exp(scores[i][i]) / sum(math.exp(scores[i][j]) for j in columns))
+        total -= math.log(math.exp(scores[i][i]) / sum(math.exp(scores[j][i]) for j in columns))
     mask = torch.ones(5, 1, dtype=torch.bool)
-    found = model.loss(Levels(text, mask), Levels(cells, mask), same)
-    assert found.item() == pytest.approx(total / 10, rel=1e-4)
+    loss = model.loss(Levels(text, mask), Levels(cells, mask), same)
+    assert loss.item() == pytest.approx(total / 10, rel=1e-4)

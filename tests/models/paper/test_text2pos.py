@@ -33,7 +33,7 @@ def test_edge_convolution_against_a_loop(neighbours) -> None:
     x, mask = torch.randn(2, 6, 4), torch.arange(6) < torch.tensor([[6], [2]])
     first = torch.cat([convolution.of_node.weight, convolution.of_difference.weight], dim=1)
     with torch.no_grad():
-        found = convolution(x, mask)
+        features = convolution(x, mask)
         for b, size in enumerate([6, 2]):
             nodes = x[b, :size]
             for i in range(size):
@@ -44,7 +44,7 @@ def test_edge_convolution_against_a_loop(neighbours) -> None:
                     )
                     for j in nearest
                 ]
-                assert torch.allclose(found[b, i], torch.stack(edges).amax(dim=0), atol=1e-5)
+                assert torch.allclose(features[b, i], torch.stack(edges).amax(dim=0), atol=1e-5)
 
 
 def test_words_are_read_one_after_another(text_encoder) -> None:
@@ -57,7 +57,7 @@ def test_words_are_read_one_after_another(text_encoder) -> None:
     sentences = ["A tree is to my west.", "I stand on the old gray road.", "Tree."]
     with torch.inference_mode():
         tokens = text_encoder(sentences)
-        found = encoder(tokens.ids, tokens.mask)
+        features = encoder(tokens.ids, tokens.mask)
         for s, mask in enumerate(tokens.mask):
             words = encoder.words(tokens.ids[s, mask])
             states = []
@@ -66,7 +66,7 @@ def test_words_are_read_one_after_another(text_encoder) -> None:
                 for word in order:
                     state = cell(word, state)
                 states.append(state[0])
-            assert torch.allclose(found[s], (states[0] + states[1]) / 2, atol=1e-5)
+            assert torch.allclose(features[s], (states[0] + states[1]) / 2, atol=1e-5)
 
 
 def test_word_order_matters_inside_a_hint(text_encoder) -> None:

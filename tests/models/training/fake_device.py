@@ -21,7 +21,7 @@ TAKE_NUMBERS = {aten.where, aten.masked_fill, aten.masked_fill_, *INDEXING}  # b
 
 
 class Backend(_DummyBackendModule):
-    """What torch asks of a device's module."""
+    """The device module that torch requires."""
 
     def get_amp_supported_dtype(self) -> list[torch.dtype]:
         return [torch.bfloat16]
@@ -35,14 +35,14 @@ class Away(Tensor):
     """A tensor on the device; `made` counts them."""
 
     made = 0
-    held: Tensor
+    on_cpu: Tensor
 
     @staticmethod
-    def __new__(cls, held: Tensor) -> "Away":
+    def __new__(cls, on_cpu: Tensor) -> "Away":
         with torch.inference_mode(False):  # views of others must be as these
-            layout = {"strides": held.stride(), "storage_offset": held.storage_offset(), "dtype": held.dtype}
-            made = torch.Tensor._make_wrapper_subclass(cls, held.size(), device=FAKE, **layout)
-        made.held = held
+            layout = {"strides": on_cpu.stride(), "storage_offset": on_cpu.storage_offset(), "dtype": on_cpu.dtype}
+            made = torch.Tensor._make_wrapper_subclass(cls, on_cpu.size(), device=FAKE, **layout)
+        made.on_cpu = on_cpu
         Away.made += 1
         return made
 
@@ -51,10 +51,10 @@ class Away(Tensor):
         return _run(func, *args, **(kwargs or {}))
 
     def tolist(self) -> Any:
-        return self.held.tolist()
+        return self.on_cpu.tolist()
 
     def __repr__(self, *, tensor_contents: Any = None) -> str:  # type: ignore[override]
-        return f"Away({self.held})"
+        return f"Away({self.on_cpu})"
 
 
 def _run(operation: Any, *args: Any, **kwargs: Any) -> Any:
@@ -69,14 +69,14 @@ def _run(operation: Any, *args: Any, **kwargs: Any) -> Any:
     if operation.overloadpacket in PACKED and isinstance(args[1], Away):
         raise RuntimeError(f"{operation} wants its lengths on the CPU")
     compute = LSTM.get(operation.overloadpacket, operation)
-    found = compute(*_map(_held, args), **{name: _map(_held, x) for name, x in kwargs.items()})
+    result = compute(*_map(_unwrap, args), **{name: _map(_unwrap, x) for name, x in kwargs.items()})
     if operation.overloadpacket is aten._pack_padded_sequence:
-        return Away(found[0]), found[1]
-    assert all(x.shape == x.held.shape for x in away), f"{operation} resizes a tensor, which is not told of it"
+        return Away(result[0]), result[1]
+    assert all(x.shape == x.on_cpu.shape for x in away), f"{operation} resizes a tensor, which is not told of it"
     if device.type != "fake":
-        return found
-    same = {id(x.held): x for x in away}
-    return _map(lambda x: (same[id(x)] if id(x) in same else Away(x)) if isinstance(x, Tensor) else x, found)
+        return result
+    same = {id(x.on_cpu): x for x in away}
+    return _map(lambda x: (same[id(x)] if id(x) in same else Away(x)) if isinstance(x, Tensor) else x, result)
 
 
 def _tensors(given: Any) -> Iterator[Tensor]:
@@ -88,24 +88,24 @@ def _tensors(given: Any) -> Iterator[Tensor]:
 
 
 def _map(function: Callable[[Any], Any], x: Any) -> Any:
-    """Of what an operation takes or gives, each thing replaced."""
+    """Apply a function to each leaf of the arguments or results of an operation."""
     return type(x)([_map(function, part) for part in x]) if type(x) in (list, tuple) else function(x)
 
 
-def _held(x: Any) -> Any:
-    return x.held if isinstance(x, Away) else x
+def _unwrap(x: Any) -> Any:
+    return x.on_cpu if isinstance(x, Away) else x
 
 
-def _refuse(operation: Any, asked: list[Any]) -> None:
+def _refuse(operation: Any, operands: list[Any]) -> None:
     """Raise where a GPU would."""
     packet = operation.overloadpacket
     if packet in COPIES:
         return
-    if packet in INDEXING | PACKED and isinstance(asked[0], Away):
-        asked = [asked[0], *asked[2:]]
-    behind = [x for x in _tensors(asked) if not isinstance(x, Away)]
+    if packet in INDEXING | PACKED and isinstance(operands[0], Away):
+        operands = [operands[0], *operands[2:]]
+    behind = [x for x in _tensors(operands) if not isinstance(x, Away)]
     numbers = torch.Tag.pointwise in operation.tags or packet in TAKE_NUMBERS
-    written = operation._schema.is_mutable and not isinstance(asked[0], Away)
+    written = operation._schema.is_mutable and not isinstance(operands[0], Away)
     if behind and (written or not numbers or any(x.dim() for x in behind)):
         raise RuntimeError(f"{operation} of tensors on {FAKE} and on the CPU {[tuple(x.shape) for x in behind]}")
 
@@ -134,7 +134,7 @@ LSTM = {aten._thnn_fused_lstm_cell: _lstm_cell, aten._thnn_fused_lstm_cell_backw
 
 
 def _copy_from(source: Tensor, target: Tensor, non_blocking: bool = False) -> Tensor:
-    _held(target).copy_(_held(source))
+    _unwrap(target).copy_(_unwrap(source))
     return target
 
 

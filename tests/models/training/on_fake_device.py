@@ -1,4 +1,4 @@
-"""What test_devices.py runs in a process of its own: all that is trained, on a device that mixes with nothing else."""
+"""All training on a device that does not mix with the CPU; test_devices.py runs this in a process of its own."""
 
 import json
 import sys
@@ -96,7 +96,7 @@ def reading_set(*given: Any) -> ReadingSet:
 
 
 def device() -> None:
-    """What a GPU refuses is refused, and what it takes is taken."""
+    """The fake device accepts and refuses the same operations as a GPU."""
     here, there, row = torch.ones(3, 4), torch.ones(3, 4).to(FAKE), torch.tensor([0])
     refused: list[Callable[[], Any]] = [
         lambda: here + there,
@@ -123,7 +123,7 @@ def device() -> None:
 
 
 def lending() -> None:
-    """What is lent comes back, whatever happens."""
+    """Modules come back to the CPU, also after an error."""
     module = nn.Linear(2, 2)
     try:
         with on_device(FAKE, module):
@@ -138,7 +138,7 @@ def lending() -> None:
 
 
 def tried(run: Callable[[], None]) -> str:
-    """What went wrong, if anything did."""
+    """Return the traceback of an error, if there is one."""
     before, encoder = Away.made, load_text_encoder()
     try:
         run()

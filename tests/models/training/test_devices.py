@@ -25,7 +25,7 @@ MODELS = [f"{method}-{inputs[0]}" for method in (*METHODS, *FINE_METHODS) for in
 
 @pytest.fixture(scope="module")
 def report(made_once, strip_file):
-    """What went wrong of each; in a process of its own, which no other test shares the device with."""
+    """The errors of each training, from a process that no other test shares."""
 
     def make(out: Path) -> None:
         command = [sys.executable, "-m", "tests.models.training.on_fake_device", str(strip_file), str(out)]

@@ -63,43 +63,43 @@ def test_batches_are_seeded_and_say_what_is_true(region, city) -> None:
 def test_published_wording_says_what_is_there_in_the_benchmarks_words(source, text_encoder) -> None:
     region = TrainingSet(source.statements(60.0, np.random.default_rng(0)), text_encoder, "published")
     chosen = region.usable[:20]
-    said = region.draw_hints(chosen, np.zeros(len(chosen), int), np.random.default_rng(0))
+    drawn = region.draw_hints(chosen, np.zeros(len(chosen), int), np.random.default_rng(0))
     vocabulary, table = region.vocabulary, region.table
     for row, position in enumerate(chosen):
         hints = np.arange(table.starts[position], min(table.starts[position + 1], table.starts[position] + 6))
         label = region.label_of[table.instance[hints]]
         expected = vocabulary.sentence(label, table.colour[hints], table.direction[hints], 0)
-        assert said.sentences[row, said.mask[row]].tolist() == expected.tolist()
-        assert said.hints[row, said.mask[row]].tolist() == hints.tolist()
+        assert drawn.sentences[row, drawn.mask[row]].tolist() == expected.tolist()
+        assert drawn.hints[row, drawn.mask[row]].tolist() == hints.tolist()
 
 
 def test_the_vocabulary_numbers_its_sentences(region) -> None:
     vocabulary = region.vocabulary
-    said = [
+    numbers = [
         int(vocabulary.sentence(label, -1, d, t))
         for label, d, t in itertools.product(np.unique(region.label_of), range(len(DIRECTIONS)), range(2))
     ]
-    assert len(set(said)) == len(said)
-    assert max(said) < len(vocabulary.mask)
+    assert len(set(numbers)) == len(numbers)
+    assert max(numbers) < len(vocabulary.mask)
 
 
 @pytest.mark.slow
 def test_training_learns_is_seeded_and_is_saved(regions, text_encoder, tmp_path) -> None:
     config = TrainingConfig(steps=12, batch_size=16, spacing_m=15.0, validate_every=6, learning_rate=3e-3)
-    seen = []
+    progress = []
 
     def load(encoder, rng):
         return [TrainingData.from_sources(*regions, encoder, config, rng)]
 
     recalls = [
-        train_retriever(load, tmp_path / name, Mncl, MnclConfig(width=32), config, progress=seen.append)
+        train_retriever(load, tmp_path / name, Mncl, MnclConfig(width=32), config, progress=progress.append)
         for name in "ab"
     ]
     assert recalls[0] == recalls[1]
     assert load_retriever(tmp_path / "a").fingerprint == load_retriever(tmp_path / "b").fingerprint
-    losses = [p.loss for p in seen[:12]]
+    losses = [p.loss for p in progress[:12]]
     assert np.mean(losses[6:]) < np.mean(losses[:6])
-    assert [p.step for p in seen if p.figures] == [6, 12, 6, 12]
+    assert [p.step for p in progress if p.figures] == [6, 12, 6, 12]
     assert load_retriever(tmp_path / "a").temperature(6) > 0
 
 
@@ -127,8 +127,8 @@ def test_a_run_directory_goes_on(regions, tmp_path) -> None:
     def load(encoder, rng):
         return [TrainingData.from_sources(*regions, encoder, config, rng) for _ in range(2)]
 
-    def kill(at):
-        if at.step == 5:
+    def kill(report):
+        if report.step == 5:
             raise KeyboardInterrupt
 
     model = MnclConfig(width=32, levels=("global", "instance"))
@@ -158,15 +158,15 @@ def test_a_point_encoder_is_trained_first_and_saved_along(strip, coarse, tmp_pat
     *regions, whole = strip
     few = ("training.steps=40", "training.validate_every=20", "training.batch_size=32")
     monkeypatch.setattr(
-        "models.training.fit_points.load_settings", lambda name, said: load_settings(name, [*few, *said])
+        "models.training.fit_points.load_settings", lambda name, changes: load_settings(name, [*few, *changes])
     )
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
         return [TrainingData.from_sources(*regions, encoder, config, rng)]
 
-    def kill(at):
-        if (at.step, at.steps) == (3, 4):
+    def kill(report):
+        if (report.step, report.steps) == (3, 4):
             raise KeyboardInterrupt
 
     model = MnclConfig(width=32, levels=("global",), inputs=PAPER_INPUTS)
@@ -201,8 +201,8 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, co
     train_fine(load, tmp_path / "fine", "matching", MatchingConfig(width=32, inputs=PAPER_INPUTS, plain=False), given)
     wanted = load_file(tmp_path / "points" / "model.safetensors")
     for directory, loaded in (("coarse", load_retriever), ("fine", load_fine)):
-        found = loaded(tmp_path / directory).points.state_dict()
-        assert all(torch.allclose(found[name], tensor, atol=1e-3) for name, tensor in wanted.items())
+        loaded_state = loaded(tmp_path / directory).points.state_dict()
+        assert all(torch.allclose(loaded_state[name], tensor, atol=1e-3) for name, tensor in wanted.items())
         record = json.loads((tmp_path / directory / "config.json").read_text())["training"]
         assert record["point_encoder"] == figures
     nowhere = config.model_copy(update={"points": tmp_path / "nowhere"})

@@ -30,7 +30,7 @@ def test_settings_are_changed_one_by_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         ("steps=5", "training.NAME=VALUE"),
         ("training.steps", "training.NAME=VALUE"),
@@ -42,8 +42,8 @@ def test_settings_are_changed_one_by_one() -> None:
         ("model.levels=global,street", "'global', 'instance' or 'relation'"),
     ],
 )
-def test_what_is_wrong_with_a_setting_is_said(change, said) -> None:
-    with pytest.raises(TrainingError, match=said):
+def test_what_is_wrong_with_a_setting_is_said(change, message) -> None:
+    with pytest.raises(TrainingError, match=message):
         load_settings("mncl", [change])
 
 

@@ -33,9 +33,9 @@ def test_what_is_found_is_what_made_the_answers(levels) -> None:
 
 
 def test_every_level_gets_a_weight(model, region_queries) -> None:
-    found = calibrate(model, [region_queries], np.random.default_rng(0))
-    assert len(found["level_weights"]) == len(model.levels) == 3
-    assert found["level_weights"][0] == 1
+    fields = calibrate(model, [region_queries], np.random.default_rng(0))
+    assert len(fields["level_weights"]) == len(model.levels) == 3
+    assert fields["level_weights"][0] == 1
     weighted = region_queries.scores(model)
     assert weighted.shape == (len(region_queries.truth), len(region_queries.features))
 
@@ -43,10 +43,10 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
 def test_the_global_level_has_a_temperature_of_its_own(model, region_queries, monkeypatch) -> None:
     scored = [true_scores(np.random.default_rng(hints), hints, 3) for hints in (1, 2, 4)]
     monkeypatch.setattr("models.training.validation._score_queries", lambda *_: scored)
-    found = calibrate(model, [region_queries], np.random.default_rng(0))
+    fields = calibrate(model, [region_queries], np.random.default_rng(0))
     _, *alone = fit_weights([(hints, scores[:1], truth) for hints, scores, truth in scored])
-    assert [found["global_temperature"], found["global_temperature_decay"]] == pytest.approx(alone)
-    assert found["global_temperature"] > 2 * found["temperature"], "the least of three levels tells little"
+    assert [fields["global_temperature"], fields["global_temperature_decay"]] == pytest.approx(alone)
+    assert fields["global_temperature"] > 2 * fields["temperature"], "the least of three levels tells little"
 
 
 @pytest.fixture(scope="module")

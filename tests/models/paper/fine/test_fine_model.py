@@ -54,21 +54,21 @@ def test_cross_attention_against_a_naive_loop() -> None:
     hints, instances = torch.randn(2, 3, 16), torch.randn(2, 5, 16)
     hint_mask = torch.tensor([[True, True, False], [True, True, True]])
     instance_mask = torch.tensor([[True] * 5, [True, True, False, False, False]])
-    met, seen = layer(hints, hint_mask, instances, instance_mask)
+    met, updated = layer(hints, hint_mask, instances, instance_mask)
     for b in range(2):
         h, i = hints[b, hint_mask[b]], instances[b, instance_mask[b]]
         i = look_naively(layer.of_instances, i, h)
         h = look_naively(layer.of_hints, h, i)
         assert torch.allclose(met[b, hint_mask[b]], h, atol=1e-5)
-        assert torch.allclose(seen[b, instance_mask[b]], i, atol=1e-5)
+        assert torch.allclose(updated[b, instance_mask[b]], i, atol=1e-5)
 
 
 def test_the_nearest_instances_are_kept(features) -> None:
     batch = features.batch(np.arange(12))
     order = nearest_instances(batch, 6)
-    for row, kept in enumerate(order):
+    for row, columns in enumerate(order):
         distance = batch.geometry[row, : int(batch.mask[row].sum()), 5]
-        assert torch.equal(batch.geometry[row, kept, 5], distance.sort().values[:6])
+        assert torch.equal(batch.geometry[row, columns, 5], distance.sort().values[:6])
     assert nearest_instances(batch, None).shape == batch.mask.shape
 
 
@@ -86,12 +86,15 @@ def test_padding_and_masked_instances_change_nothing(fine_model, features) -> No
     labels = fine_model.text_encoder.embed(features.labels)
     hints, mask = torch.randn(1, 3, 32), torch.ones(1, 3, dtype=torch.bool)
     padded, longer = torch.cat([hints, torch.full((1, 4, 32), 1e3)], dim=1), torch.arange(7)[None] < 3
-    alone, beside = features.batch(np.array([4])), features.batch(np.array([4, int(np.diff(features.starts).argmax())]))
-    beside.geometry[0, int(beside.mask[0].sum()) :] = 1e3
+    alone, in_batch = (
+        features.batch(np.array([4])),
+        features.batch(np.array([4, int(np.diff(features.starts).argmax())])),
+    )
+    in_batch.geometry[0, int(in_batch.mask[0].sum()) :] = 1e3
     with torch.inference_mode():
         first = fine_model.locate(hints, mask, fine_model.embed_instances(alone, labels))
-        seen = fine_model.embed_instances(beside, labels).take(torch.tensor([0]))
-        assert torch.allclose(fine_model.locate(padded, longer, seen), first, atol=1e-5)
+        encoded = fine_model.embed_instances(in_batch, labels).take(torch.tensor([0]))
+        assert torch.allclose(fine_model.locate(padded, longer, encoded), first, atol=1e-5)
 
 
 def test_order_does_not_matter(fine_model, features) -> None:
@@ -102,15 +105,15 @@ def test_order_does_not_matter(fine_model, features) -> None:
     cells = features.batch(np.array([2, 8]))
     hints, mask = torch.randn(2, 5, 32), torch.ones(2, 5, dtype=torch.bool)
     with torch.inference_mode():
-        seen = fine_model.embed_instances(cells, labels)
-        mixed = fine_model.locate(hints[:, [3, 1, 0, 4, 2]], mask, seen)
-        assert torch.allclose(fine_model.locate(hints, mask, seen), mixed, atol=1e-5)
+        encoded = fine_model.embed_instances(cells, labels)
+        mixed = fine_model.locate(hints[:, [3, 1, 0, 4, 2]], mask, encoded)
+        assert torch.allclose(fine_model.locate(hints, mask, encoded), mixed, atol=1e-5)
 
 
 def test_no_cell_is_the_middle(fine_model, features) -> None:
-    found = fine_model.predict(TEXTS[:1], features, np.array([[0, -1]]))
-    assert found[0, 1].tolist() == [0.5, 0.5]
-    assert ((found >= 0) & (found <= 1)).all()
+    offsets = fine_model.predict(TEXTS[:1], features, np.array([[0, -1]]))
+    assert offsets[0, 1].tolist() == [0.5, 0.5]
+    assert ((offsets >= 0) & (offsets <= 1)).all()
 
 
 def test_every_parameter_that_locates_gets_a_finite_gradient(fine_model, fine_set) -> None:
@@ -144,26 +147,28 @@ def test_sinkhorn_gives_every_real_row_and_column_its_share() -> None:
 
 def test_matching_averages_over_the_matches(text_encoder, features, monkeypatch) -> None:
     model = FINE_METHODS["matching"](text_encoder, MatchingConfig(width=32)).eval()
-    seen = model.embed_instances(features.batch(np.array([3])), text_encoder.embed(features.labels))
-    share = torch.full((1, 4, seen.mask.shape[1] + 1), 1e-6)
+    encoded = model.embed_instances(features.batch(np.array([3])), text_encoder.embed(features.labels))
+    share = torch.full((1, 4, encoded.mask.shape[1] + 1), 1e-6)
     share[0, 0, 2], share[0, 1, 1], share[0, 2, 4] = 0.9, 0.8, 0.1  # the last is too unsure
     offset = torch.tensor([[[0.1, 0.0], [0.0, -0.2], [5.0, 5.0]]])
     monkeypatch.setattr(model, "match", lambda *_: (share.log(), offset))
-    found = model.locate(torch.zeros(1, 3, 32), torch.ones(1, 3, dtype=torch.bool), seen)
-    assert torch.allclose(found[0], ((seen.center[0, 2] + offset[0, 0]) + (seen.center[0, 1] + offset[0, 1])) / 2)
+    position = model.locate(torch.zeros(1, 3, 32), torch.ones(1, 3, dtype=torch.bool), encoded)
+    assert torch.allclose(
+        position[0], ((encoded.center[0, 2] + offset[0, 0]) + (encoded.center[0, 1] + offset[0, 1])) / 2
+    )
     monkeypatch.setattr(model, "match", lambda *_: ((share * 0.1).log(), offset))
-    assert model.locate(torch.zeros(1, 3, 32), torch.ones(1, 3, dtype=torch.bool), seen).tolist() == [[0.5, 0.5]]
+    assert model.locate(torch.zeros(1, 3, 32), torch.ones(1, 3, dtype=torch.bool), encoded).tolist() == [[0.5, 0.5]]
 
 
 def test_the_instances_meant_survive_the_choice_of_the_nearest(fine_model, fine_set) -> None:
     batch = fine_set.batch(16, np.random.default_rng(3))
-    seen = fine_model.embed_instances(batch.cells, fine_set.training.label_embeddings)
-    meant = seen.match_mask(FineTargets(batch.targets.offset, batch.targets.match), batch.hint_mask)
+    encoded = fine_model.embed_instances(batch.cells, fine_set.training.label_embeddings)
+    meant = encoded.match_mask(FineTargets(batch.targets.offset, batch.targets.match), batch.hint_mask)
     assert meant.any()
     for b, h, i in meant.nonzero().tolist():
         column = int(batch.targets.match[b, h])
         expected = batch.cells.geometry[b, column, :2] / 2 + 0.5
-        assert torch.equal(seen.center[b, i], expected)
+        assert torch.equal(encoded.center[b, i], expected)
 
 
 def test_saved_and_loaded_is_the_same(fine_model, features, tmp_path) -> None:
@@ -180,17 +185,17 @@ def test_weights_are_saved_to_half_a_step_of_their_row(fine_model, tmp_path) -> 
     given["hint_encoder.project.weight"][3] = 0.0
     model.load_state_dict(given)
     save_fine(model, tmp_path, {})
-    found = load_fine(tmp_path).state_dict()
+    loaded = load_fine(tmp_path).state_dict()
     for name, tensor in given.items():
         if tensor.dim() > 1 and tensor.numel() > MAX_UNROUNDED_VALUES:
             step = tensor.abs().amax(dim=1, keepdim=True) / 127
-            assert ((found[name] - tensor).abs() <= 0.57 * step).all(), (
+            assert ((loaded[name] - tensor).abs() <= 0.57 * step).all(), (
                 "a half, and what a step in half precision is off"
             )
         else:
-            assert torch.allclose(found[name], tensor, rtol=1e-3, atol=1e-6)
-    kept = load_file(tmp_path / "model.safetensors")["hint_encoder.project.weight"]
-    assert kept.dtype == torch.int8
+            assert torch.allclose(loaded[name], tensor, rtol=1e-3, atol=1e-6)
+    stored = load_file(tmp_path / "model.safetensors")["hint_encoder.project.weight"]
+    assert stored.dtype == torch.int8
 
 
 @pytest.mark.parametrize(
@@ -236,5 +241,5 @@ def test_inputs_that_are_left_out_change_no_position(features, text_encoder, met
         if name == "label":
             label = (label + 1) % len(features.labels)
         geometry[:, geometry_columns([name])] += 0.5
-        found = model.predict(TEXTS, replace(features, geometry=geometry, label=label), ROWS)
-        assert np.array_equal(found, before) == (name not in inputs), name
+        offsets = model.predict(TEXTS, replace(features, geometry=geometry, label=label), ROWS)
+        assert np.array_equal(offsets, before) == (name not in inputs), name

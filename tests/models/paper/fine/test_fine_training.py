@@ -31,11 +31,11 @@ def test_cloned_cells_contain_the_position_and_are_of_its_scene(either) -> None:
     cells, training = either.cells, either.training
     assert len(either.neighbours) > len(training)
     for n in range(0, len(training.best), 7):
-        found = either.neighbours[either.neighbour_starts[n] : either.neighbour_starts[n + 1]]
+        others = either.neighbours[either.neighbour_starts[n] : either.neighbour_starts[n + 1]]
         best = int(training.best[n])
         away = np.abs(cells.center_m[:, :2] - either.positions_m[n]).max(axis=1)
         naive = [c for c in range(len(cells)) if away[c] <= cells.size_m / 2 and cells.scenes[c] == cells.scenes[best]]
-        assert sorted([best, *found.tolist()]) == naive
+        assert sorted([best, *others.tolist()]) == naive
 
 
 def test_half_of_the_cells_are_cloned_or_none(either) -> None:
@@ -83,8 +83,8 @@ def test_what_is_said_is_true_of_the_turned_position_and_the_instance_meant(eith
     direction_of = {}
     for d in range(5):
         for t in range(8):
-            said = sentence(labels[:, None], colours[None, :], d, t)
-            direction_of |= dict.fromkeys(said[said >= 0].tolist(), d)  # less where nothing is of that colour
+            numbers = sentence(labels[:, None], colours[None, :], d, t)
+            direction_of |= dict.fromkeys(numbers[numbers >= 0].tolist(), d)  # less where nothing is of that colour
     agree = []
     for b, h in (batch.targets.match >= 0).nonzero().tolist():
         geometry = batch.cells.geometry[b, batch.targets.match[b, h]]
@@ -130,10 +130,10 @@ def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> N
     right = known = 0
     for n in range(80):
         row = poses.instance[drawn.hints[n, drawn.mask[n]]]
-        found = match[n, : len(row)]
-        assert ((found >= 0) == (row >= 0)).all()
+        matches = match[n, : len(row)]
+        assert ((matches >= 0) == (row >= 0)).all()
         known += int((row >= 0).sum())
-        right += int((found[row >= 0] + parts.starts[cells[n]] == row[row >= 0]).sum())
+        right += int((matches[row >= 0] + parts.starts[cells[n]] == row[row >= 0]).sum())
     assert known > 20
     assert right / known > 0.9, "parts of one instance may be told apart wrongly, others not"
 
@@ -170,13 +170,13 @@ def test_both_methods_overfit_a_few_positions(city, source, text_encoder) -> Non
 @pytest.mark.slow
 def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) -> None:
     config = TrainingConfig(steps=4, batch_size=8, validate_every=2, spacing_m=20.0)
-    seen = []
+    steps = []
 
     def load(encoder, rng):
         return [TrainingData.from_sources(*regions, encoder, config, rng)]
 
     figures = [
-        train_fine(load, tmp_path / name, "regressor", RegressorConfig(width=32), config, progress=seen.append)
+        train_fine(load, tmp_path / name, "regressor", RegressorConfig(width=32), config, progress=steps.append)
         for name in "ab"
     ]
     assert figures[0] == figures[1]
@@ -185,7 +185,7 @@ def test_training_is_seeded_saved_and_says_how_far_it_errs(regions, tmp_path) ->
     assert models[0].fingerprint == models[1].fingerprint
     assert models[0].error_m is not None
     assert 0 < models[0].error_m < 15
-    assert [p.step for p in seen if p.figures] == [2, 4, 2, 4]
+    assert [p.step for p in steps if p.figures] == [2, 4, 2, 4]
     source = json.loads((tmp_path / "a" / "config.json").read_text())["training"]["sources"][0]
     assert source["validation"]["cell_center"]["within_5m"] > 0
 

@@ -4,17 +4,17 @@ import torch
 from models.files import cache_directory
 from models.training.engine.feature_cache import frozen_features
 
-SAID = ["I stand on a gray road.", "There is a park to my west.", "A wall."]
+SENTENCES = ["I stand on a gray road.", "There is a park to my west.", "A wall."]
 
 
 class Counting:
     """A text encoder that counts what it is asked."""
 
     def __init__(self, encoder, fingerprint="a") -> None:
-        self.encoder, self.fingerprint, self.asked = encoder, fingerprint, 0
+        self.encoder, self.fingerprint, self.encoded = encoder, fingerprint, 0
 
     def __call__(self, sentences):
-        self.asked += len(sentences)
+        self.encoded += len(sentences)
         return self.encoder(sentences)
 
 
@@ -26,9 +26,9 @@ def directory(tmp_path, monkeypatch):
 
 def test_features_are_computed_once(text_encoder) -> None:
     first, second = Counting(text_encoder), Counting(text_encoder)
-    computed, read = frozen_features(first, SAID), frozen_features(second, SAID)
-    assert (first.asked, second.asked) == (3, 0)
-    direct = text_encoder(SAID)
+    computed, read = frozen_features(first, SENTENCES), frozen_features(second, SENTENCES)
+    assert (first.encoded, second.encoded) == (3, 0)
+    direct = text_encoder(SENTENCES)
     for features in (computed, read):
         assert torch.equal(features.values, direct.values.half())
         assert torch.equal(features.mask, direct.mask)
@@ -36,26 +36,26 @@ def test_features_are_computed_once(text_encoder) -> None:
 
 
 def test_another_encoder_or_other_sentences_are_computed_anew(text_encoder) -> None:
-    frozen_features(Counting(text_encoder), SAID)
+    frozen_features(Counting(text_encoder), SENTENCES)
     other, fewer = Counting(text_encoder, "b"), Counting(text_encoder)
-    frozen_features(other, SAID)
-    frozen_features(fewer, SAID[:2])
-    assert (other.asked, fewer.asked) == (3, 2)
+    frozen_features(other, SENTENCES)
+    frozen_features(fewer, SENTENCES[:2])
+    assert (other.encoded, fewer.encoded) == (3, 2)
 
 
 def test_a_broken_file_is_computed_again(text_encoder, directory) -> None:
-    frozen_features(Counting(text_encoder), SAID)
+    frozen_features(Counting(text_encoder), SENTENCES)
     [path] = directory.rglob("*.safetensors")
     path.write_bytes(path.read_bytes()[:100])
     again, after = Counting(text_encoder), Counting(text_encoder)
-    frozen_features(again, SAID)
-    frozen_features(after, SAID)
-    assert (again.asked, after.asked) == (3, 0)
+    frozen_features(again, SENTENCES)
+    frozen_features(after, SENTENCES)
+    assert (again.encoded, after.encoded) == (3, 0)
 
 
 def test_a_cache_that_cannot_be_written_is_done_without(text_encoder, directory) -> None:
     directory.write_text("not a directory")
-    assert len(frozen_features(Counting(text_encoder), SAID).mask) == 3
+    assert len(frozen_features(Counting(text_encoder), SENTENCES).mask) == 3
 
 
 def test_where_the_cache_is(monkeypatch, tmp_path) -> None:

@@ -22,7 +22,7 @@ class Line:
     def __init__(self, figures=None) -> None:
         torch.manual_seed(3)
         self.model = nn.Sequential(nn.Linear(1, 16), nn.Dropout(0.3), nn.BatchNorm1d(16), nn.Linear(16, 1))
-        self.figures, self.kept, self.stop_at = figures, [], None
+        self.figures, self.weights, self.stop_at = figures, [], None
 
     def batch(self, rng):
         x = rng.normal(size=(8, 1)).astype(np.float32)
@@ -34,11 +34,11 @@ class Line:
 
     def validate(self):
         assert not self.model.training
-        self.kept.append({name: tensor.clone() for name, tensor in self.model.state_dict().items()})
+        self.weights.append({name: tensor.clone() for name, tensor in self.model.state_dict().items()})
         x = torch.linspace(-1, 1, 9)[:, None]
         with torch.no_grad():
             fit = -float(((self.model(x) - 2 * x) ** 2).mean())
-        return {"recall@5": self.figures[len(self.kept) - 1] if self.figures else fit, "other": 1.0}
+        return {"recall@5": self.figures[len(self.weights) - 1] if self.figures else fit, "other": 1.0}
 
 
 def weights(task):
@@ -49,7 +49,7 @@ def test_the_best_weights_are_kept_and_the_model_is_left_evaluating() -> None:
     task = Line(figures=[0.1, 0.7, 0.3])
     history = run_training(task, SMALL)
     assert (history.best, history.best_step, history.stopped_early) == (0.7, 8, False)
-    assert all(torch.equal(task.kept[1][name], tensor) for name, tensor in task.model.state_dict().items())
+    assert all(torch.equal(task.weights[1][name], tensor) for name, tensor in task.model.state_dict().items())
     assert not task.model.training
 
 
@@ -75,15 +75,17 @@ def test_a_killed_run_resumed_ends_where_an_unbroken_one_ends(tmp_path, schedule
     whole = Line()
     unbroken = run_training(whole, config, tmp_path / "whole")
 
-    def kill(at) -> None:
-        if at.step == 7:
+    def kill(report) -> None:
+        if report.step == 7:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         run_training(Line(), config, tmp_path / "killed", progress=kill)
     torch.manual_seed(99)  # a new process has another generator
     again, steps = Line(), []
-    history = run_training(again, config, tmp_path / "killed", resume=True, progress=lambda at: steps.append(at.step))
+    history = run_training(
+        again, config, tmp_path / "killed", resume=True, progress=lambda report: steps.append(report.step)
+    )
     assert steps == list(range(5, 13)), "it goes on from the validation at step 4"
     assert weights(again) == weights(whole)
     assert [(r.step, r.loss, r.figures) for r in history.rows] == [(r.step, r.loss, r.figures) for r in unbroken.rows]
@@ -104,7 +106,7 @@ def test_patience_ends_training() -> None:
 def test_the_step_schedule_halves() -> None:
     rates = []
     config = LoopConfig(steps=7, batch_size=8, schedule="step", halve_every=3, learning_rate=0.08)
-    run_training(Line(), config, progress=lambda at: rates.append(at.learning_rate))
+    run_training(Line(), config, progress=lambda report: rates.append(report.learning_rate))
     assert rates == pytest.approx([0.08] * 3 + [0.04] * 3 + [0.02])
 
 

@@ -60,20 +60,20 @@ def test_the_mirror_image_of_a_text() -> None:
 
 @pytest.mark.parametrize("text", ["the bank is right next to me", "I just left the bank", "the bank"])
 def test_what_has_no_mirror_image_is_left_alone(text) -> None:
-    at = text.index("bank")
-    given = CueText(text, (CueMention(at, at + 4, 0),))
+    start = text.index("bank")
+    given = CueText(text, (CueMention(start, start + 4, 0),))
     assert mirror(given) == given
 
 
 def test_a_thing_gets_another_name_and_keeps_what_is_said_of_it() -> None:
     text = CueText("The bank is left, the cafe is behind.", (CueMention(4, 8, 0, 8), CueMention(22, 26, 0, 6)))
     names = collect_names([CueText("a hairdresser", (CueMention(2, 13, 0),)), CueText("Elmo", (CueMention(0, 4, 0),))])
-    found = {replace_name(text, names, np.random.default_rng(n)) for n in range(20)}
-    assert {one.text for one in found} == {
+    variants = {replace_name(text, names, np.random.default_rng(n)) for n in range(20)}
+    assert {one.text for one in variants} == {
         "The hairdresser is left, the cafe is behind.",
         "The bank is left, the hairdresser is behind.",
     }
-    for one in found:
+    for one in variants:
         assert sorted(one.text[item.start : item.end] for item in one.mentions)[-1] == "hairdresser"
         assert [item.angle for item in one.mentions] == [8, 6]
 

@@ -13,7 +13,7 @@ from tests.models.citymap.gazetteer.made_town import is_common, made_gazetteer
 FRAME = Frame("map", 40.75, -74.0)
 GRID_M = 15.0
 CENTERS = np.stack(np.meshgrid(np.arange(-45, 446, GRID_M), np.arange(-45, 206, GRID_M)), axis=-1).reshape(-1, 2)
-SAID: dict[str, tuple[float, float]] = {
+TEXTS: dict[str, tuple[float, float]] = {
     "I'm at 25th and 10th": (202, 84),
     "on 26th street, Elmo is across the street": (121, 170),
     "right next to Bottino": (213, 96),
@@ -30,18 +30,22 @@ class Everyday:
         return is_common(word)
 
 
-def told(texts: dict[str, tuple[float, float]]) -> MapTexts:
-    def degrees(at: tuple[float, float]) -> tuple[float, float]:
-        lat, lon = FRAME.to_wgs84(np.array(at, dtype=float))
+def map_texts(texts: dict[str, tuple[float, float]]) -> MapTexts:
+    def degrees(position_m: tuple[float, float]) -> tuple[float, float]:
+        lat, lon = FRAME.to_wgs84(np.array(position_m, dtype=float))
         return float(lat), float(lon)
 
     start = degrees((380, 0))
-    rows = [PlaceText(text, degrees(at), start if "you" in text else None) for text, at in texts.items()]
+    rows = [
+        PlaceText(text, degrees(position_m), start if "you" in text else None) for text, position_m in texts.items()
+    ]
     return MapTexts(made_gazetteer(), FRAME, CENTERS, GRID_M, rows)
 
 
-def cases_of(kernels: PlaceKernels, texts: dict[str, tuple[float, float]] = SAID) -> list[KernelExample]:
-    return read_examples(kernels, told(texts), Everyday(), lambda _: load_posterior().cues, np.random.default_rng(0))
+def cases_of(kernels: PlaceKernels, texts: dict[str, tuple[float, float]] = TEXTS) -> list[KernelExample]:
+    return read_examples(
+        kernels, map_texts(texts), Everyday(), lambda _: load_posterior().cues, np.random.default_rng(0)
+    )
 
 
 def fitted(steps: int, **changed: float) -> tuple[PlaceKernels, list[tuple[int, int, float]]]:
@@ -96,7 +100,7 @@ def test_a_strong_pull_keeps_the_weights(monkeypatch) -> None:
 
 def test_texts_that_name_nothing_are_left_out() -> None:
     kernels = PlaceKernels()
-    assert len(cases_of(kernels)) == len(SAID) - 1
+    assert len(cases_of(kernels)) == len(TEXTS) - 1
     assert cases_of(kernels, {"hello there": (0, 0)}) == []
 
 
@@ -110,9 +114,9 @@ def test_nothing_to_fit_to_is_refused() -> None:
 
 
 def test_calibrating_makes_what_is_too_sure_less_sure() -> None:
-    wrong = {text: ((x + 130.0) % 400.0, y) for text, (x, y) in SAID.items()}
+    wrong = {text: ((x + 130.0) % 400.0, y) for text, (x, y) in TEXTS.items()}
     temper = {}
-    for name, texts in (("right", SAID), ("wrong", wrong)):
+    for name, texts in (("right", TEXTS), ("wrong", wrong)):
         kernels = PlaceKernels()
         before = kernels.scale.detach().clone()
         scale, own, meeting = calibrate_kernels(kernels, cases_of(kernels, texts), 2, np.random.default_rng(0))

@@ -38,14 +38,14 @@ def test_the_posterior_is_trained_calibrated_and_saved(strip_file, tmp_path, mon
     monkeypatch.setattr(
         fit_posterior,
         "calibrate_near_factor",
-        lambda m, some, rng: (places.append(len(some)), calibrate(m, some, rng))[1],
+        lambda m, sites, rng: (places.append(len(sites)), calibrate(m, sites, rng))[1],
     )
     config = TrainingConfig(steps=2, batch_size=8, validate_every=2)
-    seen = []
+    steps = []
     figures = fit_posterior.train_posterior(
-        [strip_file], ("train", "test"), tmp_path, PosteriorConfig(width=32), config, progress=seen.append
+        [strip_file], ("train", "test"), tmp_path, PosteriorConfig(width=32), config, progress=steps.append
     )
-    assert [p.step for p in seen] == [1, 2]
+    assert [p.step for p in steps] == [1, 2]
     assert places == [2], "calibrated on the place that was fitted to and on the other"
     assert 0 <= figures["recall@1"] <= 1
     model = load_posterior(tmp_path)
@@ -60,8 +60,8 @@ def test_the_posterior_is_trained_calibrated_and_saved(strip_file, tmp_path, mon
     (tmp_path / "config.json").write_text(json.dumps(record))
     again = fit_posterior.refit_posterior(tmp_path, [strip_file], ("train", "test"), tmp_path / "again", config)
     assert again == pytest.approx(figures, abs=1e-6), "a refit is the end of the training"
-    kept = json.loads((tmp_path / "again" / "config.json").read_text())["training"]["places"]
-    assert kept == {"seed": 3}, "of parts that stay as they are"
+    places_record = json.loads((tmp_path / "again" / "config.json").read_text())["training"]["places"]
+    assert places_record == {"seed": 3}, "of parts that stay as they are"
     refitted = load_posterior(tmp_path / "again").state_dict()
     for name, tensor in model.state_dict().items():
         assert torch.allclose(tensor, refitted[name], atol=1e-6), name
@@ -98,9 +98,9 @@ def read_texts(monkeypatch, wording, **shares) -> list[str]:
         monkeypatch.setattr(f"models.training.posterior.training_sites.{name}", value)
     shipped, texts = load_posterior(), []
 
-    def read(some):
-        texts.extend(some)
-        return [[] for _ in some]
+    def read(batch):
+        texts.extend(batch)
+        return [[] for _ in batch]
 
     model: Any = SimpleNamespace(matcher=shipped.matcher, reader=SimpleNamespace(read=read))
     hints = (Hint("north", "bench", "gray"), Hint("on-top", "tree", None), Hint("east", "road", "black"))
@@ -120,34 +120,34 @@ def read_texts(monkeypatch, wording, **shares) -> list[str]:
 def test_some_texts_tell_of_less(monkeypatch) -> None:
     whole = read_texts(monkeypatch, None, SLIP_SHARE=0.0, OMISSION_SHARE=0.0)
     assert {text.count("The pose") for text in whole} == {3}
-    some = read_texts(monkeypatch, None, SLIP_SHARE=0.0, OMISSION_SHARE=1.0)
-    assert {text.count("The pose") for text in some} == {2}
+    shorter = read_texts(monkeypatch, None, SLIP_SHARE=0.0, OMISSION_SHARE=1.0)
+    assert {text.count("The pose") for text in shorter} == {2}
 
 
 @pytest.mark.parametrize("measured", [0.0, 1.0])
 def test_some_texts_tell_of_what_is_further_off(monkeypatch, measured) -> None:
-    """Of a thing that is told of 45 m away in the same scene."""
+    """A thing from the hints of a position 45 m away in the same scene."""
     given = {"SLIP_SHARE": 0.0, "OMISSION_SHARE": 0.0, "MEASURED_SHARE": measured}
-    told = []
-    monkeypatch.setattr(Wording, "write", lambda self, facts, rng: told.extend(facts) or LabelledText("", ()))
+    facts = []
+    monkeypatch.setattr(Wording, "write", lambda self, facts, rng: facts.extend(facts) or LabelledText("", ()))
     read_texts(monkeypatch, "train", **given, DISTANT_SHARE=1.0)
-    distant = [fact for fact in told if fact.label == "fountain"]
+    distant = [fact for fact in facts if fact.label == "fountain"]
     assert len(distant) == 20
     assert {(fact.relation, fact.distance_m) for fact in distant} == {("west", 45.0 if measured else None)}
 
 
 def test_a_slip_changes_one_fact_to_what_is_not_true(monkeypatch) -> None:
-    """Of texts in the benchmark's wording."""
+    """Checked on texts in the wording of the benchmark."""
     texts = read_texts(monkeypatch, None, SLIP_SHARE=1.0, OMISSION_SHARE=0.0)
     facts = [("north", "gray bench"), ("on-top", "tree"), ("east", "black road")]
-    seen = set()
+    kinds = set()
     for text in texts:
-        said = re.findall(r"The pose is (\S+) of a ([^.]+)\.", text)
-        [(was, is_now)] = [(a, b) for a, b in zip(facts, said, strict=True) if a != b]
+        stated = re.findall(r"The pose is (\S+) of a ([^.]+)\.", text)
+        [(was, is_now)] = [(a, b) for a, b in zip(facts, stated, strict=True) if a != b]
         (*colour, label), (*now_colour, now_label) = was[1].split(), is_now[1].split()
         changes = {"relation": was[0] != is_now[0], "colour": colour != now_colour, "label": label != now_label}
-        seen.add(frozenset(name for name, is_changed in changes.items() if is_changed))
+        kinds.add(frozenset(name for name, is_changed in changes.items() if is_changed))
         assert is_now[0] in (*COMPASS, was[0])
         assert len(colour) == len(now_colour)
     assert len(texts) == 20
-    assert seen == {frozenset({"label"}), frozenset({"relation"}), frozenset({"relation", "colour"})}
+    assert kinds == {frozenset({"label"}), frozenset({"relation"}), frozenset({"relation", "colour"})}

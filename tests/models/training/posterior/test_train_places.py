@@ -6,7 +6,7 @@ import torch
 from models.posterior.model import load_posterior
 from models.training.posterior.train_places import train_places
 
-SAID = {
+TEXTS = {
     "I'm at East Street 2 and North Path 3": (60.00215, 25.0032),
     "on East Street 1, North Path 2 is on my left": (60.0016, 25.0030),
     "East Street 2 is behind me, a bench ahead": (60.0022, 25.0010),
@@ -25,10 +25,12 @@ def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypat
         rows = [{"text": f"bank{n} on my right", "mentions": [mention]} for n in range(4)]
         (tmp_path / f"{name}.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
     texts, out = tmp_path / "said.jsonl", tmp_path / "weights"
-    told: list[dict[str, object]] = [{"id": n, "text": text, "goal": at} for n, (text, at) in enumerate(SAID.items())]
+    rows_of_texts: list[dict[str, object]] = [
+        {"id": n, "text": text, "goal": goal} for n, (text, goal) in enumerate(TEXTS.items())
+    ]
     meeting = {"text": "Meet me on East Street 3, north of you", "goal": [60.0027, 25.002], "start": [60.001, 25.002]}
-    told += [{"id": n, **meeting} for n in (8, 9)]
-    texts.write_text("".join(json.dumps(row) + "\n" for row in told))
+    rows_of_texts += [{"id": n, **meeting} for n in (8, 9)]
+    texts.write_text("".join(json.dumps(row) + "\n" for row in rows_of_texts))
     done: list[tuple[str, int, int, float]] = []
     figures = train_places([(osm_file, [texts])], None, out, 2, 0, lambda *row: done.append(row))
     assert 0.0 <= figures["angle_right"] <= 1.0
