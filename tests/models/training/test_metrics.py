@@ -15,10 +15,10 @@ def test_against_naive_loops(seed) -> None:
     for k in (1, 3, 5):
         assert recall[k] == pytest.approx(sum(t in list(r[:k]) for r, t in zip(ranked, truth, strict=True)) / 12)
     errors = rng.choice([1.0, 5.0, 7.0, 10.0, 20.0, np.inf], (12, 10))
-    recall = localization_recall(errors)
+    by_radius = localization_recall(errors)
     for k in (1, 5, 10):
         for radius in (5, 10, 15):
-            assert recall[k][radius] == pytest.approx(sum(min(row[:k]) <= radius for row in errors) / 12)
+            assert by_radius[k][radius] == pytest.approx(sum(min(row[:k]) <= radius for row in errors) / 12)
 
 
 def test_nothing_found_is_no_hit() -> None:
