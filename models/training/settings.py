@@ -13,7 +13,7 @@ from models.paper.checkpoint import METHODS
 from models.paper.fine.checkpoint import FINE_METHODS
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.training.engine.loop import LoopConfig
-from models.training.retrieval_data import Wording
+from models.training.retrieval_data import WordingMode
 
 
 class PointsConfig(BaseModel):
@@ -47,7 +47,7 @@ class TrainingConfig(LoopConfig):
 
     cluster: int = Field(default=4, ge=1)
     spacing_m: float = Field(default=4.0, gt=0)
-    wording: Wording = "varied"
+    wording: WordingMode = "varied"
     pmc: bool = True
     points: Path | None = None
 
