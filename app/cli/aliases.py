@@ -52,7 +52,7 @@ def set_alias(
         artifact.set_alias(index_dir, name, version)
     except OSError as error:
         raise _not_written(index_dir, error) from error
-    typer.echo(f"{name} names {version}; a running service follows within a second")
+    typer.echo(f"{name} names {version}; a running service switches as soon as it has opened that version")
 
 
 @aliases.command("remove")
@@ -66,7 +66,7 @@ def remove_alias(name: AliasName, index_dir: IndexDir = INDEX_DIR) -> None:
         artifact.remove_alias(index_dir, name)
     except OSError as error:
         raise _not_written(index_dir, error) from error
-    typer.echo(f"{name} is removed; a running service follows within a second")
+    typer.echo(f"{name} is removed; a running service stops serving it within a second")
 
 
 def _versions(index_dir: Path) -> list[str]:

@@ -39,7 +39,8 @@ def test_list_prints_aliases_then_versions_without_one(alias):
 
 def test_set_registers_a_copied_version_and_names_it(alias, root):
     code, said, _ = alias("set", "canary", "copied")
-    assert (code, said) == (0, "canary names copied; a running service follows within a second\n")
+    assert code == 0
+    assert said.startswith("canary names copied; ")
     assert alias("set", "default", "v2")[0] == 0
     known = read_aliases(root)
     assert known.aliases == {"canary": "copied", "default": "v2"}
@@ -48,7 +49,9 @@ def test_set_registers_a_copied_version_and_names_it(alias, root):
 
 def test_remove_takes_the_name_and_leaves_the_version(alias, root):
     alias("set", "canary", "v2")
-    assert alias("remove", "canary") == (0, "canary is removed; a running service follows within a second\n", "")
+    code, said, _ = alias("remove", "canary")
+    assert code == 0
+    assert said.startswith("canary is removed; ")
     assert read_aliases(root).aliases == {"default": "v1"}
     assert alias("list")[1] == "default\tv1\n-\tcopied\n-\tv2\n"
 
