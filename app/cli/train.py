@@ -49,13 +49,9 @@ def train(
         typer.Option(help="of places: .jsonl files about each --data, joined by commas; as many as there are --data"),
     ] = None,
 ) -> None:
-    """Train a model: on the train scenes of a data set, or the west of an OpenStreetMap file.
-
-    For several processes or GPUs: torchrun --nproc-per-node 2 -m app.cli.main train ...
-    """
+    """Train a model: on the train scenes of a data set, or the west of an OpenStreetMap file."""
     from models.errors import TrainingError
     from models.paper.fine.checkpoint import FINE_METHODS
-    from models.training.engine import distributed
     from models.training.settings import load_settings
 
     if resume and run_dir is None:
@@ -70,15 +66,14 @@ def train(
     model, config = load_settings(method, [*(change or []), *named])
     given = data, (split, val_split), method, model, config, out, run_dir, resume
 
-    with distributed.process_group(), _training_bar(distributed.is_first()) as show:
+    with _training_bar() as show:
         train_it: Callable[..., str] = _train_fine if method in FINE_METHODS else _train_retriever
         if method == "posterior":
             train_it = partial(_train_posterior, reader)
         elif method == "points":
             train_it = _train_points
         found = train_it(*given, show)
-        if distributed.is_first():
-            typer.echo(f"weights are in {out}; validation {found}")
+        typer.echo(f"weights are in {out}; validation {found}")
 
 
 def _train_places(
@@ -169,7 +164,7 @@ def _train_posterior(
 
 
 @contextmanager
-def _training_bar(shown: bool) -> "Iterator[Callable[[Progress], None]]":
+def _training_bar() -> "Iterator[Callable[[Progress], None]]":
     """A progress bar with the loss, the last validation and the speed."""
     from rich import progress as bars
 
@@ -179,7 +174,7 @@ def _training_bar(shown: bool) -> "Iterator[Callable[[Progress], None]]":
         bars.MofNCompleteColumn(),
         bars.TimeRemainingColumn(),
     )
-    with bars.Progress(*columns, console=Console(stderr=True), disable=not shown) as bar:
+    with bars.Progress(*columns, console=Console(stderr=True)) as bar:
         task = bar.add_task("preparing", total=None)
         measured = ""
 

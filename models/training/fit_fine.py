@@ -12,12 +12,10 @@ from torch import Tensor
 from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.paper.fine.checkpoint import FINE_METHODS, save_fine
 from models.paper.fine.fine_model import FineConfig, FineModel, FineTargets
-from models.training.engine import distributed
 from models.training.engine.devices import on_device
 from models.training.engine.loop import History, Progress, pick_device, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
 from models.training.fit_points import look_at_points
-from models.training.retrieval_data import HintVocabulary
 from models.training.settings import TrainingConfig, settings_record
 from models.training.training_data import TrainingData
 
@@ -28,54 +26,41 @@ class FineTask:
     Args:
         model: trained in place.
         sources: drawn from in turn, by their numbers of positions.
-        batch_size: examples a step, of all processes together.
+        batch_size: examples a step.
         pmc: see FineSet.
-
-    Raises:
-        TrainingError: the batch cannot be split over the processes.
     """
 
     criterion = "within_5m"
 
     def __init__(self, model: FineModel, sources: Sequence[TrainingData], batch_size: int, pmc: bool = True) -> None:
-        self.model, self.sources, self.share = model, sources, distributed.share_of(batch_size)
+        self.model, self.sources, self.batch_size = model, sources, batch_size
         self.sets = [FineSet(source.training, pmc) for source in sources]
         sizes = np.array([len(source.training) for source in sources])
         self._probability = sizes / sizes.sum()
 
     @cached_property
     def validations(self) -> list[FineValidation]:
-        """Of each source; the first process alone asks for them."""
+        """One validation for each source."""
         return [FineValidation.from_queries(source.gallery, source.queries, self.model) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
         """Which source, and examples of it."""
         drawn = int(rng.choice(len(self.sources), p=self._probability)) if len(self.sources) > 1 else 0
-        return drawn, self.sets[drawn].batch(self.share, rng, self.model.needs_matches)
+        return drawn, self.sets[drawn].batch(self.batch_size, rng, self.model.needs_matches)
 
     def loss(self, batch: tuple[int, FineBatch]) -> Tensor:
         """Scalar to make small."""
         training, examples, device = self.sources[batch[0]].training, batch[1], self.model.device
         training.to(device)
-        hints = hint_features(self.model, training.vocabulary, examples)
+        mask = examples.hint_mask.to(device)
+        hints = training.vocabulary.features(self.model.embed_hints, examples.sentences.to(device), mask)
         instances = self.model.embed_instances(examples.cells.to(device), training.label_embeddings)
         targets = FineTargets(examples.targets.offset.to(device), examples.targets.match.to(device))
-        return self.model.loss(hints, examples.hint_mask.to(device), instances, targets)
+        return self.model.loss(hints, mask, instances, targets)
 
     def validate(self) -> dict[str, float]:
         """`FineValidation.metrics`, the mean over the sources."""
         return _mean([validation.metrics(self.model) for validation in self.validations])
-
-
-def hint_features(model: FineModel, vocabulary: HintVocabulary, batch: FineBatch) -> Tensor:
-    """[B, H, D] on the model's device; each different sentence of the batch is read once."""
-    device = model.device
-    mask = batch.hint_mask.to(device)
-    sentences, inverse = torch.unique(batch.sentences.to(device)[mask], return_inverse=True)
-    features = model.embed_hints(vocabulary.tokens(sentences))
-    hints = features.new_zeros(*mask.shape, features.shape[-1])
-    hints[mask] = features[inverse]
-    return hints
 
 
 def train_fine(
@@ -89,8 +74,6 @@ def train_fine(
     progress: Callable[[Progress], None] | None = None,
 ) -> dict[str, float]:
     """Train a model of the fine stage, keep what is best on validation queries, save.
-
-    Of several processes (`distributed.process_group`), all call this with the same arguments, and the first saves.
 
     Args:
         load: reads what to train on.
@@ -119,7 +102,7 @@ def train_fine(
         record = settings_record(method, model, config) | {"sources": [source.facts for source in sources]}
         record |= {"point_encoder": points}
         history = run_training(task, config, run_dir, resume, progress, rng, record)
-        return distributed.from_first(lambda: _finish(task, out, config, history, points))
+        return _finish(task, out, config, history, points)
 
 
 def _finish(

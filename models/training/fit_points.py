@@ -23,7 +23,6 @@ from models.paper.fine.fine_model import FineModel
 from models.paper.instance_encoder import GEOMETRY_WIDTHS, CellFeatures
 from models.paper.point_encoder import POINT_WIDTH, PointEncoder
 from models.paper.retriever import Retriever
-from models.training.engine import distributed
 from models.training.engine.loop import LoopConfig, Progress, pick_device, run_training
 from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingCells, TrainingData
@@ -90,10 +89,10 @@ class _PointTask:
 
     def __init__(self, model: _Classifier, training: PointExamples, validation: PointExamples, batch_size: int) -> None:
         self.model, self.training, self.validation = model, training, validation
-        self.share = distributed.share_of(batch_size)
+        self.batch_size = batch_size
 
     def batch(self, rng: np.random.Generator) -> PointExamples:
-        return self.training.take(rng.choice(len(self.training), self.share))
+        return self.training.take(rng.choice(len(self.training), self.batch_size))
 
     def loss(self, batch: PointExamples) -> Tensor:
         device = next(self.model.parameters()).device

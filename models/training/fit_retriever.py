@@ -14,11 +14,10 @@ from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.paper.checkpoint import save_retriever
 from models.paper.levels import Levels
 from models.paper.retriever import Retriever, RetrieverConfig
-from models.training.engine import distributed
 from models.training.engine.devices import on_device
 from models.training.engine.loop import History, Progress, pick_device, run_training
 from models.training.fit_points import look_at_points
-from models.training.retrieval_data import Batch, HintVocabulary
+from models.training.retrieval_data import Batch
 from models.training.settings import TrainingConfig, settings_record
 from models.training.training_data import TrainingData
 from models.training.validation import Validation, calibrate, mean_recall
@@ -30,7 +29,7 @@ class SourceBatch:
 
     Attributes:
         source: which one.
-        examples: its examples; of several processes each has its own, of the same source.
+        examples: its examples.
     """
 
     source: int
@@ -43,58 +42,40 @@ class RetrievalTask:
     Args:
         model: any retriever.
         sources: what to train on, and what to validate on.
-        batch_size: descriptions a step, of all processes together.
+        batch_size: descriptions a step.
         cluster: of these, how many lie near each other (hard negatives).
-
-    Raises:
-        TrainingError: the batch cannot be split over the processes.
     """
 
     criterion = "recall@5"
 
     def __init__(self, model: Retriever, sources: Sequence[TrainingData], batch_size: int, cluster: int) -> None:
         self.model: Retriever = model
-        self.sources, self.cluster, self.share = sources, cluster, distributed.share_of(batch_size)
+        self.sources, self.batch_size, self.cluster = sources, batch_size, cluster
         sizes = np.array([len(source.training) for source in sources])
         self._probability = sizes / sizes.sum()
 
     @cached_property
     def validations(self) -> list[Validation]:
-        """Of each source; the first process alone asks for them."""
+        """One validation for each source."""
         return [Validation(source.gallery, source.queries, self.model) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> SourceBatch:
-        """See Task; all processes draw from the first one's choice of source."""
-        turn = 0
-        if len(self.sources) > 1:
-            turn = distributed.from_first(lambda: int(rng.choice(len(self.sources), p=self._probability)))
-        training = self.sources[turn].training
-        return SourceBatch(turn, training.batch(training.draw(self.share, self.cluster, rng), rng))
+        """See Task."""
+        drawn = int(rng.choice(len(self.sources), p=self._probability)) if len(self.sources) > 1 else 0
+        training = self.sources[drawn].training
+        return SourceBatch(drawn, training.batch(training.draw(self.batch_size, self.cluster, rng), rng))
 
     def loss(self, batch: SourceBatch) -> Tensor:
-        """See Task: the loss over all pairs of the whole batch, in float32, whatever comes before it is in."""
+        """See Task: the loss over all pairs of the batch, in float32 whatever precision the encoders use."""
         device = next(self.model.parameters()).device
         training, examples = self.sources[batch.source].training, batch.examples
         training.to(device)
-        hints = self._hint_features(training.vocabulary, examples, device)
-        text = self.model.embed_texts(hints, examples.hint_mask.to(device))
-        # Rows of one source, so a cell's row names it in all processes.
-        cell = distributed.gather(examples.cell.to(device))
+        mask = examples.hint_mask.to(device)
+        hints = training.vocabulary.features(self.model.embed_hints, examples.sentences.to(device), mask)
+        text = self.model.embed_texts(hints, mask)
         cells = self.model.embed_cells(examples.cells.to(device), training.label_embeddings)
-        text, cells = (distributed.gather_levels(_in_float32(levels)) for levels in (text, cells))
         with torch.autocast(device.type, enabled=False):  # a temperature of .05 would make half precision coarse
-            return self.model.loss(text, cells, cell[:, None] == cell[None, :])
-
-    def _hint_features(self, vocabulary: HintVocabulary, batch: Batch, device: torch.device) -> Tensor:
-        """[B, H, D]; each different sentence of the whole batch is read once."""
-        mask = batch.hint_mask.to(device)
-        sentences = batch.sentences.to(device).masked_fill(~mask, -1)
-        different, features = distributed.gather_features(
-            sentences, lambda asked: self.model.embed_hints(vocabulary.tokens(asked))
-        )
-        hints = features.new_zeros(*sentences.shape, features.shape[-1])
-        hints[mask] = features[torch.searchsorted(different, sentences[mask])]
-        return hints
+            return self.model.loss(_in_float32(text), _in_float32(cells), examples.same_cell.to(device))
 
     def validate(self) -> dict[str, float]:
         """See Task: recall@1, 3 and 5, the mean over the sources."""
@@ -119,8 +100,6 @@ def train_retriever(
 ) -> dict[int, float]:
     """Train, keep what is best on validation queries, calibrate on them, save.
 
-    Of several processes (`distributed.process_group`), all call this with the same arguments, and the first saves.
-
     Args:
         load: reads what to train on; drawn from in turn, by their numbers of positions.
         out: directory for model.safetensors and config.json.
@@ -129,7 +108,7 @@ def train_retriever(
         config: how to train.
         run_dir: directory for metrics, curves and what a killed run goes on from; None keeps none.
         resume: go on from `run_dir`, if a run stands there.
-        progress: called at every step, in the first process.
+        progress: called at every step.
 
     Returns:
         Retrieval recall@k on the validation queries, the mean over the sources.
@@ -148,7 +127,7 @@ def train_retriever(
         record = settings_record(method.method, model, config) | {"sources": [source.facts for source in sources]}
         record |= {"point_encoder": points}
         history = run_training(task, config, run_dir, resume, progress, rng, record)
-        return distributed.from_first(lambda: _finish(task, out, config, history, rng, points))
+        return _finish(task, out, config, history, rng, points)
 
 
 def _finish(

@@ -1,5 +1,6 @@
 """Training examples of retrieval: positions of a map or a data set, their hints and their cells."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -103,6 +104,20 @@ class HintVocabulary:
         longest = int(mask.sum(dim=1).max())
         values = self._values[sentences, :longest].float()
         return TokenFeatures(values, mask[:, :longest], self._ids[sentences, :longest])
+
+    def features(self, read: Callable[[TokenFeatures], Tensor], sentences: Tensor, mask: Tensor) -> Tensor:
+        """Return [B, H, D] features of the hints of a batch, 0 at padding; each different sentence is read once.
+
+        Args:
+            read: a model's sentence encoder, tokens of S sentences to [S, D].
+            sentences: [B, H] indices of sentences.
+            mask: [B, H] bool, True where a hint is real.
+        """
+        different, row = torch.unique(sentences[mask], return_inverse=True)
+        found = read(self.tokens(different))
+        hints = found.new_zeros(*mask.shape, found.shape[-1])
+        hints[mask] = found[row]
+        return hints
 
     def sentence(self, label: Any, colour: Any, direction: Any, template: Any) -> npt.NDArray[np.int64]:
         """Indices of sentences; the arguments broadcast."""

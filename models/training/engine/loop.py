@@ -13,7 +13,6 @@ from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor, nn
 
 from models.errors import TrainingError
-from models.training.engine import distributed
 from models.training.engine.run_dir import Row, RunDir, RunState
 
 _AMP = {"bfloat16": torch.bfloat16, "float16": torch.float16}
@@ -26,7 +25,7 @@ class LoopConfig(BaseModel):
     Attributes:
         seed: of the order of examples, and of all else that the task's maker draws.
         steps: optimisation steps.
-        batch_size: examples a step, of all processes together.
+        batch_size: examples a step.
         learning_rate: the peak of "one-cycle", the start of "step".
         schedule: "one-cycle" rises for a tenth of the steps and falls to nearly nothing; "step" halves the rate every
             `halve_every` steps (the paper's: every 5 epochs).
@@ -70,13 +69,13 @@ class Task(Protocol):
     def criterion(self) -> str: ...  # noqa: D102
 
     def batch(self, rng: np.random.Generator) -> Any:
-        """Examples on the CPU; of several processes each draws `distributed.share_of(batch_size)`."""
+        """Draw `LoopConfig.batch_size` examples, on the CPU."""
 
     def loss(self, batch: Any) -> Tensor:
         """Scalar to make small, computed on the model's device."""
 
     def validate(self) -> dict[str, float]:
-        """Figures of the model as it is, in evaluation mode; called in the first process only."""
+        """Return figures of the model as it is, in evaluation mode."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +88,7 @@ class Progress:
         loss: of this step.
         figures: of a validation, if there was one after this step.
         learning_rate: of this step.
-        descriptions_per_second: examples trained on, of all processes, since the last validation.
+        descriptions_per_second: examples trained on since the last validation.
     """
 
     step: int
@@ -134,8 +133,7 @@ def run_training(
 ) -> History:
     """Train, and leave the model on its device, in evaluation mode, with the weights that validated best.
 
-    Seed torch before the model is built; the loop goes on with torch's generator as it is. In several processes
-    (`distributed.process_group`) every process calls this with the same arguments.
+    Seed torch before the model is built; the loop goes on with torch's generator as it is.
 
     Args:
         task: what to train.
@@ -143,8 +141,8 @@ def run_training(
         run_dir: directory for config.json, metrics.csv, curves.png, best.safetensors and state.safetensors;
             None writes nothing.
         resume: go on from `run_dir` if a run stands there; ends with the weights that an unbroken run ends with.
-        progress: called at every step, in the first process.
-        rng: draws the batches; None for one seeded by `config.seed`. Several processes draw from their own.
+        progress: called at every step.
+        rng: draws the batches; None for one seeded by `config.seed`.
         record: what config.json shall say; None for `config`.
 
     Raises:
@@ -159,10 +157,8 @@ def run_training(
         loss = run.advance()
         figures = run.validate() if run.validation_due else None
         if files and figures is not None:
-            state = run.state()
-            if distributed.is_first():
-                files.write(run.history.rows, task.criterion, run.best_weights, state)
-        if progress and distributed.is_first():
+            files.write(run.history.rows, task.criterion, run.best_weights, run.state())
+        if progress:
             rate = run.last_learning_rate
             progress(Progress(run.step, config.steps, loss, figures, rate, run.descriptions_per_second))
     task.model.load_state_dict(run.best_weights)
@@ -171,7 +167,7 @@ def run_training(
 
 
 def pick_device(wanted: Literal["auto", "cpu", "cuda"]) -> torch.device:
-    """The device to train on; of several processes, each has a GPU of its own.
+    """Return the device to train on.
 
     Raises:
         TrainingError: "cuda" is wanted and there is none.
@@ -190,10 +186,6 @@ class _Run:
         self.task, self.config, self.rng = task, config, rng
         self.device = pick_device(config.device)
         task.model.to(self.device)
-        if distributed.world_size() > 1:
-            distributed.prepare(task.model)
-            self.rng = np.random.default_rng([config.seed, distributed.rank()])
-            torch.manual_seed(config.seed + 1 + distributed.rank())  # dropout of its own in each process
         self.optimizer = torch.optim.AdamW(
             task.model.parameters(), config.learning_rate, weight_decay=config.weight_decay
         )
@@ -223,7 +215,6 @@ class _Run:
             loss = self.task.loss(batch)
         self.optimizer.zero_grad()
         self.scaler.scale(loss).backward()
-        distributed.average_gradients(model)
         self.scaler.unscale_(self.optimizer)
         nn.utils.clip_grad_norm_(model.parameters(), self.config.clip_norm)
         scale = self.scaler.get_scale()
@@ -245,7 +236,7 @@ class _Run:
         """Measure, keep the weights if they are the best so far, note a row."""
         model, history = self.task.model, self.history
         model.eval()
-        figures = distributed.from_first(self.task.validate)
+        figures = self.task.validate()
         model.train()
         if figures[self.task.criterion] > history.best:
             history.best, history.best_step, self.stale = figures[self.task.criterion], self.step, 0
@@ -261,14 +252,14 @@ class _Run:
         return figures
 
     def state(self) -> RunState:
-        """Everything that a run goes on from; every process must call it."""
+        """Return everything that `restore` needs to go on."""
         return RunState.of(
             self.task.model,
             self.best_weights,
             self.optimizer,
             [self.schedule, self.scaler],
-            distributed.gather_objects(self.rng.bit_generator.state),
-            distributed.gather_objects(_torch_generators(self.device)),
+            self.rng.bit_generator.state,
+            _torch_generators(self.device),
             self.history.rows,
             {"step": self.step, "stale": self.stale, "seconds": self.seconds}
             | {name: getattr(self.history, name) for name in ("best_step", "best", "stopped_early")},
@@ -278,7 +269,7 @@ class _Run:
         """Go on from a state."""
         state.load_into(self.task.model, self.optimizer, [self.schedule, self.scaler])
         self.best_weights = state.best_weights(self.device)
-        self.rng.bit_generator.state, generators = state.generators(distributed.rank(), distributed.world_size())
+        self.rng.bit_generator.state, generators = state.generators()
         torch.set_rng_state(generators[0])
         if self.device.type == "cuda":
             torch.cuda.set_rng_state(generators[-1], self.device)

@@ -41,7 +41,7 @@ class Row:
         seconds: since the start, validations included, pauses of a resumed run not.
         loss: mean since the last validation.
         learning_rate: of the last step.
-        descriptions_per_second: examples trained on, of all processes, since the last validation.
+        descriptions_per_second: examples trained on since the last validation.
         figures: what the task's `validate` gave.
     """
 
@@ -83,8 +83,8 @@ class RunState:
         best_weights: dict[str, Tensor],
         optimizer: torch.optim.Optimizer,
         others: Sequence[_Stateful],
-        numpy_generators: list[Mapping[str, Any]],
-        torch_generators: list[list[Tensor]],
+        numpy_generator: Mapping[str, Any],
+        torch_generators: list[Tensor],
         rows: Sequence[Row],
         counters: dict[str, Any],
     ) -> "RunState":
@@ -95,8 +95,8 @@ class RunState:
             best_weights: the best so far.
             optimizer: of the model's parameters.
             others: the schedule and the scaler; their state is JSON.
-            numpy_generators: state of NumPy's generator, one a process.
-            torch_generators: states of torch's generators, one list a process.
+            numpy_generator: state of NumPy's generator.
+            torch_generators: states of torch's generators.
             rows: validations so far.
             counters: JSON.
         """
@@ -104,11 +104,11 @@ class RunState:
         tensors = {_MODEL + name: tensor for name, tensor in model.state_dict().items()}
         tensors |= {_BEST + name: tensor for name, tensor in best_weights.items()}
         tensors |= {f"{_OPTIMIZER}{n}.{key}": t for n, values in state["state"].items() for key, t in values.items()}
-        tensors |= {f"{_GENERATOR}{r}.{n}": t for r, ts in enumerate(torch_generators) for n, t in enumerate(ts)}
+        tensors |= {f"{_GENERATOR}{n}": t for n, t in enumerate(torch_generators)}
         facts = {
             "groups": state["param_groups"],
             "others": [other.state_dict() for other in others],
-            "generators": numpy_generators,
+            "generator": numpy_generator,
             "rows": [asdict(row) for row in rows],
             "counters": counters,
         }
@@ -140,16 +140,9 @@ class RunState:
         """The best weights so far, on a device."""
         return {name: tensor.to(device) for name, tensor in self._part(_BEST).items()}
 
-    def generators(self, rank: int, world_size: int) -> tuple[dict[str, Any], list[Tensor]]:
-        """State of NumPy's generator and of torch's in one process.
-
-        Raises:
-            TrainingError: the run was of another number of processes.
-        """
-        states = self.facts["generators"]
-        if len(states) != world_size:
-            raise TrainingError(f"the run was of {len(states)} processes, this is one of {world_size}; start as many")
-        return states[rank], list(self._part(f"{_GENERATOR}{rank}.").values())
+    def generators(self) -> tuple[dict[str, Any], list[Tensor]]:
+        """Return the states of NumPy's generator and of torch's."""
+        return self.facts["generator"], list(self._part(_GENERATOR).values())
 
     def _part(self, prefix: str) -> dict[str, Tensor]:
         return {name[len(prefix) :]: self.tensors[name] for name in sorted(self.tensors) if name.startswith(prefix)}
