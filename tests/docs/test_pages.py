@@ -35,6 +35,16 @@ def test_files_that_pages_and_the_picture_name_are_there():
     assert [name for name in sorted(named) if not (ROOT / name).exists()] == []
 
 
+def test_the_table_of_changes_names_files_that_are_there():
+    page = (ROOT / "docs/architecture.md").read_text()
+    rows = page.partition("## Where do I change X?")[2].partition("\n## ")[0].strip().splitlines()[2:]
+    assert len(rows) >= 20
+    for row in rows:
+        paths = re.findall(r"`((?:app|index|models|docs|tests)/[^`]+)`", row)
+        assert paths, row
+        assert [path for path in paths if not (ROOT / path).exists()] == [], row
+
+
 def test_pages_and_rules_that_the_code_cites_are_there():
     rules = set(re.findall(r"^\*\*Rule (\d)", (ROOT / "docs/formats.md").read_text(), re.M))
     assert rules == set("12345678")
