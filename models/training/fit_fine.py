@@ -15,18 +15,18 @@ from models.paper.fine.fine_model import FineConfig, FineModel, FineTargets
 from models.training.engine.devices import on_device
 from models.training.engine.loop import History, Progress, pick_device, run_training
 from models.training.fine_data import FineBatch, FineSet, FineValidation
-from models.training.fit_points import look_at_points
+from models.training.fit_points import prepare_point_encoder
 from models.training.settings import TrainingConfig, settings_record
 from models.training.training_data import TrainingData
 
 
 class FineTask:
-    """What `run_training` makes of the fine stage (models.training.engine.loop.Task).
+    """The training task of a fine stage (models.training.engine.loop.Task).
 
     Args:
         model: trained in place.
-        sources: drawn from in turn, by their numbers of positions.
-        batch_size: examples a step.
+        sources: a source is drawn per step, in proportion to its number of positions.
+        batch_size: examples per step.
         pmc: see FineSet.
     """
 
@@ -44,12 +44,12 @@ class FineTask:
         return [FineValidation.from_queries(source.gallery, source.queries, self.model) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> tuple[int, FineBatch]:
-        """Which source, and examples of it."""
+        """Draw a source, and examples of it."""
         drawn = int(rng.choice(len(self.sources), p=self._probability)) if len(self.sources) > 1 else 0
         return drawn, self.sets[drawn].batch(self.batch_size, rng, self.model.needs_matches)
 
     def loss(self, batch: tuple[int, FineBatch]) -> Tensor:
-        """Scalar to make small."""
+        """Return the loss of a batch."""
         training, examples, device = self.sources[batch[0]].training, batch[1], self.model.device
         training.to(device)
         mask = examples.hint_mask.to(device)
@@ -59,7 +59,7 @@ class FineTask:
         return self.model.loss(hints, mask, instances, targets)
 
     def validate(self) -> dict[str, float]:
-        """`FineValidation.metrics`, the mean over the sources."""
+        """Return the mean of `FineValidation.metrics` over the sources."""
         return _mean([validation.metrics(self.model) for validation in self.validations])
 
 
@@ -73,20 +73,20 @@ def train_fine(
     resume: bool = False,
     progress: Callable[[Progress], None] | None = None,
 ) -> dict[str, float]:
-    """Train a model of the fine stage, keep what is best on validation queries, save.
+    """Train a fine stage, and save the weights with the best validation.
 
     Args:
-        load: reads what to train on.
+        load: loads the training data.
         out: directory for model.safetensors and config.json.
         method: key of `FINE_METHODS`.
-        model: its shape, of the method's `config_type`.
-        config: how to optimise (the paper: 32 to 35 epochs, learning rate 3e-4, halved every few).
-        run_dir: as `run_training`.
-        resume: as `run_training`.
-        progress: as `run_training`.
+        model: its configuration, of the method's `config_type`.
+        config: training settings (the paper: 32 to 35 epochs, learning rate 3e-4, halved every few epochs).
+        run_dir: see `run_training`.
+        resume: see `run_training`.
+        progress: see `run_training`.
 
     Returns:
-        Figures on the validation queries, the mean over the sources.
+        Validation metrics, the mean over the sources.
 
     Raises:
         TrainingError: see `run_training`.
@@ -98,7 +98,7 @@ def train_fine(
         sources = load(encoder, rng)
         fine = FINE_METHODS[method](encoder, model)
         task = FineTask(fine, sources, config.batch_size, config.pmc)
-        points = look_at_points(fine, sources, config, run_dir and run_dir / "points", resume, progress)
+        points = prepare_point_encoder(fine, sources, config, run_dir and run_dir / "points", resume, progress)
         record = settings_record(method, model, config) | {"sources": [source.facts for source in sources]}
         record |= {"point_encoder": points}
         history = run_training(task, config, run_dir, resume, progress, rng, record)
@@ -108,25 +108,25 @@ def train_fine(
 def _finish(
     task: FineTask, out: Path, config: TrainingConfig, history: History, points: dict[str, float]
 ) -> dict[str, float]:
-    """Measure, save; the figures that `train_fine` returns."""
+    """Measure and save the model; return the metrics for `train_fine`."""
     fine, validations = task.model, task.validations
-    figures = [validation.metrics(fine) for validation in validations]
+    metrics = [validation.metrics(fine) for validation in validations]
     residuals = np.concatenate([validation.residuals_m(fine)[:, 0].ravel() for validation in validations])
     fine.config = fine.config.model_copy(update={"error_m": float(np.sqrt(np.mean(residuals**2)))})
     training = {
         "config": config.model_dump(mode="json"),
-        "sources": [_facts(*part) for part in zip(task.sources, validations, figures, strict=True)],
+        "sources": [_facts(*part) for part in zip(task.sources, validations, metrics, strict=True)],
         **history.facts,
         "point_encoder": points,
     }
     save_fine(fine.cpu(), out, training)
-    return _mean(figures)
+    return _mean(metrics)
 
 
-def _facts(source: TrainingData, validation: FineValidation, figures: dict[str, float]) -> dict[str, Any]:
-    measured = {"queries": len(validation.rows), "cell_center": validation.center_metrics()} | figures
+def _facts(source: TrainingData, validation: FineValidation, metrics: dict[str, float]) -> dict[str, Any]:
+    measured = {"queries": len(validation.rows), "cell_center": validation.center_metrics()} | metrics
     return source.facts | {"positions": len(source.training), "validation": measured}
 
 
-def _mean(figures: Sequence[dict[str, float]]) -> dict[str, float]:
-    return {name: float(np.mean([f[name] for f in figures])) for name in figures[0]}
+def _mean(metrics: Sequence[dict[str, float]]) -> dict[str, float]:
+    return {name: float(np.mean([each[name] for each in metrics])) for name in metrics[0]}

@@ -1,4 +1,4 @@
-"""Training a retriever on parts of maps and data sets, chosen on others."""
+"""Training of a retriever on maps and data sets."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ from models.paper.levels import Levels
 from models.paper.retriever import Retriever, RetrieverConfig
 from models.training.engine.devices import on_device
 from models.training.engine.loop import History, Progress, pick_device, run_training
-from models.training.fit_points import look_at_points
+from models.training.fit_points import prepare_point_encoder
 from models.training.retrieval_data import Batch
 from models.training.settings import TrainingConfig, settings_record
 from models.training.training_data import TrainingData
@@ -28,8 +28,8 @@ class SourceBatch:
     """A batch of one source.
 
     Attributes:
-        source: which one.
-        examples: its examples.
+        source: index of the source.
+        examples: examples of the source.
     """
 
     source: int
@@ -37,13 +37,13 @@ class SourceBatch:
 
 
 class RetrievalTask:
-    """A retriever on some sources, drawn from in turn, by their numbers of positions.
+    """The training task of a retriever; a source is drawn per step, in proportion to its number of positions.
 
     Args:
         model: any retriever.
-        sources: what to train on, and what to validate on.
-        batch_size: descriptions a step.
-        cluster: of these, how many lie near each other (hard negatives).
+        sources: training and validation data.
+        batch_size: descriptions per step.
+        cluster: number of descriptions of a batch that lie near each other (hard negatives).
     """
 
     criterion = "recall@5"
@@ -60,13 +60,13 @@ class RetrievalTask:
         return [Validation(source.gallery, source.queries, self.model) for source in self.sources]
 
     def batch(self, rng: np.random.Generator) -> SourceBatch:
-        """See Task."""
+        """Draw a source, and examples of it."""
         drawn = int(rng.choice(len(self.sources), p=self._probability)) if len(self.sources) > 1 else 0
         training = self.sources[drawn].training
         return SourceBatch(drawn, training.batch(training.draw(self.batch_size, self.cluster, rng), rng))
 
     def loss(self, batch: SourceBatch) -> Tensor:
-        """See Task: the loss over all pairs of the batch, in float32 whatever precision the encoders use."""
+        """Return the loss over all pairs of the batch, in float32 whatever precision the encoders use."""
         device = next(self.model.parameters()).device
         training, examples = self.sources[batch.source].training, batch.examples
         training.to(device)
@@ -74,11 +74,13 @@ class RetrievalTask:
         hints = training.vocabulary.features(self.model.embed_hints, examples.sentences.to(device), mask)
         text = self.model.embed_texts(hints, mask)
         cells = self.model.embed_cells(examples.cells.to(device), training.label_embeddings)
-        with torch.autocast(device.type, enabled=False):  # a temperature of .05 would make half precision coarse
+        with torch.autocast(
+            device.type, enabled=False
+        ):  # half precision is too coarse for logits at a temperature of 0.05
             return self.model.loss(_in_float32(text), _in_float32(cells), examples.same_cell.to(device))
 
     def validate(self) -> dict[str, float]:
-        """See Task: recall@1, 3 and 5, the mean over the sources."""
+        """Return recall@1, 3 and 5, the mean over the sources."""
         recalls = [validation.recall(self.model) for validation in self.validations]
         return {f"recall@{k}": recall for k, recall in mean_recall(recalls).items()}
 
@@ -98,16 +100,16 @@ def train_retriever(
     resume: bool = False,
     progress: Callable[[Progress], None] | None = None,
 ) -> dict[int, float]:
-    """Train, keep what is best on validation queries, calibrate on them, save.
+    """Train a retriever, calibrate the weights with the best validation, and save them.
 
     Args:
-        load: reads what to train on; drawn from in turn, by their numbers of positions.
+        load: loads the training data.
         out: directory for model.safetensors and config.json.
-        method: which retriever.
-        model: shape and loss of it, of its `config_type`.
-        config: how to train.
-        run_dir: directory for metrics, curves and what a killed run goes on from; None keeps none.
-        resume: go on from `run_dir`, if a run stands there.
+        method: the retriever class.
+        model: architecture and loss, of its `config_type`.
+        config: training settings.
+        run_dir: see `run_training`.
+        resume: see `run_training`.
         progress: called at every step.
 
     Returns:
@@ -123,7 +125,7 @@ def train_retriever(
         sources = load(encoder, rng)
         retriever = method(encoder, model)
         task = RetrievalTask(retriever, sources, config.batch_size, config.cluster)
-        points = look_at_points(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
+        points = prepare_point_encoder(retriever, sources, config, run_dir and run_dir / "points", resume, progress)
         record = settings_record(method.method, model, config) | {"sources": [source.facts for source in sources]}
         record |= {"point_encoder": points}
         history = run_training(task, config, run_dir, resume, progress, rng, record)
@@ -138,7 +140,7 @@ def _finish(
     rng: np.random.Generator,
     points: dict[str, float],
 ) -> dict[int, float]:
-    """Calibrate, measure, save; the recall that `train_retriever` returns."""
+    """Calibrate, measure and save the model; return the recall for `train_retriever`."""
     retriever, validations = task.model, task.validations
     retriever.config = retriever.config.model_copy(update=calibrate(retriever, validations, rng))
     recalls = [validation.recall(retriever) for validation in validations]

@@ -99,7 +99,7 @@ class HintVocabulary:
         self.mask, self._ids, self._values = (x.to(device) for x in (self.mask, self._ids, self._values))
 
     def tokens(self, sentences: Tensor) -> TokenFeatures:
-        """Token features of sentences [S], padded to the longest of them."""
+        """Return token features of sentences [S], padded to the longest of them."""
         mask = self.mask[sentences]
         longest = int(mask.sum(dim=1).max())
         values = self._values[sentences, :longest].float()
@@ -114,13 +114,13 @@ class HintVocabulary:
             mask: [B, H] bool, True where a hint is real.
         """
         different, row = torch.unique(sentences[mask], return_inverse=True)
-        found = read(self.tokens(different))
-        hints = found.new_zeros(*mask.shape, found.shape[-1])
-        hints[mask] = found[row]
+        features = read(self.tokens(different))
+        hints = features.new_zeros(*mask.shape, features.shape[-1])
+        hints[mask] = features[row]
         return hints
 
     def sentence(self, label: Any, colour: Any, direction: Any, template: Any) -> npt.NDArray[np.int64]:
-        """Indices of sentences; the arguments broadcast."""
+        """Return indices of sentences; the arguments broadcast."""
         pair = self._pair[label, colour]
         index: npt.NDArray[np.int64] = (pair * len(DIRECTIONS) + direction) * len(TEMPLATES) + template
         return index

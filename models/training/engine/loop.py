@@ -1,4 +1,4 @@
-"""The training loop: optimiser, schedule, mixed precision, validation, early stopping, resuming. It knows no model."""
+"""The training loop for any model: optimiser, schedule, mixed precision, validation, early stopping, resuming."""
 
 import math
 import time
@@ -13,29 +13,29 @@ from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor, nn
 
 from models.errors import TrainingError
-from models.training.engine.run_dir import Row, RunDir, RunState
+from models.training.engine.run_dir import RunDir, RunState, ValidationRow
 
 _AMP = {"bfloat16": torch.bfloat16, "float16": torch.float16}
 _Schedule = torch.optim.lr_scheduler.OneCycleLR | torch.optim.lr_scheduler.StepLR
 
 
 class LoopConfig(BaseModel):
-    """How to optimise.
+    """Settings of the optimisation.
 
     Attributes:
-        seed: of the order of examples, and of all else that the task's maker draws.
+        seed: of all random choices.
         steps: optimisation steps.
-        batch_size: examples a step.
-        learning_rate: the peak of "one-cycle", the start of "step".
-        schedule: "one-cycle" rises for a tenth of the steps and falls to nearly nothing; "step" halves the rate every
-            `halve_every` steps (the paper's: every 5 epochs).
-        halve_every: steps.
+        batch_size: examples per step.
+        learning_rate: peak of "one-cycle", initial value of "step".
+        schedule: "one-cycle" rises for a tenth of the steps and then falls to almost 0; "step" halves the rate every
+            `halve_every` steps (the paper: every 5 epochs).
+        halve_every: in steps.
         weight_decay: of AdamW.
-        clip_norm: gradients are scaled down to this norm.
-        validate_every: steps between validations; the weights that are best by the task's criterion are kept.
-        patience: stop after so many validations without a better criterion; None never stops early.
-        amp: what the forward pass computes in on a GPU; on a CPU it is float32 whatever this says.
-        device: "auto" is the GPU where there is one.
+        clip_norm: maximum norm of the gradient.
+        validate_every: steps between validations; the weights with the best criterion are kept.
+        patience: validations without a better criterion before an early stop; None never stops early.
+        amp: precision of the forward pass on a GPU; a CPU always uses float32.
+        device: "auto" uses a GPU if there is one.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -55,11 +55,11 @@ class LoopConfig(BaseModel):
 
 
 class Task(Protocol):
-    """What is trained.
+    """A model with its training and validation data.
 
     Attributes:
-        model: trained in place; the loop moves it to the device, and the task follows it there.
-        criterion: key of `validate()` that is made large, for example "recall@5".
+        model: trained in place; the loop moves it to the device, and the task uses that device.
+        criterion: key of `validate()` that selects the best weights, for example "recall@5"; larger is better.
     """
 
     @property
@@ -72,21 +72,21 @@ class Task(Protocol):
         """Draw `LoopConfig.batch_size` examples, on the CPU."""
 
     def loss(self, batch: Any) -> Tensor:
-        """Scalar to make small, computed on the model's device."""
+        """Return the loss, a scalar on the device of the model."""
 
     def validate(self) -> dict[str, float]:
-        """Return figures of the model as it is, in evaluation mode."""
+        """Return validation metrics; the model is in evaluation mode."""
 
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Where training stands, for a progress bar.
+    """The state of a training, for a progress bar.
 
     Attributes:
         step: steps done.
-        steps: of so many.
+        steps: total number of steps.
         loss: of this step.
-        figures: of a validation, if there was one after this step.
+        figures: metrics of the validation after this step, if there was one.
         learning_rate: of this step.
         descriptions_per_second: examples trained on since the last validation.
     """
@@ -101,23 +101,23 @@ class Progress:
 
 @dataclass(slots=True)
 class History:
-    """What came of training.
+    """The result of a training.
 
     Attributes:
-        rows: one a validation.
-        best_step: the step whose weights were kept.
-        best: the criterion there.
-        stopped_early: whether patience ended it.
+        rows: one per validation.
+        best_step: step with the best criterion, whose weights are kept.
+        best: best criterion.
+        stopped_early: whether `patience` ended the training.
     """
 
-    rows: list[Row] = field(default_factory=list)
+    rows: list[ValidationRow] = field(default_factory=list)
     best_step: int = 0
     best: float = -math.inf
     stopped_early: bool = False
 
     @property
     def facts(self) -> dict[str, Any]:
-        """What the weights' record keeps of it."""
+        """The history for the config.json of the weights."""
         rows = [{"step": row.step, "loss": row.loss} | row.figures for row in self.rows]
         return {"history": rows, "best_step": self.best_step}
 
@@ -131,22 +131,22 @@ def run_training(
     rng: np.random.Generator | None = None,
     record: dict[str, Any] | None = None,
 ) -> History:
-    """Train, and leave the model on its device, in evaluation mode, with the weights that validated best.
+    """Train a model; it stays on its device, in evaluation mode, with the weights of the best validation.
 
-    Seed torch before the model is built; the loop goes on with torch's generator as it is.
+    Seed torch before building the model; the loop continues with the state of torch's generator.
 
     Args:
-        task: what to train.
-        config: how.
+        task: the model and its data.
+        config: settings of the optimisation.
         run_dir: directory for config.json, metrics.csv, curves.png, best.safetensors and state.safetensors;
             None writes nothing.
-        resume: go on from `run_dir` if a run stands there; ends with the weights that an unbroken run ends with.
+        resume: continue the run in `run_dir` if there is one; the result equals that of an uninterrupted run.
         progress: called at every step.
-        rng: draws the batches; None for one seeded by `config.seed`.
-        record: what config.json shall say; None for `config`.
+        rng: draws the batches; None for a generator seeded by `config.seed`.
+        record: content of config.json; None for `config`.
 
     Raises:
-        TrainingError: the loss is not finite; there is no such device; or the run directory holds another run.
+        TrainingError: the loss is not finite, the device does not exist, or the run directory has another run.
     """
     files = RunDir.open(run_dir, resume, record or config.model_dump(mode="json")) if run_dir else None
     run = _Run(task, config, rng or np.random.default_rng(config.seed))
@@ -166,21 +166,21 @@ def run_training(
     return run.history
 
 
-def pick_device(wanted: Literal["auto", "cpu", "cuda"]) -> torch.device:
+def pick_device(device: Literal["auto", "cpu", "cuda"]) -> torch.device:
     """Return the device to train on.
 
     Raises:
-        TrainingError: "cuda" is wanted and there is none.
+        TrainingError: `device` is "cuda" and there is no GPU.
     """
-    if wanted == "cuda" and not torch.cuda.is_available():
-        raise TrainingError("there is no GPU that torch can use here; take device 'auto' or 'cpu'")
-    if wanted == "cpu" or not torch.cuda.is_available():
+    if device == "cuda" and not torch.cuda.is_available():
+        raise TrainingError("torch finds no GPU; use device 'auto' or 'cpu'")
+    if device == "cpu" or not torch.cuda.is_available():
         return torch.device("cpu")
     return torch.device("cuda", torch.cuda.current_device())
 
 
 class _Run:
-    """A run under way: everything that `state` writes down and `restore` brings back."""
+    """A run in progress, which `state` stores and `restore` continues."""
 
     def __init__(self, task: Task, config: LoopConfig, rng: np.random.Generator) -> None:
         self.task, self.config, self.rng = task, config, rng
@@ -208,7 +208,7 @@ class _Run:
         return self.step % self.config.validate_every == 0 or self.step == self.config.steps
 
     def advance(self) -> float:
-        """One step; its loss."""
+        """Do one step, and return its loss."""
         model = self.task.model
         batch = self.task.batch(self.rng)
         with torch.autocast(self.device.type, dtype=self.amp, enabled=self.amp is not None):
@@ -221,7 +221,7 @@ class _Run:
         self.scaler.step(self.optimizer)
         self.scaler.update()
         self.last_learning_rate = float(self.schedule.get_last_lr()[0])
-        if self.scaler.get_scale() >= scale:  # else float16 overflowed, and the scaler left the step out
+        if self.scaler.get_scale() >= scale:  # otherwise float16 overflowed and the scaler skipped the step
             self.schedule.step()
         self.step += 1
         value = loss.item()
@@ -233,7 +233,7 @@ class _Run:
         return value
 
     def validate(self) -> dict[str, float]:
-        """Measure, keep the weights if they are the best so far, note a row."""
+        """Validate, keep the weights if they are the best so far, and add a row to the history."""
         model, history = self.task.model, self.history
         model.eval()
         figures = self.task.validate()
@@ -247,13 +247,13 @@ class _Run:
         self._lap()
         loss = float(np.mean(self.losses))
         rate, speed = self.last_learning_rate, self.descriptions_per_second
-        history.rows.append(Row(self.step, self.seconds, loss, rate, speed, figures))
+        history.rows.append(ValidationRow(self.step, self.seconds, loss, rate, speed, figures))
         self.losses, self._training_seconds = [], 0.0
         return figures
 
     def state(self) -> RunState:
-        """Return everything that `restore` needs to go on."""
-        return RunState.of(
+        """Return everything that `restore` needs."""
+        return RunState.capture(
             self.task.model,
             self.best_weights,
             self.optimizer,
@@ -266,7 +266,7 @@ class _Run:
         )
 
     def restore(self, state: RunState) -> None:
-        """Go on from a state."""
+        """Continue from a state."""
         state.load_into(self.task.model, self.optimizer, [self.schedule, self.scaler])
         self.best_weights = state.best_weights(self.device)
         self.rng.bit_generator.state, generators = state.generators()
@@ -298,6 +298,6 @@ def _copy(model: nn.Module) -> dict[str, Tensor]:
 
 
 def _torch_generators(device: torch.device) -> list[Tensor]:
-    """States [n] uint8 of torch's generators: the CPU's, and the GPU's where one is used."""
+    """Return the states [n] uint8 of torch's generators: the CPU's, and the GPU's if one is used."""
     gpu = [torch.cuda.get_rng_state(device)] if device.type == "cuda" else []
     return [torch.get_rng_state(), *gpu]

@@ -1,12 +1,12 @@
-"""The directory of a training run: settings, metrics, curves, the best weights, and what a killed run goes on from.
+"""The directory of a training run.
 
     config.json          the settings
-    metrics.csv          a row a validation
-    curves.png           the loss and the figures over the steps
-    best.safetensors     the weights that validated best so far
-    state.safetensors    model, best weights, optimiser, schedule, random generators and counters
+    metrics.csv          one row per validation
+    curves.png           the loss and the metrics over the steps
+    best.safetensors     the weights of the best validation so far
+    state.safetensors    model, best weights, optimiser, schedule, random generators and counters, to resume the run
 
-Tensors are safetensors and all else is JSON: reading them runs nothing. Each file is replaced whole.
+All files are safetensors, JSON, CSV or PNG, so reading them runs no code. Each file is replaced atomically.
 """
 
 import csv
@@ -33,16 +33,16 @@ _OPTIMIZER, _MODEL, _BEST, _GENERATOR = "optimizer.", "model.", "best.", "genera
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
-    """A validation.
+class ValidationRow:
+    """The results of a validation, a row of metrics.csv.
 
     Attributes:
         step: steps done.
-        seconds: since the start, validations included, pauses of a resumed run not.
-        loss: mean since the last validation.
+        seconds: since the start, with validations but without the pauses of a resumed run.
+        loss: mean loss since the last validation.
         learning_rate: of the last step.
         descriptions_per_second: examples trained on since the last validation.
-        figures: what the task's `validate` gave.
+        figures: metrics of the task's `validate`.
     """
 
     step: int
@@ -53,7 +53,7 @@ class Row:
     figures: dict[str, float]
 
     def flat(self) -> dict[str, float]:
-        """All of it under one name each, the columns of metrics.csv."""
+        """Return the columns of metrics.csv."""
         values = asdict(self)
         figures: dict[str, float] = values.pop("figures")
         return values | figures
@@ -66,18 +66,18 @@ class _Stateful(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunState:
-    """Everything that a run goes on from.
+    """The state from which a run can be resumed.
 
     Attributes:
         tensors: by name.
-        facts: JSON.
+        facts: everything else, in the form of JSON.
     """
 
     tensors: dict[str, Tensor]
     facts: dict[str, Any]
 
     @classmethod
-    def of(
+    def capture(
         cls,
         model: nn.Module,
         best_weights: dict[str, Tensor],
@@ -85,20 +85,20 @@ class RunState:
         others: Sequence[_Stateful],
         numpy_generator: Mapping[str, Any],
         torch_generators: list[Tensor],
-        rows: Sequence[Row],
+        rows: Sequence[ValidationRow],
         counters: dict[str, Any],
     ) -> "RunState":
-        """Write a run down.
+        """Return the state of a run.
 
         Args:
-            model: as it is.
-            best_weights: the best so far.
-            optimizer: of the model's parameters.
-            others: the schedule and the scaler; their state is JSON.
+            model: the current model.
+            best_weights: weights of the best validation so far.
+            optimizer: of the parameters of the model.
+            others: the schedule and the scaler.
             numpy_generator: state of NumPy's generator.
             torch_generators: states of torch's generators.
             rows: validations so far.
-            counters: JSON.
+            counters: counters of the loop.
         """
         state = optimizer.state_dict()
         tensors = {_MODEL + name: tensor for name, tensor in model.state_dict().items()}
@@ -116,17 +116,17 @@ class RunState:
 
     @property
     def counters(self) -> dict[str, Any]:
-        """What `of` was given."""
+        """The counters of the loop."""
         counters: dict[str, Any] = self.facts["counters"]
         return counters
 
     @property
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[ValidationRow]:
         """Validations so far."""
-        return [Row(**row) for row in self.facts["rows"]]
+        return [ValidationRow(**row) for row in self.facts["rows"]]
 
     def load_into(self, model: nn.Module, optimizer: torch.optim.Optimizer, others: Sequence[_Stateful]) -> None:
-        """Bring model, optimiser, schedule and scaler to this state."""
+        """Restore model, optimiser, schedule and scaler."""
         model.load_state_dict(self._part(_MODEL))
         moments: dict[int, dict[str, Tensor]] = {}
         for name, tensor in self._part(_OPTIMIZER).items():
@@ -137,7 +137,7 @@ class RunState:
             other.load_state_dict(state)
 
     def best_weights(self, device: torch.device) -> dict[str, Tensor]:
-        """The best weights so far, on a device."""
+        """Return the best weights so far, on a device."""
         return {name: tensor.to(device) for name, tensor in self._part(_BEST).items()}
 
     def generators(self) -> tuple[dict[str, Any], list[Tensor]]:
@@ -149,41 +149,43 @@ class RunState:
 
 
 class RunDir:
-    """A run directory; see the module's text for its files. Made by `open`."""
+    """A run directory, created by `open`; the module describes its files."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
     @classmethod
     def open(cls, path: Path, resume: bool, record: dict[str, Any]) -> "RunDir":
-        """Make a run directory, or go on in one.
+        """Create a run directory, or open one to resume its run.
 
         Args:
-            path: made if it is missing.
-            resume: whether a run that stands there goes on; otherwise there must be none.
-            record: the settings, what JSON can hold; a run goes on with the same.
+            path: created if it is missing.
+            resume: whether to resume the run in the directory; if not, there must be none.
+            record: the settings as JSON; a run can only be resumed with the same settings.
 
         Raises:
-            TrainingError: a run stands there and is not to be resumed, or was made with other settings.
+            TrainingError: the directory has a run that is not to be resumed, or one with other settings.
         """
         path.mkdir(parents=True, exist_ok=True)
         run_dir = cls(path)
-        record = json.loads(json.dumps(record))  # as it will be read
+        record = json.loads(json.dumps(record))  # as it will be loaded
         if (path / STATE_FILE).is_file():
             if not resume:
-                raise TrainingError(f"{path} holds a run; go on with --resume, or take another directory")
+                raise TrainingError(f"{path} already has a run; continue it with --resume, or use another directory")
             try:
                 before = json.loads((path / CONFIG_FILE).read_text())
             except (OSError, ValueError) as error:
-                raise TrainingError(f"{path / CONFIG_FILE} cannot be read ({error}); take another directory") from error
+                raise TrainingError(f"{path / CONFIG_FILE} cannot be read ({error}); use another directory") from error
             if before != record:
                 changed = ", ".join(sorted(_differences(before, record)))
-                raise TrainingError(f"{path} holds a run with other settings ({changed}); use those, or another one")
+                raise TrainingError(
+                    f"{path} has a run with other settings ({changed}); use the same settings, or another directory"
+                )
         replace_file(path / CONFIG_FILE, (json.dumps(record, indent=2) + "\n").encode())
         return run_dir
 
     def load_state(self) -> RunState | None:
-        """What to go on from; None if no run stands here.
+        """Load the state of the run; None if there is none.
 
         Raises:
             TrainingError: the file is broken.
@@ -195,16 +197,18 @@ class RunDir:
             with safe_open(path, framework="pt") as file:
                 return RunState({n: file.get_tensor(n) for n in list(file.keys())}, _facts(file.metadata()))
         except (SafetensorError, ValueError, KeyError) as error:
-            raise TrainingError(f"{path} cannot be read ({error}); start anew in another directory") from error
+            raise TrainingError(f"{path} cannot be read ({error}); start again in another directory") from error
 
-    def write(self, rows: Sequence[Row], criterion: str, best_weights: dict[str, Tensor], state: RunState) -> None:
-        """Write what a validation found, the state last.
+    def write(
+        self, rows: Sequence[ValidationRow], criterion: str, best_weights: dict[str, Tensor], state: RunState
+    ) -> None:
+        """Write the results of a validation, and the state last.
 
         Args:
             rows: all validations so far.
-            criterion: the figure that chooses, for the curves.
-            best_weights: the best so far.
-            state: what to go on from.
+            criterion: the metric that selects the best weights, for the curves.
+            best_weights: weights of the best validation so far.
+            state: to resume from.
         """
         replace_file(self.path / METRICS_FILE, _table(rows))
         replace_file(self.path / CURVES_FILE, _curves(rows, criterion))
@@ -232,7 +236,7 @@ def _differences(before: Any, now: Any, prefix: str = "") -> Iterable[str]:
     ]
 
 
-def _table(rows: Sequence[Row]) -> bytes:
+def _table(rows: Sequence[ValidationRow]) -> bytes:
     lines = io.StringIO()
     writer = csv.DictWriter(lines, list(rows[0].flat()), lineterminator="\n")
     writer.writeheader()
@@ -240,20 +244,20 @@ def _table(rows: Sequence[Row]) -> bytes:
     return lines.getvalue().encode()
 
 
-def _curves(rows: Sequence[Row], criterion: str) -> bytes:
-    """A picture: the loss, and the recalls (or, where there are none, the criterion) over the steps."""
+def _curves(rows: Sequence[ValidationRow], criterion: str) -> bytes:
+    """Draw the loss, and the recalls or the criterion, over the steps; return a PNG."""
     figure = Figure(figsize=(9.0, 3.8), layout="constrained", dpi=150)
-    of_loss, of_figures = figure.subplots(1, 2)
+    loss_axes, metric_axes = figure.subplots(1, 2)
     steps = [row.step for row in rows]
-    of_loss.plot(steps, [row.loss for row in rows], marker="o", ms=3, color="#1d3557")
-    of_loss.set(xlabel="step", ylabel="loss")
+    loss_axes.plot(steps, [row.loss for row in rows], marker="o", ms=3, color="#1d3557")
+    loss_axes.set(xlabel="step", ylabel="loss")
     shown = [name for name in rows[0].figures if name == criterion or "recall" in name]
     for name in shown:
         style = "-" if name == criterion else ":"
-        of_figures.plot(steps, [row.figures[name] for row in rows], style, marker="o", ms=3, label=name)
-    of_figures.set(xlabel="step", title="validation")
-    of_figures.legend(frameon=False, fontsize=8)
-    for axes in (of_loss, of_figures):
+        metric_axes.plot(steps, [row.figures[name] for row in rows], style, marker="o", ms=3, label=name)
+    metric_axes.set(xlabel="step", title="validation")
+    metric_axes.legend(frameon=False, fontsize=8)
+    for axes in (loss_axes, metric_axes):
         axes.grid(alpha=0.3)
     picture = io.BytesIO()
     FigureCanvasAgg(figure).print_png(picture)

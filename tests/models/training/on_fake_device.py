@@ -33,7 +33,8 @@ from tests.models.training.fake_device import FAKE, Away
 CPU = torch.device("cpu")
 CONFIG = TrainingConfig(steps=1, batch_size=8, spacing_m=30.0)
 SMALL: dict[Any, dict[str, Any]] = {
-    fit_points: {"load_settings": lambda *_: (None, CONFIG), "CELLS_A_SOURCE": 10, "CHOSEN_BY_CELLS": 10},
+    fit_points: {"load_settings": lambda *_: (None, CONFIG), "TRAINING_CELLS_PER_SOURCE": 10,
+        "VALIDATION_CELLS_PER_SOURCE": 10},
     point_encoder: {"_LEVELS": ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128)))},
     validation: {"CALIBRATION_QUERIES": 8},
     fit_posterior: {
