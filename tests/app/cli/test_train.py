@@ -58,4 +58,4 @@ def test_a_point_encoder_is_made_alone(run, osm_file, tmp_path) -> None:
     result = run("train", "--method", "text2loc", "--data", osm_file, "--out", tmp_path / "w", "--steps", "1",
                  "--set", f"training.points={tmp_path / 'p'}")  # fmt: skip
     assert result.exit_code == 1
-    assert "models that take points" in result.output
+    assert "models with point inputs" in result.output

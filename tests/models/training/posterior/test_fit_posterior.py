@@ -128,10 +128,10 @@ def test_some_texts_tell_of_less(monkeypatch) -> None:
 def test_some_texts_tell_of_what_is_further_off(monkeypatch, measured) -> None:
     """A thing from the hints of a position 45 m away in the same scene."""
     given = {"SLIP_SHARE": 0.0, "OMISSION_SHARE": 0.0, "MEASURED_SHARE": measured}
-    facts = []
-    monkeypatch.setattr(Wording, "write", lambda self, facts, rng: facts.extend(facts) or LabelledText("", ()))
+    stated_facts = []
+    monkeypatch.setattr(Wording, "write", lambda self, facts, rng: stated_facts.extend(facts) or LabelledText("", ()))
     read_texts(monkeypatch, "train", **given, DISTANT_SHARE=1.0)
-    distant = [fact for fact in facts if fact.label == "fountain"]
+    distant = [fact for fact in stated_facts if fact.label == "fountain"]
     assert len(distant) == 20
     assert {(fact.relation, fact.distance_m) for fact in distant} == {("west", 45.0 if measured else None)}
 
