@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 from math import log, pi, radians
 from threading import Lock
 from typing import Final
@@ -21,8 +22,7 @@ from models.citymap.types import Floats
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.posterior.places.explanations import NOT_EXPLAINED, Explained, Places
-from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of, with_angle
-from models.posterior.places.way_kernels import WayKernels
+from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of
 from models.threads import beside
 
 FEW_REACH, MANY_REACH = 5.0, 2.5  # scales of a kernel, as far as which objects are looked at
@@ -34,6 +34,7 @@ ROUGH_M: Final = 5.0  # what a distance on the grid may be too long by
 LEAST: Final = 1e-6  # of a kernel's mean
 FAINT: Final = 0.02  # what fits nowhere better than this is not near the map
 KEPT: Final = 32  # mentions: those of one text
+HEADINGS_RAD: Final = np.arange(HEADINGS) * (2 * pi / HEADINGS)
 TIERS: Final = (1.0, 0.7, 0.4, 0.2)  # weights on the grid are rounded to these
 
 
@@ -82,7 +83,6 @@ class PlaceField:
 
     def __init__(self, kernels: PlaceKernels, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         self.kernels, self.gazetteer, self._centers_m = kernels, gazetteer, centers_m
-        self._of_ways = WayKernels(kernels)
         self._lately: LRUCache[Mention, tuple[Floats, Ints, npt.NDArray[np.bool_]]] = LRUCache(KEPT)
         self._lock = Lock()  # two threads ask for ways
         walkways = beside(
@@ -148,8 +148,7 @@ class PlaceField:
         if places.mentions:
             around = PointGroups.from_groups(points_m, group)
             for mention, mean in zip(places.mentions, places.common, strict=True):
-                ways = self.ways_from(mention, around)
-                fits = torch.from_numpy(self._of_ways.fits(mention, ways, ways.point, len(points_m)))
+                fits = self.fits(mention, self.ways_from(mention, around), len(points_m))
                 total = total + self.worth(mention, fits, mean)
         return total
 
@@ -158,10 +157,7 @@ class PlaceField:
         """What explains each mention at a position [1, 2], in the heading that fits best there."""
         around, found = PointGroups.from_groups(point_m, np.zeros(1, np.int64)), []
         ways = [self.ways_from(mention, around) for mention in places.mentions]
-        fits = [
-            torch.from_numpy(self._of_ways.fits(mention, each, np.arange(len(each.target)), len(each.target)))
-            for mention, each in zip(places.mentions, ways, strict=True)
-        ]
+        fits = [self._fits_of_ways(mention, each) for mention, each in zip(places.mentions, ways, strict=True)]
         total = torch.zeros(HEADINGS)
         for mention, fit, mean in zip(places.mentions, fits, places.common, strict=True):
             total = total + self.worth(mention, fit.amax(dim=0) if len(fit) else torch.zeros(1), mean)
@@ -195,7 +191,7 @@ class PlaceField:
         """How far away what may be meant is looked for; of much that may be meant the nearest will do."""
         if mention.cue.distance_m is not None:
             return min(SAID_REACH * mention.cue.distance_m + SLACK_M, FARTHEST_M)
-        scale = float(self.kernels.scale[kernel_of(mention)].detach().exp())
+        scale = float(self.kernels.scale[kernel_of(mention, mention.cue.angle)].detach().exp())
         reach = MANY_REACH if len(mention.objects) > MANY else FEW_REACH
         return min(reach * scale + SLACK_M, MOST_REACH_M)
 
@@ -227,48 +223,37 @@ class PlaceField:
         return self.roughly(mention, rough).mean().clamp(min=LEAST)
 
     def fits(self, mention: Mention, ways: ClosestPoints, points: int) -> Tensor:
-        """[M, 1] or [M, HEADINGS] the kernel of the best thing that may be meant, at so many positions; learns."""
+        """[M, 1] or [M, HEADINGS] the kernel of the likeliest object, at each of M positions; differentiable."""
         fits = self._fits_of_ways(mention, ways)
         index = torch.from_numpy(ways.point)[:, None].expand_as(fits)
         return torch.zeros(points, fits.shape[1]).scatter_reduce(0, index, fits, "amax")
 
     def _fits_of_ways(self, mention: Mention, ways: ClosestPoints) -> Tensor:
-        """[P, 1] or [P, HEADINGS] the kernel of each way, over all that the angle may be."""
-        metres = torch.from_numpy(ways.distance_m).float()
-        bearing = torch.from_numpy(np.arctan2(ways.offset_m[:, 0], ways.offset_m[:, 1])).float()
-        fits = self._toward(mention, metres, bearing)
-        total = torch.from_numpy(mention.weights[ways.target]).float()[:, None] * fits
-        if mention.side is None:
-            return total
-        # the street lies on the other side of who is on its north side
-        across = -metres * torch.cos(bearing - radians(mention.side))
-        return total * self.kernels.on_side(across)[:, None]
-
-    def _toward(self, mention: Mention, metres: Tensor, bearing: Tensor) -> Tensor:
-        """[P, 1] or [P, HEADINGS] the kernel of things in a distance and a direction."""
+        """[P, 1] or [P, HEADINGS] the kernel of each way, summed over the angles that the cue may mean."""
         kernels, cue = self.kernels, mention.cue
+        metres, direction = _polar(ways.offset_m)
+        weight = torch.from_numpy(mention.weights[ways.target]).float()
+        if mention.side is not None:  # the street lies on the other side of a speaker on its north side
+            weight = weight * kernels.on_side(-metres * (direction @ _unit_vectors(radians(mention.side))))
         if cue.wind is not None:
-            away = bearing - radians(cue.wind)
-            return (self._kernel(mention, metres) * kernels.toward(kernels.wind, away, metres))[:, None]
-        total = torch.zeros(1, 1)
-        first: float | None = None
+            cosine = direction @ _unit_vectors(radians(cue.wind))
+            return (weight * self._kernel(mention, metres) * kernels.toward(kernels.wind, cosine, metres))[:, None]
+        first, density, terms = 0.0, torch.zeros(0), list[Tensor]()
         for angle, p in cue.angles or ((cue.angle, 1.0),):
-            kernel = kernel_of(with_angle(mention, angle))
-            fits = (p * self._near(kernel, cue, metres))[:, None]
+            fits = (p * weight * self._near(kernel_of(mention, angle), cue, metres))[:, None]
             if angle is None:
-                total = total + fits
+                terms.append(fits)
                 continue
-            if first is None:
-                first = angle
-                heading = torch.arange(HEADINGS) * (2 * pi / HEADINGS)
-                density = kernels.toward(kernels.ego, bearing[:, None] - heading - radians(angle), metres[:, None])
-            # what is on the right of who looks north is ahead of who looks east
+            if not len(density):
+                first, cosines = angle, direction @ _unit_vectors(radians(angle) + HEADINGS_RAD)
+                density = kernels.toward(kernels.ego, cosines, metres[:, None])
+            # What is on the right of a speaker who looks north is ahead of one who looks east.
             steps = round((angle - first) * HEADINGS / 360.0)
-            total = total + fits * (density.roll(-steps, 1) if steps else density)
-        return total
+            terms.append(fits * (density.roll(-steps, 1) if steps else density))
+        return reduce(torch.add, terms)
 
     def _kernel(self, mention: Mention, metres: Tensor) -> Tensor:
-        return self._near(kernel_of(mention), mention.cue, metres)
+        return self._near(kernel_of(mention, mention.cue.angle), mention.cue, metres)
 
     def _near(self, kernel: int, cue: Cue, metres: Tensor) -> Tensor:
         """The kernel of a distance that was said, or the one of TYPES."""
@@ -289,10 +274,21 @@ class PlaceField:
         """[M] what winds seen from the listener tell of positions [M, 2]."""
         if places.listener_m is None or places.listener_wind is None:
             return torch.zeros(len(points_m))
-        way = points_m - places.listener_m
-        metres = torch.from_numpy(np.hypot(*way.T)).float()
-        bearing = torch.from_numpy(np.arctan2(way[:, 0], way[:, 1])).float()
-        return self.kernels.toward(self.kernels.listener, bearing - radians(places.listener_wind), metres).log()
+        metres, direction = _polar(points_m - places.listener_m)
+        cosine = direction @ _unit_vectors(radians(places.listener_wind))
+        return self.kernels.toward(self.kernels.listener, cosine, metres).log()
+
+
+def _polar(way_m: Floats) -> tuple[Tensor, Tensor]:
+    """[P] lengths and [P, 2] directions of ways [P, 2]; a way without length has none."""
+    way = torch.from_numpy(way_m).float()
+    metres = torch.linalg.vector_norm(way, dim=1)
+    return metres, way / metres.clamp(min=1e-9)[:, None]
+
+
+def _unit_vectors(bearing: float | Floats) -> Tensor:
+    """[2, ...] east and north of directions, radians clockwise from north."""
+    return torch.from_numpy(np.stack([np.sin(bearing), np.cos(bearing)])).float()
 
 
 def _rough(weights: tuple[float, ...], metres: Tensor) -> Rough:

@@ -1,6 +1,5 @@
 """How likely something is said of a place that is so far away, in that direction (docs/method.md, places)."""
 
-from dataclasses import replace
 from typing import Final
 
 import torch
@@ -59,11 +58,11 @@ class PlaceKernels(nn.Module):
         ratio = torch.log((metres + 4.0) / (said_m + 4.0))
         return torch.exp(-0.5 * (ratio / width) ** 2)
 
-    def toward(self, concentration: Tensor, away: Tensor, metres: Tensor) -> Tensor:
-        """Density, one on average, of things in a direction, `away` radians off it; what is near may be in any."""
+    def toward(self, concentration: Tensor, cosine: Tensor, metres: Tensor) -> Tensor:
+        """Density, one on average, of a direction by the cosine of its angle; what is near may be in any."""
         kappa = concentration.exp() * metres / (metres + 4.0)
         slip = self.slip.sigmoid()
-        density: Tensor = (1 - slip) * torch.exp(kappa * (torch.cos(away) - 1)) / torch.special.i0e(kappa) + slip
+        density: Tensor = (1 - slip) / torch.special.i0e(kappa) * torch.exp(kappa * (cosine - 1)) + slip
         return density
 
     def standing(self, metres: Tensor) -> Tensor:
@@ -76,26 +75,20 @@ class PlaceKernels(nn.Module):
         return 2 * torch.sigmoid(metres / self.side_m.exp()) * 0.95 + 0.05
 
 
-def kernel_of(mention: Mention) -> int:
-    """Which of TYPES tells how far what is mentioned may be."""
+def kernel_of(mention: Mention, angle: float | None) -> int:
+    """Return the row of TYPES that says how far a mention may be, if it is seen at an angle from ahead."""
     relation = mention.cue.relation
     loose = relation in ("near", "far", "past", "off", "across", "block", "wind")
     if mention.form == "street":
-        loose = loose or mention.cue.angle is not None
-        return TYPES.index("street near" if loose else "street")
+        return TYPES.index("street near" if loose or angle is not None else "street")
     if mention.form == "corner":
         return TYPES.index("corner near" if relation in ("near", "far", "past", "off", "block", "wind") else "corner")
     if mention.form in ("span", "address"):
         return TYPES.index(mention.form)
-    if relation == "seen" and mention.cue.angle is not None:
-        off = abs(mention.cue.angle)
+    if relation == "seen" and angle is not None:
+        off = abs(angle)
         return TYPES.index("ahead" if off < ASIDE else "behind" if off > 180.0 - ASIDE else "side")
     return TYPES.index(relation)
-
-
-def with_angle(mention: Mention, angle: float | None) -> Mention:
-    """A mention of whose angles one is meant."""
-    return replace(mention, cue=replace(mention.cue, angle=angle))
 
 
 def sure_of(mention: Mention) -> str:

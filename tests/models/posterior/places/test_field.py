@@ -249,7 +249,7 @@ def test_inside_a_park_is_all_of_it(field) -> None:
     ],
 )
 def test_which_kernel(mention, kind) -> None:
-    assert TYPES[kernel_of(mention)] == kind
+    assert TYPES[kernel_of(mention, mention.cue.angle)] == kind
 
 
 def test_a_long_street_is_near_along_all_of_it() -> None:
