@@ -64,9 +64,6 @@ class PlaceReader:
         meanings: Meanings | None = None,
         names: NameTable | None = None,
     ) -> None:
-        self.without: frozenset[str] = (
-            frozenset()
-        )  # constructions that are not heeded, for measuring what each is worth
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
         self._cues, self._meanings = cues, meanings
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
@@ -89,7 +86,7 @@ class PlaceReader:
         mentions = self._mentions(description, language, tuple(nouns))
         if language == ENGLISH and (to_listener or is_meeting(description)):
             mentions = with_goal(mentions)
-        return [kept for mention in mentions if (kept := without(mention, self.without)) is not None]
+        return mentions
 
     @cachedmethod(lambda reader: reader._kept)
     def _mentions(self, description: str, language: str, nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
@@ -99,8 +96,7 @@ class PlaceReader:
 
     def told(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> Told | None:
         """What mentions tell of positions; None if they tell nothing."""
-        heeded = listener_m is not None and "listener" not in self.without
-        wind = listener_wind(description) if heeded else None
+        wind = None if listener_m is None else listener_wind(description)
         meets = listener_m is not None or is_meeting(description)
         if not mentions and wind is None:
             return None  # without looking at every cell
@@ -152,44 +148,6 @@ class PlaceReader:
         return (
             Heading(round(float(np.degrees(np.angle(mean))) % 360, 1), round(spread, 1)) if spread <= SPREAD else None
         )
-
-
-def constructions(mention: Mention) -> frozenset[str]:
-    """How a mention tells of a place."""
-    cue, found = mention.cue, set[str]()
-    if mention.form in ("corner", "span"):
-        found.add("corner")
-    elif mention.form == "thing":
-        found.add("kind" if mention.kinds and not mention.is_exact and mention.trust == 1.0 else "name")
-    elif mention.form in ("street", "address"):
-        found.add(mention.form)
-    told = (
-        ("left, right, ahead, behind", cue.angle),
-        ("wind", cue.wind),
-        ("distance", cue.distance_m),
-        ("side", mention.side),
-    )
-    found |= {name for name, value in told if value is not None}
-    return frozenset(found | ({cue.relation} if cue.relation in ("across", "block") else set()))
-
-
-def without(mention: Mention, left_out: frozenset[str]) -> Mention | None:
-    """A mention as if some constructions had not been said; None if nothing is left."""
-    if not left_out & constructions(mention):
-        return mention
-    if left_out & {"corner", "kind", "name", "street", "address"}:
-        return None
-    cue = mention.cue
-    if left_out & {"across", "block"}:
-        return replace(mention, cue=replace(cue, relation="seen"))
-    if "left, right, ahead, behind" in left_out:
-        cue = replace(cue, angle=None, angles=())
-    cue = replace(
-        cue,
-        wind=None if "wind" in left_out else cue.wind,
-        measure=None if "distance" in left_out else cue.measure,
-    )
-    return replace(mention, cue=cue, side=None if "side" in left_out else mention.side)
 
 
 def may_be_near(hints: Sequence[ParsedHint], mentions: Sequence[Mention]) -> list[ParsedHint]:

@@ -1,4 +1,4 @@
-"""Evaluation on texts about real places: errors, radii, and what each construction is worth."""
+"""Evaluation on texts about real places: errors and radii, of all texts and of those with each construction."""
 
 import json
 from collections.abc import Sequence
@@ -13,13 +13,14 @@ from scipy.stats import binomtest
 
 from index.answering.answers import Answer
 from index.answering.localizer import Localizer
-from index.answering.place_reader import PlaceReader, constructions
+from index.answering.place_reader import PlaceReader
 from index.answering.query import Prior, Query
 from index.evaluation.report import Table, as_markdown
 from index.evaluation.scoring import calibration
 from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.language.mentions.languages import language_of
+from models.language.mentions.mentions import Mention
 from models.language.mentions.reader import listener_wind
 from models.sources.place_texts import START_SIGMA_M, PlaceText
 
@@ -60,9 +61,8 @@ def evaluate_told(
         progress: called as the work goes on.
 
     Returns:
-        "texts", "within" {metres: share}, "median_m", "coverage" of p50 and p90 with its 95 % interval, "calibration",
-        "by_construction" (the same of the texts that have it) and "without" (of these, as if it had not been
-        said).
+        "texts", "within" {metres: share}, "median_m", "coverage" of p50 and p90 with its 95 % interval, "calibration"
+        and "by_construction" (the same of the texts that have it).
 
     Raises:
         DataError: the map is nowhere on Earth.
@@ -75,16 +75,13 @@ def evaluate_told(
     told = ask(localizer, texts, progress)
     report |= _figures(told, np.ones(len(texts), np.bool_))
     places = localizer.posterior.places
-    report["by_construction"], report["without"] = {}, {}
+    report["by_construction"] = {}
     if places is not None:
-        said = [_said(places, text) for text in texts]
+        constructions = [_constructions(places, text) for text in texts]
         for name in CONSTRUCTIONS:
-            rows = np.array([name in some for some in said])
-            if not rows.any():
-                continue
-            report["by_construction"][name] = _figures(told, rows)
-            some = [text for text, has in zip(texts, rows, strict=True) if has]
-            report["without"][name] = _without(localizer, places, some, name, progress)
+            rows = np.array([name in found for found in constructions])
+            if rows.any():
+                report["by_construction"][name] = _figures(told, rows)
     if report_dir:
         report_dir.mkdir(parents=True, exist_ok=True)
         (report_dir / "told.json").write_text(json.dumps(report, indent=1) + "\n")
@@ -118,20 +115,31 @@ def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, 
     return error, estimate.radius_m.p50, estimate.radius_m.p90, estimate.probability, hit
 
 
-def _said(places: PlaceReader, text: PlaceText) -> set[str]:
+def _constructions(places: PlaceReader, text: PlaceText) -> set[str]:
+    """Return which of `CONSTRUCTIONS` a text has."""
     mentions = places.read(text.text, language_of(text.text), to_listener=text.start is not None)
-    found = {name for mention in mentions for name in constructions(mention)}
+    found = {name for mention in mentions for name in constructions_of(mention)}
     return found | ({"listener"} if text.start is not None and listener_wind(text.text) is not None else set())
 
 
-def _without(
-    localizer: Localizer, places: PlaceReader, texts: Sequence[PlaceText], name: str, progress: Progress
-) -> dict[str, Any]:
-    places.without = frozenset((name,))
-    try:
-        return _figures(ask(localizer, texts, progress), np.ones(len(texts), np.bool_))
-    finally:
-        places.without = frozenset()
+def constructions_of(mention: Mention) -> set[str]:
+    """Return which of `CONSTRUCTIONS` a mention has."""
+    cue, found = mention.cue, set[str]()
+    if mention.form in ("corner", "span"):
+        found.add("corner")
+    elif mention.form == "thing":
+        found.add("kind" if mention.kinds and not mention.is_exact and mention.trust == 1.0 else "name")
+    elif mention.form in ("street", "address"):
+        found.add(mention.form)
+    if cue.relation in ("across", "block"):
+        found.add(cue.relation)
+    optional = {
+        "left, right, ahead, behind": cue.angle,
+        "wind": cue.wind,
+        "distance": cue.distance_m,
+        "side": mention.side,
+    }
+    return found | {name for name, value in optional.items() if value is not None}
 
 
 def _figures(told: Told, rows: npt.NDArray[np.bool_]) -> dict[str, Any]:
@@ -155,11 +163,10 @@ def _figures(told: Told, rows: npt.NDArray[np.bool_]) -> dict[str, Any]:
 
 
 def told_tables(report: dict[str, Any]) -> list[Table]:
-    """The report as tables: the whole, and each construction with and without it."""
+    """Return the report as tables: all texts, then the texts with each construction."""
     head = ("", "texts", "within 10/30/100/250 m", "median", "90 % radius holds", "its median", "ECE")
     rows = [("all", *_cells(report))]
-    for name, figures in report["by_construction"].items():
-        rows += [(name, *_cells(figures)), (f"{name}: as if not said", *_cells(report["without"][name]))]
+    rows += [(name, *_cells(figures)) for name, figures in report["by_construction"].items()]
     return [(head, rows)]
 
 

@@ -5,12 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.answering.place_reader import constructions, near_hints, with_one_owner, without
+from index.answering.place_reader import near_hints, with_one_owner
 from index.answering.query import Prior, Query
 from models.language.measures import measures_in
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
-from models.language.mentions.reader import find_mentions
 
 BLOCK_M = 60.0
 
@@ -198,23 +197,6 @@ def test_nouns_are_read_where_they_stand_in_the_text(localizer, monkeypatch) -> 
     monkeypatch.setattr(localizer.posterior.places, "read", watched)
     answer(localizer, "I'm on East Street 2.\n- A gray bench is to my west\n- I see a tree")
     assert {"bench", "tree"} <= set(given)
-
-
-def test_a_construction_can_be_left_out(localizer) -> None:
-    [mention] = [
-        m
-        for m in find_mentions(
-            "A bench is 20 m ahead.", localizer.posterior.places._lookup, localizer.posterior.weights.cues
-        )
-        if m.form == "thing"
-    ]
-    assert constructions(mention) == {"kind", "left, right, ahead, behind", "distance"}
-    assert without(mention, frozenset(("kind",))) is None
-    blind = without(mention, frozenset(("left, right, ahead, behind",)))
-    assert isinstance(blind, Mention)
-    assert blind.cue.angle is None
-    assert blind.cue.distance_m == 20.0
-    assert without(mention, frozenset(("street",))) is mention
 
 
 def test_radii_are_scaled_by_what_the_text_is_of(localizer, monkeypatch) -> None:

@@ -2,7 +2,8 @@ import json
 
 import pytest
 
-from index.evaluation.place_texts import evaluate_told, told_tables
+from index.evaluation.place_texts import constructions_of, evaluate_told, told_tables
+from models.language.mentions.reader import find_mentions
 from models.sources.place_texts import PlaceText
 
 
@@ -17,7 +18,7 @@ def texts(localizer):
     ]
 
 
-def test_the_report_has_errors_radii_and_what_each_construction_is_worth(localizer, texts, tmp_path) -> None:
+def test_the_report_has_errors_and_radii_of_all_texts_and_by_construction(localizer, texts, tmp_path) -> None:
     report = evaluate_told(localizer, texts, tmp_path, lambda *_: None)
     assert report["texts"] == 3
     assert list(report["within"]) == ["10", "30", "100", "250"]
@@ -25,14 +26,16 @@ def test_the_report_has_errors_radii_and_what_each_construction_is_worth(localiz
     low, high = report["coverage"]["p90"]["interval"]
     assert low <= report["coverage"]["p90"]["true"] <= high
     assert {"street", "corner", "left, right, ahead, behind", "listener"} <= set(report["by_construction"])
-    assert report["by_construction"]["corner"]["texts"] == report["without"]["corner"]["texts"] == 1
-    assert localizer.posterior.places.without == frozenset(), "nothing is left out afterwards"
+    assert report["by_construction"]["corner"]["texts"] == 1
     assert json.loads((tmp_path / "told.json").read_text()) == report
     [(head, rows)] = told_tables(report)
     assert all(len(row) == len(head) for row in rows)
-    assert (tmp_path / "told.md").read_text().count("as if not said") == len(report["without"])
+    assert [row[0] for row in rows] == ["all", *report["by_construction"]]
+    assert (tmp_path / "told.md").read_text().count("\n") == len(rows) + 2
 
 
-def test_leaving_a_corner_out_changes_the_answer(localizer, texts) -> None:
-    report = evaluate_told(localizer, texts[1:2], None, lambda *_: None)
-    assert report["without"]["corner"] != report["by_construction"]["corner"]
+def test_the_constructions_of_a_mention(localizer) -> None:
+    posterior = localizer.posterior
+    mentions = find_mentions("A bench is 20 m ahead.", posterior.places._lookup, posterior.weights.cues)
+    [mention] = [mention for mention in mentions if mention.form == "thing"]
+    assert constructions_of(mention) == {"kind", "left, right, ahead, behind", "distance"}
