@@ -107,8 +107,8 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
     for text in texts:
         [hints] = _timed(steps["read"], posterior.texts.parse, [" ".join(text)])
         reading = posterior.binding.reading(hints)
-        rows = _timed(steps["candidates"], _candidates, posterior, hints, reading)
-        _timed(steps["posterior"], partial(locate, also=partial(np.copy, rows)), posterior.nodes, reading)
+        rows = _timed(steps["candidates"], posterior.search, hints, reading)
+        _timed(steps["posterior"], partial(locate, further=rows), posterior.nodes, reading)
         encoded = _timed(steps["encode"], retriever.encode_texts, [text])
         _timed(steps["vector_search"], ranker.rank, encoded, DEPTH)
     surroundings, cells = posterior.surroundings, len(localizer.gallery.cells)
@@ -125,11 +125,6 @@ def open_index(index_dir: Path) -> "Localizer":
 
     settings = load_settings(index_dir=index_dir)
     return Localizer.open(index_dir, settings.weights_dir, posterior_weights_dir=settings.posterior_weights_dir)
-
-
-def _candidates(posterior: Any, hints: Any, reading: Any) -> Any:
-    """Rows of the vector index, while nothing else is done."""
-    return posterior.search(hints, reading)()
 
 
 def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:

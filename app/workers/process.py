@@ -21,7 +21,6 @@ from app.startup import no_collection
 from app.workers.order import FORK, WorkerFault
 from models.errors import HereaboutsError
 from models.processes import forget_code, give_back, share_one_heap
-from models.threads import end_second_thread
 
 if TYPE_CHECKING:
     from index.answering.localizer import Localizer
@@ -55,7 +54,6 @@ def main(control: Connection, ahead: Sequence[str] = ()) -> None:
         return
     give_back()  # what opening needed for a moment, or every worker would have it too
     forget_code()
-    end_second_thread()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the dead are buried at once
     control.send((localizer.facts, localizer.frame))
     while True:

@@ -1,7 +1,7 @@
 """The hint posterior on one gallery: a description read, candidates from the vector index and the inverted list."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
@@ -44,7 +44,6 @@ from models.posterior.places.landmarks import Landmarks
 from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
-from models.threads import beside
 
 KEPT_VECTORS = 256  # of descriptions, the latest
 PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
@@ -231,7 +230,7 @@ class PosteriorLocalizer:
             None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
             self._inside(query),
             PLACE_CANDIDATES if told is not None else count,
-            also=None if reading is None else self.search(hints, reading),
+            further=None if reading is None else self.search(hints, reading),
             told=told,
             answered=answered,
         )
@@ -248,12 +247,13 @@ class PosteriorLocalizer:
         is_told_to = query.prior is not None or is_meeting(query.description)
         return replace(located, radius_scale=config.meeting_scale if is_told_to else config.place_scale)
 
-    def search(self, hints: Sequence[ParsedHint], reading: Reading) -> Callable[[], Ints]:
-        """Ask the vector index for cells, in the retriever's words, beside other work; what waits for them [A]."""
+    def search(self, hints: Sequence[ParsedHint], reading: Reading) -> Ints:
+        """Return the cells [A] that the vector index finds for hints in the retriever's words."""
         sentences = self.binding.sentences(hints, reading)
         if not sentences:
-            return lambda: np.empty(0, np.int64)
-        return beside(lambda: self.ranker.search([self._encoded(sentences)], CANDIDATES)[1][0])
+            return np.empty(0, np.int64)
+        rows: Ints = self.ranker.search([self._encoded(sentences)], CANDIDATES)[1][0]
+        return rows
 
     def _encode(self, sentences: tuple[str, ...]) -> Levels:
         return self.ranker.retriever.encode_description(sentences)

@@ -1,7 +1,5 @@
 """From a posterior over nodes to an answer: cells in order, positions, how far the truth may be, evidence."""
 
-from collections.abc import Callable
-
 import numpy as np
 import numpy.typing as npt
 
@@ -35,7 +33,7 @@ def locate(
     log_prior: LogPrior | None = None,
     inside: Inside | None = None,
     candidates: int = CANDIDATES,
-    also: Callable[[], Ints] | None = None,
+    further: Ints | None = None,
     told: Told | None = None,
     answered: Answered | None = None,
 ) -> Located | None:
@@ -47,7 +45,7 @@ def locate(
         log_prior: log-density of positions [M, 2], any constant.
         inside: where alone it can be; None for everywhere.
         candidates: cells to look at, the best by the inverted list.
-        also: gives rows [A] of further cells to look at, found in another way meanwhile.
+        further: [A] rows of further cells to look at, found in another way.
         told: the places that were named, if any.
         answered: what answers to questions tell, if any.
 
@@ -62,9 +60,9 @@ def locate(
     listed = best_rows(scores, min(candidates, len(scores)))
     if not len(listed):
         return None
-    further = also() if also is not None else listed[:0]
-    more = np.setdiff1d(further[scores[further] > -np.inf], listed)
-    chosen = np.concatenate([listed, more])
+    chosen = listed
+    if further is not None:
+        chosen = np.concatenate([listed, np.setdiff1d(further[scores[further] > -np.inf], listed)])
     score = scores[chosen]
     others = scores
     others[chosen] = -np.inf  # which leaves what is not looked at

@@ -12,13 +12,11 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.posterior.neighbours.neighbour_index import Surroundings
 from models.posterior.neighbours.neighbours import STEP_M, Around
-from models.threads import THREADS, shared_out
 
 NEAR_M, NEAR_SOFT_M = 10.0, 2.0  # what counts as near, and how far people's ideas of that differ
 FAR_M, FAR_SOFT_M = 15.0, 2.0  # beyond, a thing is none that is asked for; surroundings know no farther either
 APART_M = 2.0  # by which of two things one must be nearer to be the nearest to most people
 TURN: Final = 12.0  # degrees that people are off by, near the border between two winds
-FEW: Final = 32  # nodes that one thread looks at
 QUARTERS: Final = ("north", "east", "south", "west")
 Words = Callable[[Ints], Floats]
 
@@ -63,8 +61,7 @@ class Sights:
 
     def seen(self, nodes: Ints, classes: Sequence[int]) -> "Seen":
         """What is around some nodes [M] of some classes."""
-        halves = np.array_split(nodes, THREADS)
-        around = Around.joined(shared_out(self.surroundings.around, halves, len(nodes) > FEW), list(map(len, halves)))
+        around = self.surroundings.around(nodes)
         label = self._label[around.part]
         wanted = np.zeros(int(self._label.max(initial=-1)) + 1, np.bool_)
         wanted[list(classes)] = True

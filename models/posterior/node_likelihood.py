@@ -1,6 +1,5 @@
 """`Likelihood` at the nodes of a map, compiled: node by node, without arrays of all that is around them."""
 
-from collections.abc import Callable
 from functools import lru_cache
 from typing import Final
 
@@ -63,8 +62,7 @@ class NodeLikelihood:
         self._weights = sector, by_way, ranks, likelihood.among.double().numpy(), numbers, habit
         self._slip, self._measured = (float(x.exp()) for x in (likelihood.relation_slip, likelihood.measured))
         self._least = FAINT / (1.0 + self._slip)  # what fits less does so in no direction
-        # Of things among those of a text, -1 between texts; one for each thread that asks.
-        self._place = [np.full(len(label), -1, np.int32)]
+        self._place = np.full(len(label), -1, np.int32)  # see `_distinct`
         self._said = lru_cache(maxsize=1)(self._said_by)
 
     @torch.inference_mode()
@@ -76,22 +74,16 @@ class NodeLikelihood:
         told = np.stack([told[:, order] for order in MIRRORED])
         return said, told, (reading.label.double().numpy(), reading.colour.double().numpy())
 
-    def of(self, reading: Reading) -> Callable[[Around, int], Floats]:
-        """What gives [M] log p(T | x) of what is around so many nodes; two threads may ask at once."""
+    def log_p(self, reading: Reading, around: Around, nodes: int) -> Floats:
+        """Return log p(T | x) of nodes [M], from what is around them."""
         said, told, read = self._said(reading)
-
-        def log_p(around: Around, nodes: int) -> Floats:
-            place = self._place.pop() if self._place else np.full(len(self._things[0]), -1, np.int32)
-            parts, part = _distinct(around.part, place)
-            self._place.append(place)
-            label, table, fits = _fits(parts, *self._things, *read)
-            found: Floats = _log_p(
-                nodes, around.node, part, around.way, around.whole, label, table, fits, self._ways, told, self._slip,
-                self._least, said, *self._weights,
-            )  # fmt: skip
-            return found
-
-        return log_p
+        parts, part = _distinct(around.part, self._place)
+        label, table, fits = _fits(parts, *self._things, *read)
+        found: Floats = _log_p(
+            nodes, around.node, part, around.way, around.whole, label, table, fits, self._ways, told, self._slip,
+            self._least, said, *self._weights,
+        )  # fmt: skip
+        return found
 
     def explain(self, reading: Reading, around: Around) -> tuple[Ints, Floats]:
         """[H] the row of what is around one node that explains each hint best, and the chance that something does."""

@@ -23,9 +23,7 @@ from models.posterior.node_likelihood import NodeLikelihood
 from models.posterior.places.field import Told
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
-from models.threads import THREADS, shared_out
 
-SHARED: Final = 512  # nodes from which on two threads look at them
 CANDIDATES = 100  # cells whose nodes are looked at
 LogPrior = Callable[[Floats], Floats]
 
@@ -140,14 +138,11 @@ class HintPosterior:
         if times is not None:
             kept = is_coarse(positions_m, times[cell]) != between
             nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
-        of_reading = None if reading is None else self._nodes.of(reading)
-
-        def of(some: Ints) -> Floats:
-            n = nodes[some]
-            log_p = np.zeros(len(n)) if of_reading is None else of_reading(s.around(n), len(n))
-            return log_p if told is None else log_p + told.at(positions_m[some], cell[some])
-
-        log_p = _of_all(of, cell)
+        log_p: Floats = np.zeros(len(nodes))
+        if reading is not None:
+            log_p = self._nodes.log_p(reading, s.around(nodes), len(nodes))
+        if told is not None:
+            log_p = log_p + told.at(positions_m, cell)
         if answered is not None:
             log_p = log_p + answered.at(nodes)
         if log_prior is not None:
@@ -170,12 +165,3 @@ class HintPosterior:
             Explained(p, int(around.part[row]), way_m[row])
             for row, p in zip(best.tolist(), chance.tolist(), strict=True)
         ]
-
-
-def _of_all(log_p: Callable[[Ints], Floats], cell: Ints) -> Floats:
-    """[M] of nodes in order of cell [M]; where there are many, of every second cell by another thread."""
-    found, is_much = np.empty(len(cell)), len(cell) > SHARED
-    some = [np.flatnonzero(cell % THREADS == n) for n in range(THREADS)] if is_much else [np.arange(len(cell))]
-    for nodes, of_nodes in zip(some, shared_out(log_p, some, is_much), strict=True):
-        found[nodes] = of_nodes
-    return found

@@ -26,14 +26,12 @@ from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.processes import map_forked
 from models.spool import on_disk, spooled
-from models.threads import shared_out
 
 FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"
 FLOOR: Final = 1e-4  # share of a cell's nodes where a hint is taken to hold by chance
 FAINT: Final = 1e-4  # what no hint says
 AT_ONCE: Final = 65_536  # cells: what is told of them stays near the processor
-PART: Final = 2 * AT_ONCE  # cells that one of two threads takes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -143,11 +141,11 @@ class Statements:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
     def scores(self, reading: Reading, some: range | None = None) -> Floats:
-        """[N] about log p(T | cell); of many cells, in two threads.
+        """Return about log p(T | cell) of all cells, [N].
 
         Args:
             reading: the text.
-            some: cells of which alone it is wanted, others have -inf; None for all.
+            some: score only these cells, others get -inf; None for all.
         """
         words, some = self.words, range(self.cells) if some is None else some
         place = reading.relation @ _SECTOR_OF_RELATION  # [H, 9]
@@ -159,17 +157,12 @@ class Statements:
         told_of = 1 - reading.absent.numpy()
         total = np.empty(self.cells, np.float32)
         total[: some.start] = total[some.stop :] = -np.inf
-
-        def of(first: int) -> None:
-            last = min(first + PART, some.stop)
-            at, ends = self.starts[columns], self.starts[columns + 1]
-            _skip(first, self.cell, at, ends)
-            for start in range(first, last, AT_ONCE):
-                held = np.full((len(weights), min(AT_ONCE, last - start)), FLOOR, np.float32)
-                _add(at, ends, self.cell, self.share.view(np.uint16), HALVES, weights, start, held)
-                _sum(np.log(held, out=held), told_of, total[start : start + held.shape[1]])
-
-        shared_out(of, range(some.start, some.stop, PART), len(some) > PART)
+        at, ends = self.starts[columns], self.starts[columns + 1]
+        _skip(some.start, self.cell, at, ends)
+        for start in range(some.start, some.stop, AT_ONCE):
+            held = np.full((len(weights), min(AT_ONCE, some.stop - start)), FLOOR, np.float32)
+            _add(at, ends, self.cell, self.share.view(np.uint16), HALVES, weights, start, held)
+            _sum(np.log(held, out=held), told_of, total[start : start + held.shape[1]])
         return total
 
 

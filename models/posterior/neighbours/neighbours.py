@@ -1,6 +1,5 @@
 """What lies around some positions of a map."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -34,11 +33,3 @@ class Around:
     def way_m(self) -> Floats:
         """[R, 2] the way in metres."""
         return self.way.astype(np.float64) * STEP_M
-
-    @classmethod
-    def joined(cls, parts: Sequence["Around"], nodes: Sequence[int]) -> "Around":
-        """What lies around nodes of which so many are of the first part, so many of the next."""
-        first = np.cumsum([0, *nodes[:-1]])
-        node = np.concatenate([part.node + before for part, before in zip(parts, first, strict=True)])
-        of, way, whole = (np.concatenate([getattr(each, f) for each in parts]) for f in ("part", "way", "whole"))
-        return cls(node, of, way, whole)

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from math import log, pi, radians
-from threading import Lock
 from typing import Final
 
 import numpy as np
@@ -23,7 +22,6 @@ from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 from models.posterior.places.explanations import NOT_EXPLAINED, Explained, Places
 from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of
-from models.threads import beside
 
 FEW_REACH, MANY_REACH = 5.0, 2.5  # scales of a kernel, as far as which objects are looked at
 MANY: Final = 60  # objects
@@ -84,12 +82,9 @@ class PlaceField:
     def __init__(self, kernels: PlaceKernels, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         self.kernels, self.gazetteer, self._centers_m = kernels, gazetteer, centers_m
         self._lately: LRUCache[Mention, tuple[Floats, Ints, npt.NDArray[np.bool_]]] = LRUCache(KEPT)
-        self._lock = Lock()  # two threads ask for ways
-        walkways = beside(
-            lambda: Walkways(gazetteer, *bounding_corners(centers_m)) if WALKED_KIND in gazetteer.by_kind else None
-        )
+        has_walkways = WALKED_KIND in gazetteer.by_kind
+        self._walkways = Walkways(gazetteer, *bounding_corners(centers_m)) if has_walkways else None
         self.raster = DistanceRaster(gazetteer, centers_m, spacing_m)
-        self._walkways = walkways()
 
     @torch.inference_mode()
     def told(
@@ -176,7 +171,7 @@ class PlaceField:
         """As `ways`, of positions that are grouped already."""
         return find_closest_points(around, *self._outline(mention), self._reach_m(mention))
 
-    @cachedmethod(lambda field: field._lately, lock=lambda field: field._lock)
+    @cachedmethod(lambda field: field._lately)
     def _outline(self, mention: Mention) -> tuple[Floats, Ints, npt.NDArray[np.bool_]]:
         """Segments, starts and `is_area` of what a mention may mean; a text asks for them again and again."""
         segments, starts, is_area = select_objects(self.gazetteer, mention.objects)

@@ -57,7 +57,7 @@ def test_it_is_what_torch_makes_of_it(model, hints, absent, metres) -> None:
         for _ in range(3):
             around, said = surroundings(rng), reading(rng, hints, absent, metres)
             expected = model(said, batch_of(around, label, rgb), KITTI360_PALETTE, usual)
-            assert np.allclose(compiled.of(said)(around, NODES), expected.numpy(), rtol=1e-4, atol=1e-4)
+            assert np.allclose(compiled.log_p(said, around, NODES), expected.numpy(), rtol=1e-4, atol=1e-4)
 
 
 def test_a_long_text_does_not_vanish(model) -> None:
@@ -68,7 +68,7 @@ def test_a_long_text_does_not_vanish(model) -> None:
         compiled = NodeLikelihood(model, label, rgb, IS_VAGUE, KITTI360_PALETTE, usual)
         around, said = surroundings(rng), reading(rng, 200, 0.0, math.nan)
         expected = model(said, batch_of(around, label, rgb), KITTI360_PALETTE, usual)
-        assert np.allclose(compiled.of(said)(around, NODES), expected.numpy(), rtol=1e-4)
+        assert np.allclose(compiled.log_p(said, around, NODES), expected.numpy(), rtol=1e-4)
 
 
 def test_what_explains_a_hint_is_seen_as_roughly_as_it_is_told_of(model) -> None:

@@ -67,16 +67,6 @@ def test_the_field_is_the_likelihood_of_its_nodes(town):
         assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
 
 
-def test_two_threads_find_what_one_finds(town, monkeypatch):
-    cells, reading = np.arange(0, len(town.site.cells), 2), town.readings[2]
-    found = {}
-    for shared in (1, 10**9):
-        monkeypatch.setattr("models.posterior.posterior.SHARED", shared)
-        found[shared] = town.posterior.field(reading, cells).log_p
-    assert len(np.unique(found[1])) > 100
-    assert (found[1] == found[10**9]).all()
-
-
 def test_the_mass_of_a_likely_cell_is_that_of_all_its_nodes(town):
     for reading in town.readings[:5]:
         found = locate(town.posterior, reading)
@@ -117,7 +107,7 @@ def test_cells_found_in_another_way_count_once(town):
     cells = np.arange(len(town.posterior.cells))
     for reading in town.readings[:10]:
         some, whole = (locate(town.posterior, reading, candidates=n) for n in (20, len(cells)))
-        joined = locate(town.posterior, reading, candidates=20, also=lambda: cells)
+        joined = locate(town.posterior, reading, candidates=20, further=cells)
         assert some.other > 0
         assert joined.other == whole.other == 0
         assert joined.rows.tolist() == whole.rows.tolist()
