@@ -187,7 +187,7 @@ def map_arrays(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]
     return arrays, facts
 
 
-def let_go(array: npt.NDArray[Any]) -> None:
+def drop_pages(array: npt.NDArray[Any]) -> None:
     """Have the system forget the pages of the file that an array of `map_arrays` lies in, until they are looked at.
 
     What was written into any array of that file is lost; of a copy there is nothing to forget.

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from models.errors import DataError
-from models.files import let_go, scratch_directory
+from models.files import drop_pages, scratch_directory
 
 Column = npt.NDArray[Any]
 HELD: Final = 2**20  # bytes of a column, up to which it stays in memory
@@ -97,7 +97,7 @@ def in_turn(columns: Mapping[str, Column]) -> Iterator[dict[str, Column]]:
 def forget(columns: Iterable[Column]) -> None:
     """Have pages of columns on disk go, until they are looked at."""
     for column in columns:
-        let_go(column)
+        drop_pages(column)
 
 
 @contextmanager

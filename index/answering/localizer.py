@@ -166,7 +166,7 @@ class Localizer:
             self.localize([Query("I am north of a building."), Query(f"I am on {street}, near a pharmacy.")])
         finally:
             self.ranker.store = store
-        load_text_encoder().settle()
+        load_text_encoder().quantize_now()
 
     def of(self, refine: Refine) -> CellLocalizer:
         """What answers queries of one kind."""

@@ -20,7 +20,7 @@ from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention
 from models.language.mentions.name_table import NameTable
-from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, with_goal
+from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, mark_goal
 from models.language.mentions.spans import PASSED, STOP
 from models.language.parsed_hint import ParsedHint
 from models.language.text_encoder import TextEncoder
@@ -85,7 +85,7 @@ class PlaceReader:
         """
         mentions = self._mentions(description, language, tuple(nouns))
         if language == ENGLISH and (to_listener or is_meeting(description)):
-            mentions = with_goal(mentions)
+            mentions = mark_goal(mentions)
         return mentions
 
     @cachedmethod(lambda reader: reader._kept)

@@ -25,7 +25,7 @@ from models.citymap.gallery import Gallery, MapData
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
 from models.citymap.points import Ints
 from models.language.mentions.contradictions import contradictions
-from models.language.mentions.languages import ENGLISH, NAMES, language_of
+from models.language.mentions.languages import ENGLISH, LANGUAGE_NAMES, detect_language
 from models.language.mentions.mentions import Mention
 from models.language.mentions.name_table import NameTable
 from models.language.mentions.reader import is_meeting, listener_wind
@@ -139,7 +139,7 @@ class PosteriorLocalizer:
     def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> Finding:
         start = time.perf_counter()
         answered = self.questions.answered(query.replies)
-        language = language_of(query.description)
+        language = detect_language(query.description)
         hints = hints if language == ENGLISH else []
         warnings = _of_language(language)
         hints, reading, mentions, told = self._places(query, language, hints)
@@ -308,7 +308,7 @@ def _is_elsewhere(query: Query) -> bool:
 def _of_language(language: str) -> tuple[str, ...]:
     if language == ENGLISH:
         return ()
-    name = NAMES.get(language, f"'{language}'")
+    name = LANGUAGE_NAMES.get(language, f"'{language}'")
     return (f"the text seems to be in {name}: only names and nouns were understood; English is read whole",)
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from index.answering.answers import Evidence
 from models.language.parsed_hint import ParsedHint
 from models.language.reader import Reader
-from models.language.sentences import reader_texts, spans_in
+from models.language.sentences import locate_spans, split_for_reader
 
 LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
 KEPT_TEXTS = 2000
@@ -28,9 +28,9 @@ class Texts:
     def parse(self, descriptions: Sequence[str]) -> list[tuple[ParsedHint, ...]]:
         """What each description names; several go through the reader together, the latest are remembered.
 
-        Characters are those of `reader_texts`, joined by blanks.
+        Characters are those of `split_for_reader`, joined by blanks.
         """
-        pieces = [reader_texts(description, LONGEST) for description in descriptions]
+        pieces = [split_for_reader(description, LONGEST) for description in descriptions]
         texts = [text for some in pieces for text in some]
         kept = self._kept
         new = sorted({text for text in texts if text not in kept}, key=len)  # those of like length together
@@ -47,12 +47,12 @@ class Texts:
 
 def as_read(description: str) -> str:
     """The text that the places of hints and mentions are of."""
-    return " ".join(reader_texts(description, LONGEST)) or description
+    return " ".join(split_for_reader(description, LONGEST)) or description
 
 
 def in_the_text(description: str, evidence: Sequence[Evidence]) -> tuple[Evidence, ...]:
     """Evidence with its places in the description, not in what was made of it for the reader."""
-    spans = spans_in(description, as_read(description), [hint.span or (0, 0) for hint in evidence])
+    spans = locate_spans(description, as_read(description), [hint.span or (0, 0) for hint in evidence])
     return tuple(replace(hint, span=span) for hint, span in zip(evidence, spans, strict=True))
 
 
@@ -60,5 +60,5 @@ def _shifted(pieces: Sequence[str], read: Mapping[str, Sequence[ParsedHint]]) ->
     """The hints of the pieces of a text, with their places in the whole."""
     before = 0
     for piece in pieces:
-        yield from (hint.moved(before) for hint in read[piece])
+        yield from (hint.shifted(before) for hint in read[piece])
         before += len(piece) + 1

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final, Literal, cast, get_args
 
 from index.answering.answers import Choice, Question
-from models.language.lexicon.question_classes import load_asked
+from models.language.lexicon.question_classes import load_question_classes
 from models.posterior.nearby_objects import NEAR_M, QUARTERS
 
 Kind = Literal["near", "way", "colour", "street", "name", "corner", "address"]
@@ -77,7 +77,7 @@ class Asked:
     def _text(self) -> str:
         if self.is_open:
             return OPEN[self.kind]
-        noun = load_asked().things[self.names[0]]
+        noun = load_question_classes().things[self.names[0]]
         if self.kind == "near":
             article = "an" if noun[0] in "aeio" else "a"
             return f"Is there {article} {noun} within about {NEAR_M:.0f} metres of you?"

@@ -17,7 +17,7 @@ from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import ReplyError
-from models.language.lexicon.question_classes import load_asked
+from models.language.lexicon.question_classes import load_question_classes
 from models.posterior.distribution import Located, heaviest
 from models.posterior.nearby_objects import Seen, Sights
 from models.posterior.node_batch import colour_words
@@ -33,7 +33,7 @@ FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it h
 
 def landmarks_of(gazetteer: Gazetteer, cells: CellTable) -> Landmarks:
     """What people around some cells can say when they are asked."""
-    return Landmarks.of(gazetteer, cells.center_m[:, :2].astype(np.float64), load_asked().kinds)
+    return Landmarks.of(gazetteer, cells.center_m[:, :2].astype(np.float64), load_question_classes().kinds)
 
 
 class Questions:
@@ -57,7 +57,7 @@ class Questions:
         cells: CellTable,
         landmarks: Landmarks | None = None,
     ) -> None:
-        asked = load_asked()
+        asked = load_question_classes()
         self._sights, self._words = sights, tuple(colour_words(palette))
         self._gazetteer, self._cells, self._landmarks = gazetteer, cells, landmarks
         self._things = {label: n for n, label in enumerate(labels) if label in asked.things}

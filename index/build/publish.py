@@ -136,7 +136,7 @@ def save_names(path: Path, directory: Path) -> Path:
     open_gazetteer(path).save(directory)
     give_back()
     gazetteer, vocabulary, encoder = Gazetteer.load(directory), load_vocabulary(), load_text_encoder()
-    table = NameTable.of(gazetteer, vocabulary, encoder.is_everyday)
+    table = NameTable.from_gazetteer(gazetteer, vocabulary, encoder.is_everyday)
     table.save(directory)
     phrases = Lookup(gazetteer, vocabulary, encoder.is_everyday, table).phrases()
     Meanings.of(*meanings_of(phrases, encoder.embed), encoder.embed).save(directory)

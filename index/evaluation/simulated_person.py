@@ -17,7 +17,7 @@ from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.map_geometry import PieceGeometry
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.lexicon.question_classes import load_asked
+from models.language.lexicon.question_classes import load_question_classes
 from models.posterior.nearby_objects import QUARTERS
 
 WRONG, DO_NOT_KNOW = 0.1, 0.2  # of the answers; of those that are known, so many are wrong
@@ -45,7 +45,7 @@ class Truth:
     ) -> None:
         self._bodies, self._palette, self._gazetteer = bodies, palette, gazetteer
         self._streets = gazetteer.by_kind.get(STREET_KIND, np.zeros(0, np.int64))
-        kinds = load_asked().kinds
+        kinds = load_question_classes().kinds
         known = [n for n in gazetteer.named if gazetteer.objects[n].kinds[0].startswith(kinds)]
         self._places = np.array(known, np.int64)
         self._houses = np.array([n for n, w in enumerate(gazetteer.objects) if w.street and w.numbers], np.int64)

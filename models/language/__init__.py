@@ -1,1 +1,1 @@
-"""From text to hints and mentions: the text encoder, the hint reader, and `mentions/`, which reads names and places."""
+"""Turn text into hints and mentions: the text encoder, the hint reader, and `mentions/` for names and places."""

@@ -1,7 +1,6 @@
-"""BERT's encoder (Devlin et al., NAACL 2019), as much of it as runs MiniLM; its names are those of published weights.
+"""BERT's encoder (Devlin et al., NAACL 2019), the parts that MiniLM needs; modules are named as in published weights.
 
-Importing the same from transformers takes seven seconds of a CPU and 150 MB in every process that serves, indexes or
-tests.
+Importing transformers instead would take seven seconds of CPU time and 150 MB in every process.
 """
 
 import json
@@ -13,11 +12,11 @@ import torch
 from pydantic import BaseModel
 from torch import Tensor, nn
 
-from models.files import let_go, map_arrays
+from models.files import drop_pages, map_arrays
 
 
 class BertConfig(BaseModel):
-    """What of a published config.json matters here."""
+    """The fields of a published config.json that the encoder uses."""
 
     hidden_size: int
     intermediate_size: int
@@ -31,7 +30,7 @@ class BertConfig(BaseModel):
 
 
 class Bert(nn.Module):
-    """Word, place and kind of text into vectors, and layers of attention over them."""
+    """An encoder: embeddings of tokens and positions, then attention layers."""
 
     def __init__(self, config: BertConfig) -> None:
         super().__init__()
@@ -42,10 +41,10 @@ class Bert(nn.Module):
 
     @classmethod
     def load(cls, directory: Path) -> Self:
-        """Read config.json and map model.safetensors into memory, see `let_go`.
+        """Read config.json and map model.safetensors into memory.
 
         Raises:
-            OSError, ValueError: they are missing, or of another kind of model.
+            OSError, ValueError: a file is missing or belongs to another kind of model.
         """
         model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
         weights, wanted = map_arrays(directory / "model.safetensors")[0], model.state_dict()
@@ -55,14 +54,14 @@ class Bert(nn.Module):
         model._mapped = next(iter(weights.values()))
         return model
 
-    def let_go(self) -> None:
-        """Have the system forget the weights that it has read from the file, until they are looked at."""
+    def drop_pages(self) -> None:
+        """Release the memory of the mapped weights; the system reads them again when they are used."""
         if self._mapped is not None:
-            let_go(self._mapped)
+            drop_pages(self._mapped)
 
 
 class _Embeddings(nn.Module):
-    """[S, T] token ids to [S, T, W]."""
+    """Embeddings [S, T, W] of token ids [S, T]."""
 
     def __init__(self, config: BertConfig) -> None:
         super().__init__()
@@ -73,39 +72,41 @@ class _Embeddings(nn.Module):
         self.LayerNorm = nn.LayerNorm(width, config.layer_norm_eps)
 
     def forward(self, input_ids: Tensor) -> Tensor:
-        """All tokens are of the first kind of text."""
+        """Embed tokens; all have token type 0."""
         words = self.word_embeddings(input_ids) + self.token_type_embeddings.weight[0]
         embedded: Tensor = self.LayerNorm(words + self.position_embeddings.weight[: input_ids.shape[1]])
         return embedded
 
 
 class Layer(nn.Module):
-    """Attention over all tokens, and two linear layers on each."""
+    """A transformer layer: self-attention and a feed-forward network."""
 
     def __init__(self, config: BertConfig) -> None:
         super().__init__()
         width = config.hidden_size
         self.heads = config.num_attention_heads
         heads = nn.ModuleDict({name: nn.Linear(width, width) for name in ("query", "key", "value")})
-        self.attention = nn.ModuleDict({"self": heads, "output": _added(width, width, config)})
+        self.attention = nn.ModuleDict({"self": heads, "output": _output_layers(width, width, config)})
         self.intermediate = nn.ModuleDict({"dense": nn.Linear(width, config.intermediate_size)})
-        self.output = _added(config.intermediate_size, width, config)
+        self.output = _output_layers(config.intermediate_size, width, config)
 
-    def forward(self, hidden: Tensor, shut: Tensor | None) -> Tensor:
-        """[S, T, W] to [S, T, W]; shut [S, 1, 1, T] is added to attention, minus infinity where no token is."""
+    def forward(self, hidden: Tensor, attention_bias: Tensor | None) -> Tensor:
+        """Transform [S, T, W]; `attention_bias` [S, 1, 1, T] is minus infinity at padding."""
         size = (*hidden.shape[:2], self.heads, -1)
         heads: Any = self.attention["self"]
         query, key, value = (heads[name](hidden).view(size).transpose(1, 2) for name in ("query", "key", "value"))
-        told = nn.functional.scaled_dot_product_attention(query, key, value, shut)
-        hidden = _add(self.attention["output"], told.transpose(1, 2).flatten(2), hidden)
-        return _add(self.output, nn.functional.gelu(self.intermediate["dense"](hidden)), hidden)
+        attended = nn.functional.scaled_dot_product_attention(query, key, value, attention_bias)
+        hidden = _add_and_normalize(self.attention["output"], attended.transpose(1, 2).flatten(2), hidden)
+        return _add_and_normalize(self.output, nn.functional.gelu(self.intermediate["dense"](hidden)), hidden)
 
 
-def _added(width: int, to: int, config: BertConfig) -> nn.ModuleDict:
-    return nn.ModuleDict({"dense": nn.Linear(width, to), "LayerNorm": nn.LayerNorm(to, config.layer_norm_eps)})
+def _output_layers(width: int, out_width: int, config: BertConfig) -> nn.ModuleDict:
+    return nn.ModuleDict(
+        {"dense": nn.Linear(width, out_width), "LayerNorm": nn.LayerNorm(out_width, config.layer_norm_eps)}
+    )
 
 
-def _add(output: Any, told: Tensor, hidden: Tensor) -> Tensor:
-    """What a half of a layer adds, normalised with what went into it."""
-    added: Tensor = output["LayerNorm"](output["dense"](told) + hidden)
+def _add_and_normalize(output: Any, attended: Tensor, hidden: Tensor) -> Tensor:
+    """Return the normalised sum of a sublayer's output and its input."""
+    added: Tensor = output["LayerNorm"](output["dense"](attended) + hidden)
     return added

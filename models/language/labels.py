@@ -1,4 +1,4 @@
-"""What a noun means in a map: any words compared with any labels, through the many names that things go by."""
+"""Match nouns with the labels of a map, through the many names of each label."""
 
 import hashlib
 import logging
@@ -12,21 +12,21 @@ from torch import Tensor, nn
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.recent_features import RecentFeatures
 from models.language.spelling import Spelling
-from models.language.text_encoder import OnTextEncoder, TextEncoder
+from models.language.text_encoder import TextEncoder, TextEncoderModel
 
-MOST_KEPT = 4096  # phrases, the names of labels among them; 6 MB
-READ_AT_ONCE = 64  # names, of like length, so that little is padding
+MAX_CACHED_PHRASES = 4096  # 6 MB, the names of labels included
+NAMES_PER_BATCH = 64  # of similar length, so that there is little padding
 
 _log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BoundLabels:
-    """A map's labels with all names that lead to them.
+    """The labels of a map and all their names.
 
     Attributes:
         names: [N, W] unit vectors of names.
-        label: [N] the map's label that each leads to; the number of labels for names of what the map has not.
+        label: [N] the label that each name means; the number of labels for names of things that the map lacks.
         count: number of labels.
     """
 
@@ -35,11 +35,11 @@ class BoundLabels:
     count: int
 
 
-class LabelMatcher(OnTextEncoder):
+class LabelMatcher(TextEncoderModel):
     """Similarity of a noun with every name of every label, in the frozen text encoder's space.
 
-    A label's score is the soft maximum over its names; names of things that the map has not compete, so that a bench is
-    no building where there are no benches.
+    A label's score is the soft maximum over its names. Names of things that the map lacks compete, so that a bench does
+    not become a building in a map without benches.
     """
 
     names: Tensor
@@ -48,58 +48,58 @@ class LabelMatcher(OnTextEncoder):
     def __init__(self, text_encoder: TextEncoder) -> None:
         super().__init__(text_encoder)
         self.scale = nn.Parameter(torch.tensor(20.0).log())
-        self.unknown = nn.Parameter(torch.tensor(0.4))  # similarity that a noun must exceed to mean anything
+        self.unknown = nn.Parameter(torch.tensor(0.4))  # similarity below which a noun means no label
         self.lexicon = load_lexicon()
         names = [name.lower() for name in self.lexicon.names]
         self._spelling = Spelling(names, text_encoder.pieces, lambda part: len(text_encoder.pieces(part)) == 1)
         self._names = sorted({self._plain(name) for name in names}, key=lambda name: (len(name), name))
-        # [N, W] vectors of these, stored with the weights; empty until they are loaded or a map asks for them.
+        # [N, W] vectors of these names, stored with the weights; empty until they are loaded or first needed.
         self.register_buffer("names", torch.empty(0, text_encoder.width))
         digest = hashlib.sha256("\n".join(self._names).encode()).digest()
-        self.register_buffer("names_of", torch.tensor(list(digest), dtype=torch.uint8))  # tells whether stored ones fit
-        self._known = RecentFeatures(text_encoder.embed, MOST_KEPT)
-        nn.Module.register_load_state_dict_pre_hook(self, LabelMatcher._take_names)
+        self.register_buffer("names_of", torch.tensor(list(digest), dtype=torch.uint8))  # of the names
+        self._features = RecentFeatures(text_encoder.embed, MAX_CACHED_PHRASES)
+        nn.Module.register_load_state_dict_pre_hook(self, LabelMatcher._prepare_names)
 
     def embed(self, phrases: Sequence[str]) -> Tensor:
-        """[S, W] unit vectors of the frozen text encoder, misspelt words mended; those seen before are kept."""
+        """Return unit vectors [S, W] of phrases with misspelt words corrected; recent ones are cached."""
         plain = [self._plain(phrase) for phrase in phrases]
-        if not len(self._known) and len(self.names):
-            self._known.remember(self._names, self.names)
-        known = self._known(plain)
+        if not len(self._features) and len(self.names):
+            self._features.remember(self._names, self.names)
+        known = self._features(plain)
         return torch.stack([known[phrase] for phrase in plain])
 
     def bind(self, map_labels: Sequence[str]) -> BoundLabels:
-        """Prepare for a map.
+        """Return the labels of a map with their names.
 
         Args:
-            map_labels: its labels, each once.
+            map_labels: without repetition.
         """
         if not len(self.names):
-            starts = range(0, len(self._names), READ_AT_ONCE)
-            self.names = torch.cat([self.text_encoder.embed(self._names[n : n + READ_AT_ONCE]) for n in starts])
-            self._known.clear()
-        phrases, label = self.lexicon.names_in(tuple(map_labels))
+            starts = range(0, len(self._names), NAMES_PER_BATCH)
+            self.names = torch.cat([self.text_encoder.embed(self._names[n : n + NAMES_PER_BATCH]) for n in starts])
+            self._features.clear()
+        phrases, label = self.lexicon.map_names_to_labels(tuple(map_labels))
         return BoundLabels(self.embed(phrases), torch.tensor(label), len(map_labels))
 
     def _plain(self, phrase: str) -> str:
-        return self._spelling.mend(phrase.lower().replace("-", " "))
+        return self._spelling.correct(phrase.lower().replace("-", " "))
 
-    def _take_names(self, state: dict[str, Any], prefix: str, *_: Any) -> None:
-        """Make room for stored vectors before they are loaded; those of other names are left out."""
-        key, of = f"{prefix}names", f"{prefix}names_of"
-        if key not in state or of not in state:
-            return  # what is missing is then said of all weights
-        if not torch.equal(state[of], self.names_of):
-            _log.warning("the names of the lexicon have changed and are embedded anew at every start; train again")
-            state[key], state[of] = self.names[:0], self.names_of
+    def _prepare_names(self, state: dict[str, Any], prefix: str, *_: Any) -> None:
+        """Resize `names` for the vectors to load; drop stored vectors of other names."""
+        key, digest_key = f"{prefix}names", f"{prefix}names_of"
+        if key not in state or digest_key not in state:
+            return  # load_state_dict reports missing weights itself
+        if not torch.equal(state[digest_key], self.names_of):
+            _log.warning("the lexicon has changed since training, so every start embeds its names; retrain the model")
+            state[key], state[digest_key] = self.names[:0], self.names_of
         self.names = torch.empty_like(state[key])
-        self._known.clear()
+        self._features.clear()
 
     def forward(self, nouns: Tensor, bound: BoundLabels) -> Tensor:
-        """[S, L + 1] log-probability of each label for nouns [S, W]; the last, of none of them.
+        """Return log-probabilities [S, L + 1] of each label, and of none, for nouns [S, W].
 
         Args:
-            nouns: of `embed`.
+            nouns: vectors from `embed`.
             bound: the map's labels.
         """
         logits = self.scale.exp() * (nouns @ bound.names.T)

@@ -1,6 +1,6 @@
 """The one parser of numbers, measures and compass directions in English text.
 
-Hints, mentions and plurals share it. Its words and units are data: tables of `mentions/english.toml`.
+Hints, mentions and plurals use it. Its words and units are tables of `mentions/english.toml`.
 """
 
 import re
@@ -12,9 +12,9 @@ from typing import Final, Protocol, TypeVar
 
 from models.language.mentions.word_lists import english
 
-FARTHEST_M: Final = 1e5  # no map is wider, so a longer measure tells nothing
-GREATEST_GAP: Final = 80  # characters between a measure and what it belongs to
-FEW_OF_MEASURED: Final = 3.0  # "a few metres" are so many times as many as "a few blocks"
+MAX_MEASURE_M: Final = 1e5  # no map is wider, so a longer distance is ignored
+MAX_GAP_CHARACTERS: Final = 80  # between a measure and the span it belongs to
+VAGUE_FEW_FACTOR: Final = 3.0  # "a few" of a measured unit, such as metres, is this much more than "a few blocks"
 COMPASS: Final = ("north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest")
 COMPASS_OF_LETTERS: Final = {
     "n": "north", "e": "east", "s": "south", "w": "west", "ne": "northeast", "nw": "northwest",
@@ -29,7 +29,7 @@ class Number:
     Attributes:
         start, end: its characters.
         value: the number.
-        is_vague: whether a word such as "few" says it.
+        is_vague: whether it is a word such as "few".
         is_article: whether it is the "a" of "a block".
     """
 
@@ -47,8 +47,8 @@ class Measure:
     Attributes:
         start, end: its characters.
         metres: how far.
-        is_loose: whether its number is vague, or its unit is none of length: blocks, doors, minutes.
-        is_of: whether what it is measured from follows: "30 m short of" it.
+        is_loose: whether its number is vague or its unit is blocks, doors or minutes.
+        is_of: whether the reference follows it: "30 m short of the bridge".
     """
 
     start: int
@@ -58,7 +58,7 @@ class Measure:
     is_of: bool = False
 
     def contains(self, span: "Span") -> bool:
-        """Return whether a span is a part of the measure, its unit say."""
+        """Return whether a span is part of the measure, such as its unit."""
         return self.start <= span.start and span.end <= self.end
 
 
@@ -79,7 +79,7 @@ class Bearing:
 
 
 class Span(Protocol):
-    """Anything that stands in a text."""
+    """A span of characters in a text."""
 
     @property
     def start(self) -> int:
@@ -87,13 +87,13 @@ class Span(Protocol):
 
     @property
     def end(self) -> int:
-        """The character behind its last."""
+        """The character after its last."""
 
 
 Fact = TypeVar("Fact", Measure, Bearing)
 
-_W = english()
-_NUMBERS = _W.table("numbers")
+_WORDS = english()
+_NUMBERS = _WORDS.table("numbers")
 ONES: Final[dict[str, int]] = {word: n for n, word in enumerate(_NUMBERS["ones"].split())}
 TENS: Final[dict[str, int]] = {word: 10 * n for n, word in enumerate(_NUMBERS["tens"].split(), 2)}
 ORDINALS: Final[dict[str, int]] = {word: n for n, word in enumerate(_NUMBERS["ordinals"].split(), 1)} | {
@@ -133,24 +133,24 @@ _NUMBER = re.compile(
     re.IGNORECASE,
 )
 # Measures: a unit behind a number, and what tells a distance from a size, a time or a thing.
-_MEASURES = _W.table("measures")
-_LOOSE, _MINUTES = _W.list("loose_units"), frozenset(("minute", "min"))
+_MEASURES = _WORDS.table("measures")
+_LOOSE, _MINUTES = _WORDS.list("loose_units"), frozenset(("minute", "min"))
 _THINGS, _COUNTED = frozenset(_MEASURES["things"].split()), frozenset(_MEASURES["counted"].split())
 _RANGE = re.compile(r"\s*[-–—]\s*|\s+(?:to|or|of)\s+|(?P<and>\s+and\s+)")  # noqa: RUF001  # dashes of print
 _BETWEEN = re.compile(r"\bbetween\s+$", re.IGNORECASE)
 _UNIT = re.compile(
     rf"(?:(?:(?<=[\d¼½¾⅓⅔])[\s-]*|{_GAP})(?:{_any_of(_MEASURES['fillers'].split(','))}{_GAP})?"
-    rf"(?P<unit>{'|'.join(sorted(_W.metres, key=len, reverse=True))})e?s?(?!\w)"
+    rf"(?P<unit>{'|'.join(sorted(_WORDS.metres, key=len, reverse=True))})e?s?(?!\w)"
     r"|(?<=\d)(?P<foot>['′’])(?![\w'’]))"  # noqa: RUF001  # signs of feet
     r"(?:\s+and\s+an?\s+(?P<half>half|quarter)\b|\s+or\s+(?P<or>two|three)\b)?",
     re.IGNORECASE,
 )
 _AWAY, _WALK, _SIZE, _FROM = (
-    _W.pattern("measures", name, r"['\u2019]?[\s-]+(?:{})\b") for name in ("away", "walk", "size", "from")
+    _WORDS.pattern("measures", name, r"['\u2019]?[\s-]+(?:{})\b") for name in ("away", "walk", "size", "from")
 )
-_WITHIN = _W.pattern("measures", "within", r"\b(?:{})\s+(?:[a-z]+\s+)?$")
+_WITHIN = _WORDS.pattern("measures", "within", r"\b(?:{})\s+(?:[a-z]+\s+)?$")
 _INSIDE = re.compile(r"\b(?:in|into|inside|across|through)\s+$", re.IGNORECASE)  # a yard, say
-_OF = re.compile(r"\s+of\b", re.IGNORECASE)
+_OF_WORD = re.compile(r"\s+of\b", re.IGNORECASE)
 _STRIDES: Final = frozenset(("step", "pace"))
 _SENTENCE_END = re.compile(r"[.;!?\n]\s")
 _PAUSE = re.compile(r"\s*[,)]|\s+and\b", re.IGNORECASE)
@@ -181,18 +181,18 @@ _OF_A_PLACE = re.compile(
 )
 
 
-def numbers_in(text: str) -> list[Number]:
-    """Return the numbers that a text says, also "a few", "half a" and the "a" of "a block"."""
+def find_numbers(text: str) -> list[Number]:
+    """Return the numbers in a text, including "a few", "half a" and the "a" of "a block"."""
     return [
-        Number(found.start(), found.end(), _value(found), bool(found["vague"]), bool(found["article"]))
-        for found in _NUMBER.finditer(text)
+        Number(match.start(), match.end(), _value(match), bool(match["vague"]), bool(match["article"]))
+        for match in _NUMBER.finditer(text)
     ]
 
 
-@lru_cache(maxsize=256)  # hints, streets, addresses and cues of a text ask in turn
-def measures_in(text: str) -> tuple[Measure, ...]:
-    """Return the distances that a text says; sizes, times, house numbers and names are none."""
-    found, numbers = list[Measure](), numbers_in(text)
+@lru_cache(maxsize=256)  # hints, streets, addresses and cues all need those of the same text
+def find_measures(text: str) -> tuple[Measure, ...]:
+    """Return the distances in a text, without sizes, times, house numbers and names."""
+    measures, numbers = list[Measure](), find_numbers(text)
     for n, number in enumerate(numbers):
         unit = _UNIT.match(text, number.end)
         if unit is None or not _is_distance(text, number, unit):
@@ -203,26 +203,26 @@ def measures_in(text: str) -> tuple[Measure, ...]:
         count += 1 / _PARTS[unit["half"].lower()] if unit["half"] else 0.0
         count = (count + ONES[unit["or"].lower()]) / 2 if unit["or"] else count
         if number.is_vague and number.value < 12 and name not in _LOOSE and name not in _STRIDES:
-            count *= FEW_OF_MEASURED
-        metres = count * _W.metres[name]
-        if metres <= FARTHEST_M:
+            count *= VAGUE_FEW_FACTOR
+        metres = count * _WORDS.metres[name]
+        if metres <= MAX_MEASURE_M:
             is_of = _FROM.match(text, unit.end()) is not None
-            found.append(Measure(low.start, unit.end(), metres, number.is_vague or name in _LOOSE, is_of))
-    return tuple(found)
+            measures.append(Measure(low.start, unit.end(), metres, number.is_vague or name in _LOOSE, is_of))
+    return tuple(measures)
 
 
-def bearings_in(text: str) -> list[Bearing]:
-    """Return the compass directions that a text says."""
+def find_bearings(text: str) -> list[Bearing]:
+    """Return the compass directions in a text."""
     return [
-        Bearing(found.start(), found.end(), _degrees(found), _OF_A_PLACE.match(text, found.end()) is not None)
-        for found in _BEARING.finditer(text)
+        Bearing(match.start(), match.end(), _degrees(match), _OF_A_PLACE.match(text, match.end()) is not None)
+        for match in _BEARING.finditer(text)
     ]
 
 
-def bearing_of(words: str) -> float | None:
-    """Return the degrees of the first compass direction in some words; None if there is none."""
-    found = bearings_in(words)
-    return found[0].degrees if found else None
+def first_bearing(words: str) -> float | None:
+    """Return the first compass direction in a text, in degrees; None if there is none."""
+    bearings = find_bearings(words)
+    return bearings[0].degrees if bearings else None
 
 
 def compass_name(degrees: float) -> str:
@@ -237,15 +237,15 @@ def ordinal(number: int) -> str:
     return f"{number}" + {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
 
 
-def nearest_facts(text: str, facts: Sequence[Fact], spans: Sequence[Span | None]) -> dict[int, Fact]:
-    """Return which fact belongs to which span, by the number of the span: the nearest; each belongs to one at most.
+def match_facts_to_spans(text: str, facts: Sequence[Fact], spans: Sequence[Span | None]) -> dict[int, Fact]:
+    """Assign each fact to the nearest span, at most one fact per span, by the index of the span.
 
-    A fact inside a span is a part of a name; a span inside a fact is its unit.
+    A fact inside a span is part of a name; a span inside a fact is its unit.
 
     Args:
         text: the description.
         facts: its measures or bearings.
-        spans: what they may belong to; None for what they may not.
+        spans: candidates; None for a span that takes no fact.
     """
     pairs = sorted(
         (distance_in_text(text, fact, span), k, n)
@@ -254,41 +254,43 @@ def nearest_facts(text: str, facts: Sequence[Fact], spans: Sequence[Span | None]
         for n, span in enumerate(spans)
         if span is not None and not (fact.start <= span.start and span.end <= fact.end)
     )
-    found: dict[int, Fact] = {}
-    given: set[int] = set()
+    matched: dict[int, Fact] = {}
+    used: set[int] = set()
     for gap, k, n in pairs:
-        if gap < GREATEST_GAP and n not in found and k not in given:
-            found[n] = facts[k]
-            given.add(k)
-    return found
+        if gap < MAX_GAP_CHARACTERS and n not in matched and k not in used:
+            matched[n] = facts[k]
+            used.add(k)
+    return matched
 
 
 def distance_in_text(text: str, fact: Measure | Bearing, span: Span) -> int:
-    """Return the characters between a fact and a span.
+    """Return the number of characters between a fact and a span.
 
-    More over the end of a sentence or a clause, and back from what is measured from something that follows.
+    The end of a sentence or clause adds to it, and so does a fact whose reference follows if the span precedes.
     """
     is_before = fact.start < span.start
     start, end = (fact.end, span.start) if is_before else (span.end, fact.start)
     is_far = _SENTENCE_END.search(text, start, max(start, end)) is not None or (fact.is_of and not is_before)
     is_over = is_before and _PAUSE.match(text, fact.end) is not None
-    return max(0, end - start) + (GREATEST_GAP // 2 if is_far else 0) + (GREATEST_GAP // 4 if is_over else 0)
+    return (
+        max(0, end - start) + (MAX_GAP_CHARACTERS // 2 if is_far else 0) + (MAX_GAP_CHARACTERS // 4 if is_over else 0)
+    )
 
 
-def _value(found: re.Match[str]) -> float:
+def _value(match: re.Match[str]) -> float:
     """Return the value of a match of _NUMBER."""
-    more = _count(found["more"]) / _PARTS[_singular(found["share"])] if found["more"] else 0.0
-    if found["vague"]:
-        return _VAGUE[found["few"].lower()] * (_SCALES[found["scale"].lower()] if found["scale"] else 1) + more
-    if found["part"]:
-        return _count(found["parts"] or "a") / _PARTS[_singular(found["part"])] + more
-    if found["fraction"]:
-        return _share(found["fraction"]) + more
-    if found["words"]:
-        tenths = "".join(str(ONES[word]) for word in re.findall(r"[a-z]+", (found["decimals"] or "").lower()))
-        return _in_words(found["words"]) + float(f"0.{tenths or 0}") + more
-    digits = _GROUP_MARK.sub("", found["grouped"]) if found["grouped"] else (found["digits"] or "1").replace(",", ".")
-    return float(digits) + (_share(found["rest"]) if found["rest"] else 0.0) + more
+    more = _count(match["more"]) / _PARTS[_singular(match["share"])] if match["more"] else 0.0
+    if match["vague"]:
+        return _VAGUE[match["few"].lower()] * (_SCALES[match["scale"].lower()] if match["scale"] else 1) + more
+    if match["part"]:
+        return _count(match["parts"] or "a") / _PARTS[_singular(match["part"])] + more
+    if match["fraction"]:
+        return _share(match["fraction"]) + more
+    if match["words"]:
+        tenths = "".join(str(ONES[word]) for word in re.findall(r"[a-z]+", (match["decimals"] or "").lower()))
+        return _in_words(match["words"]) + float(f"0.{tenths or 0}") + more
+    digits = _GROUP_MARK.sub("", match["grouped"]) if match["grouped"] else (match["digits"] or "1").replace(",", ".")
+    return float(digits) + (_share(match["rest"]) if match["rest"] else 0.0) + more
 
 
 def _count(word: str) -> int:
@@ -327,13 +329,13 @@ def _low_end(text: str, before: Number, number: Number) -> Number:
 
 
 def _is_distance(text: str, number: Number, unit: re.Match[str]) -> bool:
-    """Return whether a number and a unit are a distance: no size, time, thing or name."""
+    """Return whether a number and a unit are a distance, not a size, time, thing or name."""
     end, name = unit.end(), (unit["unit"] or "ft").lower()
     if name in _MINUTES:
         return _WALK.match(text, end) is not None
     if unit["foot"] is not None and not _is_foot(text, number):
         return False
-    if _SIZE.match(text, end) or (_OF.match(text, end) and _WITHIN.search(text[: number.start]) is None):
+    if _SIZE.match(text, end) or (_OF_WORD.match(text, end) and _WITHIN.search(text[: number.start]) is None):
         return False
     is_away = _AWAY.match(text, end) is not None or unit["or"] is not None
     if len(name) > 2 and unit["unit"][0].isupper() and unit["unit"][1:].islower():  # a Foot Locker, 2 Miles Gallery
@@ -346,11 +348,11 @@ def _is_distance(text: str, number: Number, unit: re.Match[str]) -> bool:
 
 
 def _is_foot(text: str, number: Number) -> bool:
-    """Return whether a sign of feet behind a number is one, and neither one of a degree nor the end of a quotation."""
+    """Return whether the mark after a number means feet, not minutes of arc or the end of a quotation."""
     is_degree = text[: number.start].rstrip().endswith("°") or not text[number.start : number.end].isdecimal()
     return not is_degree and _QUOTE.search(text, 0, number.start) is None
 
 
-def _degrees(found: re.Match[str]) -> float:
-    letters = found["letters"] or "".join(side[0] for side in _SIDE.findall(found["words"]))
+def _degrees(match: re.Match[str]) -> float:
+    letters = match["letters"] or "".join(side[0] for side in _SIDE.findall(match["words"]))
     return 360.0 / len(_POINTS) * _POINTS.index(letters.lower())

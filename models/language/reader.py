@@ -1,4 +1,4 @@
-"""The reader: from a description in any wording to hints, each a distribution over what may be meant."""
+"""The reader of hints: tags the nouns of a description and predicts the attributes of each."""
 
 import copy
 import re
@@ -11,19 +11,19 @@ import torch
 from pydantic import BaseModel, ConfigDict
 from torch import Tensor, nn
 
-from models.language.int8 import PackedLayer, may_pack, run_packed
+from models.language.int8 import Int8Layer, can_quantize, run_int8_layers
 from models.language.lexicon.lexicon import load_lexicon
-from models.language.measures import measures_in, nearest_facts
+from models.language.measures import find_measures, match_facts_to_spans
 from models.language.parsed_hint import RELATIONS, ParsedHint, resolve
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures, run_layers
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TextEncoderModel, TokenFeatures, run_layers
 
-# Of tokens: outside, further token of what is named; first token of a noun, of a plural, of what stands for a thing.
+# Tags of tokens: outside, a further token of a span, and the first token of a noun, a plural or a stand-in.
 TAGS: Final = ("outside", "further", "noun", "plural", "stand-in")
 COLOURS: Final = (
     "dark-green", "gray", "gray-green", "bright-gray", "black", "green", "beige", "white", "red", "brown", "orange",
     "yellow", "blue", "purple", "pink",
 )  # fmt: skip
-REACH = 5  # tokens that a convolution sees
+CONVOLUTION_TOKENS = 5  # width of a convolution
 _LOOSE_END = re.compile(r"(?<=\w)\s+(?:of|with|along|down|up|by|in|on|at|and|to)$", re.I)
 
 
@@ -32,8 +32,8 @@ class ReaderConfig(BaseModel):
 
     Attributes:
         text_encoder: a BERT-like language model.
-        frozen_layers: of the text encoder; the first ones know most of grammar.
-        tuned_layers: of the text encoder after those, trained on.
+        frozen_layers: first layers of the text encoder.
+        tuned_layers: layers after those, which are fine-tuned.
         width: of the layers above them.
         local_layers: convolutions over neighbouring tokens.
         dropout: while training, in the convolutions.
@@ -49,12 +49,11 @@ class ReaderConfig(BaseModel):
     dropout: float = 0.1
 
 
-class Reader(OnTextEncoder):
-    """Tags the nouns of a text, and says of each its direction, its colour and whether there is none of it.
+class Reader(TextEncoderModel):
+    """Tags the nouns of a text, and predicts the direction, the colour and the absence of each.
 
-    The lower layers of the text encoder are frozen, some after them are trained on, over the whole description, so that
-    pronouns, joined clauses and colours said apart find their noun. Trained on the paraphrase grammar
-    (`models.language.grammar.wording`).
+    It reads the whole description at once, so that pronouns, joined clauses and colours in other sentences find their
+    noun. It is trained on the paraphrase grammar (`models.language.grammar.wording`).
     """
 
     def __init__(self, text_encoder: TextEncoder, config: ReaderConfig) -> None:
@@ -68,63 +67,65 @@ class Reader(OnTextEncoder):
         self.relation = _head(width, len(RELATIONS))
         self.colour = _head(width, len(COLOURS) + 1)
         self.absent = _head(width, 1)
-        self._packed: list[PackedLayer] | None = None
+        self._int8_layers: list[Int8Layer] | None = None
 
     def forward(self, tokens: TokenFeatures) -> Tensor:
-        """[B, T, D] features of tokens in their text, from what the frozen layers make of them."""
+        """Return features [B, T, D] of tokens from those of the frozen layers."""
         x: Tensor = self.project(self._run(tokens.values, tokens.mask))
         for layer in self.near:
             x = layer(x, tokens.mask)
         return x
 
     def _run(self, hidden: Tensor, mask: Tensor) -> Tensor:
-        if self.training or not may_pack(self.tuned, hidden):
+        if self.training or not can_quantize(self.tuned, hidden):
             return run_layers(self.tuned, hidden, mask)
-        if self._packed is None:
-            self._packed = [PackedLayer(layer) for layer in self.tuned]
-        return run_packed(self._packed, hidden, mask)
+        if self._int8_layers is None:
+            self._int8_layers = [Int8Layer(layer) for layer in self.tuned]
+        return run_int8_layers(self._int8_layers, hidden, mask)
 
     def train(self, mode: bool = True) -> "Reader":
-        """As torch does; layers that were packed are forgotten."""
-        self._packed = None
+        """Set the training mode and drop the quantized layers."""
+        self._int8_layers = None
         return super().train(mode)
 
     def attributes(self, spans: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """Logits of nouns from their features [S, D]: relation [S, 10], colour [S, C + 1], absent [S]."""
+        """Return logits of nouns from their features [S, D]: relation [S, 10], colour [S, C + 1], absent [S]."""
         return self.relation(spans), self.colour(spans), self.absent(spans).squeeze(-1)
 
     @torch.no_grad()
     def read(self, texts: Sequence[str]) -> list[list[ParsedHint]]:
-        """What each text names, in its order."""
+        """Return the hints of each text, in text order."""
         tokens, characters = self.text_encoder.read(texts, self.config.frozen_layers)
         features = self(tokens)
         tags = self.tag(features).argmax(dim=-1)
-        found: list[list[ParsedHint]] = []
+        hints: list[list[ParsedHint]] = []
         for n, text in enumerate(texts):
             spans = _spans(tags[n], characters[n], tokens.mask[n], text)
             if not spans:
-                found.append([])
+                hints.append([])
                 continue
             pooled = torch.stack([features[n, a:b].mean(dim=0) for a, b, _ in spans])
             relation, colour, absent = self.attributes(pooled)
-            places = [_place(text, int(characters[n, a, 0]), int(characters[n, b - 1, 1])) for a, b, _ in spans]
+            places = [_trim_noun(text, int(characters[n, a, 0]), int(characters[n, b - 1, 1])) for a, b, _ in spans]
             rows = zip(places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), strict=True)
             things = [ParsedHint(_noun(text, a, b), a, b, *rest) for (a, b), *rest in rows]
-            measures = measures_in(text)
-            noticed = [n for n, thing in enumerate(things) if not any(measure.contains(thing) for measure in measures)]
-            things = [things[n] for n in noticed]  # the blocks of "two blocks" are no thing
-            nearest = nearest_facts(text, measures, things)
+            measures = find_measures(text)
+            kept_rows = [
+                n for n, thing in enumerate(things) if not any(measure.contains(thing) for measure in measures)
+            ]
+            things = [things[n] for n in kept_rows]  # the blocks of "two blocks" are not things
+            nearest = match_facts_to_spans(text, measures, things)
             things = [replace(thing, measure=nearest.get(n)) for n, thing in enumerate(things)]
-            found.append(resolve(text, things, [TAGS[spans[n][2]] for n in noticed]))
-        return found
+            hints.append(resolve(text, things, [TAGS[spans[n][2]] for n in kept_rows]))
+        return hints
 
 
 class _Near(nn.Module):
-    """What a token's neighbours say: a convolution."""
+    """A convolution over neighbouring tokens."""
 
     def __init__(self, width: int, dropout: float) -> None:
         super().__init__()
-        self.mix = nn.Conv1d(width, width, REACH, padding=REACH // 2)
+        self.mix = nn.Conv1d(width, width, CONVOLUTION_TOKENS, padding=CONVOLUTION_TOKENS // 2)
         self.norm, self.dropout = nn.LayerNorm(width), nn.Dropout(dropout)
 
     def forward(self, x: Tensor, mask: Tensor) -> Tensor:
@@ -138,7 +139,7 @@ def _head(width: int, outputs: int) -> nn.Sequential:
 
 
 def _spans(tags: Tensor, characters: Tensor, mask: Tensor, text: str) -> list[tuple[int, int, int]]:
-    """(first token, end, tag) of what is named; a word is taken whole, though the tokenizer may have split it."""
+    """Return (first token, end, tag) of each span; a word that the tokenizer split stays whole."""
     spans: list[list[int]] = []
     real = (mask & (characters[:, 1] > characters[:, 0])).tolist()
     starts, ends = characters.T.tolist()
@@ -155,15 +156,15 @@ def _spans(tags: Tensor, characters: Tensor, mask: Tensor, text: str) -> list[tu
     return [(a, b, tag) for a, b, tag in spans]
 
 
-def _place(text: str, start: int, end: int) -> tuple[int, int]:
-    """The characters of a noun, without a loose word at its end."""
+def _trim_noun(text: str, start: int, end: int) -> tuple[int, int]:
+    """Return the characters of a noun, without a preposition at its end."""
     loose = _LOOSE_END.search(text, start, end)
     return start, loose.start() if loose else end
 
 
 @cache
-def _sizes() -> re.Pattern[str]:
-    """A size that a noun's colour parts from it: "a small dark green pole"."""
+def _size_pattern() -> re.Pattern[str]:
+    """Match a size that a colour separates from its noun: "a small dark green pole"."""
     lexicon = load_lexicon()
     words = {
         word
@@ -171,10 +172,10 @@ def _sizes() -> re.Pattern[str]:
         for name in (colour, *names)
         for word in re.split(r"[\s-]", name)
     }
-    colour, size = ("|".join(map(re.escape, sorted(some))) for some in (words, lexicon.sizes))
+    colour, size = ("|".join(map(re.escape, sorted(options))) for options in (words, lexicon.sizes))
     return re.compile(rf"\b({size})(?:[\s-]+(?:{colour}))+\s+$", re.I)
 
 
 def _noun(text: str, start: int, end: int) -> str:
-    size = _sizes().search(text[max(0, start - 40) : start])
+    size = _size_pattern().search(text[max(0, start - 40) : start])
     return f"{size[1]} {text[start:end]}" if size else text[start:end]

@@ -1,19 +1,19 @@
-"""Features of sentences or phrases that were read lately, so that the frozen text encoder runs only for new ones."""
+"""A cache of features of sentences or phrases, so that the frozen text encoder runs only for new ones."""
 
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Sequence
 
 from torch import Tensor
 
-READ_BATCH = 256  # sentences
+SENTENCES_PER_BATCH = 256
 
 
 class RecentFeatures:
-    """Features by sentence or phrase.
+    """A cache of features by sentence or phrase; the least recently used are dropped.
 
     Args:
-        read: [S, D] features of S sentences.
-        size: sentences to keep, those asked for last.
+        read: returns features [S, D] of S sentences.
+        size: number of sentences to keep.
     """
 
     def __init__(self, read: Callable[[Sequence[str]], Tensor], size: int) -> None:
@@ -24,24 +24,24 @@ class RecentFeatures:
         return len(self._features)
 
     def __call__(self, sentences: Iterable[str]) -> dict[str, Tensor]:
-        """[D] features of each different sentence."""
-        asked = list(dict.fromkeys(sentences))
-        missing = [sentence for sentence in asked if sentence not in self._features]
-        for start in range(0, len(missing), READ_BATCH):
-            batch = missing[start : start + READ_BATCH]
+        """Return features [D] of each distinct sentence."""
+        wanted = list(dict.fromkeys(sentences))
+        missing = [sentence for sentence in wanted if sentence not in self._features]
+        for start in range(0, len(missing), SENTENCES_PER_BATCH):
+            batch = missing[start : start + SENTENCES_PER_BATCH]
             self._features.update(zip(batch, self._read(batch), strict=True))
-        found = {}
-        for sentence in asked:
+        features = {}
+        for sentence in wanted:
             self._features.move_to_end(sentence)
-            found[sentence] = self._features[sentence]
+            features[sentence] = self._features[sentence]
         while len(self._features) > self._size:
             self._features.popitem(last=False)
-        return found
+        return features
 
     def remember(self, sentences: Iterable[str], features: Iterable[Tensor]) -> None:
-        """Take up features that were read before."""
+        """Add features that are known already."""
         self._features.update(zip(sentences, features, strict=True))
 
     def clear(self) -> None:
-        """Forget all, because the weights change."""
+        """Drop all features, because the weights change."""
         self._features.clear()

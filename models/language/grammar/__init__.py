@@ -1,5 +1,5 @@
-"""Wordings that the reader is trained and tested on: data in TOML files, and what makes labelled texts of them.
+"""The paraphrase grammar that trains and tests the reader: phrases in TOML files, and a writer of labelled texts.
 
-`files` reads a grammar without what another must not share with it, `wording` and `passages` write texts
-(`labelled_text`), `typos` spoils them. May import models.language and models.citymap.
+`files` loads a grammar without the phrases of the others, `wording` and `passages` write texts (`labelled_text`), and
+`typos` adds typing errors. May import models.language and models.citymap.
 """

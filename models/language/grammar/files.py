@@ -1,4 +1,4 @@
-"""Grammars from their files, each without what another one must not share with it."""
+"""Load grammars from their files, each without the phrases of the others."""
 
 import hashlib
 import re
@@ -17,11 +17,11 @@ Grammar = Literal["train", "val", "test"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tables:
-    """What a grammar holds, see models.language.grammar.wording.
+    """The tables of a grammar; `models.language.grammar.wording` describes them.
 
     Attributes:
-        labels, colours: names of classes and colours besides their own.
-        compass: words for each wind.
+        labels, colours: further names of classes and colours.
+        compass: words for each compass direction.
         phrases: by kind.
     """
 
@@ -32,26 +32,30 @@ class Tables:
 
     @property
     def sha256(self) -> str:
-        """Of the phrases and words for winds, whatever their files and order."""
-        said = {f"{kind}: {phrase}" for kind, some in [*self.compass.items(), *self.phrases.items()] for phrase in some}
-        return hashlib.sha256("\n".join(sorted(said)).encode()).hexdigest()
+        """The sha256 of the phrases and compass words, independent of files and order."""
+        lines = {
+            f"{kind}: {phrase}"
+            for kind, phrases in [*self.compass.items(), *self.phrases.items()]
+            for phrase in phrases
+        }
+        return hashlib.sha256("\n".join(sorted(lines)).encode()).hexdigest()
 
     def without(self, known: "Tables") -> "Tables":
-        """What another grammar does not have, but for winds and distances."""
+        """Return the tables without names and phrases of another grammar; compass words and distances stay."""
         return replace(
             self,
             labels=_new_names(self.labels, known.labels),
             colours=_new_names(self.colours, known.colours),
             phrases={
-                kind: some if kind == "distance" else _new_phrases(some, known.phrases.get(kind, ()))
-                for kind, some in self.phrases.items()
+                kind: phrases if kind == "distance" else _new_phrases(phrases, known.phrases.get(kind, ()))
+                for kind, phrases in self.phrases.items()
             },
         )
 
 
 @cache
 def load_grammar(grammar: Grammar) -> Tables:
-    """A grammar of all its files; training calls things what the lexicon does."""
+    """Load a grammar from its files; the training grammar takes its names from the lexicon."""
     read: dict[str, Any] = {}
     for file in sorted((GRAMMARS / grammar).glob("*.toml")):
         read |= tomllib.loads(file.read_text())
@@ -64,7 +68,7 @@ def load_grammar(grammar: Grammar) -> Tables:
 
 
 def gist(phrase: str) -> str:
-    """A phrase but for capitals, punctuation and articles: two that agree in it are one."""
+    """Return a phrase without capitals, punctuation and articles, to detect duplicates."""
     return " ".join(re.sub(r"[^a-z0-9{ ]", "", re.sub(r"\{(the|a|n)(?![a-z])", "{thing", phrase.lower())).split())
 
 

@@ -1,4 +1,4 @@
-"""Facts about a position, and texts that are known to tell them."""
+"""Facts about a position, and texts labelled with them."""
 
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -7,21 +7,21 @@ from models.language.measures import COMPASS
 
 
 def opposite(wind: str) -> str:
-    """The other end of the compass."""
+    """Return the opposite compass direction."""
     return COMPASS[(COMPASS.index(wind) + 4) % 8]
 
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """One thing to say.
+    """A fact to express.
 
     Attributes:
         label: class of the thing, a key of the grammar's labels or any words.
         relation: one of RELATIONS.
-        colour: word, None if it is not said.
-        distance_m: said distance, None if it is not.
-        absent: that there is none of it.
-        name: proper name of the thing, said instead of label and colour.
+        colour: a word; None to leave it out.
+        distance_m: distance to state; None to leave it out.
+        absent: whether there is no such thing.
+        name: proper name of the thing, used instead of label and colour.
     """
 
     label: str
@@ -33,20 +33,20 @@ class Fact:
 
     @property
     def is_simple(self) -> bool:
-        """Whether it is no more than a thing that is somewhere."""
+        """Whether it is a thing with a relation and at most a colour."""
         return not self.absent and self.name is None and self.distance_m is None
 
 
 @dataclass(frozen=True, slots=True)
-class Mention:
-    """Where a text names a thing, or several at once.
+class LabelledMention:
+    """The place where a text names one or several things.
 
     Attributes:
-        facts: numbers of the facts that are told of it; none for a plural of which stand-ins then tell.
+        facts: indices of its facts; none for a plural that stand-ins refer to.
         start, end: the characters of the noun, without article and colour.
-        noun: what stands there, before typos.
+        noun: its words before typos.
         kind: a noun, a plural that names several things, or words that stand for one of those ("the other").
-        coloured: whether its colour is said.
+        coloured: whether the text states its colour.
     """
 
     facts: tuple[int, ...]
@@ -59,18 +59,18 @@ class Mention:
 
 @dataclass(frozen=True, slots=True)
 class LabelledText:
-    """A text, and what of it means what.
+    """A text with its mentions.
 
     Attributes:
         text: English.
-        mentions: in order of the text; every fact is one's.
+        mentions: in text order; every fact belongs to one.
     """
 
     text: str
-    mentions: tuple[Mention, ...]
+    mentions: tuple[LabelledMention, ...]
 
-    def then(self, other: "LabelledText", between: str) -> "LabelledText":
-        """Both, one after the other."""
+    def followed_by(self, other: "LabelledText", between: str) -> "LabelledText":
+        """Return this text followed by another."""
         shift = len(self.text) + len(between)
         moved = tuple(replace(m, start=m.start + shift, end=m.end + shift) for m in other.mentions)
         return LabelledText(self.text + between + other.text, self.mentions + moved)

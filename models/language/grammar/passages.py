@@ -1,13 +1,12 @@
-"""Passages: phrases about several things at once, and which facts they can tell.
+"""Passages: phrases about several things at once, and the facts that they can express.
 
 A passage is a phrase with numbered slots, as in `models.language.grammar.wording`, and these besides. {o12}: the
 direction that things 1 and 2 share; {c12}: their colour, if they have the same; {ns12}: the noun of both in the plural,
 if they are of one class, without colour; {1:one}, {2:the other}: words that stand for one of them; {c1=}, {c2=}: the
 colours of each, which stand for it ("three poles, a gray, a black and a beige"). {a3!}, {ns34!}: a thing that the
-speaker stands on or touches; {a3~}: one that is close by in no direction. {nb1}: the noun alone. {x12} is no words, and
-says that things 1 and 2 lie opposite each other. A direction with an ending, {o1}ern, is the plain word.
-What a passage's slots ask of its things is its pattern: a thing with neither mark needs a direction, and a slot {c1}
-needs a colour.
+speaker stands on or touches; {a3~}: one that is close by in no direction. {nb1}: the noun alone. {x12} is empty, and
+requires that things 1 and 2 lie opposite each other. A direction with an ending, {o1}ern, is the plain word.
+The slots of a passage are its pattern: a thing with neither mark needs a direction, and a slot {c1} needs a colour.
 """
 
 import re
@@ -39,11 +38,11 @@ class Passage:
 
     @cached_property
     def slots(self) -> list[tuple[str, tuple[int, ...], str]]:
-        """(what, numbers from 0, mark) of each slot; of words that stand for a thing "=", and the mark is the words."""
-        found = []
+        """(kind, numbers from 0, mark) of each slot; the kind of stand-ins is "=", and their mark is the words."""
+        slots = []
         for number, words, what, numbers, mark in SLOT.findall(self.phrase):
-            found.append(("=", (int(number) - 1,), words) if number else (what, _numbers(numbers), mark))
-        return found
+            slots.append(("=", (int(number) - 1,), words) if number else (what, _numbers(numbers), mark))
+        return slots
 
     @cached_property
     def pieces(self) -> list[tuple[str, tuple[str, tuple[int, ...], str], str]]:
@@ -59,19 +58,19 @@ class Passage:
 
     @cached_property
     def things(self) -> int:
-        """How many it tells of."""
+        """The number of its things."""
         return 1 + max(n for _, numbers, _ in self.slots for n in numbers)
 
     @cached_property
     def stand_ins(self) -> list[int]:
-        """The things that words or colours stand for."""
+        """The things that stand-ins or colours refer to."""
         return [
             n for what, numbers, mark in self.slots if what == "=" or (what == "c" and mark == "=") for n in numbers
         ]
 
     @cached_property
     def close(self) -> dict[int, str]:
-        """The relation of the things that have none of the winds."""
+        """The relation of each thing without a compass direction."""
         return {
             n: _CLOSE[mark]
             for what, numbers, mark in self.slots
@@ -80,17 +79,17 @@ class Passage:
         }
 
     def shared(self, what: str) -> list[tuple[int, ...]]:
-        """The numbers of each slot of a kind, say those of one colour."""
+        """Return the numbers of each slot of a kind."""
         return [numbers for kind, numbers, _ in self.slots if kind == what]
 
     def problem(self) -> str | None:
-        """What is wrong with it, None if nothing is."""
-        numbers = {n for _, some, _ in self.slots for n in some}
-        named = [n for kind in (*_NAMING, "ns") for some in self.shared(kind) for n in some]
-        directed = {n for kind in "do" for some in self.shared(kind) for n in some}
-        directed |= {n for some in self.shared("x") if directed & set(some) for n in some}
+        """Return what is wrong with the phrase; None if it is valid."""
+        numbers = {n for _, group, _ in self.slots for n in group}
+        named = [n for kind in (*_NAMING, "ns") for group in self.shared(kind) for n in group]
+        directed = {n for kind in "do" for group in self.shared(kind) for n in group}
+        directed |= {n for group in self.shared("x") if directed & set(group) for n in group}
         stand_ins = self.stand_ins
-        plural = [n for some in self.shared("ns") for n in some]
+        plural = [n for group in self.shared("ns") for n in group]
         unknown = {what for what, _, _ in self.slots} - _SLOTS - {"="}
         checks = (
             (bool(unknown), f"unknown slots {sorted(unknown)}"),
@@ -102,7 +101,7 @@ class Passage:
             (any(len(s) < 2 for s in self.shared("ns")), "{ns12} is for two things or more"),
             (directed | set(self.close) != numbers, "each thing needs a direction, {a1!} or {a1~}, to be told where"),
             (
-                any(len(some) != 2 or some[0] == some[1] for some in self.shared("x")),
+                any(len(group) != 2 or group[0] == group[1] for group in self.shared("x")),
                 "{x12} is for two things",
             ),
             (bool(directed & set(self.close)), "a thing has a direction, or is marked with ! or ~, not both"),
@@ -122,18 +121,18 @@ class Passage:
         return next((message for wrong, message in checks if wrong), None)
 
     def _splits_a_plural(self) -> bool:
-        """Whether something is said of one of several things that only a plural names."""
+        """Return whether a slot describes only some of the things that a plural names."""
         stand_ins = set(self.stand_ins)
-        alone = [set(some) for some in self.shared("ns") if not stand_ins & set(some)]
-        said = [set(some) for kind in "doc" for some in self.shared(kind)]
-        return any(group & some and not group <= some for group in alone for some in said)
+        plurals = [set(group) for group in self.shared("ns") if not stand_ins & set(group)]
+        stated = [set(group) for kind in "doc" for group in self.shared(kind)]
+        return any(plural & group and not plural <= group for plural in plurals for group in stated)
 
     def match(self, facts: Sequence[Fact], left: Sequence[int]) -> list[int] | None:
-        """The facts that its things may be, in the order of its numbers; None if they cannot.
+        """Return facts that fit its things, in the order of its numbers; None if there are none.
 
         Args:
-            facts: of `models.language.grammar.labelled_text.Fact`.
-            left: which of them may be taken, in the order that they are tried in.
+            facts: all facts.
+            left: indices of the facts to choose from, in order of preference.
         """
         taken: list[int] = []
         return taken if len(left) >= self.things and self._extend(facts, left, taken) else None
@@ -150,7 +149,7 @@ class Passage:
         return False
 
     def suit(self, drawn: Sequence[Fact], colour: Callable[[], str]) -> list[Fact]:
-        """Facts that it can tell: some facts, changed where its pattern asks for it.
+        """Facts that it can tell: group facts, changed where its pattern asks for it.
 
         Args:
             drawn: as many as it has things, simple, in one of the winds.
@@ -161,7 +160,7 @@ class Passage:
             opposites = [opposite(facts[a].relation) for a, b in map(sorted, self.shared("x")) if b == n]
             changed: dict[str, Any] = {"relation": self.close.get(n, (opposites or [fact.relation])[0])}
             for kind, name in (("o", "relation"), ("d", "relation"), ("ns", "label"), ("c", "colour")):
-                alike = [m for some in self.shared(kind) if n in some for m in some]
+                alike = [m for group in self.shared(kind) if n in group for m in group]
                 if min(alike, default=n) < n:
                     changed[name] = getattr(facts[min(alike)], name)
                 elif kind == "c" and alike and fact.colour is None:
@@ -170,14 +169,14 @@ class Passage:
         return facts
 
     def _may_be(self, facts: Sequence[Fact], taken: Sequence[int], fact: int) -> bool:
-        """Whether a fact can be the next thing, beside those taken."""
-        at, said = len(taken), facts[fact]
-        if at in self.close:
-            if said.relation != self.close[at]:
+        """Return whether a fact can be the next thing after those taken."""
+        position, candidate = len(taken), facts[fact]
+        if position in self.close:
+            if candidate.relation != self.close[position]:
                 return False
-        elif said.relation in _CLOSE.values():
+        elif candidate.relation in _CLOSE.values():
             return False
-        if said.colour is None and any(at in numbers for numbers in self.shared("c")):
+        if candidate.colour is None and any(position in numbers for numbers in self.shared("c")):
             return False
         agree: tuple[tuple[str, Callable[[Fact], str | None]], ...] = (
             ("o", lambda f: f.relation),
@@ -186,28 +185,30 @@ class Passage:
             ("ns", lambda f: f.label),
         )
         if any(
-            facts[taken[a]].relation != opposite(said.relation) for a, b in map(sorted, self.shared("x")) if b == at
+            facts[taken[a]].relation != opposite(candidate.relation)
+            for a, b in map(sorted, self.shared("x"))
+            if b == position
         ):
             return False
         return all(
-            value(facts[taken[n]]) == value(said)
+            value(facts[taken[n]]) == value(candidate)
             for kind, value in agree
             for numbers in self.shared(kind)
-            if at in numbers
+            if position in numbers
             for n in numbers
-            if n < at
-        ) and self._is_alike(facts, taken, said)
+            if n < position
+        ) and self._is_alike(facts, taken, candidate)
 
-    def _is_alike(self, facts: Sequence[Fact], taken: Sequence[int], said: Fact) -> bool:
-        """What nothing but a plural names must be alike in all that is said of it at once."""
+    def _is_alike(self, facts: Sequence[Fact], taken: Sequence[int], candidate: Fact) -> bool:
+        """Return whether the things that only a plural names have the same relation."""
         for numbers in self.shared("ns"):
             if len(taken) in numbers and len(taken) not in self.stand_ins:
-                return all(facts[taken[n]].relation == said.relation for n in numbers if n < len(taken))
+                return all(facts[taken[n]].relation == candidate.relation for n in numbers if n < len(taken))
         return True
 
 
 def plural(noun: str) -> str:
-    """The plural of a noun phrase: of its head, "sets of lights"."""
+    """Return the plural of a noun phrase; its head changes: "sets of lights"."""
     end = _HEAD_ENDS.search(noun)
     head, rest = (noun[: end.start()], noun[end.start() :]) if end else (noun, "")
     if head.endswith("s") and not head.endswith(("ss", "us", "is")):

@@ -1,8 +1,8 @@
-"""Facts about a position in many wordings: what the reader of free language is trained and tested on.
+"""Write facts about a position in many wordings, to train and test the reader.
 
 A grammar is a folder of TOML files, data only (`models.language.grammar.files`). Ways to name each class (`labels`) and
-colour (`colours`), in training the lexicon's; the eight winds (`compass`), and phrases by kind: two to six things at
-once (`passages`, see `models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`,
+colour (`colours`), in training the lexicon's; the compass (`compass`), and phrases by kind: two to six things at once
+(`passages`, see `models.language.grammar.passages`), one thing (`one`, `on_top`, `near`, `far_one`, `absent`,
 `named`, `named_near`; `bare` without a sentence), a thing and a pronoun (`pronoun`, `colour_apart`), several things
 (`two`, `three`, `two_same`; `two_bare` without a sentence, `two_loose` joined by anything; `one_near`, `one_on_top` the
 first with a direction, the second at hand or underfoot; `two_near` both at hand), measures (`distance`), and what
@@ -19,22 +19,25 @@ from dataclasses import replace
 import numpy as np
 
 from models.language.grammar.files import Grammar, load_grammar
-from models.language.grammar.labelled_text import Fact, LabelledText, Mention, opposite
+from models.language.grammar.labelled_text import Fact, LabelledMention, LabelledText, opposite
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.typos import spoil
 from models.language.lexicon.lexicon import Names
 from models.language.measures import COMPASS
 
-PASSAGES, TRIES = 0.5, 16  # share of the times that a passage is looked for, and among how many; first of all among
+PASSAGE_SHARE, PASSAGE_TRIES = (
+    0.5,
+    16,
+)  # share of the times that a passage is looked for, and among how many; first of all among
 # those with plurals, if there are several things of a class
-LONG = 4  # things of a passage that can be a whole description
+LONG_PASSAGE_THINGS = 4  # things of a passage that can be a whole description
 
 
 class Wording:
-    """A grammar.
+    """A writer of texts with the phrases of one grammar.
 
     Args:
-        grammar: which; "val" without what "train" has, "test" without what either has.
+        grammar: its name; "val" shares no phrase with "train", and "test" none with either.
     """
 
     def __init__(self, grammar: Grammar) -> None:
@@ -43,42 +46,44 @@ class Wording:
         self._distances = tables.phrases["distance"]
         self._phrases = {kind: [Passage(phrase) for phrase in phrases] for kind, phrases in tables.phrases.items()}
         self._phrases["plurals"] = [passage for passage in self._phrases["passages"] if passage.shared("ns")]
-        self._phrases["whole"] = [passage for passage in self._phrases["passages"] if passage.things >= LONG]
+        self._phrases["whole"] = [
+            passage for passage in self._phrases["passages"] if passage.things >= LONG_PASSAGE_THINGS
+        ]
 
     def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> LabelledText:
-        """A description.
+        """Return a description of facts in random order.
 
         Args:
-            facts: what it says, in some order.
+            facts: to express.
             rng: draws order and words.
             noise: whether typos, lower case and missing full stops may occur.
         """
         order = rng.permutation(len(facts)).tolist()
-        said = self._surround(self._sentences(facts, order, rng), rng)
-        return spoil(said, rng) if noise else said
+        text = self._surround(self._sentences(facts, order, rng), rng)
+        return spoil(text, rng) if noise else text
 
     def whole(self, facts: Sequence[Fact], rng: np.random.Generator) -> tuple[list[Fact], LabelledText]:
-        """A description that is one long passage, and the facts that it tells: some of these, changed to suit it.
+        """Return a description that is one long passage, and its facts: the first given, changed to fit.
 
         Args:
-            facts: six or more, simple, in one of the winds.
+            facts: at least six simple ones with compass directions.
             rng: draws words.
         """
         passage = self._pick("whole", rng)
         suited = passage.suit(facts[: passage.things], lambda: _one_of(tuple(self.colours), rng))
-        said = self._surround([self._fill(passage, suited, range(passage.things), rng)], rng)
-        return suited, spoil(said, rng)
+        text = self._surround([self._fill(passage, suited, range(passage.things), rng)], rng)
+        return suited, spoil(text, rng)
 
     def published(self, facts: Sequence[Fact]) -> LabelledText:
-        """The benchmark's sentences, one a fact (docs/formats.md, rule 8), in the order of the facts."""
-        said = LabelledText("", ())
+        """Return the benchmark's sentences, one per fact, in order (docs/formats.md, rule 8)."""
+        text = LabelledText("", ())
         for n, fact in enumerate(facts):
             before = f"The pose is {fact.relation} of a {fact.colour + ' ' if fact.colour else ''}"
             end = len(before) + len(fact.label)
-            mention = Mention((n,), len(before), end, fact.label, coloured=fact.colour is not None)
+            mention = LabelledMention((n,), len(before), end, fact.label, coloured=fact.colour is not None)
             sentence = LabelledText(f"{before}{fact.label}.", (mention,))
-            said = said.then(sentence, " ") if said.text else sentence
-        return said
+            text = text.followed_by(sentence, " ") if text.text else sentence
+        return text
 
     def _sentences(self, facts: Sequence[Fact], order: list[int], rng: np.random.Generator) -> list[LabelledText]:
         left, sentences = list(order), []
@@ -91,13 +96,13 @@ class Wording:
     def _passage(
         self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator
     ) -> tuple[Passage, list[int]] | None:
-        """A passage, now and then, and the facts that it tells; None if none was found."""
+        """Return a random passage that fits and its facts; None at random, or if none fits."""
         simple = [n for n in left if facts[n].is_simple]
-        if len(simple) < 2 or rng.random() >= PASSAGES:
+        if len(simple) < 2 or rng.random() >= PASSAGE_SHARE:
             return None
         labels = [facts[n].label for n in simple]
         kinds = ["plurals", "passages"] if len(set(labels)) < len(labels) else ["passages"]
-        tried = (self._pick(kind, rng) for kind in kinds for _ in range(TRIES))
+        tried = (self._pick(kind, rng) for kind in kinds for _ in range(PASSAGE_TRIES))
         return next(((p, taken) for p in tried if (taken := p.match(facts, simple))), None)
 
     def _phrase(self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator) -> tuple[Passage, list[int]]:
@@ -105,14 +110,14 @@ class Wording:
         return self._pick(kind, rng), taken
 
     def _choose(self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator) -> tuple[str, list[int]]:
-        """A kind of phrase, and the facts that it takes."""
+        """Draw a kind of phrase and its facts."""
         plain = [n for n in left if facts[n].is_simple and facts[n].relation in COMPASS]
         return (self._choose_plain if left[0] in plain else self._choose_other)(facts, left, plain, rng)
 
     def _choose_other(
         self, facts: Sequence[Fact], left: list[int], plain: list[int], rng: np.random.Generator
     ) -> tuple[str, list[int]]:
-        """For a fact that is more, or less, than a thing and a direction."""
+        """Choose for a fact that is not just a thing and a direction."""
         first, kind = left[0], _kind_alone(facts[left[0]])
         close = [n for n in left[1:] if kind == "near" == _kind_alone(facts[n])]
         if close and self._drawn("two_near", 0.4, rng):
@@ -124,7 +129,7 @@ class Wording:
     def _choose_plain(
         self, facts: Sequence[Fact], left: list[int], plain: list[int], rng: np.random.Generator
     ) -> tuple[str, list[int]]:
-        """For a thing and a direction."""
+        """Choose for a thing and a direction."""
         first, fact = left[0], facts[left[0]]
         same = [n for n in plain[1:] if facts[n].relation == fact.relation]
         drawn = rng.random()
@@ -140,7 +145,7 @@ class Wording:
         return "colour_apart" if apart else "pronoun" if drawn > 0.84 else alone, [first]
 
     def _drawn(self, kind: str, share: float, rng: np.random.Generator) -> bool:
-        """Whether a kind is taken that not every grammar has."""
+        """Draw whether to use a kind of phrase that not every grammar has."""
         return bool(self._phrases.get(kind)) and bool(rng.random() < share)
 
     def _pick(self, kind: str, rng: np.random.Generator) -> Passage:
@@ -150,22 +155,22 @@ class Wording:
     def _fill(
         self, phrase: Passage, facts: Sequence[Fact], taken: Sequence[int], rng: np.random.Generator
     ) -> LabelledText:
-        """A phrase with its slots filled."""
-        told = [facts[n] for n in taken]
-        nouns = [fact.name or self._word(self.labels, fact.label, rng) for fact in told]
-        colours = [c and self._word(self.colours, c, rng) for c in (fact.colour for fact in told)]
+        """Fill the slots of a phrase."""
+        told_facts = [facts[n] for n in taken]
+        nouns = [fact.name or self._word(self.labels, fact.label, rng) for fact in told_facts]
+        colours = [c and self._word(self.colours, c, rng) for c in (fact.colour for fact in told_facts)]
         named, text = set[int](), ""
-        mentions: list[Mention] = []
+        mentions: list[LabelledMention] = []
         for before, (what, numbers, mark), after in phrase.pieces:
             text += before
             k = numbers[0]
-            lead, noun = self._slot(what, mark, told[k], nouns[k], colours[k], rng)
+            lead, noun = self._slot(what, mark, told_facts[k], nouns[k], colours[k], rng)
             if what in ("d", "o"):
-                wind = told[k].relation if what == "d" else opposite(told[k].relation)
+                wind = told_facts[k].relation if what == "d" else opposite(told_facts[k].relation)
                 lead = wind if re.match("-?[a-z]", after) else _one_of(self.compass[wind], rng)  # "ern", "-facing"
             if noun and (what in ("=", "c") or not named.intersection(numbers)):
                 start = len(text) + len(lead)
-                mention = _mention(phrase, (what, numbers), told, start, noun)
+                mention = _mention(phrase, (what, numbers), told_facts, start, noun)
                 mentions.append(replace(mention, facts=tuple(taken[n] for n in mention.facts)))
                 named.update(numbers)
             text += lead + noun
@@ -174,7 +179,7 @@ class Wording:
     def _slot(
         self, what: str, mark: str, fact: Fact, noun: str, colour: str | None, rng: np.random.Generator
     ) -> tuple[str, str]:
-        """What stands in a slot: (what comes before the noun, the noun)."""
+        """Return the text of a slot as (words before the noun, noun)."""
         if what in ("d", "o", "x"):
             return "", ""  # no noun
         if what == "c":
@@ -192,21 +197,21 @@ class Wording:
         return article + phrase, noun
 
     def _word(self, table: Names, key: str, rng: np.random.Generator) -> str:
-        """The key itself or another word for it."""
+        """Draw the key itself or another word for it."""
         others = table.get(key, [])
         plain = key if rng.random() < 0.5 else key.replace("-", " ")
         return _one_of(others, rng) if others and rng.random() < 0.6 else plain
 
-    def _lead(self, said: LabelledText, rng: np.random.Generator) -> LabelledText:
+    def _lead(self, sentence: LabelledText, rng: np.random.Generator) -> LabelledText:
         drawn = rng.random()
         if drawn < 0.08:
-            return LabelledText(self._pick("leads", rng).phrase, ()).then(_lower_first(said), ", ")
+            return LabelledText(self._pick("leads", rng).phrase, ()).followed_by(_lower_first(sentence), ", ")
         if drawn < 0.18:
-            return LabelledText(self._pick("link", rng).phrase, ()).then(_lower_first(said), " ")
-        return said
+            return LabelledText(self._pick("link", rng).phrase, ()).followed_by(_lower_first(sentence), " ")
+        return sentence
 
     def _surround(self, sentences: list[LabelledText], rng: np.random.Generator) -> LabelledText:
-        """Sentences joined, with what people say besides."""
+        """Join sentences, at random with an opener, a closer or an irrelevant sentence."""
         if rng.random() < 0.3:
             place = int(rng.integers(len(sentences) + 1))
             sentences = [*sentences[:place], LabelledText(self._pick("irrelevant", rng).phrase, ()), *sentences[place:]]
@@ -214,14 +219,14 @@ class Wording:
             sentences = [LabelledText(self._pick("opener", rng).phrase, ()), *sentences]
         if rng.random() < 0.2:
             sentences = [*sentences, LabelledText(self._pick("closer", rng).phrase, ())]
-        said = sentences[0]
+        text = sentences[0]
         for sentence in sentences[1:]:
-            said = _join(said, sentence, rng)
-        return said
+            text = _join(text, sentence, rng)
+        return text
 
 
 def _kind_alone(fact: Fact) -> str:
-    """The kind of phrase for a fact that is more than a thing and a direction."""
+    """Return the kind of phrase for a fact that is not just a thing and a direction."""
     if fact.name is not None:
         return "named" if fact.relation in COMPASS else "named_near"
     if fact.absent:
@@ -232,17 +237,17 @@ def _kind_alone(fact: Fact) -> str:
 
 
 def _mention(
-    phrase: Passage, slot: tuple[str, tuple[int, ...]], told: Sequence[Fact], start: int, noun: str
-) -> Mention:
-    """The mention that a slot makes; its facts are the numbers of things yet."""
+    phrase: Passage, slot: tuple[str, tuple[int, ...]], facts: Sequence[Fact], start: int, noun: str
+) -> LabelledMention:
+    """Return the mention of a slot; its facts are numbers of things."""
     what, numbers = slot
-    apart = any(set(numbers) & set(some) for some in phrase.shared("c"))
-    coloured = told[numbers[0]].colour is not None and (apart or what in ("a", "A", "the", "The", "n"))
+    apart = any(set(numbers) & set(group) for group in phrase.shared("c"))
+    coloured = facts[numbers[0]].colour is not None and (apart or what in ("a", "A", "the", "The", "n"))
     end = start + len(noun)
     if what != "ns":
-        return Mention(numbers, start, end, noun, "stand-in" if what in ("=", "c") else "noun", coloured)
+        return LabelledMention(numbers, start, end, noun, "stand-in" if what in ("=", "c") else "noun", coloured)
     is_told = not set(numbers) & set(phrase.stand_ins)
-    return Mention(numbers if is_told else (), start, end, noun, "plural", coloured and is_told)
+    return LabelledMention(numbers if is_told else (), start, end, noun, "plural", coloured and is_told)
 
 
 def _one_of(options: Sequence[str], rng: np.random.Generator) -> str:
@@ -255,18 +260,22 @@ def _article(noun: str) -> str:
     return "an " if noun[0].lower() in "aeiou" else "a "
 
 
-def _lower_first(said: LabelledText) -> LabelledText:
-    text = said.text
-    if text[:1].isupper() and not re.match(r"(I\b|[A-Z]{2})", text) and not any(m.start == 0 for m in said.mentions):
-        return replace(said, text=text[0].lower() + text[1:])
-    return said
+def _lower_first(sentence: LabelledText) -> LabelledText:
+    text = sentence.text
+    if (
+        text[:1].isupper()
+        and not re.match(r"(I\b|[A-Z]{2})", text)
+        and not any(m.start == 0 for m in sentence.mentions)
+    ):
+        return replace(sentence, text=text[0].lower() + text[1:])
+    return sentence
 
 
 def _join(one: LabelledText, other: LabelledText, rng: np.random.Generator) -> LabelledText:
-    """Two sentences, now and then as one long one."""
+    """Join two sentences, at random into a single one."""
     if rng.random() < 0.15 and one.text.endswith("."):
         joint = _one_of((", and ", ", ", "; ", " and ", " - "), rng)
-        return LabelledText(one.text[:-1], one.mentions).then(_lower_first(other), joint)
+        return LabelledText(one.text[:-1], one.mentions).followed_by(_lower_first(other), joint)
     if not one.text.endswith((".", "!", "?", ":", ";")):
-        return one.then(other, _one_of(("; ", ". ", ", ", "\n"), rng))
-    return one.then(other, " " if rng.random() < 0.95 else "\n")
+        return one.followed_by(other, _one_of(("; ", ". ", ", ", "\n"), rng))
+    return one.followed_by(other, " " if rng.random() < 0.95 else "\n")

@@ -1,5 +1,5 @@
-"""What is served of language besides weights: names of classes and colours, related classes, sizes.
+"""The lexicon: names of classes and colours, related classes and sizes, in TOML files.
 
-The TOML files hold it, `lexicon` loads it. It is part of the hint posterior's fingerprint. What only trains lies in
+It is part of the hint posterior's fingerprint. Words for training only are in
 `models.language.grammar`. May import models.citymap.
 """

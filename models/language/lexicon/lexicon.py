@@ -1,4 +1,4 @@
-"""What things go by."""
+"""The names of classes and colours."""
 
 import hashlib
 import json
@@ -17,11 +17,11 @@ class Lexicon:
     """The names of classes and colours.
 
     Attributes:
-        labels: names of each class besides its label: those of maps, then those of no map, whose names compete.
-        elsewhere: the classes of no map.
-        unnamed: classes of maps that go by their label alone, and only where a map has them.
-        colours: words for each colour besides its own.
-        related: groups of classes that go by one another's names, closest first.
+        labels: further names of each class: first classes of maps, then classes that no map has, whose names compete.
+        elsewhere: the classes that no map has.
+        unnamed: classes of maps that have no other names.
+        colours: further words for each colour.
+        related: groups of classes that share names, closest first.
         sizes: words such as "small".
     """
 
@@ -34,7 +34,7 @@ class Lexicon:
 
     @cached_property
     def sha256(self) -> str:
-        """Of all that it holds."""
+        """The sha256 of its content."""
         return hashlib.sha256(json.dumps(asdict(self), default=sorted).encode()).hexdigest()
 
     @cached_property
@@ -42,22 +42,22 @@ class Lexicon:
         """Every name of every class, once."""
         return tuple(dict.fromkeys(name for label, others in self.labels.items() for name in (label, *others)))
 
-    def meaning_in(self, map_labels: Sequence[str], label: str) -> str | None:
-        """The label of a map that a class goes by there: its own, or the closest relative's; None without either."""
+    def find_map_label(self, map_labels: Sequence[str], label: str) -> str | None:
+        """Return the map's label for a class: its own, or that of the closest relative; None without either."""
         if label in map_labels:
             return label
         groups = sorted((g for g in self.related if label in g), key=lambda group: group.index(label))
         return next((other for group in groups for other in group if other in map_labels), None)
 
-    def names_in(self, map_labels: Sequence[str]) -> tuple[list[str], list[int]]:
-        """Every name, and the number of the map's label that it leads to; the number of labels if to none.
+    def map_names_to_labels(self, map_labels: Sequence[str]) -> tuple[list[str], list[int]]:
+        """Return every name and the index of the map's label that it means; the number of labels if it means none.
 
-        What names a label of the map does not stand for its relatives too: trees are no bushes where there are trees.
+        A name of a label of the map does not stand for relatives too: trees are not bushes in a map with trees.
         """
         own = {name for label in map_labels for name in (label, *self.labels.get(label, ()))}
         phrases, numbers = [], []
         for label in dict.fromkeys([*map_labels, *self.labels]):
-            meant = self.meaning_in(map_labels, label)
+            meant = self.find_map_label(map_labels, label)
             number = len(map_labels) if meant is None else map_labels.index(meant)
             for phrase in (label, *self.labels.get(label, ())):
                 if label in map_labels or not own & {phrase, phrase.removesuffix("s")}:
@@ -68,7 +68,7 @@ class Lexicon:
 
 @cache
 def load_lexicon() -> Lexicon:
-    """The lexicon that ships with the package."""
+    """Load the lexicon that ships with the package."""
     labels, related = _read("labels"), _read("related")
     return Lexicon(
         labels=labels["classes"] | labels["elsewhere"],

@@ -1,4 +1,4 @@
-"""What people can be asked about."""
+"""The classes and kinds of places that questions are about."""
 
 import tomllib
 from collections.abc import Mapping
@@ -8,12 +8,12 @@ from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)
-class AskedAbout:
-    """What people know at sight.
+class QuestionClasses:
+    """The classes and kinds of places that people recognize.
 
     Attributes:
-        things: classes of maps, and what each is called in a question.
-        kinds: beginnings of the kinds of places that are known by their names.
+        things: the noun in a question for each class of maps.
+        kinds: prefixes of the kinds of places that people know by name.
     """
 
     things: Mapping[str, str]
@@ -21,8 +21,8 @@ class AskedAbout:
 
 
 @cache
-def load_asked() -> AskedAbout:
+def load_question_classes() -> QuestionClasses:
     """Read asked.toml."""
     with Path(__file__).with_name("asked.toml").open("rb") as file:
-        found = tomllib.load(file)
-    return AskedAbout(found["things"], tuple(found["names"]["kinds"]))
+        table = tomllib.load(file)
+    return QuestionClasses(table["things"], tuple(table["names"]["kinds"]))

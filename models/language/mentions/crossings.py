@@ -1,4 +1,4 @@
-"""Streets that are said together: corners, spans between two of them, house numbers."""
+"""Combine streets of a text: corners, spans between two cross streets, house numbers."""
 
 import re
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.measures import measures_in
+from models.language.measures import find_measures
 from models.language.mentions.cues import Cue
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention
@@ -25,30 +25,32 @@ _NUMBER = re.compile(r"(?<![\w.])(?:number |no\.? |#)?(\d{1,5}[a-z]?)\s+$", re.I
 _NUMBER_AFTER = re.compile(r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?!\w|\.\d|\s*(?:and|/)\b)", re.IGNORECASE)
 
 
-def with_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> list[Mention]:
-    """Streets with a house number before or behind them become addresses."""
-    found, measures = [], measures_in(text)
+def add_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> list[Mention]:
+    """Turn streets with a house number before or after them into addresses."""
+    add_addresses, measures = [], find_measures(text)
     for mention in mentions:
         before, after = _NUMBER.search(text[: mention.start]), _NUMBER_AFTER.match(text, mention.end)
         if after and any(measure.start <= after.start(1) < measure.end for measure in measures):
             after = None
-        told = before or after
-        if mention.form != "street" or told is None:
-            found.append(mention)
+        number = before or after
+        if mention.form != "street" or number is None:
+            add_addresses.append(mention)
             continue
-        start, end = (before.start(), mention.end) if before else (mention.start, told.end(1))
-        objects, lines = lookup.address(told[1], mention.objects)
+        start, end = (before.start(), mention.end) if before else (mention.start, number.end(1))
+        objects, lines = lookup.address(number[1], mention.objects)
         words = text[start:end]
         if not len(objects) and not len(lines):
-            found += [mention, Mention(words, start, end, "unknown")]
+            add_addresses += [mention, Mention(words, start, end, "unknown")]
             continue
         weights = np.ones(len(objects) or len(lines))
-        found.append(Mention(words, start, end, "address", objects, weights, lines, 1.0, is_exact=len(objects) > 0))
-    return found
+        add_addresses.append(
+            Mention(words, start, end, "address", objects, weights, lines, 1.0, is_exact=len(objects) > 0)
+        )
+    return add_addresses
 
 
-def with_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list[Mention]:
-    """Streets that are said together as corners and spans; the streets of these go into them."""
+def add_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list[Mention]:
+    """Replace streets that a text combines by corners and spans."""
     streets = [n for n, mention in enumerate(mentions) if mention.form == "street"]
     joined: dict[int, Mention] = {}
     apart: list[Mention] = []
@@ -58,40 +60,40 @@ def with_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list
         if n in used or m in used:
             continue
         main = _main(mentions, [s for s in streets if s not in (n, m)], n, m)
-        found = _together(text, mentions[n], mentions[m], main, lookup, is_last=k + 2 >= len(streets))
-        if found is not None and found.form == "unknown":
-            apart.append(found)
-        elif found is not None:
-            joined[n] = found
+        combined = _combine(text, mentions[n], mentions[m], main, lookup, is_last=k + 2 >= len(streets))
+        if combined is not None and combined.form == "unknown":
+            apart.append(combined)
+        elif combined is not None:
+            joined[n] = combined
             used |= {n, m}
-    kept: list[Mention] = []
+    result: list[Mention] = []
     for n, mention in enumerate(mentions):
         if n in joined:
-            kept.append(joined[n])
+            result.append(joined[n])
             if joined[n].form == "corner" and joined[n].cue.relation == "near":
-                kept.append(mention)  # who is "on 49th just past Second" is on 49th
+                result.append(mention)  # "on 49th just past Second" is also on 49th
         elif n not in used:
-            kept.append(mention)
-    return kept + apart
+            result.append(mention)
+    return result + apart
 
 
 def _main(mentions: Sequence[Mention], others: Sequence[int], n: int, m: int) -> Mention | None:
-    """The street that two others cut a span from: the last before them, else the first after; not one of them again."""
+    """Return the street of a span between two others: the last one before them, else the first after."""
     objects = np.concatenate([mentions[n].objects, mentions[m].objects])
     apart = [s for s in others if not np.isin(mentions[s].objects, objects).any()]
     before = [s for s in apart if s < n]
     return mentions[before[-1] if before else apart[0]] if apart else None
 
 
-def _together(
+def _combine(
     text: str, one: Mention, other: Mention, main: Mention | None, lookup: Lookup, *, is_last: bool
 ) -> Mention | None:
-    """Two streets, one after the other in the text, as a span or a corner; "unknown" if that is not on the map."""
+    """Combine two neighbouring streets to a span or a corner; "unknown" if the map has no such corner."""
     between = text[one.end : other.start]
     whole = text[one.start : other.end], one.start, other.end
     if _BETWEEN.search(text[: one.start]) and _AND.fullmatch(between):
         span = _span(one, other, main, lookup)
-        return span and _said(span, *whole)
+        return span and _place_in_text(span, *whole)
     if not _MEETS.fullmatch(between) or (not is_last and _BETWEEN.search(text[: other.start])):
         return None
     if between.strip() == "," and not _AT_END.match(text, other.end):
@@ -99,16 +101,16 @@ def _together(
     corner = _corner(one, other, lookup)
     cue = Cue("near" if _LOOSELY.search(between) else "at")
     if corner is None:
-        return _said(Mention("", 0, 0, "unknown"), *whole) if _SURELY.search(between) else None
-    return replace(_said(corner, *whole), cue=cue)
+        return _place_in_text(Mention("", 0, 0, "unknown"), *whole) if _SURELY.search(between) else None
+    return replace(_place_in_text(corner, *whole), cue=cue)
 
 
-def _said(mention: Mention, text: str, start: int, end: int) -> Mention:
+def _place_in_text(mention: Mention, text: str, start: int, end: int) -> Mention:
     return replace(mention, text=text, start=start, end=end)
 
 
 def _corner(one: Mention, other: Mention, lookup: Lookup) -> Mention | None:
-    """The places where two streets meet; None if they never do."""
+    """Return the places where two streets meet; None if they do not."""
     g = lookup.gazetteer
     weight = np.zeros((2, len(g)))
     weight[0, one.objects], weight[1, other.objects] = one.weights, other.weights
@@ -117,13 +119,13 @@ def _corner(one: Mention, other: Mention, lookup: Lookup) -> Mention | None:
     rows = np.flatnonzero(value > 0)
     if not len(rows):
         return None
-    at = g.corners_m[rows].astype(np.float64)
-    lines = np.concatenate([at, at], axis=1)
+    corners_m = g.corners_m[rows].astype(np.float64)
+    lines = np.concatenate([corners_m, corners_m], axis=1)
     return Mention("", 0, 0, "corner", lines_m=lines, weights=value[rows], is_exact=True)
 
 
 def _span(one: Mention, other: Mention, main: Mention | None, lookup: Lookup) -> Mention | None:
-    """The pieces of a street between two others; of any street if none is said."""
+    """Return the pieces of a street between two others; of any street without `main`."""
     mains: Ints = main.objects if main is not None else np.arange(len(lookup.gazetteer))
     lines = [
         np.concatenate([p, q])
@@ -137,11 +139,11 @@ def _span(one: Mention, other: Mention, main: Mention | None, lookup: Lookup) ->
 
 
 def _ends(side: Mention, mains: Ints, lookup: Lookup) -> list[tuple[int, Floats]]:
-    """The corners of a street with others: which other, and where."""
+    """Return the corners of cross streets with main streets: (main street, position)."""
     g = lookup.gazetteer
     a, b = g.corner_streets.T
-    found = []
+    ends = []
     for street, cross in ((a, b), (b, a)):
         rows = np.flatnonzero(np.isin(cross, side.objects) & np.isin(street, mains))
-        found += [(int(street[n]), g.corners_m[n].astype(np.float64)) for n in rows]
-    return found
+        ends += [(int(street[n]), g.corners_m[n].astype(np.float64)) for n in rows]
+    return ends

@@ -1,4 +1,4 @@
-"""Where a thing is from the speaker, as the text says."""
+"""Cues: where a thing is from the speaker, according to the text."""
 
 from dataclasses import dataclass
 from typing import Final, Literal
@@ -12,14 +12,14 @@ Relation = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Cue:
-    """What some words say of a thing.
+    """The relation, direction and distance of a thing; None where not stated.
 
     Attributes:
-        relation: how near, and in which way.
-        angle: degrees clockwise from where the speaker looks; None if not said.
-        wind: degrees clockwise from north, from the speaker to the thing; None if not said.
-        measure: the distance that is said; None if none is.
-        angles: what the angle may be, with its probability, where that is not sure.
+        relation: kind of nearness.
+        angle: degrees clockwise from the heading.
+        wind: degrees clockwise from north, from the speaker to the thing.
+        measure: the distance.
+        angles: possible angles with their probabilities, if uncertain.
     """
 
     relation: Relation = "seen"
@@ -30,7 +30,7 @@ class Cue:
 
     @property
     def distance_m(self) -> float | None:
-        """The distance that is said; None if none is."""
+        """The stated distance; None without one."""
         return None if self.measure is None else self.measure.metres
 
     @property

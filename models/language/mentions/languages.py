@@ -1,4 +1,4 @@
-"""Which language a text is in, where that is sure enough to matter."""
+"""Detect the language of a text."""
 
 from functools import cache
 from typing import Final
@@ -6,15 +6,15 @@ from typing import Final
 from py3langid.langid import MODEL_FILE, LanguageIdentifier
 
 from models.citymap.kinds.vocabulary import load_vocabulary
-from models.language.mentions.names import words_of
+from models.language.mentions.names import split_words
 from models.language.mentions.word_lists import english
 
 ENGLISH: Final = "en"
-LEAST_ENGLISH: Final = 0.2  # share of everyday English words from which on nothing else is asked
-ENGLISH_ALONE: Final = frozenset(("the", "an", "and", "of", "with", "for"))
-FEWEST: Final = 3  # different words; fewer tell nothing
-MARGIN: Final = 25.0  # nats by which another language must be likelier than English
-NAMES: Final = {
+MIN_ENGLISH_SHARE: Final = 0.2  # share of common English words that makes a text English
+ENGLISH_ONLY_WORDS: Final = frozenset(("the", "an", "and", "of", "with", "for"))
+MIN_WORDS: Final = 3  # distinct words; shorter texts count as English
+MIN_MARGIN_NATS: Final = 25.0  # by which another language must be likelier than English
+LANGUAGE_NAMES: Final = {
     "de": "German", "fr": "French", "es": "Spanish", "it": "Italian", "pt": "Portuguese", "nl": "Dutch",
     "sv": "Swedish", "fi": "Finnish", "da": "Danish", "no": "Norwegian", "pl": "Polish", "ru": "Russian",
     "uk": "Ukrainian", "tr": "Turkish", "ja": "Japanese", "zh": "Chinese", "ko": "Korean", "ar": "Arabic",
@@ -22,19 +22,19 @@ NAMES: Final = {
 }  # fmt: skip
 
 
-def language_of(text: str) -> str:
-    """The language of a text, "fi" say; English unless another one is much likelier."""
-    words = words_of(text)
-    everyday = english().list("stop") | ENGLISH_ALONE
+def detect_language(text: str) -> str:
+    """Return the language code of a text, such as "fi"; English unless another is much likelier."""
+    words = split_words(text)
+    everyday = english().list("stop") | ENGLISH_ONLY_WORDS
     # names may be English in any text
-    said = [word.plain for n, word in enumerate(words) if n == 0 or not word.is_capital]
-    english_words = sum(word in everyday for word in said)
-    is_english = english_words > 1 and english_words >= LEAST_ENGLISH * len(said)
-    if len({word.plain for word in words}) < FEWEST or is_english:
+    plain = [word.plain for n, word in enumerate(words) if n == 0 or not word.is_capital]
+    english_words = sum(word in everyday for word in plain)
+    is_english = english_words > 1 and english_words >= MIN_ENGLISH_SHARE * len(plain)
+    if len({word.plain for word in words}) < MIN_WORDS or is_english:
         return ENGLISH
     ranked = dict(_identifier().rank(text))
     best = max(ranked, key=lambda language: ranked[language])
-    return str(best) if ranked[best] - ranked[ENGLISH] >= MARGIN else ENGLISH
+    return str(best) if ranked[best] - ranked[ENGLISH] >= MIN_MARGIN_NATS else ENGLISH
 
 
 @cache

@@ -1,4 +1,4 @@
-"""A map's objects by what they are called: exactly, in part, misspelt, by kind."""
+"""Look up the objects of a map by name: exact, partial or misspelt, and by kind."""
 
 from collections.abc import Callable, Container, KeysView, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,31 +15,31 @@ from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.mentions.languages import ENGLISH
-from models.language.mentions.name_table import BETWEEN, NameTable
+from models.language.mentions.name_table import NUMBER_SEPARATOR, NameTable
 from models.language.mentions.names import ARTICLES, plain_word, plain_words
 from models.language.mentions.streets import full_words
 from models.language.mentions.word_lists import english
 
 Nouns = Mapping[str, tuple[tuple[str, float], ...]]
-LIKE: Final = 84.0  # of 100, rapidfuzz.fuzz.ratio, from which on a misspelt name is meant
-SHORTEST_MISSPELT: Final = 5
-LEAST_SHARE: Final = 0.35  # of a name's weight that a part of it must bear
-PART: Final = 0.5  # weight of a part of a name beside whole ones
-KEPT: Final = 4096  # phrases whose kinds, and whose streets, are remembered
-KEPT_BYTES: Final = 2**24  # of the objects of kinds
+MIN_LIKENESS: Final = 84.0  # rapidfuzz.fuzz.ratio, of 100, of a misspelt name
+MIN_MISSPELT_CHARACTERS: Final = 5
+MIN_PART_SHARE: Final = 0.35  # of the word weights of a name that a part must have
+PART_WEIGHT: Final = 0.5  # weight of a partial match next to exact ones
+MAX_CACHED_PHRASES: Final = 4096  # with their kinds, and with their streets
+MAX_CACHED_BYTES: Final = 2**24  # of objects by kind
 _NONE: Final = np.zeros(0, np.int64)
 EMPTY: Final = ARTICLES | english().list("empty")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Match:
-    """Objects that words may mean.
+    """The objects that words may mean.
 
     Attributes:
         objects: [n] of the gazetteer.
         weights: [n] relative.
-        trust: that the words mean one of them.
-        is_exact: whether a whole name was said as it is written, or as a chain is also called.
+        trust: probability that the words mean one of them.
+        is_exact: whether the words are a whole name, or another name of a chain.
     """
 
     objects: Ints
@@ -49,12 +49,12 @@ class Match:
 
 
 class Lookup:
-    """Names and kinds of one gazetteer.
+    """Lookup in one gazetteer.
 
     Args:
         gazetteer: of the map.
         vocabulary: nouns of kinds.
-        is_common: whether a plain word is an everyday one, which is seldom meant as a name.
+        is_common: whether a plain word is an everyday word, which is rarely a name.
         table: of the gazetteer; None to make it.
     """
 
@@ -66,21 +66,21 @@ class Lookup:
         table: NameTable | None = None,
     ) -> None:
         self.gazetteer, self.vocabulary, self.is_common = gazetteer, vocabulary, is_common
-        self._table = NameTable.of(gazetteer, vocabulary, is_common) if table is None else table
+        self._table = NameTable.from_gazetteer(gazetteer, vocabulary, is_common) if table is None else table
         self._nouns = self._plain_nouns(ENGLISH)
-        self._kinds = lru_cache(maxsize=KEPT)(self._kinds_of)
-        self._streets = lru_cache(maxsize=KEPT)(self._streets_of)
-        self._of_kinds: LRUCache[tuple[tuple[str, float], ...], Match | None] = LRUCache(KEPT_BYTES, _bytes_of)
+        self._kinds = lru_cache(maxsize=MAX_CACHED_PHRASES)(self._kinds_of)
+        self._streets = lru_cache(maxsize=MAX_CACHED_PHRASES)(self._streets_of)
+        self._of_kinds: LRUCache[tuple[tuple[str, float], ...], Match | None] = LRUCache(MAX_CACHED_BYTES, _match_bytes)
 
-    def worth(self, word: str) -> float:
-        """How much a word of a name tells: the rarer, the more."""
+    def word_weight(self, word: str) -> float:
+        """Return the weight of a word in a name; rare words weigh more."""
         if word in EMPTY:
             return 0.1
-        worth = log((len(self._table.names) + 10) / (self._table.words.count(word) + 1))
-        return worth * (0.6 if self.is_common(word) else 1.0)
+        weight = log((len(self._table.names) + 10) / (self._table.words.count(word) + 1))
+        return weight * (0.6 if self.is_common(word) else 1.0)
 
     def street(self, words: Sequence[str]) -> Match | None:
-        """Streets of a name in any of its forms."""
+        """Return the streets of a name in any of its forms."""
         return self._streets(tuple(words))
 
     def _streets_of(self, words: tuple[str, ...]) -> Match | None:
@@ -94,28 +94,32 @@ class Lookup:
 
     @property
     def street_words(self) -> Container[str]:
-        """Every word of a street's name."""
+        """All words of street names."""
         return self._table.street_words
 
     def street_like(self, word: str) -> Match | None:
-        """Streets of one long word that is misspelt."""
-        if len(word) < SHORTEST_MISSPELT + 2 or self.is_common(word):
+        """Return the streets that a long misspelt word may mean."""
+        if len(word) < MIN_MISSPELT_CHARACTERS + 2 or self.is_common(word):
             return None
-        like = process.extract(word, self._single_streets, scorer=fuzz.ratio, score_cutoff=LIKE, limit=2)
-        if not like:
+        similar = process.extract(word, self._single_streets, scorer=fuzz.ratio, score_cutoff=MIN_LIKENESS, limit=2)
+        if not similar:
             return None
-        rows = [self._table.streets.find(name) for name, _, _ in like]
-        found = {n: s / 100 for of, (_, s, _) in zip(rows, like, strict=True) for n in self._table.street[of].tolist()}
-        return _match(found, 0.8, is_exact=False)
+        rows = [self._table.streets.find(name) for name, _, _ in similar]
+        weights = {
+            n: s / 100
+            for form_rows, (_, s, _) in zip(rows, similar, strict=True)
+            for n in self._table.street[form_rows].tolist()
+        }
+        return _match(weights, 0.8, is_exact=False)
 
     def address(self, number: str, streets: Ints) -> tuple[Ints, Floats]:
-        """The objects with a house number of one of some streets; else [n, 4] places between the numbers beside it.
+        """Return the objects with a house number in streets, else positions [n, 4] interpolated between its neighbours.
 
-        None of either for a number past the end of the street.
+        Both are empty for a number past the end of the street.
         """
         of_streets = (name for s in streets for name in self.gazetteer.objects[s].names)
         names = dict.fromkeys(" ".join(full_words(plain_words(name))) for name in of_streets)
-        known = {n: rows for name in names for n, rows in self._table.numbers.with_prefix(name + BETWEEN)}
+        known = {n: rows for name in names for n, rows in self._table.numbers.with_prefix(name + NUMBER_SEPARATOR)}
         if not known:
             return np.zeros(0, np.int64), np.zeros((0, 4))
         same = [rows for n, rows in known.items() if n == number.lower()]
@@ -128,11 +132,11 @@ class Lookup:
         if low is None or high is None:
             return np.zeros(0, np.int64), np.zeros((0, 4))
         middles, share = self.gazetteer.middles_m, (wanted - low) / (high - low)
-        at = (1 - share) * middles[plain[low]] + share * middles[plain[high]]
-        return np.zeros(0, np.int64), np.concatenate([at, at])[None]
+        position = (1 - share) * middles[plain[low]] + share * middles[plain[high]]
+        return np.zeros(0, np.int64), np.concatenate([position, position])[None]
 
     def named(self, words: Sequence[str]) -> Match | None:
-        """Objects that bear a name, or of whose names the words are a telling part."""
+        """Return the objects with a name, or with names of which the words are a distinctive part."""
         table, joined = self._table, " ".join(words)
         exact = dict.fromkeys(table.names.find(joined).tolist(), 1.0)
         if not exact and joined in table.spellings:
@@ -142,68 +146,68 @@ class Lookup:
         if not is_part or not any(self._is_telling(word) for word in content):
             return _match(exact, 1.0, is_exact=True)
         rows = reduce(np.intersect1d, (table.words.find(word) for word in content))
-        said = sum(self.worth(word) for word in content)
-        found: dict[int, float] = {}
+        said_weight = sum(self.word_weight(word) for word in content)
+        weights: dict[int, float] = {}
         for row in rows.tolist():
-            share = said / sum(self.worth(word) for word in table.names.key(row).split())
-            if share >= LEAST_SHARE:
+            share = said_weight / sum(self.word_weight(word) for word in table.names.key(row).split())
+            if share >= MIN_PART_SHARE:
                 for number in table.names.row_numbers(row).tolist():
-                    found[number] = max(found.get(number, 0.0), share**0.5)
+                    weights[number] = max(weights.get(number, 0.0), share**0.5)
         if exact:
-            return _match({n: PART * weight for n, weight in found.items()} | exact, 1.0, is_exact=True)
-        return _match(found, 0.9, is_exact=False)
+            return _match({n: PART_WEIGHT * weight for n, weight in weights.items()} | exact, 1.0, is_exact=True)
+        return _match(weights, 0.9, is_exact=False)
 
     def misspelt(self, words: Sequence[str]) -> Match | None:
-        """Objects whose names differ by a letter in six or so."""
+        """Return the objects with a similar name."""
         joined = " ".join(words)
-        if len(joined) < SHORTEST_MISSPELT or all(self.is_common(word) for word in words):
+        if len(joined) < MIN_MISSPELT_CHARACTERS or all(self.is_common(word) for word in words):
             return None
         names = self._table.names
-        like = process.extract(joined, names.all_keys, scorer=fuzz.ratio, score_cutoff=LIKE, limit=3)
-        found = {n: (score / 100) ** 4 for _, score, row in like for n in names.row_numbers(row).tolist()}
-        return _match(found, 0.8, is_exact=False)
+        similar = process.extract(joined, names.all_keys, scorer=fuzz.ratio, score_cutoff=MIN_LIKENESS, limit=3)
+        weights = {n: (score / 100) ** 4 for _, score, row in similar for n in names.row_numbers(row).tolist()}
+        return _match(weights, 0.8, is_exact=False)
 
     def is_strange(self, word: str) -> bool:
-        """Whether a word is in no name, street or noun, and no everyday one: misspelt, or a name that is not here."""
+        """Return whether a word is in no name, street or noun and is not an everyday word."""
         is_noun = any(form in self.noun_words for form in _singulars(word))
         known = is_noun or word in self._table.words or word in self._table.street_words
         return not known and not self.is_common(word) and word.isalpha()
 
     def is_name(self, words: Sequence[str]) -> bool:
-        """Whether words are a whole name."""
+        """Return whether words are a whole name."""
         return " ".join(words) in self._table.names
 
     def phrases(self) -> list[str]:
-        """Every name of two words or more, and every such noun of a kind that the map has."""
-        here = self.gazetteer.by_kind
-        nouns = (noun for noun, kinds in self._nouns.items() if any(kind in here for kind, _ in kinds))
+        """Return the names, and the nouns of kinds in the map, that have several words."""
+        by_kind = self.gazetteer.by_kind
+        nouns = (noun for noun, kinds in self._nouns.items() if any(kind in by_kind for kind, _ in kinds))
         return sorted({phrase for phrase in (*self._table.names.all_keys, *nouns) if " " in phrase})
 
     def kinds(self, words: Sequence[str], language: str = ENGLISH) -> Mapping[str, float]:
-        """The kinds that a noun means, and how surely; none for many."""
+        """Return the kinds that a noun means with their weights; often none."""
         return self._kinds(tuple(words), language)
 
-    def foreign_kinds(self, word: str) -> Mapping[str, float]:
-        """The kinds that a word means in some other language: "the Kahvila"."""
+    def kinds_in_any_language(self, word: str) -> Mapping[str, float]:
+        """Return the kinds that a word means in any language: "the Kahvila"."""
         return dict(self._foreign.get(word, ()))
 
     def of_kinds(self, kinds: Mapping[str, float]) -> Match | None:
-        """Objects of some kinds, each as surely as the surest of its kinds."""
+        """Return the objects of kinds, each with the highest weight of its kinds."""
         return self._objects_of(tuple(kinds.items()))
 
     @cachedmethod(lambda lookup: lookup._of_kinds)
     def _objects_of(self, kinds: tuple[tuple[str, float], ...]) -> Match | None:
-        some = [self.gazetteer.by_kind.get(kind, _NONE) for kind, _ in kinds]
-        objects, row = np.unique(np.concatenate([_NONE, *some]), return_inverse=True)
+        groups = [self.gazetteer.by_kind.get(kind, _NONE) for kind, _ in kinds]
+        objects, row = np.unique(np.concatenate([_NONE, *groups]), return_inverse=True)
         if not len(objects):
             return None
         weights = np.zeros(len(objects))
-        np.maximum.at(weights, row, np.repeat([weight for _, weight in kinds], [len(rows) for rows in some]))
+        np.maximum.at(weights, row, np.repeat([weight for _, weight in kinds], [len(rows) for rows in groups]))
         return Match(objects, weights, 1.0, False)
 
     @cached_property
     def noun_words(self) -> KeysView[str]:
-        """Every word of every noun, short ones first: a misspelt word may be like several, and means the first."""
+        """The words of all nouns, short ones first: a misspelt word means the first similar one."""
         words = {word for noun in self._nouns for word in noun.split()}
         return dict.fromkeys(sorted(words, key=lambda word: (len(word), word))).keys()
 
@@ -220,18 +224,18 @@ class Lookup:
 
     @cached_property
     def _foreign(self) -> Nouns:
-        """Nouns of one word, of every language that the vocabulary has, without accents."""
-        found: dict[str, tuple[tuple[str, float], ...]] = {}
-        for noun, kinds in self.vocabulary.single_words(SHORTEST_MISSPELT):
-            found.setdefault(plain_word(noun), kinds)
-        return found
+        """Nouns of one word in every language of the vocabulary, without accents."""
+        nouns: dict[str, tuple[tuple[str, float], ...]] = {}
+        for noun, kinds in self.vocabulary.single_words(MIN_MISSPELT_CHARACTERS):
+            nouns.setdefault(plain_word(noun), kinds)
+        return nouns
 
     def _kinds_of(self, words: tuple[str, ...], language: str) -> Mapping[str, float]:
         nouns = self._nouns if language == ENGLISH else self._plain_nouns(language)
         for last in _singulars(words[-1]):
-            found = nouns.get(" ".join((*words[:-1], last)))
-            if found:
-                return dict(found)
+            kinds = nouns.get(" ".join((*words[:-1], last)))
+            if kinds:
+                return dict(kinds)
         return {}
 
 
@@ -246,12 +250,12 @@ def _singulars(word: str) -> list[str]:
     return forms
 
 
-def _match(found: Mapping[int, float], trust: float, *, is_exact: bool) -> Match | None:
-    if not found:
+def _match(weights: Mapping[int, float], trust: float, *, is_exact: bool) -> Match | None:
+    if not weights:
         return None
-    return Match(np.array(list(found)), np.array(list(found.values())), trust, is_exact)
+    return Match(np.array(list(weights)), np.array(list(weights.values())), trust, is_exact)
 
 
-def _bytes_of(match: Match | None) -> int:
-    """About what it takes in memory."""
+def _match_bytes(match: Match | None) -> int:
+    """Return the approximate size of a match in memory."""
     return 500 + (0 if match is None else match.objects.nbytes + match.weights.nbytes)

@@ -1,4 +1,4 @@
-"""What a text says of places: things, streets, corners, spans and addresses, and where each is from the speaker."""
+"""Mentions of things, streets, corners, spans and addresses, and their cues."""
 
 import re
 from collections.abc import Sequence
@@ -9,8 +9,16 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.measures import COMPASS_WORD, Bearing, Measure, bearing_of, bearings_in, measures_in, nearest_facts
-from models.language.measures import Span as Placed
+from models.language.measures import (
+    COMPASS_WORD,
+    Bearing,
+    Measure,
+    find_bearings,
+    find_measures,
+    first_bearing,
+    match_facts_to_spans,
+)
+from models.language.measures import Span as TextSpan
 from models.language.mentions.cue_reader import CueReader, ReadCue
 from models.language.mentions.cues import SEEN, Cue
 from models.language.mentions.names import Word
@@ -28,16 +36,16 @@ class Mention:
 
     Attributes:
         text: the words.
-        start, end: where they stand.
-        form: what it is; "unknown" for a name that the map has not.
-        objects: [n] of the gazetteer that may be meant.
-        weights: [n + e] relative, of these and of the lines.
-        lines_m: [e, 4] places that are no object: corners, spans, house numbers between others.
-        trust: that the words mean these at all.
-        is_exact: whether a name of the map was said whole.
-        kinds: what it is said to be.
+        start, end: their characters.
+        form: of the mention; "unknown" for a name that the map lacks.
+        objects: [n] candidates of the gazetteer.
+        weights: [n + e] relative weights of the objects, then of the lines.
+        lines_m: [e, 4] candidates that are not objects: corners, spans, interpolated house numbers.
+        trust: probability that the words mean any of the candidates.
+        is_exact: whether the words are a whole name of the map.
+        kinds: kinds that the words state.
         cue: where it is from the speaker.
-        side: degrees of the side that is said ("the north side of"); None if none.
+        side: degrees of the stated side ("the north side of"); None without one.
     """
 
     text: str
@@ -54,14 +62,14 @@ class Mention:
     side: float | None = None
 
     @classmethod
-    def of(cls, span: Span, words: Sequence[Word], text: str) -> "Mention":
-        """A span of a text, without its cue."""
+    def from_span(cls, span: Span, words: Sequence[Word], text: str) -> "Mention":
+        """Return the mention of a span of a text, without its cue."""
         start, end = words[span.first].start, words[span.last].end
-        given, kinds = (text[start:end], start, end, span.form), tuple(span.kinds)
+        common, kinds = (text[start:end], start, end, span.form), tuple(span.kinds)
         if span.match is None:
-            return cls(*given, kinds=kinds)
+            return cls(*common, kinds=kinds)
         match = span.match
-        return cls(*given, match.objects, match.weights, NO_LINES, match.trust, match.is_exact, kinds)
+        return cls(*common, match.objects, match.weights, NO_LINES, match.trust, match.is_exact, kinds)
 
 
 _SIDE = re.compile(
@@ -75,29 +83,31 @@ _THE = re.compile(r"\b(?:the|this|that|our|my)\s+$", re.IGNORECASE)
 _ON_TOP = re.compile(r"\bon[\s-]top of\s+(?:[a-z-]+\s+){0,3}$", re.IGNORECASE)
 
 
-def with_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[Mention]:
-    """Mentions with what the text says of each; without those that it does not mean, or says are not there."""
-    mentions = [mention for n, mention in enumerate(mentions) if not _is_again(text, mention, mentions[:n])]
+def add_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[Mention]:
+    """Return mentions with their cues, without those that are absent or not meant."""
+    mentions = [mention for n, mention in enumerate(mentions) if not _is_repeated(text, mention, mentions[:n])]
     read = reader.read(text, [(mention.start, mention.end, mention.form) for mention in mentions])
-    kept = [
+    meant = [
         (mention, cue)
         for mention, cue in zip(mentions, read, strict=True)
         if cue.is_meant and not _ABSENT.search(text[: mention.start]) and not _is_greeted(text, mention)
     ]
-    sides = [Bearing(m.start(), m.end(), bearing_of(m[1]) or 0.0) for m in _SIDE.finditer(text)]
-    winds = _apart(bearings_in(text), [*mentions, *sides])  # the east of East 53rd Street is none
-    far = nearest_facts(text, measures_in(text), [mention for mention, _ in kept])
-    toward = nearest_facts(text, winds, [mention if cue.has_wind else None for mention, cue in kept])
-    beside = _sides(text, _apart(sides, mentions), kept)
-    said = [_cue(text, mention, cue, far.get(n), toward.get(n)) for n, (mention, cue) in enumerate(kept)]
+    sides = [Bearing(m.start(), m.end(), first_bearing(m[1]) or 0.0) for m in _SIDE.finditer(text)]
+    winds = _without_overlaps(find_bearings(text), [*mentions, *sides])  # without the east of East 53rd Street
+    measures = match_facts_to_spans(text, find_measures(text), [mention for mention, _ in meant])
+    winds_by_mention = match_facts_to_spans(text, winds, [mention if cue.has_wind else None for mention, cue in meant])
+    sides_by_mention = _sides(text, _without_overlaps(sides, mentions), meant)
+    cues = [
+        _cue(text, mention, cue, measures.get(n), winds_by_mention.get(n)) for n, (mention, cue) in enumerate(meant)
+    ]
     return [
-        replace(mention, cue=said[n], side=beside[n].degrees if n in beside else None)
-        for n, (mention, _) in enumerate(kept)
+        replace(mention, cue=cues[n], side=sides_by_mention[n].degrees if n in sides_by_mention else None)
+        for n, (mention, _) in enumerate(meant)
     ]
 
 
 def _is_greeted(text: str, mention: Mention) -> bool:
-    """Whether a name that the map has not is somebody's: "This is Ruth", "Hey Ruth", "Ruth here"."""
+    """Return whether an unknown name is a person's: "This is Ruth", "Hey Ruth", "Ruth here"."""
     if mention.form != "unknown" or " " in mention.text:
         return False
     before = text[: mention.start]
@@ -105,23 +115,23 @@ def _is_greeted(text: str, mention: Mention) -> bool:
     return is_here or _GREETING.fullmatch(before) is not None
 
 
-def _is_again(text: str, mention: Mention, before: Sequence[Mention]) -> bool:
-    """Whether a kind is named again in the same words: "the bank is north of the cafe", where a cafe is the goal."""
+def _is_repeated(text: str, mention: Mention, before: Sequence[Mention]) -> bool:
+    """Return whether a kind is repeated: "the bank is north of the cafe", where a cafe is the goal."""
     if mention.form != "thing" or mention.is_exact or _THE.search(text[: mention.start]) is None:
         return False
     words = mention.text.lower()
     return any(one.form == "thing" and one.text.lower().endswith(words) and not one.is_exact for one in before)
 
 
-def _apart(said: Sequence[Bearing], others: Sequence[Placed]) -> list[Bearing]:
-    """Those that stand in none of the others."""
-    return [one for one in said if not any(one.start < other.end and other.start < one.end for other in others)]
+def _without_overlaps(bearings: Sequence[Bearing], others: Sequence[TextSpan]) -> list[Bearing]:
+    """Return the bearings that overlap none of the others."""
+    return [one for one in bearings if not any(one.start < other.end and other.start < one.end for other in others)]
 
 
 def _cue(text: str, mention: Mention, read: ReadCue, far: Measure | None, wind: Bearing | None) -> Cue:
     degrees = None
     if wind is not None:
-        # who is north of it has it in the south
+        # "north of it" has the thing in the south
         is_from_it = wind.is_of and wind.start < mention.start
         degrees = (wind.degrees + 180.0) % 360.0 if is_from_it else wind.degrees
     relation = (
@@ -136,20 +146,20 @@ def _cue(text: str, mention: Mention, read: ReadCue, far: Measure | None, wind: 
     return Cue(relation, read.angle, None, far, read.angles)
 
 
-def _sides(text: str, sides: Sequence[Bearing], kept: Sequence[tuple[Mention, ReadCue]]) -> dict[int, Bearing]:
-    """Of each street the side that is said: "the north side of the street" is that of the street it lies on."""
-    found: dict[int, Bearing] = {}
+def _sides(text: str, sides: Sequence[Bearing], meant: Sequence[tuple[Mention, ReadCue]]) -> dict[int, Bearing]:
+    """Return the side of each street; "the north side of the street" belongs to the street mentioned before."""
+    side_of: dict[int, Bearing] = {}
     for side in sides:
         if _THE_STREET.match(text, side.end):
             before = [
-                n for n, (mention, _) in enumerate(kept) if mention.form == "street" and mention.end <= side.start
+                n for n, (mention, _) in enumerate(meant) if mention.form == "street" and mention.end <= side.start
             ]
-            on = [n for n in before if kept[n][1].relation == "inside"]
+            on = [n for n in before if meant[n][1].relation == "inside"]
             if before:
-                found[(on or before)[-1]] = side
-    rest = [side for side in sides if side not in found.values()]
+                side_of[(on or before)[-1]] = side
+    rest = [side for side in sides if side not in side_of.values()]
     streets = [
-        mention if mention.form in ("street", "span", "corner") and n not in found else None
-        for n, (mention, _) in enumerate(kept)
+        mention if mention.form in ("street", "span", "corner") and n not in side_of else None
+        for n, (mention, _) in enumerate(meant)
     ]
-    return found | nearest_facts(text, rest, streets)
+    return side_of | match_facts_to_spans(text, rest, streets)

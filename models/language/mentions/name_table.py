@@ -1,4 +1,4 @@
-"""What the objects of a gazetteer are found by: made once of a map, and opened at once."""
+"""The table of names of a gazetteer, built once per map and memory-mapped."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -17,11 +17,11 @@ from models.citymap.types import Floats
 from models.errors import IndexBroken
 from models.files import map_arrays
 from models.language.mentions.names import plain_words
-from models.language.mentions.streets import forms_of, full_words
+from models.language.mentions.streets import full_words, street_forms
 from models.strings import Postings, PostingsBuilder, merge_columns
 
 FILE: Final = "names.safetensors"
-BETWEEN: Final = "\t"  # a street and a house number
+NUMBER_SEPARATOR: Final = "\t"  # between a street and a house number
 _POSTINGS: Final = ("names", "words", "spellings", "numbers", "streets", "street_words")
 
 
@@ -30,14 +30,14 @@ class NameTable:
     """The names, streets and house numbers of one gazetteer, in plain words.
 
     Attributes:
-        names: from a name to the objects that bear it, which are no streets.
-        words: from a word to the rows of the names that it is in.
-        spellings: from what the map writes otherwise to objects: Kentucky Fried Chicken is KFC.
-        numbers: from a street in full, BETWEEN and a house number to the objects that have it.
+        names: from a name to its objects, without streets.
+        words: from a word to the rows of the names with it.
+        spellings: from another name of a chain to objects: Kentucky Fried Chicken is KFC.
+        numbers: from a street in full, NUMBER_SEPARATOR and a house number to its objects.
         streets: from a form of a street's name to rows of the next two.
-        street_words: the words of these forms; its numbers say nothing.
+        street_words: the words of these forms; its numbers are unused.
         street: [R] an object that the form means.
-        weight: [R] how surely.
+        weight: [R] probability that the form means it.
     """
 
     names: Postings
@@ -50,15 +50,17 @@ class NameTable:
     weight: Floats
 
     @classmethod
-    def of(cls, gazetteer: Gazetteer, vocabulary: Vocabulary, is_common: Callable[[str], bool]) -> "NameTable":
-        """That of a gazetteer; arguments as of Lookup."""
+    def from_gazetteer(
+        cls, gazetteer: Gazetteer, vocabulary: Vocabulary, is_common: Callable[[str], bool]
+    ) -> "NameTable":
+        """Build the table of a gazetteer; arguments as of Lookup."""
         names, numbers, others = PostingsBuilder(), PostingsBuilder(), list[tuple[str, int]]()
         forms = dict[tuple[str, int], float]()
         for number, words in enumerate(gazetteer.objects):
             for address in _addresses(words):
                 numbers.add(address, number)
             if words.kinds == (STREET_KIND,):
-                for form, weight in (form for name in words.names for form in forms_of(name)):
+                for form, weight in (form for name in words.names for form in street_forms(name)):
                     key = " ".join(form), number
                     forms[key] = max(weight, forms.get(key, 0.0))
                 continue
@@ -90,16 +92,16 @@ class NameTable:
         )
 
     def save(self, directory: Path) -> None:
-        """Write one file."""
+        """Write the table to one file."""
         postings = [getattr(self, name).columns(name) for name in _POSTINGS]
         save_file(merge_columns([*postings, {"street": self.street, "weight": self.weight}]), directory / FILE)
 
     @classmethod
     def load(cls, directory: Path) -> "NameTable":
-        """Read what `save` wrote.
+        """Load a saved table.
 
         Raises:
-            IndexBroken: the file does not hold it.
+            IndexBroken: the file is missing or not such a table.
         """
         try:
             columns = map_arrays(directory / FILE)[0]
@@ -110,8 +112,8 @@ class NameTable:
 
 
 def _addresses(words: GazetteerObject) -> Iterator[str]:
-    """The keys of an object's house numbers."""
+    """Yield the keys of an object's house numbers."""
     if words.number and words.street:
         street = " ".join(full_words(plain_words(words.street)))
         for number in words.numbers:
-            yield street + BETWEEN + number
+            yield street + NUMBER_SEPARATOR + number

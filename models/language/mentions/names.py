@@ -1,4 +1,4 @@
-"""Names in one form: case, accents, apostrophes, articles, abbreviations, ordinals."""
+"""Normalize names: case, accents, apostrophes, articles, ordinals."""
 
 import re
 import unicodedata
@@ -13,7 +13,7 @@ _APOSTROPHE = re.compile(r"['’`´]")  # noqa: RUF001
 _OWNED = re.compile(r"['’`´]s$", re.I)  # noqa: RUF001
 ARTICLES: Final = frozenset(("the", "a", "an"))
 _SIMPLE: Final = re.compile(r"[a-z]+(?: [a-z]+)*")
-_SPELT: Final = frozenset(ORDINALS) | frozenset(TENS)  # of which "forty second" is made
+_SPELT: Final = frozenset(ORDINALS) | frozenset(TENS)  # the parts of "forty second"
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,10 +22,10 @@ class Word:
 
     Attributes:
         plain: in lower case, without accents and apostrophes; ordinals as "42nd".
-        start, end: where it stands.
+        start, end: its characters.
         is_capital: whether it begins with a capital letter.
-        begins: whether it is an everyday word with a capital letter because a sentence begins there.
-        owner: without the "'s" of "the library's ahead"; empty if it has none.
+        begins: whether it is an everyday word that is capitalized because it begins a sentence.
+        owner: without the "'s" of "the library's ahead"; empty without "'s".
     """
 
     plain: str
@@ -36,15 +36,15 @@ class Word:
     begins: bool = False
 
 
-def words_of(text: str) -> list[Word]:
-    """The words of a text; "forty second" and "forty-second" are one."""
-    found = [
+def split_words(text: str) -> list[Word]:
+    """Split a text into words; "forty second" and "forty-second" are one word."""
+    words = [
         Word(plain_word(m[0]), m.start(), m.end(), m[0][:1].isupper() or m[0][:1].isdigit(), _owner(m[0]))
         for m in _WORD.finditer(text)
         if plain_word(m[0])
     ]
     joined: list[Word] = []
-    for word in found:
+    for word in words:
         last = joined[-1] if joined else None
         ones = ORDINALS.get(word.plain, 0) or ONES.get(word.plain, 0)
         if last and last.plain in TENS and 0 < ones < 10 and word.start - last.end == 1:
@@ -66,16 +66,16 @@ def _owner(word: str) -> str:
 
 @lru_cache(maxsize=4096)
 def plain_words(name: str) -> tuple[str, ...]:
-    """The words of a name, without a leading article."""
+    """Return the normalized words of a name, without a leading article."""
     words = tuple(name.split(" "))
-    if not _SIMPLE.fullmatch(name) or not _SPELT.isdisjoint(words):  # thousands of nouns are, and their words are plain
-        words = tuple(word.plain for word in words_of(name))
+    if not _SIMPLE.fullmatch(name) or not _SPELT.isdisjoint(words):  # fast path: most nouns are simple
+        words = tuple(word.plain for word in split_words(name))
     return words[1:] if len(words) > 1 and words[0] in ARTICLES else words
 
 
 @lru_cache(maxsize=4096)
 def plain_word(word: str) -> str:
-    """A word in lower case, without accents and apostrophes."""
+    """Return a word in lower case, without accents and apostrophes."""
     if word in ("&", "+"):
         return "and"
     bare = _APOSTROPHE.sub("", word)

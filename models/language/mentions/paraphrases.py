@@ -1,4 +1,4 @@
-"""Paraphrases: nouns of a text that are no name or noun of the map, but mean one."""
+"""Find paraphrases: nouns of a text that mean a name or noun of the map."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -6,44 +6,44 @@ from typing import Final
 
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.names import Word, plain_words
-from models.language.mentions.spans import Span, with_objects
+from models.language.mentions.spans import Span, attach_objects
 from models.language.mentions.word_lists import english
 
-TRUST: Final = 0.8  # that words with the same meaning mean the same
+PARAPHRASE_TRUST: Final = 0.8  # of a mention found by meaning
 _SHOPS = english().pattern("things", "shops")
-Like = Callable[[str], tuple[str, ...] | None]
+FindParaphrase = Callable[[str], tuple[str, ...] | None]
 
 
-def with_meant(
+def add_paraphrases(
     spans: Sequence[Span],
     words: Sequence[Word],
     nouns: Sequence[tuple[int, int]],
     text: str,
     lookup: Lookup,
-    like: Like,
+    find_paraphrase: FindParaphrase,
 ) -> list[Span]:
-    """Spans of a text, and nouns that are in none of them but mean what the map has.
+    """Add spans of nouns that mean a name or noun of the map.
 
     Args:
-        spans: as `find_spans`.
-        words: the words of the text.
-        nouns: characters start..end of nouns, beside those that end in "shop" and the like.
-        text: the same.
+        spans: of `find_spans`.
+        words: of the text.
+        nouns: characters start..end of nouns; those that end in "shop" and the like are found here.
+        text: the description.
         lookup: of the map.
-        like: gives the plain words of the name or noun of the map that means what was said; None if none does.
+        find_paraphrase: returns the plain words of the name or noun that a phrase means; None if it means none.
     """
-    found = [span for span in spans if span.form != "unknown"]
-    taken = {n for span in found for n in range(span.first, span.last + 1)}
+    result = [span for span in spans if span.form != "unknown"]
+    taken = {n for span in result for n in range(span.first, span.last + 1)}
     for start, end in sorted({*nouns, *(shop.span(1) for shop in _SHOPS.finditer(text))}):
         rows = [n for n, word in enumerate(words) if start <= word.start and word.end <= end]
-        plain = like(text[start:end]) if rows and taken.isdisjoint(rows) else None
+        plain = find_paraphrase(text[start:end]) if rows and taken.isdisjoint(rows) else None
         if plain is None or plain == plain_words(text[start:end]):
-            continue  # the latter was looked up
+            continue  # `find_spans` has looked it up already
         kinds = lookup.kinds(plain)
         match = lookup.named(plain) if not kinds and lookup.is_name(plain) else None  # "makeup store" is a noun first
-        span = with_objects(Span(rows[0], rows[-1], "thing", match, 0.0, kinds), lookup)
+        span = attach_objects(Span(rows[0], rows[-1], "thing", match, 0.0, kinds), lookup)
         if span.match is not None:
-            found.append(replace(span, match=replace(span.match, trust=TRUST, is_exact=False)))
+            result.append(replace(span, match=replace(span.match, trust=PARAPHRASE_TRUST, is_exact=False)))
             taken.update(rows)
     unknown = [span for span in spans if span.form == "unknown" and taken.isdisjoint(range(span.first, span.last + 1))]
-    return sorted([*found, *unknown], key=lambda span: span.first)
+    return sorted([*result, *unknown], key=lambda span: span.first)

@@ -1,4 +1,4 @@
-"""The words of a text that may name something: names, misspelt names, kinds, streets."""
+"""Find the spans of a text that may name something: names, misspelt names, kinds, streets."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -10,22 +10,23 @@ import numpy as np
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
-from models.language.measures import measures_in
+from models.language.measures import find_measures
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import EMPTY, Lookup, Match
-from models.language.mentions.names import Word, words_of
-from models.language.mentions.street_spans import streets_at
+from models.language.mentions.names import Word, split_words
+from models.language.mentions.street_spans import match_street
 from models.language.mentions.streets import ORDINAL
 from models.language.mentions.word_lists import english
 
 Form = Literal["thing", "street", "corner", "span", "address", "unknown"]
-MOST_WORDS: Final = 6  # of a name
-SHORTEST: Final = 3  # characters; a shorter name behind a kind is another thing
-LOOSE_TERM: Final = 0.55  # a single word must mean a kind more surely
-LIKE_NOUN: Final = 0.8  # share of the letters of a misspelt noun that must agree
-NOUN, NOUNS, STRANGE = 2.0, 5.0, 5.0  # what spans are worth beside names
-EXACT, PART, PLAIN_ONE, PLAIN_MORE, AT_START = 1.3, 0.8, 0.5, 0.7, 0.5
-OF_ANOTHER_KIND: Final = 0.4  # weight of what bears the name but is not what the text calls it
+MAX_NAME_WORDS: Final = 6  # of a span
+MIN_NAME_CHARACTERS: Final = 3  # a shorter name after a kind is another thing
+MIN_SINGLE_WORD_WEIGHT: Final = 0.55  # of the kinds of a single word
+MIN_NOUN_SIMILARITY: Final = 0.8  # normalized OSA similarity of a misspelt noun
+WORD_SCORE, PHRASE_SCORE, STRANGE_SCORE = 2.0, 5.0, 5.0  # of spans of kinds and of unknown words
+EXACT_FACTOR, PART_FACTOR = 1.3, 0.8  # of the weight of the words of a whole name and of a part of one
+PLAIN_WORD_TRUST, PLAIN_PHRASE_TRUST, SENTENCE_START_TRUST = 0.5, 0.7, 0.5  # of everyday words
+OTHER_KIND_WEIGHT: Final = 0.4  # weight of an object with the name but another kind
 _W = english()
 STOP, PASSED = _W.list("stop"), _W.list("passed")
 _ABBREVIATED, _ONE = _W.list("abbreviated"), _W.list("one")
@@ -38,7 +39,7 @@ _NAMED_SO = re.compile(r"\s*,\s*|\s+|\s*,?\s+called\s+")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Span:
-    """Words first..last that may be one thing, and how much they tell."""
+    """A span of words that may name one thing, with a score."""
 
     first: int
     last: int
@@ -49,37 +50,39 @@ class Span:
 
 
 def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list[Word], list[Span]]:
-    """The words of a text, and what they name, in order and without overlaps; kinds by the nouns of a language."""
-    said = words_of(text)
-    words = [_at_start(word, said[n - 1] if n else None, text, lookup) for n, word in enumerate(said)]
+    """Return the words of a text and its spans, in order and without overlaps."""
+    raw = split_words(text)
+    words = [_at_start(word, raw[n - 1] if n else None, text, lookup) for n, word in enumerate(raw)]
     cased = any(word.is_capital for word in words[1:])
-    mended = {word.plain: like_noun(word.plain, lookup) for word in words if lookup.is_strange(word.plain)}
+    mended = {word.plain: correct_noun(word.plain, lookup) for word in words if lookup.is_strange(word.plain)}
     plain = tuple(word.plain for word in words)
     ends = [_ends(word, text[word.end : after.start]) for word, after in pairwise(words)] + [True]
-    found: list[Span] = []
+    spans: list[Span] = []
     for first in range(len(words)):
-        for last in range(first, min(first + MOST_WORDS, len(words))):
-            found += _spans_at(words, first, last, plain[first : last + 1], mended, lookup, language, cased=cased)
+        for last in range(first, min(first + MAX_NAME_WORDS, len(words))):
+            spans += _spans_at(words, first, last, plain[first : last + 1], mended, lookup, language, cased=cased)
             if ends[last]:
                 break
-    measures = measures_in(text)  # "twenty-five" metres are not 25th Street
-    found = [
-        span for span in found if not (span.form == "street" and any(m.contains(words[span.last]) for m in measures))
+    measures = find_measures(text)  # "twenty-five" metres are not 25th Street
+    spans = [
+        span for span in spans if not (span.form == "street" and any(m.contains(words[span.last]) for m in measures))
     ]
-    chosen = _with_unknown(_chosen(found, words), words, text, lookup)
-    return words, [with_objects(span, lookup) for span in _joined(chosen, words, text)]
+    chosen = _with_unknown(_chosen(spans, words), words, text, lookup)
+    return words, [attach_objects(span, lookup) for span in _joined(chosen, words, text)]
 
 
-def like_noun(word: str, lookup: Lookup) -> str:
-    """The word of a noun that a misspelt one is like; itself if there is none."""
+def correct_noun(word: str, lookup: Lookup) -> str:
+    """Return the word of a noun that is similar to a misspelt one; the word itself if there is none."""
     if len(word) < 5:
         return word
-    like = process.extractOne(word, lookup.noun_words, scorer=OSA.normalized_similarity, score_cutoff=LIKE_NOUN)
+    like = process.extractOne(
+        word, lookup.noun_words, scorer=OSA.normalized_similarity, score_cutoff=MIN_NOUN_SIMILARITY
+    )
     return like[0] if like else word
 
 
 def _starts(word: Word, before: Word | None, text: str) -> bool:
-    """Whether a word begins a sentence, where a capital letter tells nothing."""
+    """Return whether a word begins a sentence, where a capital letter means nothing."""
     return before is None or _SENTENCE_END.search(text[before.end : word.start]) is not None
 
 
@@ -90,7 +93,7 @@ def _at_start(word: Word, before: Word | None, text: str, lookup: Lookup) -> Wor
 
 
 def _ends(word: Word, after: str) -> bool:
-    """Whether a name ends behind a word: at punctuation, but for the dot of "St." and "Dr."."""
+    """Return whether a name ends after a word: at punctuation, except the dot of "St." and "Dr."."""
     return _PAUSE.search(after.replace(".", "", 1) if word.plain in _ABBREVIATED else after) is not None
 
 
@@ -105,32 +108,41 @@ def _spans_at(
     *,
     cased: bool,
 ) -> list[Span]:
-    """What words first..last may name, in plain words."""
+    """Return the spans that words first..last may be."""
     streets = _streets_at(words, first, last, plain, lookup)
     if words[last].owner and not streets and not lookup.is_name(plain):
         plain = (*plain[:-1], words[last].owner)
         streets = _streets_at(words, first, last, plain, lookup)
-    found = list(streets)
+    spans = list(streets)
     if (plain[0] in EMPTY or plain[-1] in EMPTY) and not lookup.is_name(plain):
-        return found
+        return spans
     is_passed = first == last and plain[0] in PASSED and not _is_seen(words, first)
     kinds = {} if is_passed else _kinds(plain, mended, lookup, language)
     if kinds:
-        found.append(Span(first, last, "thing", None, (NOUN if len(plain) == 1 else NOUNS) + NOUN * len(plain), kinds))
+        spans.append(
+            Span(
+                first,
+                last,
+                "thing",
+                None,
+                (WORD_SCORE if len(plain) == 1 else PHRASE_SCORE) + WORD_SCORE * len(plain),
+                kinds,
+            )
+        )
     is_street = any(span.match is not None and span.match.is_exact for span in streets)
     named = None if is_street else _named(words[first : last + 1], plain, lookup, cased=cased, is_kind=bool(kinds))
     if named:
-        found.append(Span(first, last, "thing", *named, kinds))
-    return found
+        spans.append(Span(first, last, "thing", *named, kinds))
+    return spans
 
 
 def _streets_at(words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup) -> list[Span]:
-    found = streets_at(words, first, last, plain, lookup)
-    return [] if found is None else [Span(first, last, "street", *found)]
+    street = match_street(words, first, last, plain, lookup)
+    return [] if street is None else [Span(first, last, "street", *street)]
 
 
 def _kinds(plain: tuple[str, ...], mended: Mapping[str, str], lookup: Lookup, language: str) -> Mapping[str, float]:
-    """The kinds that words mean; "the Thai one" is a Thai place, "the Kahvila" a cafe."""
+    """Return the kinds that words mean; "the Thai one" is a Thai place, "the Kahvila" a cafe."""
     if len(plain) == 1 and plain[0] in STOP:
         return {}
     if language != ENGLISH:
@@ -140,40 +152,40 @@ def _kinds(plain: tuple[str, ...], mended: Mapping[str, str], lookup: Lookup, la
     if len(plain) > 1:
         return kinds or (lookup.kinds(noun[:-1]) if noun[-1] == "place" else {})
     if not kinds and not lookup.is_common(plain[0]):
-        return lookup.foreign_kinds(plain[0])
-    return {kind: weight for kind, weight in kinds.items() if weight > LOOSE_TERM}
+        return lookup.kinds_in_any_language(plain[0])
+    return {kind: weight for kind, weight in kinds.items() if weight > MIN_SINGLE_WORD_WEIGHT}
 
 
 def _is_seen(words: Sequence[Word], n: int) -> bool:
-    """Whether what is often only crossed is told of itself: "by the crossing", not "across the path"."""
+    """Return whether a word for a way means the thing itself: "by the crossing", not "across the path"."""
     before = [word.plain for word in words[max(0, n - 2) : n]]
     return words[n].plain in _SEEN_TOO and before[-1:] in (["the"], ["a"], ["this"], ["an"]) and before[0] not in _OVER
 
 
 def _named(
-    some: Sequence[Word], plain: tuple[str, ...], lookup: Lookup, *, cased: bool, is_kind: bool
+    words: Sequence[Word], plain: tuple[str, ...], lookup: Lookup, *, cased: bool, is_kind: bool
 ) -> tuple[Match, float] | None:
-    """What bears a name, and how much the words tell; everyday words in lower case are names seldom."""
+    """Return the match of a name and its score; everyday words in lower case are rarely names."""
     if _is_no_name(plain) or (is_kind and len(plain) == 1):
         return None
     match = lookup.named(plain)
     if match is None:
         return None
-    if len(some) == 1 and some[0].begins and match.is_exact:
-        return replace(match, trust=AT_START), lookup.worth(plain[0])
-    capital = any(word.is_capital for word in some if word.plain not in EMPTY)
+    if len(words) == 1 and words[0].begins and match.is_exact:
+        return replace(match, trust=SENTENCE_START_TRUST), lookup.word_weight(plain[0])
+    capital = any(word.is_capital for word in words if word.plain not in EMPTY)
     is_plain = all(lookup.is_common(word) or word in lookup.noun_words for word in plain)
     trust = match.trust
     if is_plain and not capital:
         if (cased or len(plain) == 1 or is_kind) and (is_kind or not match.is_exact or len(plain) == 1):
             return None
-        trust *= PLAIN_ONE if len(plain) == 1 else PLAIN_MORE
+        trust *= PLAIN_WORD_TRUST if len(plain) == 1 else PLAIN_PHRASE_TRUST
     is_odd = len(plain[0]) > 2 and not any(lookup.is_common(word) or word in lookup.noun_words for word in plain)
     of_streets = _is_crossing(plain, lookup) or all(word in lookup.street_words for word in plain)
     if not match.is_exact and (is_kind or of_streets or not (capital or is_odd or not (cased or is_plain))):
         return None
-    said = sum(lookup.worth(word) for word in plain)
-    return replace(match, trust=trust), said * (EXACT if match.is_exact else PART) + float(capital)
+    weight = sum(lookup.word_weight(word) for word in plain)
+    return replace(match, trust=trust), weight * (EXACT_FACTOR if match.is_exact else PART_FACTOR) + float(capital)
 
 
 def _is_no_name(plain: tuple[str, ...]) -> bool:
@@ -182,7 +194,7 @@ def _is_no_name(plain: tuple[str, ...]) -> bool:
 
 
 def _is_crossing(plain: tuple[str, ...], lookup: Lookup) -> bool:
-    """Whether words are two streets: "Broadway and 41st", which is the name of a bicycle dock too."""
+    """Return whether words are two streets: "Broadway and 41st" is also the name of a bicycle dock."""
     return any(
         word in ("and", "at") and lookup.street(plain[:n]) is not None and lookup.street(plain[n + 1 :]) is not None
         for n, word in enumerate(plain)
@@ -191,7 +203,7 @@ def _is_crossing(plain: tuple[str, ...], lookup: Lookup) -> bool:
 
 
 def _chosen(spans: Sequence[Span], words: Sequence[Word]) -> list[Span]:
-    """Spans that do not overlap, the most telling first."""
+    """Return spans without overlaps, preferring high scores."""
     taken = [False] * len(words)
     chosen = []
     for span in sorted(spans, key=lambda span: (-span.score, span.first - span.last)):
@@ -204,9 +216,9 @@ def _chosen(spans: Sequence[Span], words: Sequence[Word]) -> list[Span]:
 
 
 def _with_unknown(spans: Sequence[Span], words: Sequence[Word], text: str, lookup: Lookup) -> list[Span]:
-    """Spans, and between them words that no name of the map has: misspelt ones, and names that it lacks."""
+    """Add spans of misspelt words and of names that the map lacks."""
     covered = {n for span in spans for n in range(span.first, span.last + 1)}
-    found, n = list(spans), 0
+    result, n = list(spans), 0
     while n < len(words):
         if n in covered or not _is_strange(words, n, text, lookup):
             n += 1
@@ -214,13 +226,13 @@ def _with_unknown(spans: Sequence[Span], words: Sequence[Word], text: str, looku
         end = n
         while end + 1 < len(words) and end + 1 not in covered and end - n < 3 and _follows(words, end, text, lookup):
             end += 1
-        some = [word.owner or word.plain for word in words[n : end + 1]]
+        plain = [word.owner or word.plain for word in words[n : end + 1]]
         is_name = words[n].is_capital and not _starts(words[n], words[n - 1] if n else None, text)
-        span = _misspelt(n, end, some, lookup, is_name=is_name)
+        span = _misspelt(n, end, plain, lookup, is_name=is_name)
         if span is not None:
-            found.append(span)
+            result.append(span)
         n = end + 1
-    return sorted(found, key=lambda span: span.first)
+    return sorted(result, key=lambda span: span.first)
 
 
 def _is_strange(words: Sequence[Word], n: int, text: str, lookup: Lookup) -> bool:
@@ -240,22 +252,22 @@ def _follows(words: Sequence[Word], end: int, text: str, lookup: Lookup) -> bool
     return close and is_name and follower.plain not in STOP
 
 
-def _misspelt(first: int, last: int, some: Sequence[str], lookup: Lookup, *, is_name: bool) -> Span | None:
-    match = lookup.misspelt(some)
+def _misspelt(first: int, last: int, plain: Sequence[str], lookup: Lookup, *, is_name: bool) -> Span | None:
+    match = lookup.misspelt(plain)
     if match is not None:
-        return Span(first, last, "thing", match, STRANGE)
-    if len(some) == 1:
-        street = lookup.street_like(some[0])
+        return Span(first, last, "thing", match, STRANGE_SCORE)
+    if len(plain) == 1:
+        street = lookup.street_like(plain[0])
         if street is not None:
-            return Span(first, last, "street", street, STRANGE)
-        kinds = lookup.kinds((like_noun(some[0], lookup),))
+            return Span(first, last, "street", street, STRANGE_SCORE)
+        kinds = lookup.kinds((correct_noun(plain[0], lookup),))
         if kinds:
-            return Span(first, last, "thing", None, STRANGE, kinds)
+            return Span(first, last, "thing", None, STRANGE_SCORE, kinds)
     return Span(first, last, "unknown", None, 0.0) if is_name else None
 
 
 def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Span]:
-    """Names and kinds that stand side by side are one thing: "Bread & Butter deli", "the optician, T-Optik"."""
+    """Join neighbouring names and kinds of one thing: "Bread & Butter deli", "the optician, T-Optik"."""
     joined: list[Span] = []
     for span in spans:
         last = joined[-1] if joined else None
@@ -272,7 +284,9 @@ def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Spa
         elif close and named_kind and span.match is None and span.form == "thing":
             joined[-1] = Span(last.first, span.last, "thing", last.match, last.score + span.score, span.kinds)
         elif (
-            kind_of_name and _NAMED_SO.fullmatch(between) and words[span.last].end - words[span.first].start > SHORTEST
+            kind_of_name
+            and _NAMED_SO.fullmatch(between)
+            and words[span.last].end - words[span.first].start > MIN_NAME_CHARACTERS
         ):
             joined[-1] = Span(last.first, span.last, "thing", span.match, last.score + span.score, last.kinds)
         else:
@@ -280,8 +294,8 @@ def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Spa
     return joined
 
 
-def with_objects(span: Span, lookup: Lookup) -> Span:
-    """A span with its objects: those of the name, the more if of the kind said; without a name those of the kind."""
+def attach_objects(span: Span, lookup: Lookup) -> Span:
+    """Return a span with its objects: those of the name, weighted by kind, or without a name those of the kind."""
     if span.form != "thing":
         return span
     of_kind = lookup.of_kinds(span.kinds) if span.kinds else None
@@ -290,5 +304,5 @@ def with_objects(span: Span, lookup: Lookup) -> Span:
     if of_kind is None:
         return span
     agree = np.isin(span.match.objects, of_kind.objects)
-    weights = span.match.weights * np.where(agree, 1.0, OF_ANOTHER_KIND)
+    weights = span.match.weights * np.where(agree, 1.0, OTHER_KIND_WEIGHT)
     return replace(span, match=replace(span.match, weights=weights))

@@ -1,4 +1,4 @@
-"""Streets that are named again by their kind alone: "I'm on Fifth, the avenue is behind me"."""
+"""Resolve streets that a text repeats by their kind: "I'm on Fifth, the avenue is behind me"."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -15,38 +15,38 @@ from models.language.mentions.word_lists import english
 _AGAIN = english().pattern("streets", "again")
 
 
-def with_again(text: str, mentions: Sequence[Mention]) -> list[Mention]:
-    """Mentions, and streets without objects for what may name one of them again."""
+def add_repeated_streets(text: str, mentions: Sequence[Mention]) -> list[Mention]:
+    """Add mentions of streets without objects where the text may repeat one by its kind."""
     taken = [(mention.start, mention.end) for mention in mentions]
     again = [
-        Mention(text[found.start(1) : found.end(1)], found.start(1), found.end(1), "street")
-        for found in _AGAIN.finditer(text)
-        if not any(start < found.end(1) and found.start(1) < end for start, end in taken)
+        Mention(text[match.start(1) : match.end(1)], match.start(1), match.end(1), "street")
+        for match in _AGAIN.finditer(text)
+        if not any(start < match.end(1) and match.start(1) < end for start, end in taken)
     ]
     return sorted([*mentions, *again], key=lambda mention: mention.start)
 
 
-def resolved(mentions: Sequence[Mention], streets: Sequence[Mention], lookup: Lookup) -> list[Mention]:
-    """Mentions whose streets without objects, if it is said where they are, got those that are meant.
+def resolve_repeated_streets(mentions: Sequence[Mention], streets: Sequence[Mention], lookup: Lookup) -> list[Mention]:
+    """Give repeated streets with a direction the objects that they mean; drop the others.
 
     Args:
         mentions: with cues.
         streets: all that the text names, also those that became corners and spans.
         lookup: of the map.
     """
-    kept = []
+    result = []
     for mention in mentions:
         if mention.form != "street" or len(mention.objects):
-            kept.append(mention)
+            result.append(mention)
             continue
         meant = _meant(mention, streets, lookup) if mention.cue.angle is not None else None
         if meant is not None:
-            kept.append(replace(mention, objects=meant.objects, weights=meant.weights, trust=meant.trust))
-    return kept
+            result.append(replace(mention, objects=meant.objects, weights=meant.weights, trust=meant.trust))
+    return result
 
 
 def _meant(mention: Mention, streets: Sequence[Mention], lookup: Lookup) -> Mention | None:
-    """The street last named before that is of the kind; else the one named last."""
+    """Return the last street of the kind before a mention, else the last street."""
     before = [street for street in streets if street.end <= mention.start]
     kind = full_words(plain_words(mention.text))[-1]
     of_kind = [street for street in before if kind in _kinds(street.objects, lookup)]

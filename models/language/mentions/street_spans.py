@@ -1,4 +1,4 @@
-"""Whether words of a text name streets: short forms only where what stands beside them tells so."""
+"""Decide whether words name streets; short forms do only next to certain words."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -9,8 +9,8 @@ from models.language.mentions.names import Word
 from models.language.mentions.streets import KINDS, ORDINAL, TYPES
 from models.language.mentions.word_lists import english
 
-STREET, TYPED, PER_WORD = 5.0, 2.0, 3.0  # what streets are worth beside names
-MEETING: Final = 3.0  # of a street beside a numbered one
+STREET_SCORE, TYPE_SCORE, WORD_SCORE = 5.0, 2.0, 3.0  # scores of street spans
+MEETING_SCORE: Final = 3.0  # of a street next to a numbered one
 _MEET: Final = frozenset(("and", "at", "&", "@", "/", "n"))
 _W = english()
 _STREET_BEFORE, _STREET_AFTER = _W.list("street_before"), _W.list("street_after")
@@ -18,10 +18,10 @@ _NO_STREET_AFTER, _LOWER_BEFORE = _W.list("no_street_after"), _W.list("lower_str
 _SAID_OF = _W.list("said_of_street")
 
 
-def streets_at(
+def match_street(
     words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup
 ) -> tuple[Match, float] | None:
-    """Streets of a name; a short form, such as an ordinal, only where the words beside it tell of a street."""
+    """Return the streets of a name; of a short form, such as an ordinal, only next to words that go with streets."""
     if len(plain) == 1 and plain[0].isdecimal():
         return None
     has_type = plain[-1] in KINDS or plain[-1] in TYPES
@@ -30,20 +30,20 @@ def streets_at(
         match = lookup.street((*plain[:-2], ordinal(int(plain[-2])), plain[-1]))
     if match is None and len(plain) == 1:
         match = lookup.street_like(plain[0])
-    if match is None or not _is_told(words, first, last, match, has_type, lookup):
+    if match is None or not _is_meant(words, first, last, match, has_type, lookup):
         return None
-    score = STREET + PER_WORD * len(plain) + (TYPED if has_type else 0.0)
-    return match, score + (MEETING if _meets_ordinal(words, first, last) else 0.0)
+    score = STREET_SCORE + WORD_SCORE * len(plain) + (TYPE_SCORE if has_type else 0.0)
+    return match, score + (MEETING_SCORE if _meets_ordinal(words, first, last) else 0.0)
 
 
 def _meets_ordinal(words: Sequence[Word], first: int, last: int) -> bool:
-    """Whether words stand beside a numbered street: "Vanderbilt and 43rd"."""
+    """Return whether words are next to a numbered street: "Vanderbilt and 43rd"."""
     after = last + 2 < len(words) and words[last + 1].plain in _MEET and ORDINAL.fullmatch(words[last + 2].plain)
     before = first > 1 and words[first - 1].plain in _MEET and ORDINAL.fullmatch(words[first - 2].plain)
     return bool(after or before)
 
 
-def _is_told(words: Sequence[Word], first: int, last: int, match: Match, has_type: bool, lookup: Lookup) -> bool:
+def _is_meant(words: Sequence[Word], first: int, last: int, match: Match, has_type: bool, lookup: Lookup) -> bool:
     plain = [word.owner or word.plain for word in words[first : last + 1]]
     is_ordinal = ORDINAL.fullmatch(plain[-1]) is not None
     is_capital = words[first].is_capital or words[first].begins
@@ -52,14 +52,19 @@ def _is_told(words: Sequence[Word], first: int, last: int, match: Match, has_typ
     follower = words[last + 1] if last + 1 < len(words) else None
     if not has_type and not has_wind and not (whole and not is_ordinal):
         before, after = words[first - 1].plain if first else "", follower.plain if follower else ""
-        said = is_ordinal or is_capital
+        is_name = is_ordinal or is_capital
         is_noun = not is_ordinal and plain[-1] in lookup.noun_words
-        is_subject = said and not is_noun and before != "the" and (after in _SAID_OF or words[last].owner is not None)
-        told = (
-            before in _STREET_BEFORE or (said and after in _STREET_AFTER) or is_subject or (first == 0 and is_capital)
+        is_subject = (
+            is_name and not is_noun and before != "the" and (after in _SAID_OF or words[last].owner is not None)
+        )
+        has_cue = (
+            before in _STREET_BEFORE
+            or (is_name and after in _STREET_AFTER)
+            or is_subject
+            or (first == 0 and is_capital)
         )
         is_common = is_ordinal or any(lookup.is_common(word) for word in plain)
-        if (is_common and not told) or (is_ordinal and after in _NO_STREET_AFTER):
+        if (is_common and not has_cue) or (is_ordinal and after in _NO_STREET_AFTER):
             return False
         if is_common and not is_ordinal and not is_capital and before not in _LOWER_BEFORE:
             return False

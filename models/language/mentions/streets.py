@@ -7,7 +7,7 @@ from typing import Final
 from models.language.measures import COMPASS_OF_LETTERS
 from models.language.mentions.names import plain_words
 
-# What a street's kind is written as; libpostal's English, German and Finnish short forms that people type.
+# Abbreviations of kinds of streets, from libpostal's English, German and Finnish dictionaries.
 TYPES: Final = {
     "st": "street", "str": "street", "strt": "street", "streets": "street", "ave": "avenue", "av": "avenue",
     "aven": "avenue", "avenu": "avenue", "avenues": "avenue", "blvd": "boulevard", "rd": "road", "dr": "drive",
@@ -38,15 +38,15 @@ ORDINAL: Final = re.compile(r"\d+(?:st|nd|rd|th)")
 
 
 def full_words(words: tuple[str, ...]) -> tuple[str, ...]:
-    """Words of a street with winds and kinds written out; a leading "st" is a saint."""
+    """Return the words of a street with directions and kinds written out; a leading "st" is a saint."""
     ends = (0, len(words) - 1) if len(words) > 1 else ()
-    found = [COMPASS_OF_LETTERS.get(word, word) if n in ends else word for n, word in enumerate(words)]
-    found = [TYPES.get(word, word) if n else ("saint" if word == "st" else word) for n, word in enumerate(found)]
-    return tuple(_COMPOUND.sub("strasse", word) if len(word) > 6 else word for word in found)
+    full = [COMPASS_OF_LETTERS.get(word, word) if n in ends else word for n, word in enumerate(words)]
+    full = [TYPES.get(word, word) if n else ("saint" if word == "st" else word) for n, word in enumerate(full)]
+    return tuple(_COMPOUND.sub("strasse", word) if len(word) > 6 else word for word in full)
 
 
-def forms_of(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
-    """Every form of a street's name, with how surely it means this street."""
+def street_forms(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
+    """Yield every form of a street's name with the probability that it means this street."""
     full = full_words(plain_words(name))
     yield full, 1.0
     if len(full) < 2:

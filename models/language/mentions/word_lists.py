@@ -1,4 +1,4 @@
-"""The words that say where, of one language."""
+"""Word lists and patterns of a language."""
 
 import re
 import tomllib
@@ -7,35 +7,35 @@ from pathlib import Path
 from typing import Any
 
 
-class Words:
+class WordLists:
     """Word lists and patterns of `english.toml`."""
 
     def __init__(self, path: Path) -> None:
-        self._said: dict[str, dict[str, Any]] = tomllib.loads(path.read_text(encoding="utf-8"))
+        self._tables: dict[str, dict[str, Any]] = tomllib.loads(path.read_text(encoding="utf-8"))
 
     def list(self, name: str) -> frozenset[str]:
-        """A list of words."""
-        return frozenset(self._said["words"][name].split())
+        """Return a list of words."""
+        return frozenset(self._tables["words"][name].split())
 
     def table(self, name: str) -> dict[str, Any]:
-        """Return a table as it is written."""
-        return dict(self._said[name])
+        """Return a table of the file."""
+        return dict(self._tables[name])
 
     @cached_property
     def metres(self) -> dict[str, float]:
-        """Metres of a unit."""
-        return dict(self._said["metres"])
+        """Metres by unit."""
+        return dict(self._tables["metres"])
 
     def text(self, table: str, name: str) -> str:
-        """A pattern as it is written, line ends left out."""
-        return str(self._said[table][name]).replace("\n", "")
+        """Return the text of a pattern without line breaks."""
+        return str(self._tables[table][name]).replace("\n", "")
 
     def pattern(self, table: str, name: str, form: str = "{}") -> re.Pattern[str]:
-        """A pattern, in a form; case is ignored."""
+        """Compile a pattern inside a form; case is ignored."""
         return re.compile(form.format(self.text(table, name)), re.IGNORECASE)
 
 
 @cache
-def english() -> Words:
-    """The words of English."""
-    return Words(Path(__file__).parent / "english.toml")
+def english() -> WordLists:
+    """Load the words of English."""
+    return WordLists(Path(__file__).parent / "english.toml")

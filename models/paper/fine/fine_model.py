@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from torch import Tensor, nn
 
 from models.language.recent_features import RecentFeatures
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, OnTextEncoder, TextEncoder, TokenFeatures
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TextEncoderModel, TokenFeatures
 from models.paper.instance_encoder import (
     CLOSEST_DISTANCE_COLUMN,
     DEFAULT_INPUTS,
@@ -106,7 +106,7 @@ class FineTargets:
     match: Tensor
 
 
-class FineModel(OnTextEncoder):
+class FineModel(TextEncoderModel):
     """A fine stage; subclasses define how a position follows from hints and instances."""
 
     method: ClassVar[FineMethod]

@@ -9,7 +9,7 @@ import numpy as np
 
 from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.points import Ints
-from models.language.mentions.name_table import BETWEEN
+from models.language.mentions.name_table import NUMBER_SEPARATOR
 from models.language.mentions.names import plain_words
 from models.language.mentions.streets import ORDINAL
 from models.posterior.places.name_index import Spelt
@@ -28,7 +28,7 @@ class Addresses:
         objects: [E] the object of each address of one.
         column: [E] its column; objects of one address share it.
         streets: of all addresses.
-        by_street: from a column of `streets`, BETWEEN and a number to the column.
+        by_street: from a column of `streets`, NUMBER_SEPARATOR and a number to the column.
         by_number: from a number to columns.
     """
 
@@ -55,7 +55,7 @@ class Addresses:
             column.append(columns.setdefault((of, number), len(columns)))
             if column[-1] == len(shown):
                 shown.append(f"{number} {street}")
-        by_street = Postings.from_pairs((f"{of}{BETWEEN}{number}", n) for (of, number), n in columns.items())
+        by_street = Postings.from_pairs((f"{of}{NUMBER_SEPARATOR}{number}", n) for (of, number), n in columns.items())
         by_number = Postings.from_pairs((number, n) for (_, number), n in columns.items())
         objects = np.array([n for n, _, _ in rows], np.int32)
         return cls(StringArray.from_strings(shown), objects, np.array(column, np.int32), streets, by_street, by_number)
@@ -94,7 +94,7 @@ class Addresses:
             if not before and not behind:
                 return self.by_number.find(number)
             for street in streets or self._street(before):
-                there = {known: int(of[0]) for known, of in self.by_street.with_prefix(f"{street}{BETWEEN}")}
+                there = {known: int(of[0]) for known, of in self.by_street.with_prefix(f"{street}{NUMBER_SEPARATOR}")}
                 found.extend([there[number]] if number in there else _beside(number, there))
             if found:
                 return np.array(found)

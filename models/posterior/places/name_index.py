@@ -7,7 +7,7 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.language.mentions.names import plain_words
-from models.language.mentions.streets import forms_of, full_words
+from models.language.mentions.streets import full_words, street_forms
 from models.strings import Column, Postings, StringArray
 
 
@@ -76,5 +76,5 @@ def _plain(name: str, are_streets: bool) -> str:
 
 def _forms(named: Sequence[tuple[str, int]]) -> Iterator[tuple[str, int]]:
     for name, number in named:
-        for form, _ in forms_of(name):
+        for form, _ in street_forms(name):
             yield " ".join(form), number

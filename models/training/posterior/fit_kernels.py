@@ -17,7 +17,7 @@ from models.citymap.types import Floats
 from models.errors import TrainingError
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.lookup import Lookup
-from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, with_goal
+from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, mark_goal
 from models.language.text_encoder import TextEncoder
 from models.posterior.locate import PLACE_HIT_M
 from models.posterior.places.explanations import Places
@@ -156,7 +156,7 @@ def _example(
     listener_m = None if text.start is None else texts.frame.from_wgs84(*text.start)
     meets = listener_m is not None or is_meeting(text.text)
     if meets:
-        mentions = with_goal(mentions)
+        mentions = mark_goal(mentions)
     wind = None if listener_m is None else listener_wind(text.text)
     evidence = field.told(mentions, listener_m, wind, is_meeting=meets)
     if not evidence.places.mentions:

@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from models.language.grammar.files import Grammar
-from models.language.grammar.labelled_text import Fact, LabelledText, Mention
+from models.language.grammar.labelled_text import Fact, LabelledMention, LabelledText
 from models.language.grammar.wording import Wording
 from models.language.measures import COMPASS
 from models.language.parsed_hint import RELATIONS
@@ -182,14 +182,14 @@ class ReadingSet:
         return ReadingBatch(TokenFeatures(values, mask, torch.zeros_like(tags)), tags, *columns)
 
 
-def _labels(fact: Fact, mention: Mention) -> tuple[int, int, int]:
+def _labels(fact: Fact, mention: LabelledMention) -> tuple[int, int, int]:
     """Return the labels (relation, colour, absent) of a fact at a mention."""
     relation = -100 if fact.absent else RELATIONS.index(fact.relation)
     return relation, COLOURS.index(str(fact.colour)) if mention.coloured else len(COLOURS), int(fact.absent)
 
 
 def example_targets(
-    mentions: Sequence[Mention], characters: Tensor, mask: Tensor
+    mentions: Sequence[LabelledMention], characters: Tensor, mask: Tensor
 ) -> tuple[Tensor, list[tuple[int, int]]]:
     """Return the tags [T] of a text and the token range of each mention (empty if it was truncated)."""
     tags = torch.zeros(len(mask), dtype=torch.long)

@@ -19,7 +19,7 @@ from index.answering.query import Query
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.citymap.types import Hint
-from models.language.measures import bearing_of
+from models.language.measures import first_bearing
 from models.posterior.neighbours.neighbour_index import surroundings_of
 from tests.models.citymap.gazetteer.made_town import line, made_gazetteer, point, ring
 
@@ -79,7 +79,7 @@ def test_what_is_said_is_true(localizer, scan, positions):
                 assert abs(apart(fact.bearing_deg, np.degrees(np.arctan2(*way)))) <= 5 / fact.away_m
             wind = WIND.search(fact.text)
             if wind and fact.bearing_deg is not None:
-                assert abs(apart(fact.bearing_deg, bearing_of(wind[1] or wind[2]))) <= 45.1
+                assert abs(apart(fact.bearing_deg, first_bearing(wind[1] or wind[2]))) <= 45.1
                 checked += 1
     assert checked > 50
 

@@ -7,7 +7,7 @@ import pytest
 
 from index.answering.place_reader import near_hints, with_one_owner
 from index.answering.query import Prior, Query
-from models.language.measures import measures_in
+from models.language.measures import find_measures
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
 
@@ -162,7 +162,7 @@ def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(local
 @pytest.mark.parametrize(("hint", "mention"), [("bench", "Kiosk"), ("Kiosk", "bench")])
 def test_a_measure_that_both_claim_is_of_the_nearer(localizer, hint, mention) -> None:
     text = "A bench is 20 m to my west, and there is a Kiosk."
-    [measure] = measures_in(text)
+    [measure] = find_measures(text)
     [read] = localizer.posterior.texts.parse(["The pose is south of a bench."])[0]
     at, other = text.index(hint), text.index(mention)
     noticed = replace(read, start=at, end=at + len(hint), measure=measure)

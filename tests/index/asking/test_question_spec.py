@@ -2,7 +2,7 @@ import pytest
 
 from index.asking.question_spec import LISTED, OPEN, OTHER, UNKNOWN, Asked
 from models.language.lexicon.lexicon import load_lexicon
-from models.language.lexicon.question_classes import load_asked
+from models.language.lexicon.question_classes import load_question_classes
 
 ALL = [
     Asked("near", ("tree",)),
@@ -66,4 +66,4 @@ def test_an_open_question_offers_names():
 
 
 def test_only_classes_of_maps_are_asked_about():
-    assert set(load_asked().things) <= set(load_lexicon().labels) - load_lexicon().elsewhere
+    assert set(load_question_classes().things) <= set(load_lexicon().labels) - load_lexicon().elsewhere

@@ -203,10 +203,10 @@ def test_layers_that_were_packed_are_forgotten_in_training(reader, text_encoder)
     tokens, _ = text_encoder.read(["The bank is north of me."], reader.config.frozen_layers)
     with torch.no_grad():
         before = reader(tokens)
-        assert reader._packed is not None
+        assert reader._int8_layers is not None
         try:
             reader.train()
-            assert reader._packed is None
+            assert reader._int8_layers is None
         finally:
             reader.eval()
         assert torch.equal(reader(tokens), before)

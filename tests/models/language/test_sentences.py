@@ -5,7 +5,7 @@ import pytest
 from models.citymap.templates import ON_TOP_TEMPLATES, TEMPLATES, render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DescriptionError
-from models.language.sentences import reader_texts, spans_in, split_hints
+from models.language.sentences import locate_spans, split_for_reader, split_hints
 
 
 @pytest.mark.parametrize(
@@ -68,20 +68,20 @@ def test_every_template_renders() -> None:
     ],
 )
 def test_parts_of_what_is_read_are_found_in_the_text(description) -> None:
-    text = " ".join(reader_texts(description, 800))
+    text = " ".join(split_for_reader(description, 800))
     spans = [match.span() for match in re.finditer(r"[Aa] building|north|east", text)]
-    found = [span for span in spans_in(description, text, spans[::-1])[::-1] if span]
+    found = [span for span in locate_spans(description, text, spans[::-1])[::-1] if span]
     assert [description[slice(*span)] for span in found] == [text[slice(*span)] for span in spans]
     assert found == sorted(found)
     assert len(set(found)) == len(spans), "a second building is not the first one again"
 
 
 def test_what_does_not_stand_in_the_text_has_no_place() -> None:
-    assert spans_in("a tree", "a tree.", [(2, 6), (2, 7), (3, 3)]) == [(2, 6), None, None]
+    assert locate_spans("a tree", "a tree.", [(2, 6), (2, 7), (3, 3)]) == [(2, 6), None, None]
 
 
 def test_a_list_with_wide_bullets_does_not_lose_its_place() -> None:
     description = "\n".join("        -        a tree" for _ in range(12))
-    text = " ".join(reader_texts(description, 800))
-    found = spans_in(description, text, [match.span() for match in re.finditer("tree", text)])
+    text = " ".join(split_for_reader(description, 800))
+    found = locate_spans(description, text, [match.span() for match in re.finditer("tree", text)])
     assert found == [match.span() for match in re.finditer("tree", description)]

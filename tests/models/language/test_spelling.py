@@ -23,4 +23,4 @@ def spelling(text_encoder):
     ],
 )
 def test_what_is_no_word_is_mended(spelling, said, meant):
-    assert spelling.mend(said) == meant
+    assert spelling.correct(said) == meant

@@ -11,15 +11,15 @@ from transformers import AutoModel, AutoTokenizer, PreTrainedTokenizerFast, T5Co
 from models.errors import WeightsError
 from models.language import text_encoder as module
 from models.language.int8 import (
-    ADDS_8_BITS,
-    LEAST_ROWS,
-    PackedEmbeddings,
-    PackedLayer,
-    PackedLinear,
-    may_pack,
-    rows_given,
-    run_packed,
-    to_8_bits,
+    HAS_INT8_PRODUCTS,
+    ROW_STEP,
+    Int8Embeddings,
+    Int8Layer,
+    Int8Linear,
+    can_quantize,
+    padded_rows,
+    quantize_rows,
+    run_int8_layers,
 )
 from models.language.text_encoder import MINILM_SHA256, load_text_encoder, run_layers
 
@@ -67,7 +67,7 @@ def test_packed_layers_are_the_same_layers(text_encoder, lengths) -> None:
     mask = torch.arange(max(lengths)) < torch.tensor(lengths)[:, None]
     with torch.no_grad():
         expected = run_layers(layers, hidden, mask)
-        found = run_packed([PackedLayer(layer) for layer in layers], hidden, mask)
+        found = run_int8_layers([Int8Layer(layer) for layer in layers], hidden, mask)
     assert alike(found[mask], expected[mask]) > 0.995
 
 
@@ -75,7 +75,7 @@ def test_embeddings_in_8_bits(text_encoder) -> None:
     ids = torch.randint(1000, 20_000, (3, 9))
     with torch.no_grad():
         expected = text_encoder.model.embeddings(ids)
-        found = PackedEmbeddings(text_encoder.model.embeddings)(ids)
+        found = Int8Embeddings(text_encoder.model.embeddings)(ids)
     assert alike(found.flatten(0, 1), expected.flatten(0, 1)) > 0.999
     assert not found.equal(expected)
 
@@ -84,7 +84,7 @@ def test_weights_that_the_system_forgot_come_again(text_encoder) -> None:
     before = [p.clone() for p in text_encoder.parameters()]
     words = text_encoder(SENTENCES).values
     resident = resident_mib()
-    text_encoder.settle()
+    text_encoder.quantize_now()
     assert resident_mib() < resident - 30, "MiniLM takes 87"
     text_encoder(SENTENCES)
     assert resident_mib() < resident - 30, "no text needs them"
@@ -101,43 +101,44 @@ def test_layers_with_weights_of_others(text_encoder) -> None:
     first, second = text_encoder.layers(0, 2)
     x = torch.randn(9, 384)
     with torch.no_grad():
-        found = PackedLayer(first, dict(second.named_parameters()))(x, torch.Size((1, 9, 384)), None)
+        found = Int8Layer(first, dict(second.named_parameters()))(x, torch.Size((1, 9, 384)), None)
         assert alike(found, second(x[None], None)[0]) > 0.999
         assert alike(found, first(x[None], None)[0]) < 0.99
 
 
 @pytest.mark.parametrize(
-    "adds_8_bits", [False, pytest.param(True, marks=pytest.mark.skipif(not ADDS_8_BITS, reason="the processor cannot"))]
+    "has_int8_products",
+    [False, pytest.param(True, marks=pytest.mark.skipif(not HAS_INT8_PRODUCTS, reason="the processor cannot"))],
 )
-def test_a_linear_layer_in_8_bits(adds_8_bits) -> None:
+def test_a_linear_layer_in_8_bits(has_int8_products) -> None:
     torch.manual_seed(0)
     weight, bias, x = torch.randn(5, 1536), torch.randn(5), torch.randn(9, 1536)
     weight[0], x[0], x[1], x[2] = 1.0, 1.0, -1.0, 0.0  # the largest sums there are, and none
-    found = PackedLinear(weight, bias, adds_8_bits)(x)
+    found = Int8Linear(weight, bias, has_int8_products)(x)
     expected = torch.nn.functional.linear(x, weight, bias)
     assert torch.allclose(found[:3, 0], expected[:3, 0], rtol=1e-6)
     assert (found[2] == bias).all()
     assert (found - expected).abs().max() < 0.03 * expected.std(), "a 254th of the largest, for each of 1,536"
-    assert torch.equal(PackedLinear(weight, bias, adds_8_bits)(x[3:4]), found[3:4]), "no row changes another"
+    assert torch.equal(Int8Linear(weight, bias, has_int8_products)(x[3:4]), found[3:4]), "no row changes another"
 
 
 def test_rows_in_8_bits() -> None:
     x = torch.tensor([[1.0, -2.0, 0.004], [0.0, 0.0, 0.0], [1e-30, 5e-31, -1e-30]])
-    small, scale = to_8_bits(x)
+    small, scale = quantize_rows(x)
     assert small.tolist() == [[64, -127, 0], [0, 0, 0], [127, 64, -127]]
     assert scale.tolist() == pytest.approx([2 / 127, 1, 1e-30 / 127])
-    lost = PackedLinear(torch.eye(3), torch.zeros(3))(torch.tensor([[1.0, torch.nan, 2.0], [1.0, 1.0, 1.0]]))
+    lost = Int8Linear(torch.eye(3), torch.zeros(3))(torch.tensor([[1.0, torch.nan, 2.0], [1.0, 1.0, 1.0]]))
     assert lost[0].isnan().all(), "what is no number does not become one"
     assert not lost[1].isnan().any()
 
 
-def test_what_learns_is_not_packed(text_encoder) -> None:
+def test_what_learns_is_not_int8_layers(text_encoder) -> None:
     layers, x = text_encoder.layers(0, 1), torch.zeros(1, 384)
-    assert not may_pack(layers, x)
+    assert not can_quantize(layers, x)
     with torch.no_grad():
-        assert may_pack(layers, x)
-        assert not may_pack([torch.nn.Linear(2, 2)], x)
-        assert not may_pack(layers, x.double())
+        assert can_quantize(layers, x)
+        assert not can_quantize([torch.nn.Linear(2, 2)], x)
+        assert not can_quantize(layers, x.double())
 
 
 def test_it_is_frozen(text_encoder) -> None:
@@ -195,8 +196,8 @@ def test_the_default_is_loaded_once_however_it_is_asked_for() -> None:
 def test_few_numbers_of_rows_are_met() -> None:
     """For each of them oneDNN keeps a megabyte and more."""
     rows = range(1, 4097)
-    given = [rows_given(count) for count in rows]
-    assert all(count <= more <= max(1.25 * count, count + LEAST_ROWS) for count, more in zip(rows, given, strict=True))
+    given = [padded_rows(count) for count in rows]
+    assert all(count <= more <= max(1.25 * count, count + ROW_STEP) for count, more in zip(rows, given, strict=True))
     assert len(set(given)) <= 40
 
 
@@ -211,5 +212,5 @@ def test_layers_keep_little_of_texts_of_all_lengths(text_encoder, monkeypatch) -
     with torch.inference_mode():
         for words in range(1, 60):
             text_encoder.read(["cafe " * words], 1)
-    assert met <= set(range(LEAST_ROWS, 73, LEAST_ROWS))
+    assert met <= set(range(ROW_STEP, 73, ROW_STEP))
     assert len(met) > 1

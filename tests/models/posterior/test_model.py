@@ -28,7 +28,7 @@ def test_the_shipped_names_are_the_lexicons() -> None:
     with torch.no_grad():
         bound = matcher.bind(MAP)
     assert stored.equal(matcher.names), "nothing was embedded anew"
-    phrases, _ = matcher.lexicon.names_in(MAP)
+    phrases, _ = matcher.lexicon.map_names_to_labels(MAP)
     some = range(0, len(phrases), 40)
     fresh = model.reader.text_encoder.embed([phrases[n].lower().replace("-", " ") for n in some])
     assert ((bound.names[list(some)] * fresh).sum(dim=1) > 0.98).all(), "but for half precision, and layers in 8 bits"
@@ -42,7 +42,7 @@ def test_a_changed_lexicon_changes_the_fingerprint_and_is_embedded_anew(tmp_path
     assert model.fingerprint != record["fingerprint"]
     with torch.no_grad():
         bound = model.matcher.bind(MAP)
-        assert bound.names.shape == (len(other_lexicon.names_in(MAP)[0]), 384)
+        assert bound.names.shape == (len(other_lexicon.map_names_to_labels(MAP)[0]), 384)
         perch = model.matcher(model.matcher.embed(["perch for walkers"]), bound)
     assert perch.argmax() == 0
     save_posterior(model, tmp_path, {})

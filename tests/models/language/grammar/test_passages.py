@@ -78,7 +78,7 @@ class Plain:
 def wording_of(monkeypatch):
     """The training grammar with one passage in place of its own, which is told wherever it can be."""
     tables = load_grammar("train")
-    monkeypatch.setattr("models.language.grammar.wording.PASSAGES", 1.0)
+    monkeypatch.setattr("models.language.grammar.wording.PASSAGE_SHARE", 1.0)
 
     def make(phrase):
         phrases = {**tables.phrases, "passages": [phrase]}

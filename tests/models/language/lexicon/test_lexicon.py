@@ -45,18 +45,18 @@ def test_whatever_changes_the_hash_tells(change) -> None:
 
 def test_what_a_class_means_in_a_map() -> None:
     lexicon = load_lexicon()
-    assert lexicon.meaning_in(KITTI, "lamp") == "lamp"
-    assert lexicon.meaning_in(KITTI, "street lamp") == "lamp"
-    assert lexicon.meaning_in(KITTI, "hedge") == "vegetation"
-    assert lexicon.meaning_in(KITTI, "lifebuoy") is None
-    meant = dict(zip(*lexicon.names_in(KITTI), strict=True))
+    assert lexicon.find_map_label(KITTI, "lamp") == "lamp"
+    assert lexicon.find_map_label(KITTI, "street lamp") == "lamp"
+    assert lexicon.find_map_label(KITTI, "hedge") == "vegetation"
+    assert lexicon.find_map_label(KITTI, "lifebuoy") is None
+    meant = dict(zip(*lexicon.map_names_to_labels(KITTI), strict=True))
     assert meant["bus stop"] == KITTI.index("stop")
     assert meant["lifebuoy"] == len(KITTI)
 
 
 def test_names_of_what_the_map_has_stand_for_nothing_else() -> None:
     meant = {}
-    for phrase, number in zip(*load_lexicon().names_in(("bushes", "building", "tree")), strict=True):
+    for phrase, number in zip(*load_lexicon().map_names_to_labels(("bushes", "building", "tree")), strict=True):
         meant.setdefault(phrase, set()).add(number)
     assert meant["tree"] == {2}
     assert meant.get("trees", set()) <= {2}

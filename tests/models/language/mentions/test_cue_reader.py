@@ -1,6 +1,6 @@
 import pytest
 
-from models.language.mentions.cue_reader import LONGEST, CueReader
+from models.language.mentions.cue_reader import MAX_CHARACTERS, CueReader
 from models.training.posterior.cue_texts import LABELLED_DIR, load_labelled
 from models.training.posterior.fit_cues import accuracy
 
@@ -44,7 +44,7 @@ def test_an_angle_that_is_not_sure_is_several(cues) -> None:
 
 def test_mentions_of_a_long_text_are_all_read(cues) -> None:
     text = ("The bank is on my left. " + "I wait for you here, it is cold. " * 24) * 3
-    assert len(text) > 2 * LONGEST
+    assert len(text) > 2 * MAX_CHARACTERS
     starts = [at for at in range(len(text)) if text.startswith("bank", at)]
     read = cues.read(text, [(start, start + 4, "thing") for start in starts])
     assert [cue.angle for cue in read] == [-90] * 3
@@ -60,7 +60,7 @@ def test_merged_weights_are_forgotten_in_training(cues) -> None:
     before = cues.read(text, places)
     try:
         cues.train()
-        assert cues._packed is None
+        assert cues._int8_layers is None
     finally:
         cues.eval()
     assert cues.read(text, places) == before

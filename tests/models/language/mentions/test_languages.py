@@ -1,7 +1,7 @@
 import pytest
 
 from models.language.mentions.cue_reader import CueReader
-from models.language.mentions.languages import language_of
+from models.language.mentions.languages import detect_language
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.reader import find_mentions
 
@@ -19,12 +19,12 @@ from models.language.mentions.reader import find_mentions
     ],
 )
 def test_another_language_is_told_where_it_is_sure(text, language) -> None:
-    assert language_of(text) == language
+    assert detect_language(text) == language
 
 
 def test_another_language_gives_names_and_nouns_without_directions(lookup: Lookup, cues: CueReader) -> None:
     german = "Ich stehe vor der Apotheke, links ist die Bäckerei"
-    mentions = find_mentions(german, lookup, cues, language_of(german))
+    mentions = find_mentions(german, lookup, cues, detect_language(german))
     assert {kind for mention in mentions for kind in mention.kinds} >= {"amenity/pharmacy", "shop/bakery"}
     assert all(mention.cue.angle is None for mention in mentions)
 

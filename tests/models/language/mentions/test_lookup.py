@@ -4,7 +4,7 @@ import pytest
 from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, EMPTY_GAZETTEER, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.citymap.kinds.vocabulary import load_vocabulary
-from models.language.mentions.lookup import KEPT, Lookup
+from models.language.mentions.lookup import MAX_CACHED_PHRASES, Lookup
 from models.language.mentions.names import plain_words
 from tests.models.citymap.gazetteer.made_town import NUMBERS, called, is_common, line, numbered, point
 
@@ -122,7 +122,7 @@ def test_the_surest_kind_of_an_object_counts(town, lookup) -> None:
 
 
 def test_rare_words_are_worth_more_than_common_ones(lookup) -> None:
-    assert lookup.worth("bottino") > lookup.worth("coffee") > lookup.worth("the")
+    assert lookup.word_weight("bottino") > lookup.word_weight("coffee") > lookup.word_weight("the")
 
 
 @pytest.mark.parametrize("number", NUMBERS)
@@ -196,7 +196,7 @@ def test_a_chain_is_found_by_its_other_names(text, found) -> None:
 
 def test_what_people_say_does_not_pile_up(lookup) -> None:
     assert lookup.kinds(("pharmacy",))
-    for number in range(2 * KEPT):
+    for number in range(2 * MAX_CACHED_PHRASES):
         lookup.kinds((f"x{number}",))
-    assert lookup._kinds.cache_info().currsize <= KEPT
+    assert lookup._kinds.cache_info().currsize <= MAX_CACHED_PHRASES
     assert lookup.kinds(("pharmacy",))

@@ -1,14 +1,14 @@
 import pytest
 
 from models.language.mentions.cue_reader import CueReader, ReadCue
-from models.language.mentions.mentions import Mention, with_cues
+from models.language.mentions.mentions import Mention, add_cues
 from models.language.mentions.reader import find_mentions
 
 
 def said(text: str, cues: CueReader, *things: str) -> list[tuple[str, float | None]]:
     """(relation, angle) of things in a text."""
     mentions = [Mention(thing, text.index(thing), text.index(thing) + len(thing), "thing") for thing in things]
-    return [(m.cue.relation, m.cue.angle) for m in with_cues(text, mentions, cues)]
+    return [(m.cue.relation, m.cue.angle) for m in add_cues(text, mentions, cues)]
 
 
 NAMES = [
@@ -42,11 +42,11 @@ def test_words_go_to_the_thing_that_they_tell_of(cues, text, expected) -> None:
 def test_mentions_keep_their_order(cues) -> None:
     text = "near AAA, past BBB"
     mentions = [Mention("BBB", 15, 18, "thing"), Mention("AAA", 5, 8, "thing")]
-    assert [(m.text, m.cue.relation) for m in with_cues(text, mentions, cues)] == [("BBB", "past"), ("AAA", "near")]
+    assert [(m.text, m.cue.relation) for m in add_cues(text, mentions, cues)] == [("BBB", "past"), ("AAA", "near")]
 
 
 def test_no_mentions(cues) -> None:
-    assert with_cues("nothing", [], cues) == []
+    assert add_cues("nothing", [], cues) == []
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def test_a_kind_named_again_is_the_same_thing(cues) -> None:
         text = f"There is a {one} on my left. The {other} is a block east of the {one}."
         at = [(one, text.index(one)), (other, text.index(other)), (one, text.rindex(one))]
         mentions = [Mention(words, start, start + len(words), "thing") for words, start in at]
-        right += [m.start for m in with_cues(text, mentions, cues)] == [start for _, start in at[:2]]
+        right += [m.start for m in add_cues(text, mentions, cues)] == [start for _, start in at[:2]]
     assert right >= len(pairs) - 1, "a trained reader may stumble over a word"
 
 
@@ -85,7 +85,7 @@ def test_who_is_named_again_is_left_out_before_it_is_read() -> None:
     text = "A cafe is near. A bakery is north of the cafe."
     at = [("cafe", 2), ("bakery", 18), ("cafe", text.rindex("cafe"))]
     mentions = [Mention(words, start, start + len(words), "thing") for words, start in at]
-    assert [m.start for m in with_cues(text, mentions, Credulous())] == [2, 18]
+    assert [m.start for m in add_cues(text, mentions, Credulous())] == [2, 18]
 
 
 def test_another_of_a_kind_is_another(lookup, cues) -> None:

@@ -16,7 +16,7 @@ SAID = (
 
 @pytest.fixture
 def opened(town, tmp_path) -> Lookup:
-    NameTable.of(town, load_vocabulary(), is_common).save(tmp_path)
+    NameTable.from_gazetteer(town, load_vocabulary(), is_common).save(tmp_path)
     return Lookup(town, load_vocabulary(), is_common, NameTable.load(tmp_path))
 
 
@@ -32,7 +32,7 @@ def test_an_opened_table_finds_what_a_made_one_finds(lookup, opened, said) -> No
         assert was == now if ask == "is_name" else found(was) == found(now)
     if words:
         assert found(lookup.misspelt(words)) == found(opened.misspelt(words))
-        assert [lookup.worth(word) for word in words] == [opened.worth(word) for word in words]
+        assert [lookup.word_weight(word) for word in words] == [opened.word_weight(word) for word in words]
         assert [lookup.is_strange(word) for word in words] == [opened.is_strange(word) for word in words]
 
 
@@ -49,7 +49,7 @@ def test_the_phrases_are_the_same(lookup, opened) -> None:
 
 
 def test_a_table_of_nothing(tmp_path) -> None:
-    NameTable.of(EMPTY_GAZETTEER, load_vocabulary(), is_common).save(tmp_path)
+    NameTable.from_gazetteer(EMPTY_GAZETTEER, load_vocabulary(), is_common).save(tmp_path)
     nothing = Lookup(EMPTY_GAZETTEER, load_vocabulary(), is_common, NameTable.load(tmp_path))
     assert nothing.named(("a",)) is None
     assert nothing.street(("a",)) is None

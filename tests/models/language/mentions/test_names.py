@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.language.mentions.names import plain_word, plain_words, words_of
+from models.language.mentions.names import plain_word, plain_words, split_words
 
 
 @pytest.mark.parametrize(
@@ -47,27 +47,27 @@ def test_both_ways_to_write_an_accent_are_one(composed, apart) -> None:
     [("the library's ahead", "library"), ("Joe\u2019s", "joe"), ("second's", "2nd"), ("boss", ""), ("'s", "")],
 )
 def test_owners(text, owner) -> None:
-    assert words_of(text)[-1 if text.startswith(("J", "s", "b", "'")) else 1].owner == owner
+    assert split_words(text)[-1 if text.startswith(("J", "s", "b", "'")) else 1].owner == owner
 
 
 def test_words_know_where_they_stand() -> None:
     text = "On Forty-Second, by joe's"
-    words = words_of(text)
+    words = split_words(text)
     assert [text[word.start : word.end] for word in words] == ["On", "Forty-Second", "by", "joe's"]
     assert [word.is_capital for word in words] == [True, True, False, False]
 
 
 def test_numbers_count_as_capital_and_stay_apart() -> None:
-    assert [(word.plain, word.is_capital) for word in words_of("5 25th 12-14")] == [
+    assert [(word.plain, word.is_capital) for word in split_words("5 25th 12-14")] == [
         ("5", True), ("25th", True), ("12-14", True),
     ]  # fmt: skip
-    assert [word.plain for word in words_of("twenty, first")] == ["twenty", "1st"], "a comma keeps them apart"
+    assert [word.plain for word in split_words("twenty, first")] == ["twenty", "1st"], "a comma keeps them apart"
 
 
 @given(st.text(max_size=60))
 def test_words_stand_in_order_in_any_text(text) -> None:
     end = 0
-    for word in words_of(text):
+    for word in split_words(text):
         assert end <= word.start < word.end <= len(text)
         end = word.end
 

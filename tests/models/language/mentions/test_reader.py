@@ -9,7 +9,7 @@ from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
 from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.mentions.lookup import Lookup
-from models.language.mentions.reader import MOST_OBJECTS, find_mentions, is_meeting, listener_wind, with_goal
+from models.language.mentions.reader import MAX_OBJECTS, find_mentions, is_meeting, listener_wind, mark_goal
 from tests.models.citymap.gazetteer.made_town import called, is_common, point
 
 LETTERS = st.text(st.sampled_from("25th 10ave on&W st.,/'!éßⅣ²፩ﾞ٣京\u0308\u200dI"), max_size=25)
@@ -118,7 +118,7 @@ def test_a_map_without_names(lookup, cues) -> None:
 
 
 def test_what_so_many_things_may_be_is_left_out(cues) -> None:
-    count = MOST_OBJECTS + 1
+    count = MAX_OBJECTS + 1
     town = build_gazetteer([GazetteerObject(("amenity/bench",))] * count, [point(0, 0)] * count, [False] * count)
     assert find_mentions("a bench", Lookup(town, load_vocabulary(), is_common), cues) == []
 
@@ -134,7 +134,7 @@ def test_what_so_many_things_may_be_is_left_out(cues) -> None:
 )
 def test_the_goal_of_a_meeting(town, lookup, cues, text) -> None:
     assert is_meeting(text)
-    first = with_goal(find_mentions(text, lookup, cues))[0]
+    first = mark_goal(find_mentions(text, lookup, cues))[0]
     assert first.text == "cafe"
     assert first.cue.relation == "at"
     assert first.cue.angle is None
@@ -142,14 +142,14 @@ def test_the_goal_of_a_meeting(town, lookup, cues, text) -> None:
 
 def test_what_is_said_to_be_elsewhere_is_no_goal(lookup, cues) -> None:
     text = "Meet me across from the cafe, two blocks north of Bottino, by the bakery"
-    relations = [(m.text, m.cue.relation) for m in with_goal(find_mentions(text, lookup, cues))]
+    relations = [(m.text, m.cue.relation) for m in mark_goal(find_mentions(text, lookup, cues))]
     assert relations == [("cafe", "across"), ("Bottino", "wind"), ("bakery", "at")]
 
 
 def test_a_goal_that_is_said_is_kept(lookup, cues) -> None:
     mentions = find_mentions("Near Bottino, meet me at the cafe", lookup, cues)
-    assert [m.cue.relation for m in with_goal(mentions)] == [m.cue.relation for m in mentions] == ["near", "at"]
-    assert with_goal([]) == []
+    assert [m.cue.relation for m in mark_goal(mentions)] == [m.cue.relation for m in mentions] == ["near", "at"]
+    assert mark_goal([]) == []
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@ from itertools import pairwise
 
 import pytest
 
-from models.language.mentions.spans import find_spans, like_noun
+from models.language.mentions.spans import correct_noun, find_spans
 from tests.models.citymap.gazetteer.made_town import called
 
 
@@ -89,12 +89,12 @@ def test_spans_are_in_order_and_apart(lookup) -> None:
     ("wrong", "right"), [("bakary", "bakery"), ("resturant", "restaurant"), ("bottino", "bottino"), ("caf", "caf")]
 )
 def test_misspelt_nouns(lookup, wrong, right) -> None:
-    assert like_noun(wrong, lookup) == right
+    assert correct_noun(wrong, lookup) == right
 
 
 @pytest.mark.parametrize(("wrong", "right"), [("hotell", "hotel"), ("watter", "water")])
 def test_of_nouns_that_are_as_like_the_shortest_is_meant_in_every_process(lookup, wrong, right) -> None:
-    assert like_noun(wrong, lookup) == right
+    assert correct_noun(wrong, lookup) == right
     nouns = list(lookup.noun_words)  # not in the order of a set, which is another one in each process
     assert nouns == sorted(nouns, key=lambda noun: (len(noun), noun))
 

@@ -1,7 +1,7 @@
 import pytest
 
 from models.language.mentions.names import plain_words
-from models.language.mentions.streets import forms_of, full_words
+from models.language.mentions.streets import full_words, street_forms
 
 
 @pytest.mark.parametrize(
@@ -41,19 +41,19 @@ def test_streets_written_out(said, full) -> None:
     ],
 )
 def test_forms(name, forms) -> None:
-    assert {" ".join(form) for form, _ in forms_of(name)} == forms
+    assert {" ".join(form) for form, _ in street_forms(name)} == forms
 
 
 def test_the_whole_name_is_the_surest_form() -> None:
-    weights = dict(forms_of("West 25th Street"))
+    weights = dict(street_forms("West 25th Street"))
     assert weights[("west", "25th", "street")] == 1.0
     assert all(0 < weight < 1 for form, weight in weights.items() if form != ("west", "25th", "street"))
 
 
 def test_all_spellings_of_a_name_have_the_same_forms() -> None:
-    assert len({tuple(forms_of(name)) for name in ("West 25th Street", "W. 25th St.", "west twenty-fifth st")}) == 1
+    assert len({tuple(street_forms(name)) for name in ("West 25th Street", "W. 25th St.", "west twenty-fifth st")}) == 1
 
 
 def test_a_german_street_goes_without_its_kind() -> None:
-    assert ("karl", "liebknecht") in dict(forms_of("Karl-Liebknecht-Straße"))
-    assert ("karl", "liebknecht", "strasse") in dict(forms_of("Karl-Liebknecht-Straße"))
+    assert ("karl", "liebknecht") in dict(street_forms("Karl-Liebknecht-Straße"))
+    assert ("karl", "liebknecht", "strasse") in dict(street_forms("Karl-Liebknecht-Straße"))
