@@ -30,7 +30,7 @@ def test_evaluate_prints_what_it_writes(run, strip_file, tmp_path) -> None:
 def test_evaluate_refuses_an_unknown_split_in_one_line(run, osm_file) -> None:
     result = run("evaluate", "--data", osm_file, "--split", "north")
     assert result.exit_code == 1
-    assert "no split of a map" in result.output
+    assert "is not a split of a map" in result.output
 
 
 def test_questions_prints_what_they_help(run, osm_file, index_dir) -> None:

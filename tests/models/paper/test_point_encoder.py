@@ -111,7 +111,7 @@ def test_a_slice_that_begins_at_a_block_gives_the_bits_of_the_whole(
     city, cells, text_encoder, monkeypatch, tmp_path
 ) -> None:
     for module in ("instance_encoder", "level_table", "retriever"):
-        monkeypatch.setattr(f"models.paper.{module}.BLOCK", 16)
+        monkeypatch.setattr(f"models.paper.{module}.CELLS_PER_BLOCK", 16)
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
     torch.manual_seed(0)
     cells, labels = cells.take(np.arange(90)), np.array([i.label for i in city.instances])

@@ -73,7 +73,7 @@ def test_scores_are_those_of_a_naive_sum(statements, at_once, monkeypatch) -> No
 
 
 def test_several_processes_make_what_one_makes(given, statements, monkeypatch) -> None:
-    monkeypatch.setattr("models.posterior.statements.BLOCK", 20)
+    monkeypatch.setattr("models.posterior.statements.CELLS_PER_BLOCK", 20)
     again = Statements.of(*given)
     assert (again.number == statements.number).all()
     assert (_holds(again) != _holds(statements)).nnz == 0
