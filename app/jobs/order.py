@@ -69,6 +69,7 @@ class Evaluation(BaseModel):
         """
         from index.answering.localizer import Localizer  # noqa: PLC0415
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415  # brings torch, which takes seconds
+        from index.evaluation.localizers import with_raw_texts  # noqa: PLC0415
         from models.citymap.queries import Queries  # noqa: PLC0415
 
         if self.data is not None:
@@ -81,8 +82,10 @@ class Evaluation(BaseModel):
         data = localizer.map_data()
         sentences = [(description,) for description in self.descriptions]
         queries = Queries.from_text(sentences, np.array(self.positions_m), data.cells)
-        answering = localizer.posterior if self.refine == "posterior" else localizer.by_vectors(self.refine).raw()
-        return evaluate(data, queries, answering, report_dir, self.grow_m, progress)
+        measured: CellLocalizer = localizer.posterior
+        if self.refine != "posterior":
+            measured = with_raw_texts(localizer.by_vectors(self.refine))
+        return evaluate(data, queries, measured, report_dir, self.grow_m, progress)
 
     def _open(self, progress: Progress) -> "tuple[Source, Queries]":
         from models.sources.source import open_source  # noqa: PLC0415
@@ -97,7 +100,7 @@ class Evaluation(BaseModel):
 
     def _posterior(self, source: "Source", progress: Progress) -> "PosteriorLocalizer":
         """The hint posterior of a data set."""
-        from index.answering.posterior_localizer import PosteriorLocalizer  # noqa: PLC0415
+        from index.evaluation.localizers import posterior_of_map  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
         from models.posterior.neighbours.neighbour_index import surroundings_of  # noqa: PLC0415
@@ -105,11 +108,11 @@ class Evaluation(BaseModel):
         ranker = self._ranker(source, load_retriever(self.weights_dir).global_only(), progress)
         surroundings = surroundings_of(source.geometry(), source.data.cells, progress)
         model = load_posterior(self.posterior_weights_dir)
-        return PosteriorLocalizer.of_map(model, source.data, ranker, surroundings, source.gazetteer())
+        return posterior_of_map(model, source.data, ranker, surroundings, source.gazetteer())
 
     def _vectors(self, source: "Source", progress: Progress) -> "VectorLocalizer":
         """Vector search of a data set: raw text, all levels."""
-        from index.answering.vector_localizer import VectorLocalizer  # noqa: PLC0415
+        from index.evaluation.localizers import vectors_of_map  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.paper.fine.checkpoint import load_refiner  # noqa: PLC0415
 
@@ -117,7 +120,7 @@ class Evaluation(BaseModel):
         if self.refine == "matching" or self.refine == "regressor":  # noqa: PLR1714, which mypy does not see through
             refiner = load_refiner(self.refine, self.fine_weights_dir)
         ranker = self._ranker(source, load_retriever(self.weights_dir), progress)
-        return VectorLocalizer.of_map(source.data, ranker, refiner)
+        return vectors_of_map(source.data, ranker, refiner)
 
     @staticmethod
     def _ranker(source: "Source", retriever: "Retriever", progress: Progress) -> "Ranker":

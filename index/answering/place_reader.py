@@ -65,7 +65,7 @@ class PlaceReader:
         names: NameTable | None = None,
     ) -> None:
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
-        self._cues, self._meanings = cues, meanings
+        self.meanings, self._cues = meanings, cues
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
         self._kept: LRUCache[tuple[str, str, tuple[tuple[int, int], ...]], list[Mention]] = LRUCache(
             KEPT_BYTES, _bytes_of
@@ -91,7 +91,7 @@ class PlaceReader:
     @cachedmethod(lambda reader: reader._kept)
     def _mentions(self, description: str, language: str, nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
         """As `find_mentions`; of the latest texts it is remembered."""
-        like = None if self._meanings is None else self._meanings.like
+        like = None if self.meanings is None else self.meanings.like
         return find_mentions(description, self._lookup, self._cues, language, nouns, like)
 
     def told(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> Told | None:

@@ -21,7 +21,7 @@ from index.asking.known_facts import Heard
 from index.asking.questions import Questions
 from models.citymap.colours import Palette
 from models.citymap.frame import Frame
-from models.citymap.gallery import Gallery, MapData
+from models.citymap.gallery import Gallery
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
 from models.citymap.points import Ints
 from models.language.mentions.contradictions import contradictions
@@ -93,13 +93,12 @@ class PosteriorLocalizer:
         landmarks: Landmarks | None = None,
     ) -> None:
         self.weights, self.gallery, self.frame, self.ranker = model, gallery, frame, ranker
-        self.surroundings, self._palette = surroundings, palette
+        self.surroundings, self._gazetteer = surroundings, gazetteer
         self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
         labels, label = surroundings.things.labels(gallery)
         self.nodes = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette, statements)
         self.labels = labels
         self.binding = Binding(model.matcher, list(labels), palette)
-        self._gazetteer, self._grid_m, self._meanings, self._names = gazetteer, grid_m, meanings, names
         self.places: PlaceReader | None = None
         if len(gazetteer):
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
@@ -108,26 +107,6 @@ class PosteriorLocalizer:
         self.questions = Questions(self.nodes.sights, list(self.labels), palette, gazetteer, gallery.cells, landmarks)
         self.texts = Texts(model.reader)
         self._encoded = lru_cache(maxsize=KEPT_VECTORS)(self._encode)
-
-    @classmethod
-    def of_map(
-        cls,
-        model: PosteriorModel,
-        data: MapData,
-        ranker: Ranker,
-        surroundings: Surroundings,
-        gazetteer: Gazetteer = EMPTY_GAZETTEER,
-    ) -> "PosteriorLocalizer":
-        """On a map that is no index."""
-        given = model, data.gallery, data.palette, data.frame, surroundings, ranker
-        return cls(*given, gazetteer, data.grid_m)
-
-    def take(self, rows: Ints) -> "PosteriorLocalizer":
-        """See CellLocalizer."""
-        gallery = replace(self.gallery, cells=self.gallery.cells.take(rows))
-        surroundings = self.surroundings.take(rows, self.surroundings.things.parts_in(self.gallery.cells, rows))
-        given = self.weights, gallery, self._palette, self.frame, surroundings, self.ranker.take(rows)
-        return PosteriorLocalizer(*given, self._gazetteer, self._grid_m, self._meanings, names=self._names)
 
     def find(self, queries: Sequence[Query]) -> list[Finding]:
         """See CellLocalizer."""

@@ -10,7 +10,6 @@ import numpy.typing as npt
 from index.stores.faiss_store import FaissStore
 from index.stores.store import Floats, Rows, VectorStore
 from models.citymap.cells import CellTable
-from models.citymap.points import Ints
 from models.paper.instance_encoder import CellFeatures
 from models.paper.level_table import EMPTY_LEVEL_TABLE, LevelTable, encode_gallery
 from models.paper.levels import Levels
@@ -67,10 +66,6 @@ class Ranker:
         """
         table = EMPTY_LEVEL_TABLE if retriever.levels == ("global",) else LevelTable.load(directory, retriever.levels)
         return cls(retriever, store, table)
-
-    def take(self, rows: Ints) -> "Ranker":
-        """The same of some cells of the gallery."""
-        return Ranker(self.retriever, FaissStore.of(self.store.vectors(rows)), self.table.take(rows), self.depth)
 
     def search(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
         """The k best cells of each description by the global level alone; arguments and return as `rank`."""

@@ -22,7 +22,6 @@ from index.answering.answers import (
 from index.answering.query import Query
 from models.citymap.cells import CellTable
 from models.citymap.frame import Frame
-from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.posterior.distribution import Located
 
@@ -69,10 +68,6 @@ class CellLocalizer(Protocol):
 
     def find(self, queries: Sequence[Query]) -> list[Finding]:
         """One finding a query, in order; several texts go through a model together."""
-        ...
-
-    def take(self, rows: Ints) -> "CellLocalizer":
-        """The same on some cells of the gallery."""
         ...
 
 

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 from scipy.special import logsumexp
@@ -13,7 +12,7 @@ from index.answering.query import Query
 from index.answering.ranking import Ranker
 from index.answering.result import Finding
 from models.citymap.frame import Frame
-from models.citymap.gallery import Gallery, MapData
+from models.citymap.gallery import Gallery
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.sentences import split_hints
@@ -66,25 +65,10 @@ class VectorLocalizer:
             else None
         )
 
-    @classmethod
-    def of_map(cls, data: MapData, ranker: Ranker, refiner: FineModel | None = None) -> "VectorLocalizer":
-        """As it is measured on a map: raw text, and probabilities over every cell."""
-        return cls(ranker, data.gallery, data.frame, data.grid_m, refiner, depth=len(data.cells))
-
     @property
     def method(self) -> Method:
         """See CellLocalizer."""
         return self.refiner.method if self.refiner else "cell_center"
-
-    def take(self, rows: Ints) -> "VectorLocalizer":
-        """See CellLocalizer."""
-        gallery = replace(self.gallery, cells=self.gallery.cells.take(rows))
-        given = self.frame, self.grid_m, self.refiner, self.sentences, self.depth
-        return VectorLocalizer(self.ranker.take(rows), gallery, *given)
-
-    def raw(self) -> "VectorLocalizer":
-        """The same, encoding descriptions as they are, as the paper measures its retrievers."""
-        return VectorLocalizer(self.ranker, self.gallery, self.frame, self.grid_m, self.refiner, depth=self.depth)
 
     def find(self, queries: Sequence[Query]) -> list[Finding]:
         """See CellLocalizer."""

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from index.answering.query import Query
 from index.answering.result import CellLocalizer
 from index.evaluation.ambiguity import ambiguity
+from index.evaluation.localizers import on_some_cells
 from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
@@ -53,7 +54,8 @@ def evaluate(
         report("match hints", 0, 0)
         predictions.facts["ambiguity"] = ambiguity(data, queries, queries.hints)
     grown = [
-        (radius, predict(*part, localizer.take(rows), report)) for radius, part, rows in grow(data, queries, grow_m)
+        (radius, predict(*part, on_some_cells(localizer, part[0], rows), report))
+        for radius, part, rows in grow(data, queries, grow_m)
     ]
     if report_dir:
         save_run(report_dir, predictions, grown)

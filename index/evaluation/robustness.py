@@ -13,6 +13,7 @@ from index.answering.result import CellLocalizer
 from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.candidates import candidate_recall, candidate_table
 from index.evaluation.evaluation import predict
+from index.evaluation.localizers import posterior_of_map, vectors_of_map
 from index.evaluation.report import Table
 from index.evaluation.scoring import score
 from index.evaluation.trials import CANDIDATES_OF, Trial, all_trials
@@ -206,5 +207,4 @@ def _localizers(
     parts = around.things.parts_among(posterior.gallery.cells.parts, damage.kept)
     surroundings = around.take(np.arange(len(data.cells)), parts)
     encoded = Ranker.of(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
-    again = PosteriorLocalizer.of_map(posterior.weights, data, encoded, surroundings)
-    return VectorLocalizer.of_map(data, encoded), again
+    return vectors_of_map(data, encoded), posterior_of_map(posterior.weights, data, encoded, surroundings)

@@ -17,6 +17,7 @@ from index.answering.ranking import RERANKED, Ranker
 from index.answering.vector_localizer import VectorLocalizer
 from index.build.manifest import fingerprint
 from index.evaluation.evaluation import evaluate
+from index.evaluation.localizers import vectors_of_map
 from index.evaluation.reproduction.figure_3 import draw_figure_3
 from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
@@ -268,7 +269,7 @@ def _localizer(
     data: MapData, retriever: Retriever, depth: int = RERANKED, refiner: FineModel | None = None
 ) -> VectorLocalizer:
     ranker = Ranker.of(retriever, data.cells, data.gallery.labels, depth)
-    return VectorLocalizer.of_map(data, ranker, refiner)
+    return vectors_of_map(data, ranker, refiner)
 
 
 def asked(data: Path, *splits: str) -> Iterator[tuple[MapData, Queries]]:

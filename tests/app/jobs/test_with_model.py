@@ -11,7 +11,7 @@ from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
 from index.answering.ranking import Ranker
-from index.answering.vector_localizer import VectorLocalizer
+from index.evaluation.localizers import vectors_of_map
 from models.citymap.queries import Queries
 from models.sources.source import open_source
 
@@ -88,7 +88,7 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
     asked = open_source(osm_file).queries()
     mine = Queries.from_text(asked.sentences[::40], asked.positions_m[::40], data.cells)
     made = Ranker.of(localizer.retriever, data.cells, data.gallery.labels)
-    stored, anew = (run(data, mine, VectorLocalizer.of_map(data, ranker)) for ranker in (localizer.ranker, made))
+    stored, anew = (run(data, mine, vectors_of_map(data, ranker)) for ranker in (localizer.ranker, made))
     assert stored == anew
 
 

@@ -6,11 +6,11 @@ import pytest
 import torch
 
 from index.answering.localizer import Localizer
-from index.answering.posterior_localizer import PosteriorLocalizer
 from index.answering.query import Box, Circle, Prior, Query
 from index.answering.ranking import Ranker
 from index.answering.result import to_answer
 from index.evaluation.evaluation import evaluate
+from index.evaluation.localizers import posterior_of_map
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
@@ -47,7 +47,7 @@ def posterior_model(text_encoder):
 def posterior(posterior_model, model, source):
     data = source.data
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
-    return PosteriorLocalizer.of_map(posterior_model, data, ranker, surroundings_of(source.geometry(), data.cells))
+    return posterior_of_map(posterior_model, data, ranker, surroundings_of(source.geometry(), data.cells))
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ import torch
 from index.answering.localizer import Localizer
 from index.answering.query import Circle, Query
 from index.answering.ranking import Ranker
-from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.evaluation import evaluate
+from index.evaluation.localizers import vectors_of_map
 from index.evaluation.predictions import FILE, Predictions
 from models.errors import WeightsError
 from models.paper.fine.checkpoint import load_refiner, save_fine
@@ -50,8 +50,8 @@ def regressor(text_encoder):
 
 def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> None:
     data, queries = asked
-    report = evaluate(*asked, VectorLocalizer.of_map(data, ranker, Told(data.cells, queries.positions_m)), tmp_path)
-    plain = evaluate(*asked, VectorLocalizer.of_map(data, ranker))
+    report = evaluate(*asked, vectors_of_map(data, ranker, Told(data.cells, queries.positions_m)), tmp_path)
+    plain = evaluate(*asked, vectors_of_map(data, ranker))
     assert {v for row in report["localization"].values() for v in row.values()} == {1.0}
     assert report["method"] == "regressor"
     assert (report["model"], report["model_fingerprint"]) == ("oracle", "told")
@@ -65,12 +65,12 @@ def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> N
 def test_refined_positions_are_saved_and_lie_in_their_cells(asked, ranker, regressor, tmp_path) -> None:
     data, queries = asked
     part = dataclasses.replace(queries.take(np.arange(9)), hints=None)
-    evaluate(data, part, VectorLocalizer.of_map(data, ranker, regressor), tmp_path)
+    evaluate(data, part, vectors_of_map(data, ranker, regressor), tmp_path)
     saved = Predictions.load(tmp_path / FILE)
     first = saved.ranked[:, : saved.predicted_m.shape[1]]
     away = np.abs(saved.predicted_m - saved.cell_centers_m[first])
     assert 0 < away.max() <= data.cells.size_m / 2 + 1e-6
-    alone = VectorLocalizer.of_map(data, ranker, regressor).find([Query(" ".join(part.sentences[4]), top_k=10)])
+    alone = vectors_of_map(data, ranker, regressor).find([Query(" ".join(part.sentences[4]), top_k=10)])
     assert alone[0].located.positions[:10] == pytest.approx(saved.predicted_m[4], abs=1e-3)
 
 

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from index.answering.ranking import Ranker
-from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate, grow, rescore
+from index.evaluation.localizers import vectors_of_map
 from index.evaluation.predictions import FILE, Predictions
 from index.evaluation.scoring import score
 from models.citymap.hints import build_hint_table
@@ -20,7 +20,7 @@ from models.sources.source import open_source
 @pytest.fixture(scope="module")
 def vectors(asked, model):
     data = asked[0]
-    return VectorLocalizer.of_map(data, Ranker.of(model, data.cells, data.gallery.labels))
+    return vectors_of_map(data, Ranker.of(model, data.cells, data.gallery.labels))
 
 
 @pytest.fixture(scope="module")

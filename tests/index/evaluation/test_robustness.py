@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 import torch
 
-from index.answering.posterior_localizer import PosteriorLocalizer
 from index.answering.ranking import Ranker
-from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.candidates import SIZES, SOURCES, candidate_recall
+from index.evaluation.localizers import posterior_of_map, vectors_of_map
 from index.evaluation.robustness import _damage, nearest_hints, robustness, robustness_tables
 from index.evaluation.trials import Trial, all_trials
 from models.citymap.types import Hint
@@ -62,8 +61,8 @@ def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_e
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
     untrained.matcher = load_posterior().matcher  # knows the names already
-    posterior = PosteriorLocalizer.of_map(untrained, data, ranker, surroundings_of(source.geometry(), data.cells))
-    vectors = VectorLocalizer.of_map(data, ranker)
+    posterior = posterior_of_map(untrained, data, ranker, surroundings_of(source.geometry(), data.cells))
+    vectors = vectors_of_map(data, ranker)
     found = robustness(data, some, vectors, posterior, lambda *_: None)
     (head, table), *of_candidates = robustness_tables(found)
     assert len(table) == len(all_trials(data))

@@ -1,0 +1,63 @@
+"""The localizers that are measured: of a map that is no index, and of some of the cells of a gallery."""
+
+from index.answering.posterior_localizer import PosteriorLocalizer
+from index.answering.ranking import Ranker
+from index.answering.result import CellLocalizer
+from index.answering.vector_localizer import VectorLocalizer
+from index.stores.faiss_store import FaissStore
+from models.citymap.gallery import MapData
+from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
+from models.citymap.points import Ints
+from models.paper.fine.fine_model import FineModel
+from models.posterior.model import PosteriorModel
+from models.posterior.neighbours.neighbour_index import Surroundings
+
+
+def vectors_of_map(data: MapData, ranker: Ranker, refiner: FineModel | None = None) -> VectorLocalizer:
+    """Return the vector search of a map, which encodes texts as they are and gives every cell a probability."""
+    return VectorLocalizer(ranker, data.gallery, data.frame, data.grid_m, refiner, depth=len(data.cells))
+
+
+def with_raw_texts(served: VectorLocalizer) -> VectorLocalizer:
+    """Return the vector search of an index, which encodes texts as they are, as the paper does."""
+    return VectorLocalizer(
+        served.ranker, served.gallery, served.frame, served.grid_m, served.refiner, depth=served.depth
+    )
+
+
+def posterior_of_map(
+    model: PosteriorModel,
+    data: MapData,
+    ranker: Ranker,
+    surroundings: Surroundings,
+    gazetteer: Gazetteer = EMPTY_GAZETTEER,
+) -> PosteriorLocalizer:
+    """Return the hint posterior of a map."""
+    given = model, data.gallery, data.palette, data.frame, surroundings, ranker
+    return PosteriorLocalizer(*given, gazetteer, data.grid_m)
+
+
+def on_some_cells(localizer: CellLocalizer, data: MapData, rows: Ints) -> CellLocalizer:
+    """Return a localizer that knows only some of its cells.
+
+    Args:
+        localizer: a vector search or a hint posterior.
+        data: the map with these cells alone.
+        rows: of these cells in the localizer's gallery.
+    """
+    assert isinstance(localizer, VectorLocalizer | PosteriorLocalizer)
+    ranker = ranker_on_some_cells(localizer.ranker, rows)
+    if isinstance(localizer, VectorLocalizer):
+        how = localizer.refiner, localizer.sentences, localizer.depth
+        return VectorLocalizer(ranker, data.gallery, data.frame, data.grid_m, *how)
+    parts = localizer.surroundings.things.parts_in(localizer.gallery.cells, rows)
+    given = localizer.weights, data.gallery, data.palette, data.frame, localizer.surroundings.take(rows, parts), ranker
+    if localizer.places is None:
+        return PosteriorLocalizer(*given, grid_m=data.grid_m)
+    return PosteriorLocalizer(*given, localizer.places.gazetteer, data.grid_m, localizer.places.meanings)
+
+
+def ranker_on_some_cells(ranker: Ranker, rows: Ints) -> Ranker:
+    """Return a ranker of some of the cells of a gallery."""
+    vectors = FaissStore.of(ranker.store.vectors(rows))
+    return Ranker(ranker.retriever, vectors, ranker.table.take(rows), ranker.depth)
