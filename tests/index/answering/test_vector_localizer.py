@@ -26,7 +26,7 @@ class Told:
     def __init__(self, cells, positions_m):
         self.cells, self.positions_m, self.asked = cells, positions_m, 0
 
-    def seen(self, cells):
+    def with_point_features(self, cells):
         return cells
 
     def predict(self, descriptions, cells, rows):
