@@ -103,10 +103,10 @@ class Evaluation(BaseModel):
         from index.evaluation.localizers import posterior_of_map  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
-        from models.posterior.neighbours.neighbour_index import surroundings_of  # noqa: PLC0415
+        from models.posterior.neighbours.neighbour_index import build_neighbour_index  # noqa: PLC0415
 
         ranker = self._ranker(source, load_retriever(self.weights_dir).global_only(), progress)
-        surroundings = surroundings_of(source.geometry(), source.data.cells, progress)
+        surroundings = build_neighbour_index(source.geometry(), source.data.cells, progress)
         model = load_posterior(self.posterior_weights_dir)
         return posterior_of_map(model, source.data, ranker, surroundings, source.gazetteer())
 

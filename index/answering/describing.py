@@ -28,7 +28,7 @@ from models.citymap.hints import BEST_CELL_REACH_M, direction_index, round_robin
 from models.citymap.points import Ints
 from models.citymap.templates import OPPOSITE
 from models.citymap.types import DIRECTIONS, Floats, Hint
-from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 MOST_FACTS: Final = 6
 MOST_NAMED: Final = 3
@@ -92,7 +92,7 @@ class Describer:
     """
 
     def __init__(
-        self, gallery: Gallery, palette: Palette, frame: Frame, surroundings: Surroundings, gazetteer: Gazetteer
+        self, gallery: Gallery, palette: Palette, frame: Frame, surroundings: NeighbourIndex, gazetteer: Gazetteer
     ) -> None:
         self._frame, self._gazetteer, self._ids = frame, gazetteer, gallery.cells.ids
         self._cells = cKDTree(gallery.cells.center_m[:, :2])
@@ -215,7 +215,7 @@ class NearSights:
         surroundings: of the gallery.
     """
 
-    def __init__(self, gallery: Gallery, palette: Palette, surroundings: Surroundings) -> None:
+    def __init__(self, gallery: Gallery, palette: Palette, surroundings: NeighbourIndex) -> None:
         self._gallery, self._words, self._surroundings = gallery, palette.words, surroundings
         things = surroundings.things
         self._colour = palette.word_index(things.rgb)

@@ -12,7 +12,7 @@ from models.citymap.hints import BEST_CELL_REACH_M
 from models.citymap.points import ranges
 from models.citymap.types import Floats
 from models.posterior.area_filter import Inside
-from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 BEND_M: Final = 0.5  # by which an edge of a box in degrees may bend between points
 REACH_M: Final = BEST_CELL_REACH_M + BEND_M  # of a cell's nodes from its centre
@@ -36,7 +36,7 @@ def inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
     return np.ones(len(points_m), dtype=bool)
 
 
-def where_inside(query: Query, surroundings: Surroundings, centers_m: Floats, frame: Frame) -> Inside | None:
+def where_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, frame: Frame) -> Inside | None:
     """The nodes that are inside `within`, of cells with centres [N, 2]; None without one.
 
     Exact: of cells that its border may cross each node is looked at.

@@ -13,12 +13,12 @@ from models.citymap.templates import render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import IndexBroken
 from models.paper.retriever import Retriever
-from models.posterior.neighbours.map_objects import Things
+from models.posterior.neighbours.map_objects import MapObjects
 
 FILE = "hints.safetensors"
 
 
-def template_hints(gallery: Gallery, things: Things, palette: Palette) -> tuple[str, ...]:
+def template_hints(gallery: Gallery, things: MapObjects, palette: Palette) -> tuple[str, ...]:
     """Every hint about the classes of what cells show, in each colour that they have and in none, by the template."""
     labels, number = things.labels(gallery)
     shown, words = things.parts > 0, [*palette.words, None]

@@ -46,8 +46,8 @@ from models.paper.fine.fine_model import FineMethod, FineModel
 from models.paper.level_table import STARTS_FILE
 from models.paper.retriever import Retriever
 from models.posterior.model import PosteriorModel, load_posterior
-from models.posterior.neighbours.neighbour_index import Surroundings, load_surroundings
-from models.posterior.neighbours.piece_index import PieceSurroundings
+from models.posterior.neighbours.neighbour_index import NeighbourIndex, load_neighbour_index
+from models.posterior.neighbours.piece_index import PieceNeighbourIndex
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.statements import Statements
 
@@ -204,13 +204,13 @@ class Localizer:
     def _cut(self, cells: Ints) -> PartTable:
         """The parts of some cells, of a map of pieces."""
         surroundings = self._surroundings
-        assert isinstance(surroundings, PieceSurroundings)
+        assert isinstance(surroundings, PieceNeighbourIndex)
         return surroundings.cut(self.gallery.cells.center_m[cells])
 
     # The next three are read by `describe` too, on any thread: what two threads read at once is the same.
     @cached_property
-    def _surroundings(self) -> Surroundings:
-        return load_surroundings(self._directory, self.gallery.cells)
+    def _surroundings(self) -> NeighbourIndex:
+        return load_neighbour_index(self._directory, self.gallery.cells)
 
     @cached_property
     def _gazetteer(self) -> Gazetteer:

@@ -25,8 +25,8 @@ from models.language.mentions.spans import PASSED, STOP
 from models.language.parsed_hint import ParsedHint
 from models.language.text_encoder import TextEncoder
 from models.posterior.distribution import Located
-from models.posterior.places.explanations import Explained
-from models.posterior.places.field import PlaceField, Told
+from models.posterior.places.explanations import MentionExplanation
+from models.posterior.places.field import PlaceEvidence, PlaceField
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
 KEPT_BYTES: Final = 2**24  # of what was read of texts lately: who answers a question sends the text again
@@ -94,7 +94,7 @@ class PlaceReader:
         like = None if self.meanings is None else self.meanings.like
         return find_mentions(description, self._lookup, self._cues, language, nouns, like)
 
-    def told(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> Told | None:
+    def told(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> PlaceEvidence | None:
         """What mentions tell of positions; None if they tell nothing."""
         wind = None if listener_m is None else listener_wind(description)
         meets = listener_m is not None or is_meeting(description)
@@ -104,7 +104,9 @@ class PlaceReader:
         return told if told.places.mentions or wind is not None else None
 
     @torch.inference_mode()
-    def evidence(self, mentions: Sequence[Mention], told: Told | None, position: Floats) -> tuple[Evidence, ...]:
+    def evidence(
+        self, mentions: Sequence[Mention], told: PlaceEvidence | None, position: Floats
+    ) -> tuple[Evidence, ...]:
         """How each mention was understood, and what explains it at a position [2]."""
         known = told.places.mentions if told is not None else ()
         explained = self.field.explain(told.places, position[None]) if told is not None else []
@@ -114,7 +116,7 @@ class PlaceReader:
             found.append(_unexplained(mention) if row is None else self._explained(mention, explained[row], position))
         return tuple(found)
 
-    def _explained(self, mention: Mention, by: Explained, position: Floats) -> Evidence:
+    def _explained(self, mention: Mention, by: MentionExplanation, position: Floats) -> Evidence:
         found = _unexplained(mention)
         if by.item < 0:
             return found
@@ -129,7 +131,7 @@ class PlaceReader:
         return replace(found, label=label or mention.form, explained=by.probability, **shown)
 
     @torch.inference_mode()
-    def heading(self, told: Told | None, located: Located) -> Heading | None:
+    def heading(self, told: PlaceEvidence | None, located: Located) -> Heading | None:
         """Where the speaker looks, from the likeliest nodes; None where the text tells none."""
         if told is None or not any(mention.cue.angle is not None for mention in told.places.mentions):
             return None

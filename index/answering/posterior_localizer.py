@@ -38,10 +38,10 @@ from models.posterior.distribution import Located
 from models.posterior.likelihood import Reading
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
-from models.posterior.neighbours.neighbour_index import Surroundings
-from models.posterior.places.field import Told
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
+from models.posterior.places.field import PlaceEvidence
 from models.posterior.places.landmarks import Landmarks
-from models.posterior.posterior import CANDIDATES, Explained, HintPosterior
+from models.posterior.posterior import CANDIDATES, HintExplanation, HintPosterior
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 
@@ -83,7 +83,7 @@ class PosteriorLocalizer:
         gallery: Gallery,
         palette: Palette,
         frame: Frame,
-        surroundings: Surroundings,
+        surroundings: NeighbourIndex,
         ranker: Ranker,
         gazetteer: Gazetteer = EMPTY_GAZETTEER,
         grid_m: float = 10.0,
@@ -165,7 +165,7 @@ class PosteriorLocalizer:
         hints: Sequence[ParsedHint],
         reading: Reading | None,
         mentions: Sequence[Mention],
-        told: Told | None,
+        told: PlaceEvidence | None,
     ) -> Finding:
         """What was found, with what explains each hint and mention there, and the place in words."""
         evidence = self._evidence(hints, reading, located) if reading is not None else ()
@@ -178,7 +178,7 @@ class PosteriorLocalizer:
 
     def _places(
         self, query: Query, language: str, hints: Sequence[ParsedHint]
-    ) -> tuple[Sequence[ParsedHint], Reading | None, list[Mention], Told | None]:
+    ) -> tuple[Sequence[ParsedHint], Reading | None, list[Mention], PlaceEvidence | None]:
         """The hints that tell of what is near, what they say, what the text names besides, and what that tells."""
         if self.places is None:
             return hints, self.binding.reading(hints) if hints else None, [], None
@@ -199,7 +199,7 @@ class PosteriorLocalizer:
         query: Query,
         hints: Sequence[ParsedHint],
         reading: Reading | None,
-        told: Told | None,
+        told: PlaceEvidence | None,
         answered: Answered | None,
     ) -> Located | None:
         count = REPLY_CANDIDATES if reading is None else CANDIDATES
@@ -218,7 +218,7 @@ class PosteriorLocalizer:
     def _inside(self, query: Query) -> Inside | None:
         return where_inside(query, self.surroundings, self.gallery.cells.center_m[:, :2], self.frame)
 
-    def _honest(self, located: Located, query: Query, told: Told | None) -> Located:
+    def _honest(self, located: Located, query: Query, told: PlaceEvidence | None) -> Located:
         """With radii that hold what they say, as on validation data."""
         config: PosteriorConfig = self.weights.config
         if told is None:
@@ -250,7 +250,7 @@ class PosteriorLocalizer:
         found = self.nodes.explain(reading, node)
         return tuple(self._explained(node, *row) for row in zip(hints, reading.label, found, strict=True))
 
-    def _explained(self, node: int, hint: ParsedHint, label: Any, found: Explained) -> Evidence:
+    def _explained(self, node: int, hint: ParsedHint, label: Any, found: HintExplanation) -> Evidence:
         explained = found.probability
         colour = int(hint.colour.argmax())
         shown: dict[str, Any] = {}

@@ -13,7 +13,7 @@ from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.posterior.places.addresses import Addresses
 from models.posterior.places.landmarks import Landmarks, Table
-from models.posterior.places.name_index import Spelt
+from models.posterior.places.name_index import NameIndex
 from models.posterior.questions import said_with_errors
 
 _NONE: Final = np.zeros(0, np.int64)
@@ -63,7 +63,7 @@ class OpenQuestions:
         best = np.argsort(-share, kind="stable")[:LISTED]
         return [self._spelt(asked.kind).shown[n] for n in best.tolist() if share[n] >= LIKELY_ENOUGH]
 
-    def _spelt(self, kind: str) -> Spelt | Addresses:
+    def _spelt(self, kind: str) -> NameIndex | Addresses:
         if kind == "address":
             return self._landmarks.addresses
         return self._landmarks.names if kind == "name" else self._landmarks.streets

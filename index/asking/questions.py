@@ -33,7 +33,7 @@ FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it h
 
 def landmarks_of(gazetteer: Gazetteer, cells: CellTable) -> Landmarks:
     """What people around some cells can say when they are asked."""
-    return Landmarks.of(gazetteer, cells.center_m[:, :2].astype(np.float64), load_question_classes().kinds)
+    return Landmarks.build(gazetteer, cells.center_m[:, :2].astype(np.float64), load_question_classes().kinds)
 
 
 class Questions:

@@ -20,8 +20,8 @@ from models.paper.checkpoint import load_retriever
 from models.paper.level_table import STARTS_FILE
 from models.paper.retriever import Retriever
 from models.posterior.model import PosteriorModel, load_posterior
-from models.posterior.neighbours.neighbour_index import surroundings_of
-from models.posterior.neighbours.scan_index import ScanSurroundings
+from models.posterior.neighbours.neighbour_index import build_neighbour_index
+from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 from models.processes import forked
 from models.sources.osm.extract import Region, extracted_file
 from models.sources.source import open_source
@@ -106,7 +106,7 @@ class IndexJob:
             forked(partial(save_names, path, named)) as names,
         ):
             source = open_source(path, self.split, report)
-            surroundings = surroundings_of(source.geometry(), source.data.cells, report)
+            surroundings = build_neighbour_index(source.geometry(), source.data.cells, report)
             rows = range(len(source.data.cells))
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
             part = Part.of(encoder, likelihood, source, surroundings, rows, report)
@@ -128,7 +128,7 @@ class IndexJob:
             source = open_source(path, self.split, report)
             count = len(source.data.cells)
             rows = shard.rows(count, CELLS_PER_BLOCK)
-            surroundings = surroundings_of(source.geometry(), source.data.cells, report, rows)
+            surroundings = build_neighbour_index(source.geometry(), source.data.cells, report, rows)
             encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
             part = Part.of(encoder, likelihood, source, surroundings, rows, report)
             report("write part", 0, 0)
@@ -153,9 +153,9 @@ class IndexJob:
                 made = parts.read(count, self._encoder(ready).levels, source.data.cells)
                 scanned = [part.scanned for part in made if part.scanned is not None]
                 surroundings = (
-                    ScanSurroundings.joined(scanned)
+                    ScanNeighbourIndex.joined(scanned)
                     if scanned
-                    else surroundings_of(source.geometry(), source.data.cells)
+                    else build_neighbour_index(source.geometry(), source.data.cells)
                 )
                 names = partial(save_names, path, named)
                 version = self._publisher(ready).publish(source, made, surroundings, names, report)

@@ -27,7 +27,7 @@ from models.language.mentions.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
 from models.paper.level_table import LevelTable
 from models.paper.retriever import Retriever
-from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.node_batch import colour_words
 from models.posterior.statements import Statements
 from models.processes import give_back
@@ -57,7 +57,7 @@ class Publisher:
         self,
         source: Source,
         parts: Sequence[Part],
-        surroundings: Surroundings,
+        surroundings: NeighbourIndex,
         names: Callable[[], Path],
         report: Progress,
     ) -> Path:
@@ -118,7 +118,7 @@ class Publisher:
             set_alias(self.out_dir, "default", manifest.version)
         return self.out_dir / manifest.version
 
-    def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData, surroundings: Surroundings) -> None:
+    def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData, surroundings: NeighbourIndex) -> None:
         """Write what the parts are joined to, but for the vectors, and what is said of them."""
         levels = LevelTable.concatenate([part.levels for part in parts])
         if not levels.is_empty:

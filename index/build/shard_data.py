@@ -23,10 +23,10 @@ from models.paper.level_table import EMPTY_LEVEL_TABLE, LevelTable, encode_galle
 from models.paper.levels import Level
 from models.paper.retriever import Retriever
 from models.posterior.likelihood import Likelihood
-from models.posterior.neighbours.neighbour_index import Surroundings
-from models.posterior.neighbours.piece_index import PieceSurroundings
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
+from models.posterior.neighbours.piece_index import PieceNeighbourIndex
 from models.posterior.neighbours.scan_index import FILE as SURROUNDINGS_FILE
-from models.posterior.neighbours.scan_index import ScanSurroundings
+from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 from models.posterior.statements import StatementRows, statement_rows
 from models.processes import give_back, map_forked
 from models.sources.source import MapSource, Source
@@ -51,7 +51,7 @@ class Part:
     vectors: Floats
     levels: LevelTable
     rows: StatementRows
-    scanned: ScanSurroundings | None
+    scanned: ScanNeighbourIndex | None
 
     @classmethod
     def of(
@@ -59,7 +59,7 @@ class Part:
         retriever: Retriever,
         likelihood: Likelihood,
         source: Source,
-        surroundings: Surroundings,
+        surroundings: NeighbourIndex,
         rows: range,
         report: Progress,
     ) -> "Part":
@@ -78,7 +78,7 @@ class Part:
             give_back()
         surroundings.forget()
         vectors, levels = _encoded(retriever, source.data, rows, report)
-        if isinstance(source, MapSource) and isinstance(surroundings, PieceSurroundings):
+        if isinstance(source, MapSource) and isinstance(surroundings, PieceNeighbourIndex):
             source.defer_parts(surroundings.cut)
             give_back()
         report("tabulate statements", 0, 0)
@@ -87,7 +87,7 @@ class Part:
         with torch.inference_mode():
             words = likelihood.words(rgb, data.palette)
         told = statement_rows(likelihood, surroundings, label, rgb, words)
-        scanned = surroundings if isinstance(surroundings, ScanSurroundings) else None
+        scanned = surroundings if isinstance(surroundings, ScanNeighbourIndex) else None
         return cls(vectors, levels, told, scanned)
 
     def save(self, directory: Path) -> None:
@@ -130,7 +130,7 @@ class Part:
             raise IndexBroken(f"{directory / FILE} cannot be read; make this shard again") from error
         table = EMPTY_LEVEL_TABLE if tuple(levels) == ("global",) else LevelTable.load(directory, levels)
         is_scan = (directory / SURROUNDINGS_FILE).exists()
-        scanned = ScanSurroundings.load(directory, cells) if is_scan else None
+        scanned = ScanNeighbourIndex.load(directory, cells) if is_scan else None
         return cls(vectors, table, rows, scanned)
 
 

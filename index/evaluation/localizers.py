@@ -10,7 +10,7 @@ from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
 from models.citymap.points import Ints
 from models.paper.fine.fine_model import FineModel
 from models.posterior.model import PosteriorModel
-from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 
 def vectors_of_map(data: MapData, ranker: Ranker, refiner: FineModel | None = None) -> VectorLocalizer:
@@ -29,7 +29,7 @@ def posterior_of_map(
     model: PosteriorModel,
     data: MapData,
     ranker: Ranker,
-    surroundings: Surroundings,
+    surroundings: NeighbourIndex,
     gazetteer: Gazetteer = EMPTY_GAZETTEER,
 ) -> PosteriorLocalizer:
     """Return the hint posterior of a map."""

@@ -33,7 +33,7 @@ _EARTH = Geod(ellps="WGS84")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Told:
+class PlaceEvidence:
     """What was answered to Q texts.
 
     Attributes:
@@ -89,7 +89,7 @@ def evaluate_told(
     return report
 
 
-def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) -> Told:
+def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) -> PlaceEvidence:
     """The answers to texts; arguments as `evaluate_told`."""
     rows = []
     for n, text in enumerate(texts):
@@ -99,7 +99,7 @@ def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) ->
         rows.append(_row(localizer, text, answer))
     progress("ask", len(texts), len(texts))
     error, p50, p90, probability, hit = np.array(rows, dtype=np.float64).T
-    return Told(error, np.stack([p50, p90], axis=1), probability, hit > 0)
+    return PlaceEvidence(error, np.stack([p50, p90], axis=1), probability, hit > 0)
 
 
 def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, float, float, float, bool]:
@@ -142,7 +142,7 @@ def constructions_of(mention: Mention) -> set[str]:
     return found | {name for name, value in optional.items() if value is not None}
 
 
-def _figures(told: Told, rows: npt.NDArray[np.bool_]) -> dict[str, Any]:
+def _figures(told: PlaceEvidence, rows: npt.NDArray[np.bool_]) -> dict[str, Any]:
     error, radius, count = told.error_m[rows], told.radius_m[rows], int(rows.sum())
     held = {name: int((error <= radius[:, n]).sum()) for n, name in enumerate(("p50", "p90"))}
     median = float(np.median(error))

@@ -25,8 +25,8 @@ from models.citymap.points import Ints, ranges
 from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS, Direction, Floats, Hint, Progress
 from models.errors import DataError
-from models.posterior.neighbours.map_objects import Things
-from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.map_objects import MapObjects
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 MOST_QUERIES = 300
 SEED = 0
@@ -113,7 +113,7 @@ def some_of(queries: Queries) -> Queries:
 
 
 def nearest_hints(
-    data: MapData, positions_m: Floats, rows: Ints, around: Surroundings, count: int
+    data: MapData, positions_m: Floats, rows: Ints, around: NeighbourIndex, count: int
 ) -> list[tuple[Hint, ...]]:
     """Hints about the nearest things round some positions.
 
@@ -139,7 +139,7 @@ def nearest_hints(
     return found
 
 
-def _hint(data: MapData, things: Things, part: int, offset_m: Floats) -> Hint:
+def _hint(data: MapData, things: MapObjects, part: int, offset_m: Floats) -> Hint:
     gallery = data.gallery
     instance, rgb = things.instance[part], things.rgb[part]
     direction: Direction = DIRECTIONS[int(direction_index(offset_m))]

@@ -63,7 +63,7 @@ class Likelihood(nn.Module):
         super().__init__()
         self.background = nn.Parameter(torch.tensor(-5.5))  # log eps of anything
         self.common = nn.Parameter(torch.tensor(-3.0))  # log eps of what all of the map is like
-        # Log softness of the borders between winds, from what is exact and from what is vague, see `Things`.
+        # Log softness of the borders between winds, from what is exact and from what is vague, see `MapObjects`.
         self.border_m = nn.Parameter(torch.tensor([-0.7, -0.7]))
         self.on_top_m = nn.Parameter(torch.tensor([0.46, -1.4]))  # log radius and softness of "on-top"
         # log pi by metres / 10, and by their square / 100

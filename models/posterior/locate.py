@@ -11,7 +11,7 @@ from models.posterior.area_filter import Inside
 from models.posterior.distribution import Located, heaviest
 from models.posterior.likelihood import Reading
 from models.posterior.neighbours.nodes import SPACING_M
-from models.posterior.places.field import Told
+from models.posterior.places.field import PlaceEvidence
 from models.posterior.posterior import CANDIDATES, Field, HintPosterior, LogPrior
 from models.posterior.questions import Answered
 
@@ -34,7 +34,7 @@ def locate(
     inside: Inside | None = None,
     candidates: int = CANDIDATES,
     further: Ints | None = None,
-    told: Told | None = None,
+    told: PlaceEvidence | None = None,
     answered: Answered | None = None,
 ) -> Located | None:
     """Find where a description was said.
@@ -115,7 +115,7 @@ def _field(
     times: Ints,
     log_prior: LogPrior | None,
     inside: Inside | None,
-    told: Told | None,
+    told: PlaceEvidence | None,
     answered: Answered | None,
 ) -> Field:
     """The posterior over the nodes of some cells [K]; of those that are far behind on a coarser grid, that will do.

@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.posterior.neighbours.neighbour_index import Surroundings
-from models.posterior.neighbours.neighbours import STEP_M, Around
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
+from models.posterior.neighbours.neighbours import STEP_M, Neighbours
 
 NEAR_M, NEAR_SOFT_M = 10.0, 2.0  # what counts as near, and how far people's ideas of that differ
 FAR_M, FAR_SOFT_M = 15.0, 2.0  # beyond, a thing is none that is asked for; surroundings know no farther either
@@ -56,7 +56,7 @@ class Sights:
         words: says the chance of each colour word [n, W] of some things [n].
     """
 
-    def __init__(self, surroundings: Surroundings, label: npt.NDArray[np.int64], words: Words) -> None:
+    def __init__(self, surroundings: NeighbourIndex, label: npt.NDArray[np.int64], words: Words) -> None:
         self.surroundings, self._label, self._words = surroundings, label, words
 
     def seen(self, nodes: Ints, classes: Sequence[int]) -> "Seen":
@@ -75,7 +75,7 @@ class Sights:
         return Seen(near, self._words)
 
 
-def _near(around: Around, rows: Ints, nodes: int) -> Near:
+def _near(around: Neighbours, rows: Ints, nodes: int) -> Near:
     """Some rows of what is around so many nodes."""
     node, part = around.node[rows], around.part[rows]
     east, north = -around.way[rows].astype(np.float64).T * STEP_M

@@ -11,7 +11,7 @@ from models.citymap.colours import Palette
 from models.citymap.hints import ON_TOP_M
 from models.citymap.points import Ints
 from models.compiled import compiled
-from models.posterior.neighbours.neighbours import STEP_M, Around
+from models.posterior.neighbours.neighbours import STEP_M, Neighbours
 
 RANKS: Final = (16, 4, 4)  # numbers beyond these are as their last
 MOST: Final = tuple(size - 1 for size in RANKS)
@@ -27,13 +27,13 @@ class NodeBatch:
     Attributes:
         node: [R] node of each row, ascending.
         way: [R] number of the way from the instance's closest point, see `way_number`.
-        whole: [R] bool, see `models.posterior.neighbours.neighbours.Around`.
+        whole: [R] bool, see `models.posterior.neighbours.neighbours.Neighbours`.
         rank: [R, 5] how many nearer instances there are, and how many in all, see `ranks_of`.
         part: [R] row of the next three.
         parts: [P] row of each part in the gallery.
         label: [P] label of each.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
-        is_vague: [P] see `Things`.
+        is_vague: [P] see `MapObjects`.
         nodes: M.
     """
 
@@ -54,7 +54,7 @@ class NodeBatch:
         return self.way + WAYS * self.is_vague.index_select(0, self.part)
 
     @classmethod
-    def of(cls, around: Around, nodes: int, label: Tensor, rgb: Tensor, is_vague: Tensor) -> "NodeBatch":
+    def of(cls, around: Neighbours, nodes: int, label: Tensor, rgb: Tensor, is_vague: Tensor) -> "NodeBatch":
         """What is around so many nodes, of parts with labels, colours and whether they are vague [P of all, ...]."""
         parts, part = np.unique(around.part, return_inverse=True)
         node, way = torch.from_numpy(around.node), way_number(torch.from_numpy(around.way))

@@ -13,7 +13,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
 from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
-from models.posterior.neighbours.neighbours import Around
+from models.posterior.neighbours.neighbours import Neighbours
 from models.posterior.node_batch import OFFSET, RANKS, SECTOR_OF_WAY, WAYS, colour_words, count_ranks, no_counts
 from models.posterior.node_sums import log_p_of, longest, place_of, powers_of, share_out
 
@@ -29,7 +29,7 @@ class NodeLikelihood:
         likelihood: fitted.
         label: [P] label of each of a map's things.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
-        is_vague: [P] see `Things`.
+        is_vague: [P] see `MapObjects`.
         palette: the map's colour words.
         usual: as `usual_statements`.
     """
@@ -74,7 +74,7 @@ class NodeLikelihood:
         told = np.stack([told[:, order] for order in MIRRORED])
         return said, told, (reading.label.double().numpy(), reading.colour.double().numpy())
 
-    def log_p(self, reading: Reading, around: Around, nodes: int) -> Floats:
+    def log_p(self, reading: Reading, around: Neighbours, nodes: int) -> Floats:
         """Return log p(T | x) of nodes [M], from what is around them."""
         said, told, read = self._said(reading)
         parts, part = _distinct(around.part, self._place)
@@ -85,7 +85,7 @@ class NodeLikelihood:
         )  # fmt: skip
         return found
 
-    def explain(self, reading: Reading, around: Around) -> tuple[Ints, Floats]:
+    def explain(self, reading: Reading, around: Neighbours) -> tuple[Ints, Floats]:
         """[H] the row of what is around one node that explains each hint best, and the chance that something does."""
         said, told, read = self._said(reading)
         label, table, fits = _fits(around.part, *self._things, *read)
@@ -162,7 +162,7 @@ def _log_p(
         nodes: M.
         node: [R] of each thing around them, ascending.
         part: [R] which of the next.
-        way: [R, 2] see `Around`.
+        way: [R, 2] see `Neighbours`.
         whole: [R] likewise.
         label: [P] of each part.
         table: [P] row of `ways` at which those from it begin.

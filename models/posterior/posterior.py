@@ -16,11 +16,11 @@ from models.citymap.types import Floats
 from models.posterior.area_filter import Inside
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.nearby_objects import Sights
-from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.neighbours.nodes import is_coarse
 from models.posterior.node_batch import usual_statements
 from models.posterior.node_likelihood import NodeLikelihood
-from models.posterior.places.field import Told
+from models.posterior.places.field import PlaceEvidence
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 
@@ -46,7 +46,7 @@ class Field:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Explained:
+class HintExplanation:
     """What explains a hint at a node.
 
     Attributes:
@@ -60,7 +60,7 @@ class Explained:
     way_m: Floats
 
 
-NOT_EXPLAINED: Final = Explained(0.0, -1, np.zeros(2))
+UNEXPLAINED: Final = HintExplanation(0.0, -1, np.zeros(2))
 
 
 class HintPosterior:
@@ -79,7 +79,7 @@ class HintPosterior:
     def __init__(
         self,
         likelihood: Likelihood,
-        surroundings: Surroundings,
+        surroundings: NeighbourIndex,
         cells: CellTable,
         label: npt.NDArray[np.int64],
         palette: Palette,
@@ -111,7 +111,7 @@ class HintPosterior:
         cells: Ints,
         log_prior: LogPrior | None = None,
         inside: Inside | None = None,
-        told: Told | None = None,
+        told: PlaceEvidence | None = None,
         answered: Answered | None = None,
         times: Ints | None = None,
         between: bool = False,
@@ -154,14 +154,14 @@ class HintPosterior:
         """[n, W] chance of each colour word of some things [n]: a table of all would be the largest of a city."""
         return self.likelihood.words(self._rgb.index_select(0, things), self._palette)
 
-    def explain(self, reading: Reading, node: int) -> list[Explained]:
+    def explain(self, reading: Reading, node: int) -> list[HintExplanation]:
         """For each hint what explains it best at a node."""
         around = self.surroundings.around(np.array([node]))
         if not len(around.part):
-            return [NOT_EXPLAINED] * len(reading.label)
+            return [UNEXPLAINED] * len(reading.label)
         best, chance = self._nodes.explain(reading, around)
         way_m = around.way_m
         return [
-            Explained(p, int(around.part[row]), way_m[row])
+            HintExplanation(p, int(around.part[row]), way_m[row])
             for row, p in zip(best.tolist(), chance.tolist(), strict=True)
         ]

@@ -21,7 +21,7 @@ from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
 from models.files import map_arrays, save_safetensors
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.neighbours.neighbour_index import Surroundings
+from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.node_batch import OFFSET, NodeBatch
 from models.processes import map_forked
@@ -79,7 +79,7 @@ class Statements:
 
     @classmethod
     def of(
-        cls, likelihood: Likelihood, surroundings: Surroundings, label: Tensor, rgb: Tensor, words: Tensor
+        cls, likelihood: Likelihood, surroundings: NeighbourIndex, label: Tensor, rgb: Tensor, words: Tensor
     ) -> "Statements":
         """Those of a gallery; arguments as `statement_rows`."""
         return cls.joined([statement_rows(likelihood, surroundings, label, rgb, words)], words.shape[1])
@@ -257,7 +257,7 @@ def _sum(of_hints: Floats, told_of: Floats, total: Floats) -> None:
 
 
 def statement_rows(
-    likelihood: Likelihood, surroundings: Surroundings, label: Tensor, rgb: Tensor, words: Tensor
+    likelihood: Likelihood, surroundings: NeighbourIndex, label: Tensor, rgb: Tensor, words: Tensor
 ) -> StatementRows:
     """How much of each cell's nodes every possible statement holds at.
 

@@ -1,1 +1,1 @@
-"""What lies around every node of a map: class, colour, distance and bearing of the nearest objects."""
+"""The neighbours of every node of a map: class, colour, distance and bearing of the nearest objects."""

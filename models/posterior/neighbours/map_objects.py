@@ -1,4 +1,4 @@
-"""What surroundings tell of: the parts of a scan's cells, the instances of a map of pieces."""
+"""The objects of a neighbour index: parts of a scan's cells, or instances of a map of pieces."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -13,12 +13,12 @@ from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 from models.strings import Categorical
 
-FLAT_M: Final = 0.5  # what is no higher is ground
+FLAT_M: Final = 0.5  # lower objects are ground
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Things:
-    """P things.
+class MapObjects:
+    """A table of P objects.
 
     Attributes:
         instance: [P] int32, row of the gallery's labels, names and sources.
@@ -35,14 +35,14 @@ class Things:
     are_parts: bool = False
 
     @classmethod
-    def of_parts(cls, parts: PartTable) -> "Things":
-        """The parts of cells."""
+    def of_parts(cls, parts: PartTable) -> "MapObjects":
+        """Return the parts of cells as objects."""
         is_flat = (parts.high_m - parts.low_m)[:, 2] < FLAT_M
         return cls(parts.instance, parts.rgb, np.ones(len(parts.instance), np.int32), is_flat, are_parts=True)
 
     @classmethod
-    def of_instances(cls, bodies: PieceGeometry, parts: PartTable) -> "Things":
-        """The instances of a map, with the parts of its cells."""
+    def of_instances(cls, bodies: PieceGeometry, parts: PartTable) -> "MapObjects":
+        """Return the instances of a map as objects."""
         instances = len(bodies.rgb)
         high = np.zeros(instances)
         np.maximum.at(high, bodies.pieces.instance, np.ptp(bodies.pieces.heights_m, axis=1))
@@ -51,11 +51,11 @@ class Things:
 
     @property
     def is_vague(self) -> npt.NDArray[np.bool_]:
-        """[P] whether what of it is nearest is told of roughly: ground of a map; a scan is told of by its points."""
+        """[P] whether the nearest point of an object is imprecise, as for ground areas of a map without scans."""
         return self.is_flat & (not self.are_parts)
 
     def parts_in(self, cells: CellTable, rows: Ints) -> Ints:
-        """[P] how many parts are of each thing in some of the cells."""
+        """Return the number [P] of parts of each object in cells."""
         if self.are_parts:
             thing = ranges(cells.parts.starts[rows], cells.parts.starts[rows + 1])
         else:
@@ -63,13 +63,13 @@ class Things:
         return np.bincount(thing, minlength=len(self.instance)).astype(np.int32)
 
     def parts_among(self, parts: PartTable, kept: npt.NDArray[np.bool_]) -> Ints:
-        """[P] how many of some of the parts are of each thing; none of an instance of which most parts are gone."""
+        """Return the number [P] of kept parts of each object; 0 for an instance that lost most parts."""
         if self.are_parts:
             return kept.astype(np.int32)
         left = np.bincount(parts.instance[kept], minlength=len(self.instance))
         return np.where(2 * left > self.parts, left, 0).astype(np.int32)
 
     def labels(self, gallery: Gallery) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
-        """The gallery's labels, each once, and which of them each thing has [P]."""
+        """Return the distinct labels of the gallery, and the index [P] of each object's label."""
         labels = Categorical.from_strings(gallery.labels)
         return tuple(labels.categories), labels.codes[self.instance].astype(np.int64)

@@ -1,4 +1,4 @@
-"""What lies around every position of a map: what the hint posterior reads.
+"""The neighbour index of a map, which the hint posterior reads.
 
 Positions are the nodes of a fine grid, each owned by the cell whose centre is nearest. Of a node is known, of every
 thing within 15 m, the way from the thing's closest point, whether or not the thing is in the owner's cube: hints speak
@@ -15,18 +15,18 @@ from models.citymap.gallery import PointClouds
 from models.citymap.map_geometry import PieceGeometry
 from models.citymap.points import Ints
 from models.citymap.types import Floats, Progress
-from models.posterior.neighbours.map_objects import Things
-from models.posterior.neighbours.neighbours import Around
-from models.posterior.neighbours.piece_index import FILE, PieceSurroundings
-from models.posterior.neighbours.scan_index import ScanSurroundings
+from models.posterior.neighbours.map_objects import MapObjects
+from models.posterior.neighbours.neighbours import Neighbours
+from models.posterior.neighbours.piece_index import FILE, PieceNeighbourIndex
+from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 
 
-class Surroundings(Protocol):
-    """Nodes, and what is around them."""
+class NeighbourIndex(Protocol):
+    """The nodes of a map and their neighbours."""
 
     @property
-    def things(self) -> Things:
-        """What there may be."""
+    def things(self) -> MapObjects:
+        """The objects that may be neighbours."""
         ...
 
     @property
@@ -35,33 +35,33 @@ class Surroundings(Protocol):
         ...
 
     def positions_m(self, nodes: Ints) -> Floats:
-        """[n, 2] where some nodes are, map frame."""
+        """Return the positions [n, 2] of nodes, map frame."""
         ...
 
     def owner(self, nodes: Ints) -> Ints:
-        """[n] the cell that owns each of some nodes."""
+        """Return the cell [n] that owns each node."""
         ...
 
     def middles(self, centers_m: Floats) -> Ints:
-        """[C] of each cell that owns nodes the one that is nearest to its centre, of centres [N, 2]."""
+        """Return the node [C] nearest to the centre of each cell that owns nodes, for centres [N, 2]."""
         ...
 
     @property
     def cuts(self) -> bool:
-        """Whether it can cut the parts of cells too, so that nothing else needs to have them."""
+        """Whether it can also cut the parts of cells, so that they need not be stored."""
         ...
 
     @property
     def num_bytes(self) -> int:
-        """What it takes on disk."""
+        """The size on disk."""
         ...
 
-    def around(self, nodes: Ints) -> Around:
-        """What lies around some nodes [M]; those of a cell stand together."""
+    def around(self, nodes: Ints) -> Neighbours:
+        """Return the neighbours of nodes [M], which are grouped by cell."""
         ...
 
-    def take(self, cells: Ints, parts: Ints) -> "Surroundings":
-        """Those of some cells.
+    def take(self, cells: Ints, parts: Ints) -> "NeighbourIndex":
+        """Return the index of a subset of cells.
 
         Args:
             cells: rows, in the order wanted.
@@ -70,18 +70,18 @@ class Surroundings(Protocol):
         ...
 
     def forget(self) -> None:
-        """Have what lies on disk take no memory until it is looked at."""
+        """Release the memory of mapped arrays until they are read again."""
         ...
 
     def save(self, directory: Path) -> None:
-        """Write one file."""
+        """Write the index to one file."""
         ...
 
 
-def surroundings_of(
+def build_neighbour_index(
     bodies: PointClouds | PieceGeometry, cells: CellTable, progress: Progress | None = None, rows: range | None = None
-) -> Surroundings:
-    """The surroundings of a gallery.
+) -> NeighbourIndex:
+    """Build the neighbour index of a gallery.
 
     Args:
         bodies: what stands in the map.
@@ -90,17 +90,17 @@ def surroundings_of(
         rows: the cells that are wanted, one after the other, with the nodes that they own among all; None for all.
     """
     if not isinstance(bodies, PieceGeometry):
-        return ScanSurroundings.of(bodies, cells, progress, rows)
-    every = PieceSurroundings.of(bodies, cells)
+        return ScanNeighbourIndex.build(bodies, cells, progress, rows)
+    every = PieceNeighbourIndex.build(bodies, cells)
     return every if rows is None else every.take(np.arange(rows.start, rows.stop), every.things.parts)
 
 
-def load_surroundings(directory: Path, cells: CellTable) -> Surroundings:
-    """Read what `save` wrote.
+def load_neighbour_index(directory: Path, cells: CellTable) -> NeighbourIndex:
+    """Load a saved index.
 
     Raises:
         IndexBroken: a file is missing or holds something else.
     """
     if (directory / FILE).exists():
-        return PieceSurroundings.load(directory, cells)
-    return ScanSurroundings.load(directory, cells)
+        return PieceNeighbourIndex.load(directory, cells)
+    return ScanNeighbourIndex.load(directory, cells)

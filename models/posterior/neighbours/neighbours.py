@@ -1,4 +1,4 @@
-"""What lies around some positions of a map."""
+"""The neighbours of positions in a map."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -14,8 +14,8 @@ STEP_M: Final = HINT_REACH_M / 127  # of the ways
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Around:
-    """What lies around M nodes, in order of node; of each the whole things first, of these the nearest.
+class Neighbours:
+    """The neighbours of M nodes, ordered by node, then whole objects first, then by distance.
 
     Attributes:
         node: [R] int64 which of the nodes.

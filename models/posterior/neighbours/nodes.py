@@ -1,4 +1,4 @@
-"""The positions that the posterior is over: nodes of a fine grid."""
+"""The positions of the posterior: nodes of a fine grid."""
 
 from collections.abc import Iterator
 from typing import Any, Final
@@ -14,11 +14,11 @@ from models.citymap.types import Floats
 from models.compiled import compiled
 
 SPACING_M: Final = 1.5
-COLUMNS: Final = 32  # of the grid that are looked at together
+COLUMNS: Final = 32  # of the grid per slice
 
 
 def grid(cells: CellTable) -> tuple[Floats, Ints]:
-    """Nodes [M, 2] within 15 m of a centre, and the cell [M] that owns each, in order of owner: the nearest one."""
+    """Return nodes [M, 2] within 15 m of a centre and the nearest cell [M], which owns each, in order of owner."""
     steps, owners = zip(*slices(cells), strict=True)
     owner = np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
@@ -26,7 +26,7 @@ def grid(cells: CellTable) -> tuple[Floats, Ints]:
 
 
 def slices(cells: CellTable) -> Iterator[tuple[Ints, Ints]]:
-    """Nodes [m, 2] int32, in steps of the grid, and the cell [m] int32 that owns each, some columns of it at a time."""
+    """Yield nodes [m, 2] int32 in steps of the grid and the cell [m] int32 that owns each, in slices of columns."""
     scene = np.unique(cells.scenes, return_inverse=True)[1]
     for s in np.unique(scene):
         rows = np.flatnonzero(scene == s).astype(np.int32)
@@ -45,7 +45,7 @@ def slices(cells: CellTable) -> Iterator[tuple[Ints, Ints]]:
 
 @compiled
 def put_in_order(owner: Ints, rows: npt.NDArray[Any], place: Ints, ordered: npt.NDArray[Any]) -> None:
-    """Put rows [m, 2] of some owners [m] where the next of each belongs among all; these places [N] move on."""
+    """Scatter rows [m, 2] to the next free place of their owners [m]; advance the places [N]."""
     for n in range(len(owner)):
         at = place[owner[n]]
         ordered[at, 0], ordered[at, 1] = rows[n, 0], rows[n, 1]
@@ -54,9 +54,9 @@ def put_in_order(owner: Ints, rows: npt.NDArray[Any], place: Ints, ordered: npt.
 
 @compiled
 def owner_of(cell_starts: Ints, nodes: Ints) -> Ints:
-    """[n] the cell that owns each of some nodes, of cells that own cell_starts[n] to cell_starts[n + 1].
+    """Return the cell [n] that owns each node; cell n owns nodes cell_starts[n] to cell_starts[n + 1].
 
-    Soonest where those of a cell stand together.
+    Fast if nodes are grouped by cell.
     """
     found, cell = np.empty(len(nodes), np.int64), 0
     for n in range(len(nodes)):
@@ -67,10 +67,10 @@ def owner_of(cell_starts: Ints, nodes: Ints) -> Ints:
 
 
 @compiled
-def nearest_nodes(
+def central_nodes(
     cell_starts: Ints, origins: npt.NDArray[Any], nodes: npt.NDArray[Any], step_m: float, centers_m: Floats
 ) -> Ints:
-    """[C] of each cell that has nodes the first of these that is nearest to its centre.
+    """Return the node [C] nearest to the centre of each cell that has nodes.
 
     Args:
         cell_starts: [N + 1] cell n owns the nodes cell_starts[n] to cell_starts[n + 1].
@@ -94,7 +94,7 @@ def nearest_nodes(
 
 @compiled
 def is_coarse(positions_m: Floats, times: Ints) -> npt.NDArray[np.bool_]:
-    """[M] which nodes [M, 2] are of the grid that is so many times [M] as coarse."""
+    """Return whether nodes [M, 2] belong to the grid that is coarser by a factor [M]."""
     coarse = np.empty(len(positions_m), np.bool_)
     for n in range(len(positions_m)):
         x, y = np.rint(positions_m[n, 0] / SPACING_M), np.rint(positions_m[n, 1] / SPACING_M)

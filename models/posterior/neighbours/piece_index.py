@@ -1,4 +1,4 @@
-"""What lies around positions of a map of pieces, found when it is asked for: that takes two microseconds a node."""
+"""The neighbour index of a map of pieces, which computes neighbours on demand: two microseconds a node."""
 
 from collections.abc import Iterator
 from dataclasses import astuple, dataclass, replace
@@ -21,9 +21,9 @@ from models.citymap.types import CutRules, Floats
 from models.compiled import compiled
 from models.errors import IndexBroken
 from models.files import map_arrays
-from models.posterior.neighbours.map_objects import Things
-from models.posterior.neighbours.neighbours import STEP_M, Around
-from models.posterior.neighbours.nodes import SPACING_M, nearest_nodes, owner_of, put_in_order, slices
+from models.posterior.neighbours.map_objects import MapObjects
+from models.posterior.neighbours.neighbours import STEP_M, Neighbours
+from models.posterior.neighbours.nodes import SPACING_M, central_nodes, owner_of, put_in_order, slices
 from models.spool import forget, in_turn, on_disk, spooled
 from models.strings import compact
 
@@ -32,19 +32,19 @@ THINGS: Final = ("instance", "rgb", "parts", "is_flat")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PieceSurroundings:
-    """See `models.posterior.neighbours.neighbour_index`.
+class PieceNeighbourIndex:
+    """A `NeighbourIndex` of a map of pieces.
 
     Attributes:
         things: the map's instances.
-        cell_starts: see Surroundings.
+        cell_starts: see NeighbourIndex.
         offset: [M, 2] int8 each node in steps of the grid, from the one next to its cell's centre.
         pieces: of the map.
         rules: of its cells.
         center_m: [N, 2] of these.
     """
 
-    things: Things
+    things: MapObjects
     cell_starts: Ints
     offset: npt.NDArray[np.int8]
     pieces: PieceTable
@@ -52,9 +52,9 @@ class PieceSurroundings:
     center_m: Floats
 
     @classmethod
-    def of(cls, bodies: PieceGeometry, cells: CellTable) -> "PieceSurroundings":
-        """Those of a gallery."""
-        things, center_m = Things.of_instances(bodies, cells.parts), cells.center_m[:, :2]
+    def build(cls, bodies: PieceGeometry, cells: CellTable) -> "PieceNeighbourIndex":
+        """Build the index of a gallery."""
+        things, center_m = MapObjects.of_instances(bodies, cells.parts), cells.center_m[:, :2]
         middle = _step_of(center_m)
         count = np.zeros(len(cells), np.int64)
 
@@ -73,35 +73,35 @@ class PieceSurroundings:
 
     @property
     def cuts(self) -> bool:
-        """See Surroundings."""
+        """As in `NeighbourIndex`."""
         return True
 
     @property
     def num_bytes(self) -> int:
-        """See Surroundings."""
+        """As in `NeighbourIndex`."""
         return sum(column.nbytes for column in self._columns().values())
 
     def positions_m(self, nodes: Ints) -> Floats:
-        """See Surroundings."""
+        """As in `NeighbourIndex`."""
         return self._positions_m(nodes, self.owner(nodes))
 
     def _positions_m(self, nodes: Ints, cell: Ints) -> Floats:
-        """[n, 2] where some nodes are, which some cells own [n]."""
+        """Return the positions [n, 2] of nodes owned by cells [n]."""
         found: Floats = _positions_m(self.center_m, self.offset, nodes, cell)
         return found
 
     def middles(self, centers_m: Floats) -> Ints:
-        """See Surroundings."""
-        found: Ints = nearest_nodes(self.cell_starts, _step_of(self.center_m), self.offset, SPACING_M, centers_m)
+        """As in `NeighbourIndex`."""
+        found: Ints = central_nodes(self.cell_starts, _step_of(self.center_m), self.offset, SPACING_M, centers_m)
         return found
 
     def owner(self, nodes: Ints) -> Ints:
-        """See Surroundings."""
+        """As in `NeighbourIndex`."""
         found: Ints = owner_of(self.cell_starts, nodes)
         return found
 
-    def around(self, nodes: Ints) -> Around:
-        """See Surroundings."""
+    def around(self, nodes: Ints) -> Neighbours:
+        """As in `NeighbourIndex`."""
         cell = self.owner(nodes)
         first = np.flatnonzero(np.diff(cell, prepend=-1))
         starts = np.append(first, len(nodes))
@@ -117,14 +117,14 @@ class PieceSurroundings:
         known = self.things.parts[part] > 0
         if not known.all():  # of a part of a map
             node, part, way = node[known], part[known], way[known]
-        return Around(node, part, way, np.ones(len(node), np.bool_))
+        return Neighbours(node, part, way, np.ones(len(node), np.bool_))
 
     def cut(self, centers_m: Floats) -> PartTable:
-        """What lies in the cubes of some cells around centres [N, 3]."""
+        """Return the parts in the cubes around centres [N, 3]."""
         return cut_pieces(self.pieces, self.things.rgb, centers_m, self.rules)
 
-    def take(self, cells: Ints, parts: Ints) -> "PieceSurroundings":
-        """See Surroundings."""
+    def take(self, cells: Ints, parts: Ints) -> "PieceNeighbourIndex":
+        """As in `NeighbourIndex`."""
         return replace(
             self,
             things=replace(self.things, parts=parts),
@@ -134,17 +134,17 @@ class PieceSurroundings:
         )
 
     def forget(self) -> None:
-        """See Surroundings."""
+        """As in `NeighbourIndex`."""
         self.pieces.forget()
         forget([self.offset])
 
     def save(self, directory: Path) -> None:
-        """Write one file."""
+        """Write the index to one file."""
         save_file(self._columns(), directory / FILE)
 
     @classmethod
-    def load(cls, directory: Path, cells: CellTable) -> "PieceSurroundings":
-        """Read what `save` wrote.
+    def load(cls, directory: Path, cells: CellTable) -> "PieceNeighbourIndex":
+        """Load a saved index.
 
         Raises:
             IndexBroken: the file holds something else.
@@ -152,7 +152,7 @@ class PieceSurroundings:
         try:
             columns = map_arrays(directory / FILE)[0]
             instance, rgb, parts, is_flat = (columns[f"things.{name}"] for name in THINGS)
-            things = Things(instance, rgb, parts, is_flat)
+            things = MapObjects(instance, rgb, parts, is_flat)
             pieces = PieceTable.from_columns({name[7:]: c for name, c in columns.items() if name.startswith("pieces.")})
             rules = CutRules(*columns["rules"].tolist())
             starts, offset = columns["cell_starts"], columns["offset"]
@@ -183,6 +183,6 @@ def _positions_m(center_m: Floats, offset: Ints, nodes: Ints, cell: Ints) -> Flo
 
 
 def _step_of(center_m: Floats) -> Ints:
-    """[N, 2] the node next to each centre, in steps of the grid."""
+    """Return the node [N, 2] next to each centre, in steps of the grid."""
     step: Ints = np.round(center_m / SPACING_M).astype(np.int64)
     return step

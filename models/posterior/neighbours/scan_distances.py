@@ -1,4 +1,4 @@
-"""The ways from nodes to what is around them, of scans: closest points, and pieces of what is clipped."""
+"""Measure offsets from nodes to their neighbours in scans: closest points, and pieces of clipped stuff."""
 
 from dataclasses import dataclass
 
@@ -25,7 +25,7 @@ def _of(values: Ints, wanted: int) -> Ints:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScanWays:
-    """Clouds and nodes, ready to be measured some instances at a time."""
+    """Point clouds and nodes, prepared to measure instances in chunks."""
 
     bodies: PointClouds
     cells: CellTable
@@ -36,16 +36,16 @@ class ScanWays:
     shown_starts: Ints
 
     @classmethod
-    def of(cls, bodies: PointClouds, cells: CellTable, nodes: Floats, owner: Ints, scene: Ints) -> "ScanWays":
-        """To measure nodes [M, 2] that are owned by some cells [M], which are in some scenes [N]."""
+    def build(cls, bodies: PointClouds, cells: CellTable, nodes: Floats, owner: Ints, scene: Ints) -> "ScanWays":
+        """Prepare nodes [M, 2] with owner cells [M]; cells are in scenes [N]."""
         trees = {int(s): (rows, cKDTree(nodes[rows])) for s in np.unique(scene) if len(rows := _of(scene[owner], s))}
         shown = np.argsort(bodies.part_instances, kind="stable")
         starts = np.searchsorted(bodies.part_instances[shown], np.arange(len(bodies.scene) + 1))
         at = np.column_stack([nodes, cells.center_m[owner, 2]])
-        return cls(bodies, cells, at, trees, Tiles.of(nodes, owner, cells), shown, starts)
+        return cls(bodies, cells, at, trees, Tiles.build(nodes, owner, cells), shown, starts)
 
     def measure(self, instances: Ints) -> Rows:
-        """(node, instance, way, whole, part or -1) of the nodes around some instances."""
+        """Return (node, instance, way, whole, part or -1) of the nodes around instances."""
         empty = np.zeros(0, np.int64)
         found: list[Rows] = [(empty, empty, np.zeros((0, 2)), np.zeros(0, np.bool_), empty)]
         for i in instances.tolist():
@@ -66,7 +66,7 @@ class ScanWays:
         return node, instance, ways, wholes, parts
 
     def _near(self, i: int, xyz: Floats) -> tuple[Ints, Floats]:
-        """[K] nodes in reach of an instance with points xyz [P, 3], and [K, 2] the way to each."""
+        """Return the nodes [K] within reach of points xyz [P, 3], and the way [K, 2] to each."""
         rows, tree = self.trees[int(self.bodies.scene[i])]
         low, high = xyz[:, :2].min(axis=0), xyz[:, :2].max(axis=0)
         reach = np.linalg.norm(high - low) / 2 + HINT_REACH_M
@@ -81,7 +81,7 @@ class ScanWays:
         return near[within][kept], way[kept]
 
     def _is_near(self, near: Ints, xyz: Floats) -> npt.NDArray[np.bool_]:
-        """[K] whether enough of a thing is in the cube around each of some nodes."""
+        """Return whether [K] enough of a thing is in the cube around each node."""
         half_m = self.cells.size_m / 2
         plane = cKDTree(xyz[:, :2], balanced_tree=False)
         inside = plane.query_ball_point(self.nodes_m[near, :2], half_m, p=np.inf, return_length=True)
@@ -89,7 +89,7 @@ class ScanWays:
         return found
 
     def _apart(self, near: Ints, way: Floats, xyz: Floats, shown: Ints) -> tuple[Ints, Floats, Ints]:
-        """(node, way, part or -1) of stuff: of each piece where there are several around a node."""
+        """Return (node, way, part or -1) of stuff: one row per piece where a node has several around it."""
         finder = PieceFinder(xyz, shown, self.cells, PIECE * self.bodies.min_part_points)
         pieces = finder.around(self.nodes_m[near], self.tiles.of_node[near], self.tiles)
         reached = np.hypot(*pieces.way.T) <= HINT_REACH_M

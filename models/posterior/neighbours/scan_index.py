@@ -1,4 +1,4 @@
-"""What lies around every position of a scan, as a table, for it takes minutes to measure."""
+"""The neighbour index of a scan: a table, because it takes minutes to measure."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -15,9 +15,9 @@ from models.citymap.gallery import PointClouds
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats, Progress
 from models.errors import IndexBroken
-from models.posterior.neighbours.map_objects import Things
-from models.posterior.neighbours.neighbours import STEP_M, Around
-from models.posterior.neighbours.nodes import grid, nearest_nodes, owner_of
+from models.posterior.neighbours.map_objects import MapObjects
+from models.posterior.neighbours.neighbours import STEP_M, Neighbours
+from models.posterior.neighbours.nodes import central_nodes, grid, owner_of
 from models.posterior.neighbours.scan_distances import ScanWays
 from models.processes import map_forked
 
@@ -28,20 +28,20 @@ CHUNK: Final = 64  # instances a task
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ScanSurroundings:
-    """See `models.posterior.neighbours.neighbour_index`; the rows of all nodes.
+class ScanNeighbourIndex:
+    """A `NeighbourIndex` of a scan, with the rows of all nodes.
 
     Attributes:
         things: the parts of the cells.
         cell_starts: [N + 1] int64, cell n owns the nodes cell_starts[n] to cell_starts[n + 1].
         nodes_m: [M, 2] float32, map frame.
-        starts: [M + 1] int64, node m has the rows starts[m] to starts[m + 1], in order of `Around`.
+        starts: [M + 1] int64, node m has the rows starts[m] to starts[m + 1], in order of `Neighbours`.
         part: [R] int32, which of `things`; that of the owner's cell if it has one of the instance, or of the piece
             where the instance is in several.
-        way, whole: [R] see `Around`.
+        way, whole: [R] see `Neighbours`.
     """
 
-    things: Things
+    things: MapObjects
     cell_starts: Ints
     nodes_m: Floats
     starts: Ints
@@ -50,10 +50,10 @@ class ScanSurroundings:
     whole: npt.NDArray[np.bool_]
 
     @classmethod
-    def of(
+    def build(
         cls, bodies: PointClouds, cells: CellTable, progress: Progress | None = None, rows: range | None = None
-    ) -> "ScanSurroundings":
-        """Measure a gallery's surroundings; in several processes when there is much to do.
+    ) -> "ScanNeighbourIndex":
+        """Build the index of a gallery, in several processes if it is large.
 
         Args:
             bodies: what stands in the map.
@@ -68,7 +68,7 @@ class ScanSurroundings:
         tasks = len(bodies.scene)
         chunks = [np.arange(i, min(i + CHUNK, tasks)) for i in range(0, tasks, CHUNK)]
         found, done = [], 0
-        for measured in map_forked(ScanWays.of(bodies, cells, nodes, owner, scene).measure, chunks):
+        for measured in map_forked(ScanWays.build(bodies, cells, nodes, owner, scene).measure, chunks):
             found.append(measured)
             done += CHUNK
             if progress:
@@ -81,7 +81,7 @@ class ScanSurroundings:
         # nearest first
         order = np.lexsort(((way.astype(np.int32) ** 2).sum(axis=1), ~whole, node))
         return cls(
-            things=Things.of_parts(cells.parts),
+            things=MapObjects.of_parts(cells.parts),
             cell_starts=np.searchsorted(owner, np.arange(rows.start, rows.stop + 1)),
             nodes_m=nodes.astype(np.float32),
             starts=np.searchsorted(node[order], np.arange(len(nodes) + 1)),
@@ -91,8 +91,8 @@ class ScanSurroundings:
         )
 
     @classmethod
-    def joined(cls, parts: Sequence["ScanSurroundings"]) -> "ScanSurroundings":
-        """Those of a gallery that was measured in parts, one after the other; at least one."""
+    def joined(cls, parts: Sequence["ScanNeighbourIndex"]) -> "ScanNeighbourIndex":
+        """Concatenate the indexes of consecutive parts of a gallery; at least one."""
         columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in OF_ROWS}
         for name in ("cell_starts", "starts"):
             sizes = np.concatenate([np.diff(getattr(part, name)) for part in parts])
@@ -101,42 +101,42 @@ class ScanSurroundings:
 
     @property
     def cuts(self) -> bool:
-        """See Surroundings."""
+        """As in `NeighbourIndex`."""
         return False
 
     @property
     def num_bytes(self) -> int:
-        """What it takes on disk."""
+        """The size on disk."""
         return sum(getattr(self, name).nbytes for name in COLUMNS)
 
     def positions_m(self, nodes: Ints) -> Floats:
-        """See Surroundings."""
+        """As in `NeighbourIndex`."""
         return self.nodes_m[nodes].astype(np.float64)
 
     def middles(self, centers_m: Floats) -> Ints:
-        """See Surroundings."""
-        found: Ints = nearest_nodes(self.cell_starts, np.zeros((len(centers_m), 2)), self.nodes_m, 1.0, centers_m)
+        """As in `NeighbourIndex`."""
+        found: Ints = central_nodes(self.cell_starts, np.zeros((len(centers_m), 2)), self.nodes_m, 1.0, centers_m)
         return found
 
     def owner(self, nodes: Ints) -> Ints:
-        """See Surroundings."""
+        """As in `NeighbourIndex`."""
         found: Ints = owner_of(self.cell_starts, nodes)
         return found
 
-    def around(self, nodes: Ints) -> Around:
-        """See Surroundings."""
+    def around(self, nodes: Ints) -> Neighbours:
+        """As in `NeighbourIndex`."""
         begin, end = self.starts[nodes], self.starts[nodes + 1]
         rows = ranges(begin, end)
         node = np.repeat(np.arange(len(nodes)), end - begin)
-        return Around(node, self.part[rows].astype(np.int64), self.way[rows], self.whole[rows])
+        return Neighbours(node, self.part[rows].astype(np.int64), self.way[rows], self.whole[rows])
 
-    def take(self, cells: Ints, parts: Ints) -> "ScanSurroundings":
-        """See Surroundings."""
+    def take(self, cells: Ints, parts: Ints) -> "ScanNeighbourIndex":
+        """As in `NeighbourIndex`."""
         nodes = ranges(self.cell_starts[cells], self.cell_starts[cells + 1])
         rows = ranges(self.starts[nodes], self.starts[nodes + 1])
         kept = parts[self.part[rows]] > 0
         node = np.repeat(np.arange(len(nodes)), np.diff(self.starts)[nodes])
-        return ScanSurroundings(
+        return ScanNeighbourIndex(
             things=replace(self.things, parts=parts),
             cell_starts=np.concatenate([[0], np.cumsum(np.diff(self.cell_starts)[cells])]),
             nodes_m=self.nodes_m[nodes],
@@ -147,28 +147,28 @@ class ScanSurroundings:
         )
 
     def forget(self) -> None:
-        """See Surroundings; a scan's are in memory."""
+        """Do nothing: the index of a scan is in memory."""
 
     def save(self, directory: Path) -> None:
-        """Write one file; the things are in the gallery's."""
+        """Write the index to one file; the objects are in the gallery's."""
         save_file({name: np.ascontiguousarray(getattr(self, name)) for name in COLUMNS}, directory / FILE)
 
     @classmethod
-    def load(cls, directory: Path, cells: CellTable) -> "ScanSurroundings":
-        """Read what `save` wrote.
+    def load(cls, directory: Path, cells: CellTable) -> "ScanNeighbourIndex":
+        """Load a saved index.
 
         Raises:
             IndexBroken: the file is missing or holds something else.
         """
         try:
             with safe_open(directory / FILE, framework="numpy") as file:
-                return cls(Things.of_parts(cells.parts), *(file.get_tensor(name) for name in COLUMNS))
+                return cls(MapObjects.of_parts(cells.parts), *(file.get_tensor(name) for name in COLUMNS))
         except (OSError, SafetensorError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
 
 def _parts_of(cells: CellTable, part_instance: Ints, owner: Ints, instance: Ints) -> Ints:
-    """[R] part that shows an instance in a cell; of another cell if that has none; -1 if none has."""
+    """Return the part [R] that shows an instance in a cell, else in another cell; -1 without any."""
     count = int(part_instance.max()) + 1 if len(part_instance) else 1
     known = np.where(instance < count, instance, -1)
     keys = cells.parts.cube.astype(np.int64) * count + part_instance

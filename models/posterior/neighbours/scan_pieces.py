@@ -1,4 +1,4 @@
-"""Pieces of an instance: what of it hangs together around a position.
+"""Split an instance into its connected pieces around a position.
 
 Stuff goes on beyond what a person sees: all sidewalk of a town may be one instance, joined around the next block. Who
 stands between two sidewalks sees two. Nodes are taken a tile at a time; what of an instance is in the cube around a
@@ -30,7 +30,7 @@ Piece = tuple[Ints, Floats, Ints]  # node, way, part
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tiles:
-    """Nodes that are looked at together: those of a cell in a square of TILE_M.
+    """Groups of nodes: those of a cell in a square of TILE_M.
 
     Attributes:
         of_node: [M] tile of each node.
@@ -43,8 +43,8 @@ class Tiles:
     center_m: Floats
 
     @classmethod
-    def of(cls, nodes_m: Floats, owner: Ints, cells: CellTable) -> "Tiles":
-        """Tiles of nodes [M, 2] that are owned by some cells [M]."""
+    def build(cls, nodes_m: Floats, owner: Ints, cells: CellTable) -> "Tiles":
+        """Build the tiles of nodes [M, 2] with owner cells [M]."""
         square = np.floor((nodes_m - cells.center_m[owner, :2]) / TILE_M).astype(np.int64)
         square -= square.min(axis=0, initial=0)
         span = square.max(axis=0, initial=0) + 1
@@ -56,7 +56,7 @@ class Tiles:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pieces:
-    """The pieces of an instance around some nodes, R rows.
+    """The pieces of an instance around nodes, R rows.
 
     Attributes:
         node: [R] row of the nodes that were given.
@@ -70,7 +70,7 @@ class Pieces:
 
 
 class PieceFinder:
-    """One instance, ready to be taken apart.
+    """Finds the pieces of one instance.
 
     Args:
         xyz: [P, 3] its points, metres.
@@ -100,7 +100,7 @@ class PieceFinder:
         return cKDTree(self._cells.parts.closest_m[self._parts])
 
     def around(self, at: Floats, tile: Ints, tiles: Tiles) -> Pieces:
-        """The pieces around nodes near which there are several; nodes near one alone have no row.
+        """Return the pieces around nodes that have several; other nodes have no row.
 
         Args:
             at: [M, 3] nodes.
@@ -121,7 +121,7 @@ class PieceFinder:
         return Pieces(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
     def _windows(self, corner: Ints) -> Iterator[tuple[int, Ints, Ints]]:
-        """(number, [K] rows of pixels, [K] piece of each) of the windows at [N, 2] corners that hold several pieces."""
+        """Yield (number, rows [K] of pixels, their pieces [K]) of the windows at corners [N, 2] with several pieces."""
         low, high = corner.min(axis=0), corner.max(axis=0) + self._width
         rows = np.flatnonzero(((self._pixels >= low) & (self._pixels < high)).all(axis=1))
         image = np.full(high - low, -1, dtype=np.int32)
@@ -135,7 +135,7 @@ class PieceFinder:
             yield int(n), windows[n][inside], labelled[n][inside]
 
     def _measured(self, at: Floats, rows: Ints, pixels: Ints, piece: Ints, cell: int) -> Iterator[Piece]:
-        """(node, way, part) of each piece of a window."""
+        """Yield (node, way, part) of each piece of a window."""
         order = np.argsort(piece, kind="stable")
         pixels, piece = pixels[order], piece[order]
         middle = at[0]
@@ -155,7 +155,7 @@ class PieceFinder:
             yield rows, at[:, :2] - closest[:, :2], np.full(len(rows), part)
 
     def _shown(self, cell: int) -> Ints:
-        """A cell's parts, the largest last."""
+        """Return the parts of a cell, the largest last."""
         starts, count = self._cells.parts.starts, self._cells.parts.count
         first, last = np.searchsorted(self._parts, [starts[cell], starts[cell + 1]])
         rows = self._parts[first:last]

@@ -1,4 +1,4 @@
-"""The house numbers of a map as people say them: "350 W 42nd St", "Bulevardi 12 b"."""
+"""The addresses of a map as people write them: "350 W 42nd St", "Bulevardi 12 b"."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -12,7 +12,7 @@ from models.citymap.points import Ints
 from models.language.mentions.name_table import NUMBER_SEPARATOR
 from models.language.mentions.names import plain_words
 from models.language.mentions.streets import ORDINAL
-from models.posterior.places.name_index import Spelt
+from models.posterior.places.name_index import NameIndex
 from models.strings import Column, Postings, StringArray
 
 _NUMBER: Final = re.compile(r"\d+")
@@ -21,7 +21,7 @@ _NONE: Final = np.zeros(0, np.int64)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Addresses:
-    """Columns of a table, one an address, and what they are found by.
+    """An index of addresses; each has a column of a table.
 
     Attributes:
         shown: [K] "350 West 42nd Street".
@@ -35,20 +35,20 @@ class Addresses:
     shown: StringArray
     objects: Ints
     column: Ints
-    streets: Spelt
+    streets: NameIndex
     by_street: Postings
     by_number: Postings
 
     @classmethod
-    def of(cls, words: Sequence[GazetteerObject]) -> "Addresses":
-        """Those of some objects: without number or street there is none, with several numbers as many."""
+    def build(cls, words: Sequence[GazetteerObject]) -> "Addresses":
+        """Build the index of objects; an object has one address per house number, and none without a street."""
         rows = [
             (n, number.replace(" ", ""), some.street)
             for n, some in enumerate(words)
             if some.street
             for number in some.numbers
         ]
-        streets = Spelt.of([(street,) for _, _, street in rows], are_streets=True)
+        streets = NameIndex.build([(street,) for _, _, street in rows], are_streets=True)
         columns, shown = dict[tuple[int, str], int](), list[str]()
         column = []
         for (_, number, street), of in zip(rows, streets.column.tolist(), strict=True):
@@ -64,23 +64,23 @@ class Addresses:
         return len(self.shown)
 
     def columns(self, name: str) -> dict[str, Column]:
-        """Arrays from which `from_columns` makes it."""
+        """Return the arrays that `from_columns` reads."""
         found = {f"{name}.objects": self.objects, f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
         found |= self.by_street.columns(f"{name}.by_street") | self.by_number.columns(f"{name}.by_number")
         return found | self.streets.columns(f"{name}.streets")
 
     @classmethod
     def from_columns(cls, columns: Mapping[str, Column], name: str) -> "Addresses":
-        """What `columns` gave of a name."""
+        """Restore the index from the arrays of `columns`."""
         by_street, by_number = (Postings.from_columns(columns, f"{name}.{kind}") for kind in ("by_street", "by_number"))
-        streets = Spelt.from_columns(columns, f"{name}.streets", are_streets=True)
+        streets = NameIndex.from_columns(columns, f"{name}.streets", are_streets=True)
         objects, column = columns[f"{name}.objects"], columns[f"{name}.column"]
         return cls(StringArray.from_columns(columns, f"{name}.shown"), objects, column, streets, by_street, by_number)
 
     def find(self, said: str) -> Ints:
-        """[k] the columns that somebody may mean: of a number without a street, in all streets.
+        """Return the columns [k] that an address may mean; a number alone is looked up in all streets.
 
-        A number that a street has not is the same with another letter, or else those beside it; none past its end.
+        A number that a street lacks means its nearest numbers on the same side; none past the end of the street.
         """
         words, found = plain_words(said), list[int]()
         for n, number in enumerate(words):
@@ -101,7 +101,7 @@ class Addresses:
         return _NONE
 
     def _street(self, said: tuple[str, ...]) -> list[int]:
-        """The streets of the longest words that name some; what follows may be a town or a flat."""
+        """Return the streets of the longest prefix that names any; a town or a flat may follow."""
         for end in range(len(said), 0, -1):
             if len(streets := self.streets.find(" ".join(said[:end]))):
                 return [int(street) for street in streets]
@@ -109,7 +109,7 @@ class Addresses:
 
 
 def _beside(number: str, numbers: Mapping[str, int]) -> list[int]:
-    """The columns of a street's numbers that are nearest to one, on its side; none past the end."""
+    """Return the columns of the nearest numbers on the same side; none past the end."""
     wanted = _digits(number)
     side = [(_digits(known), column) for known, column in numbers.items()]
     below = [value for value, _ in side if 0 <= value <= wanted and value % 2 == wanted % 2]
@@ -119,6 +119,6 @@ def _beside(number: str, numbers: Mapping[str, int]) -> list[int]:
 
 
 def _digits(number: str) -> int:
-    """The number that a house number begins with; -1 if it begins with none."""
+    """Return the leading digits of a house number; -1 without any."""
     found = _NUMBER.match(number)
     return int(found.group()) if found else -1

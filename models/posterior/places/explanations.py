@@ -1,4 +1,4 @@
-"""A text's mentions on a map, and what explains each at a position."""
+"""The mentions of a text on a map, and their explanations at a position."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -12,14 +12,14 @@ from models.language.mentions.mentions import Mention
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Places:
-    """A text's mentions, ready to be asked of positions.
+    """The mentions of a text, prepared for evaluation at positions.
 
     Attributes:
-        mentions: those that the map knows.
-        common: [K] mean of each mention's kernel over the map: what is near everywhere tells nothing.
-        listener_m: [2] where the listener is, if winds are seen from there.
-        listener_wind: degrees from the listener to the speaker; None if not said.
-        is_meeting: whether the place told of is not where the speaker stands.
+        mentions: those with objects near the map.
+        common: [K] mean of each mention's kernel over the map, by which likelihoods are divided.
+        listener_m: [2] position of the listener; None if unknown.
+        listener_wind: degrees from the listener to the speaker; None if not stated.
+        is_meeting: whether the text describes a meeting point, not the speaker's position.
     """
 
     mentions: tuple[Mention, ...]
@@ -30,12 +30,12 @@ class Places:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Explained:
-    """What explains a mention at a position.
+class MentionExplanation:
+    """The explanation of a mention at a position.
 
     Attributes:
-        probability: that something does.
-        item: which of the mention's objects, beyond them which of its lines; -1 for none.
+        probability: that an object explains the mention.
+        item: index of the object, then of the line; -1 for none.
         way_m: [2] from the position to it.
     """
 
@@ -44,4 +44,4 @@ class Explained:
     way_m: Floats
 
 
-NOT_EXPLAINED: Final = Explained(0.0, -1, np.zeros(2))
+UNEXPLAINED: Final = MentionExplanation(0.0, -1, np.zeros(2))

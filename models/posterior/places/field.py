@@ -1,4 +1,4 @@
-"""A text's mentions on a map: log p(T | x) at cells, roughly, and at nodes, with the speaker's heading summed out."""
+"""Likelihood of mentions on a map: log p(T | x), approximate at cells, exact at nodes, summed over headings."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from models.citymap.points import Ints, bounding_corners
 from models.citymap.types import Floats
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
-from models.posterior.places.explanations import NOT_EXPLAINED, Explained, Places
+from models.posterior.places.explanations import UNEXPLAINED, MentionExplanation, Places
 from models.posterior.places.kernels import HEADINGS, SURE, PlaceKernels, kernel_of, sure_of
 
 FEW_REACH, MANY_REACH = 5.0, 2.5  # scales of a kernel, as far as which objects are looked at
@@ -38,7 +38,7 @@ TIERS: Final = (1.0, 0.7, 0.4, 0.2)  # weights on the grid are rounded to these
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rough:
-    """How far cells are from what a mention may mean, to the grid.
+    """Distances of cells from the candidates of a mention, to the precision of the grid.
 
     Attributes:
         weights: of each of T tiers of objects.
@@ -49,8 +49,8 @@ class Rough:
     metres: Tensor
 
 
-class Told:
-    """What a text says of places, for `locate`: at every cell, roughly, and at any position.
+class PlaceEvidence:
+    """The evidence of a text's mentions: approximate at every cell, exact at any position.
 
     Attributes:
         places: the text's mentions on the map.
@@ -94,7 +94,7 @@ class PlaceField:
         listener_wind: float | None = None,
         *,
         is_meeting: bool = False,
-    ) -> Told:
+    ) -> PlaceEvidence:
         """A text on this map.
 
         Args:
@@ -122,7 +122,7 @@ class PlaceField:
         )
         at_cells = torch.from_numpy(total.ravel()[self.raster.cell_pixel])
         at_cells = self.kernels.temper.exp() * at_cells + self.from_listener(places, self._centers_m)
-        return Told(self, places, at_cells.double().numpy())
+        return PlaceEvidence(self, places, at_cells.double().numpy())
 
     def log_p(self, places: Places, points_m: Floats, group: Ints) -> Tensor:
         """[M] log p(T | x) of positions [M, 2], up to a constant; `group` ascending, of those that lie together."""
@@ -148,8 +148,8 @@ class PlaceField:
         return total
 
     @torch.inference_mode()
-    def explain(self, places: Places, point_m: Floats) -> list[Explained]:
-        """What explains each mention at a position [1, 2], in the heading that fits best there."""
+    def explain(self, places: Places, point_m: Floats) -> list[MentionExplanation]:
+        """Explain each mention at a position [1, 2], in the best heading there."""
         around, found = PointGroups.from_groups(point_m, np.zeros(1, np.int64)), []
         ways = [self.ways_from(mention, around) for mention in places.mentions]
         fits = [self._fits_of_ways(mention, each) for mention, each in zip(places.mentions, ways, strict=True)]
@@ -159,16 +159,16 @@ class PlaceField:
         heading = int(total.argmax())
         for mention, each, fit, mean in zip(places.mentions, ways, fits, places.common, strict=True):
             if not len(fit):
-                found.append(NOT_EXPLAINED)
+                found.append(UNEXPLAINED)
                 continue
             here = fit[:, heading if fit.shape[1] > 1 else 0]
             best, floor = int(here.argmax()), self._floor(mention)
             told = (1 - floor) * here[best] / mean
-            found.append(Explained(float(told / (told + floor)), int(each.target[best]), each.offset_m[best]))
+            found.append(MentionExplanation(float(told / (told + floor)), int(each.target[best]), each.offset_m[best]))
         return found
 
     def ways_from(self, mention: Mention, around: PointGroups) -> ClosestPoints:
-        """As `ways`, of positions that are grouped already."""
+        """Return the closest points of a mention's candidates to grouped positions."""
         return find_closest_points(around, *self._outline(mention), self._reach_m(mention))
 
     @cachedmethod(lambda field: field._lately)
@@ -183,7 +183,7 @@ class PlaceField:
         return segments.astype(np.float64), starts, is_area
 
     def _reach_m(self, mention: Mention) -> float:
-        """How far away what may be meant is looked for; of much that may be meant the nearest will do."""
+        """Return the search radius for candidates; it is smaller for mentions with many."""
         if mention.cue.distance_m is not None:
             return min(SAID_REACH * mention.cue.distance_m + SLACK_M, FARTHEST_M)
         scale = float(self.kernels.scale[kernel_of(mention, mention.cue.angle)].detach().exp())
@@ -191,7 +191,7 @@ class PlaceField:
         return min(reach * scale + SLACK_M, MOST_REACH_M)
 
     def rough(self, mention: Mention, cells: Ints) -> Rough:
-        """How far some cells are from what a mention may mean."""
+        """Return the distances of cells from the candidates of a mention."""
         weights, away = self._away(mention)
         return _rough(weights, torch.from_numpy(self.raster.distances_m(away, cells)))
 
@@ -214,7 +214,7 @@ class PlaceField:
         return torch.tensor(rough.weights)[:, None] * self._kernel(mention, rough.metres)
 
     def usual(self, mention: Mention, rough: Rough) -> Tensor:
-        """The mean of the kernel over cells: what is near everywhere tells nothing."""
+        """Return the mean of the kernel over cells."""
         return self.roughly(mention, rough).mean().clamp(min=LEAST)
 
     def fits(self, mention: Mention, ways: ClosestPoints, points: int) -> Tensor:
@@ -257,16 +257,16 @@ class PlaceField:
         return self.kernels.near(kernel, metres)
 
     def worth(self, mention: Mention, fits: Tensor, mean: Tensor) -> Tensor:
-        """Log of how much likelier a mention is here than anywhere."""
+        """Return the log ratio of a mention's likelihood here to its mean over the map."""
         floor = self._floor(mention)
         return torch.log(floor + (1 - floor) * fits / mean)
 
     def _floor(self, mention: Mention) -> Tensor:
-        """How likely a mention is no evidence at all."""
+        """Return the probability that a mention is no evidence."""
         return 1 - (1 - self.kernels.floor[SURE.index(sure_of(mention))].sigmoid()) * mention.trust
 
     def from_listener(self, places: Places, points_m: Floats) -> Tensor:
-        """[M] what winds seen from the listener tell of positions [M, 2]."""
+        """Return the log density [M] of positions [M, 2] in the stated direction from the listener."""
         if places.listener_m is None or places.listener_wind is None:
             return torch.zeros(len(points_m))
         metres, direction = _polar(points_m - places.listener_m)

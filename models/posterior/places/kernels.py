@@ -1,4 +1,4 @@
-"""How likely something is said of a place that is so far away, in that direction (docs/method.md, places)."""
+"""Kernels: the likelihood of a mention by distance and direction (docs/method.md, places)."""
 
 from typing import Final
 
@@ -7,7 +7,7 @@ from torch import Tensor, nn
 
 from models.language.mentions.mentions import Mention
 
-# What a thing, street or corner may be to the speaker; the metres over which each falls, to start from.
+# Initial scales, in metres, of each type of mention; fitted on training texts afterwards.
 SCALES: Final = {
     "at": 8.0, "outside": 10.0, "beside": 14.0, "near": 30.0, "across": 14.0, "inside": 10.0, "past": 40.0,
     "off": 30.0, "on": 14.0, "far": 60.0, "block": 70.0, "wind": 60.0, "seen": 28.0, "side": 22.0, "ahead": 30.0,
@@ -15,17 +15,17 @@ SCALES: Final = {
     "address": 14.0,
 }  # fmt: skip
 TYPES: Final = tuple(SCALES)
-# How far off what is said may be no evidence at all: what was misread, is wrong or is not on the map.
+# Initial probabilities that a mention is no evidence: misread, wrong or not on the map.
 FLOORS: Final = {"exact": 0.10, "part": 0.25, "kind": 0.20, "street": 0.06, "corner": 0.08}
 SURE: Final = tuple(FLOORS)
 HEADINGS: Final = 16
 ACROSS_M: Final = 24.0
 POWER: Final = 1.5
-ASIDE: Final = 60.0  # degrees from ahead or behind, from which on something is at the side
+ASIDE: Final = 60.0  # degrees from ahead or behind beyond which a thing is at the side
 
 
 class PlaceKernels(nn.Module):
-    """The weights: scales, tails, floors, how exact directions and distances are. About fifty numbers."""
+    """The weights: scales, tails and floors, and the precision of directions and distances."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -44,7 +44,7 @@ class PlaceKernels(nn.Module):
         self.temper = nn.Parameter(torch.tensor(0.0))  # log power of the whole
 
     def near(self, kind: int, metres: Tensor) -> Tensor:
-        """The kernel of a type of TYPES at distances, at most 1."""
+        """Return the kernel of a type of TYPES at distances, at most 1."""
         scale, tail = self.scale[kind].exp(), self.tail[kind].sigmoid()
         if TYPES[kind] == "across":
             ring = torch.exp(-0.5 * ((metres - self.across_m.exp()) / scale) ** 2)
@@ -53,30 +53,30 @@ class PlaceKernels(nn.Module):
         return (1 - tail) * ring + tail * torch.exp(-metres / (4 * scale))
 
     def said(self, metres: Tensor, said_m: float, *, is_loose: bool) -> Tensor:
-        """The kernel of a distance that was said."""
+        """Return the kernel of a stated distance."""
         width = self.measured[int(is_loose)].exp()
         ratio = torch.log((metres + 4.0) / (said_m + 4.0))
         return torch.exp(-0.5 * (ratio / width) ** 2)
 
     def toward(self, concentration: Tensor, cosine: Tensor, metres: Tensor) -> Tensor:
-        """Density, one on average, of a direction by the cosine of its angle; what is near may be in any."""
+        """Return the density, 1 on average, of a direction by the cosine of its angle; nearby things may be in any."""
         kappa = concentration.exp() * metres / (metres + 4.0)
         slip = self.slip.sigmoid()
         density: Tensor = (1 - slip) / torch.special.i0e(kappa) * torch.exp(kappa * (cosine - 1)) + slip
         return density
 
     def standing(self, metres: Tensor) -> Tensor:
-        """Log density, up to a constant, of people who are so far from where people walk."""
+        """Return the log density, up to a constant, of people at distances from where people walk."""
         floor = self.walk_floor.sigmoid()
         return torch.log(floor + (1 - floor) * torch.exp(-0.5 * (metres / self.walk_m.exp()) ** 2))
 
     def on_side(self, metres: Tensor) -> Tensor:
-        """The kernel of being so far on the side of a street that is said, negative on the other."""
+        """Return the kernel of distances on the stated side of a street, negative on the other side."""
         return 2 * torch.sigmoid(metres / self.side_m.exp()) * 0.95 + 0.05
 
 
 def kernel_of(mention: Mention, angle: float | None) -> int:
-    """Return the row of TYPES that says how far a mention may be, if it is seen at an angle from ahead."""
+    """Return the row of TYPES of a mention at an angle from ahead."""
     relation = mention.cue.relation
     loose = relation in ("near", "far", "past", "off", "across", "block", "wind")
     if mention.form == "street":
@@ -92,7 +92,7 @@ def kernel_of(mention: Mention, angle: float | None) -> int:
 
 
 def sure_of(mention: Mention) -> str:
-    """Which of SURE a mention is."""
+    """Return the row name of FLOORS for a mention."""
     if mention.form == "street":
         return "street"
     if mention.form in ("corner", "span", "address"):

@@ -1,4 +1,4 @@
-"""What people say when asked: their street, a place that they see, the nearest cross street or house number."""
+"""Answers to questions about names: the street, a visible place, the nearest cross street or house number."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,8 +19,8 @@ from models.compiled import HALVES, compiled
 from models.errors import IndexBroken
 from models.files import map_arrays
 from models.posterior.places.addresses import Addresses
-from models.posterior.places.name_index import Spelt
-from models.posterior.places.name_probabilities import Chances, shares
+from models.posterior.places.name_index import NameIndex
+from models.posterior.places.name_probabilities import NameProbabilities, shares
 from models.spool import Spool, starts_of
 from models.strings import Column, merge_columns
 
@@ -47,18 +47,18 @@ class Table:
 
     @classmethod
     def of_entries(cls, names: int, entries: Mapping[str, Column]) -> "Table":
-        """That of so many names, of `_entries_of` cell after cell."""
+        """Build a table of a number of names from the entries of its cells in order."""
         return cls(names, starts_of(entries["sizes"]), entries["name"], entries["chance"])
 
     def rows(self, cells: Ints) -> csr_array:
-        """[C, K] of some cells."""
+        """Return the rows [C, K] of cells."""
         begin, end = self.starts[cells].astype(np.int64), self.starts[cells + 1].astype(np.int64)
         entries = ranges(begin, end)
         content = self.chance[entries].astype(np.float64), self.name[entries].astype(np.int64)
         return csr_array((*content, np.concatenate([[0], np.cumsum(end - begin)])), shape=(len(cells), self.names))
 
     def of(self, names: Ints) -> Floats:
-        """[N] chance of any of some names."""
+        """Return the probability [N] of any of the names."""
         is_one = np.zeros(self.names, np.bool_)
         is_one[names] = True
         chance: Floats = _sums(self.starts, self.name, self.chance.view(np.uint16), HALVES, is_one)
@@ -80,7 +80,7 @@ _ENTRIES: Final = ("starts", "name", "chance")
 
 
 def _entries_of(rows: csr_array) -> dict[str, Column]:
-    """How many entries each of some cells has in a table [N, K], without what is FAINT, and these."""
+    """Return the number of entries of each row of a table [N, K] and the entries, without those below FAINT."""
     cell = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
     kept = rows.data >= FAINT
     return {
@@ -92,7 +92,7 @@ def _entries_of(rows: csr_array) -> dict[str, Column]:
 
 @compiled
 def _sums(starts: Ints, name: Ints, chance: Ints, halves: Floats, is_one: npt.NDArray[np.bool_]) -> Floats:
-    """[N] of each cell the chances, given as bits, of the names that are meant."""
+    """Sum the probabilities, given as bits, of the names that are meant, for each cell [N]."""
     found = np.zeros(len(starts) - 1)
     for cell in range(len(found)):
         for entry in range(starts[cell], starts[cell + 1]):
@@ -103,7 +103,7 @@ def _sums(starts: Ints, name: Ints, chance: Ints, halves: Floats, is_one: npt.ND
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Crossings:
-    """Who is on which street, and which crosses it nearest to them.
+    """Probabilities of pairs of a street and its nearest cross street.
 
     Attributes:
         pairs: chance of D pairs of streets in cells: on one, and the other is the nearest that crosses it.
@@ -132,7 +132,7 @@ class Crossings:
         return csr_array((chance, (row, self.other[pair])), shape=(len(cells), self.streets))
 
     def of(self, names: Ints, on: Ints) -> Floats:
-        """[N] the same of any of some names, in all cells."""
+        """Return the probability [N] of any of the names in all cells."""
         is_on, is_other = np.isin(self.on, on), np.isin(self.other, names)
         sums = [self.pairs.of(np.flatnonzero(some)) for some in (is_on & is_other, is_on, is_other)]
         everything = self.pairs.of(np.arange(self.pairs.names))
@@ -143,7 +143,7 @@ class Crossings:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Landmarks:
-    """The names around the cells of a map, as they are asked for; the same all over a cell.
+    """The names that people in each cell of a map may answer.
 
     Attributes:
         streets: columns of `on_street`.
@@ -155,8 +155,8 @@ class Landmarks:
         crossings: the corners near each cell of the streets that it is on.
     """
 
-    streets: Spelt
-    names: Spelt
+    streets: NameIndex
+    names: NameIndex
     addresses: Addresses
     on_street: Table
     said: Table
@@ -164,8 +164,8 @@ class Landmarks:
     crossings: Crossings
 
     @classmethod
-    def of(cls, gazetteer: Gazetteer, centers_m: Floats, kinds: tuple[str, ...]) -> "Landmarks":
-        """Those of a map.
+    def build(cls, gazetteer: Gazetteer, centers_m: Floats, kinds: tuple[str, ...]) -> "Landmarks":
+        """Build the landmarks of a map.
 
         Args:
             gazetteer: of the map.
@@ -175,12 +175,12 @@ class Landmarks:
         words = gazetteer.objects
         roads = gazetteer.by_kind.get(STREET_KIND, np.zeros(0, np.int64))
         known = np.array([n for n in gazetteer.named.tolist() if words[n].kinds[0].startswith(kinds)], np.int64)
-        streets = Spelt.of([words[n].names for n in roads.tolist()], are_streets=True)
-        names = Spelt.of([words[n].names for n in known.tolist()], are_streets=False)
-        addresses = Addresses.of(words)
+        streets = NameIndex.build([words[n].names for n in roads.tolist()], are_streets=True)
+        names = NameIndex.build([words[n].names for n in known.tolist()], are_streets=False)
+        addresses = Addresses.build(words)
         spools = [Spool() for _ in range(4)]
         for first in range(0, len(centers_m) or 1, AT_ONCE):
-            chances = Chances(gazetteer, centers_m[first : first + AT_ONCE])
+            chances = NameProbabilities(gazetteer, centers_m[first : first + AT_ONCE])
             on_street = chances.on_street(roads, streets)
             pairs, on, other = chances.crossings(roads, streets, on_street)
             found = on_street, chances.said(known, names), chances.numbered(addresses), pairs
@@ -193,11 +193,11 @@ class Landmarks:
 
     @property
     def has_corners(self) -> bool:
-        """Whether any streets meet."""
+        """Whether the map has corners."""
         return len(self.crossings.on) > 0
 
     def save(self, directory: Path) -> None:
-        """Write one file."""
+        """Write the landmarks to one file."""
         tables = [getattr(self, name).columns(name) for name in _TABLES]
         crossings = {"crossings.on": self.crossings.on, "crossings.other": self.crossings.other}
         names = [self.streets.columns("streets"), self.names.columns("names"), self.addresses.columns("addresses")]
@@ -207,7 +207,7 @@ class Landmarks:
 
     @classmethod
     def load(cls, directory: Path) -> "Landmarks":
-        """Read what `save` wrote.
+        """Load saved landmarks.
 
         Raises:
             IndexBroken: the file does not hold it.
@@ -215,7 +215,7 @@ class Landmarks:
         try:
             columns = map_arrays(directory / FILE)[0]
             streets, names = (
-                Spelt.from_columns(columns, name, are_streets=name == "streets") for name in ("streets", "names")
+                NameIndex.from_columns(columns, name, are_streets=name == "streets") for name in ("streets", "names")
             )
             on_street, said, numbered, pairs = (Table.from_columns(columns, name) for name in (*_TABLES, "crossings"))
             on, other = columns["crossings.on"], columns["crossings.other"]

@@ -1,4 +1,4 @@
-"""The names of a map as people spell them: without case and accents, in other languages, a street's in short."""
+"""Look up the names of a map without case and accents, in other languages and in short forms of streets."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,8 +12,8 @@ from models.strings import Column, Postings, StringArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Spelt:
-    """Columns of a table, one a name, and what they are found by.
+class NameIndex:
+    """An index of names; each has a column of a table.
 
     Attributes:
         are_streets: whether they are of streets, which are also known by forms such as "W 25th St" and "25th".
@@ -30,8 +30,8 @@ class Spelt:
     part: Postings
 
     @classmethod
-    def of(cls, names: Sequence[tuple[str, ...]], *, are_streets: bool) -> "Spelt":
-        """Those of some objects.
+    def build(cls, names: Sequence[tuple[str, ...]], *, are_streets: bool) -> "NameIndex":
+        """Build the index of objects.
 
         Args:
             names: of each object all its names, the one to show first; objects whose first are alike share a column.
@@ -51,25 +51,25 @@ class Spelt:
         return len(self.shown)
 
     def find(self, name: str) -> Ints:
-        """[k] the columns that a name may mean, whole names before parts of them; none if the map has not got it."""
+        """Return the columns [k] that a name may mean; short forms count only without a whole name."""
         plain = _plain(name, self.are_streets)
         return self.whole.find(plain) if plain in self.whole else self.part.find(plain)
 
     def columns(self, name: str) -> dict[str, Column]:
-        """Arrays from which `from_columns` makes it."""
+        """Return the arrays that `from_columns` reads."""
         found = {f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
         return found | self.whole.columns(f"{name}.whole") | self.part.columns(f"{name}.part")
 
     @classmethod
-    def from_columns(cls, columns: Mapping[str, Column], name: str, *, are_streets: bool) -> "Spelt":
-        """What `columns` gave of a name."""
+    def from_columns(cls, columns: Mapping[str, Column], name: str, *, are_streets: bool) -> "NameIndex":
+        """Restore the index from the arrays of `columns`."""
         whole, part = (Postings.from_columns(columns, f"{name}.{kind}") for kind in ("whole", "part"))
         shown = StringArray.from_columns(columns, f"{name}.shown")
         return cls(are_streets, shown, columns[f"{name}.column"], whole, part)
 
 
 def _plain(name: str, are_streets: bool) -> str:
-    """In one form; as it stands where it has neither letter nor digit."""
+    """Normalize a name; one without letters and digits stays as it is."""
     words = plain_words(name)
     return " ".join(full_words(words) if are_streets else words) or name
 

@@ -1,4 +1,4 @@
-"""How far the names of a map are from its cells, and which of them somebody says who stands there."""
+"""Probabilities that a person in a cell names a street, a place, a house number or a corner."""
 
 from typing import Final
 
@@ -11,7 +11,7 @@ from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.posterior.places.addresses import Addresses
-from models.posterior.places.name_index import Spelt
+from models.posterior.places.name_index import NameIndex
 
 ON_STREET_M: Final = 40.0  # as far as a street may be which somebody says to be on
 BETWEEN_M: Final = 8.0  # by which of two streets or houses one must be nearer to be the one
@@ -23,8 +23,8 @@ BLOCK_M: Final = 80.0  # cells are looked at together that lie in a square of th
 Entries = tuple[Ints, Ints, Floats]  # rows, columns and values of a sparse table
 
 
-class Chances:
-    """What is said in the cells of one map; the same all over a cell.
+class NameProbabilities:
+    """The probabilities of names in the cells of a map.
 
     Args:
         gazetteer: of the map.
@@ -38,15 +38,15 @@ class Chances:
         self._order = np.argsort(group, kind="stable")
         self._around = PointGroups.from_groups(centers_m[self._order], group[self._order])
 
-    def on_street(self, objects: Ints, streets: Spelt) -> csr_array:
-        """[N, S] chance of each street, that who stands in a cell says to be on it."""
+    def on_street(self, objects: Ints, streets: NameIndex) -> csr_array:
+        """Return the probability [N, S] that a person in a cell names each street as theirs."""
         metres = self._metres(objects, streets, ON_STREET_M)
         cell, nearest = _nearest(metres)
         metres.data = shares(cell, np.exp((nearest[cell] - metres.data) / BETWEEN_M))
         return metres
 
-    def said(self, objects: Ints, names: Spelt) -> csr_array:
-        """[N, K] chance of each place's name, that who stands in a cell says it when asked for one."""
+    def said(self, objects: Ints, names: NameIndex) -> csr_array:
+        """Return the probability [N, K] that a person in a cell names each place when asked for one."""
         metres = self._metres(objects, names, SEEN_M + 3 * SEEN_SOFT_M)
         cell, nearest = _nearest(metres)
         share = shares(cell, np.exp(-metres.data / NAMED_M) * _is_seen(metres.data))
@@ -54,15 +54,15 @@ class Chances:
         return metres
 
     def numbered(self, addresses: Addresses) -> csr_array:
-        """[N, K] chance of each house number, that who stands in a cell says that it is the nearest."""
+        """Return the probability [N, K] that a person in a cell gives each address as the nearest."""
         metres = self._metres(addresses.objects, addresses, SEEN_M + 3 * SEEN_SOFT_M)
         cell, nearest = _nearest(metres)
         share = shares(cell, np.exp((nearest[cell] - metres.data) / BETWEEN_M))
         metres.data = share * _is_seen(nearest)[cell]
         return metres
 
-    def crossings(self, objects: Ints, streets: Spelt, on_street: csr_array) -> tuple[csr_array, Ints, Ints]:
-        """The corners near each cell of the streets that it is on; see Crossings.
+    def crossings(self, objects: Ints, streets: NameIndex, on_street: csr_array) -> tuple[csr_array, Ints, Ints]:
+        """Return the nearest corners of the streets that each cell is on, as in `Crossings`.
 
         Returns:
             [N, D] chance of pairs of streets, [D] column of the one, [D] of the other.
@@ -85,7 +85,7 @@ class Chances:
         return table, pairs // count, pairs % count
 
     def _corners(self, there: csc_array, street: int, corners: Ints, at: Floats) -> Entries:
-        """(cell, corner, chance) of the nearest corners of a street, in the cells that are on it."""
+        """Return (cell, corner, probability) of the nearest corners of a street in the cells on it."""
         of = slice(there.indptr[street], there.indptr[street + 1])
         cells, chance = there.indices[of], there.data[of]
         few = min(CORNERS, len(corners))
@@ -94,8 +94,8 @@ class Chances:
         weight *= (chance / weight.sum(axis=1))[:, None]
         return np.repeat(cells, few), corners[row].ravel(), weight.ravel()
 
-    def _metres(self, objects: Ints, names: Spelt | Addresses, reach_m: float) -> csr_array:
-        """[N, names] distance to the nearest of each name, as far as it is within reach."""
+    def _metres(self, objects: Ints, names: NameIndex | Addresses, reach_m: float) -> csr_array:
+        """Return the distance [N, names] to the nearest object of each name within reach."""
         shape = (len(self._order), max(1, len(names)))
         if not len(objects):
             return csr_array(shape)
@@ -112,7 +112,7 @@ _EMPTY: Final = np.zeros(0)
 
 
 def _nearest(metres: csr_array) -> tuple[Ints, Floats]:
-    """The row of each entry, and the least of each row; infinite in empty ones."""
+    """Return the row of each entry, and the minimum of each row, infinite if empty."""
     cell = np.repeat(np.arange(metres.shape[0]), np.diff(metres.indptr))
     nearest = np.full(metres.shape[0], np.inf)
     np.minimum.at(nearest, cell, metres.data)
@@ -120,7 +120,7 @@ def _nearest(metres: csr_array) -> tuple[Ints, Floats]:
 
 
 def shares(cell: Ints, weight: Floats) -> Floats:
-    """Weights of entries, made to add up to 1 in each cell."""
+    """Normalize the weights of entries to a sum of 1 per cell."""
     share: Floats = weight / np.bincount(cell, weight)[cell] if len(cell) else weight
     return share
 

@@ -18,7 +18,7 @@ from models.language.measures import compass_name
 from models.posterior.binding import Binding
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.model import PosteriorModel
-from models.posterior.neighbours.neighbour_index import Surroundings, surroundings_of
+from models.posterior.neighbours.neighbour_index import NeighbourIndex, build_neighbour_index
 from models.posterior.posterior import HintPosterior
 from models.sources.source import QUERY_SPACING_M, VALIDATION_SEED, Source
 
@@ -44,7 +44,7 @@ class TrainingSite:
         truth: [Q] true cells.
     """
 
-    surroundings: Surroundings
+    surroundings: NeighbourIndex
     cells: CellTable
     label: npt.NDArray[np.int64]
     labels: tuple[str, ...]
@@ -61,7 +61,7 @@ class TrainingSite:
             queries = Queries.concatenate([queries, scan.queries(VALIDATION_SEED, spacing_m)])
         data, hints = source.data, queries.hints
         assert hints is not None
-        surroundings = surroundings_of(source.geometry(), data.cells)
+        surroundings = build_neighbour_index(source.geometry(), data.cells)
         labels, label = surroundings.things.labels(data.gallery)
         return cls(
             surroundings=surroundings,

@@ -20,7 +20,7 @@ from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.citymap.types import Hint
 from models.language.measures import first_bearing
-from models.posterior.neighbours.neighbour_index import surroundings_of
+from models.posterior.neighbours.neighbour_index import build_neighbour_index
 from tests.models.citymap.gazetteer.made_town import line, made_gazetteer, point, ring
 
 WIND = re.compile(r"to my (\w+)\.|(\w+) of me\.")
@@ -29,7 +29,7 @@ OFF_M = 1.5  # what is stored of ways is rounded, and of the node beside a posit
 
 @pytest.fixture(scope="module")
 def surroundings(source, cells):
-    return surroundings_of(source.geometry(), cells)
+    return build_neighbour_index(source.geometry(), cells)
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from models.citymap.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.lookup import Lookup
-from models.language.mentions.paraphrases import TRUST
+from models.language.mentions.paraphrases import PARAPHRASE_TRUST
 from models.language.mentions.reader import find_mentions
 from models.posterior.model import load_posterior
 from tests.models.citymap.gazetteer.made_town import is_common, point
@@ -52,7 +52,7 @@ def test_paraphrases_of_nouns_and_names_are_understood(lookup, meanings, cues, n
     [mention] = read(text, noun, lookup, meanings, cues)
     assert mention.objects.tolist() == [thing]
     assert (mention.text, mention.form, mention.is_exact) == (noun, "thing", False)
-    assert mention.trust == TRUST, "less sure than what was said"
+    assert mention.trust == PARAPHRASE_TRUST, "less sure than what was said"
     assert not any(len(m.objects) for m in find_mentions(text, lookup, cues)), "neither is in the words"
 
 

@@ -14,7 +14,7 @@ from index.evaluation.localizers import posterior_of_map
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
-from models.posterior.neighbours.neighbour_index import surroundings_of
+from models.posterior.neighbours.neighbour_index import build_neighbour_index
 
 SENTENCE = re.compile(r"The pose is (\S+) of a ([^.]+)\.")
 
@@ -47,7 +47,7 @@ def posterior_model(text_encoder):
 def posterior(posterior_model, model, source):
     data = source.data
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
-    return posterior_of_map(posterior_model, data, ranker, surroundings_of(source.geometry(), data.cells))
+    return posterior_of_map(posterior_model, data, ranker, build_neighbour_index(source.geometry(), data.cells))
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ NAMES = {"street": 7, "name": 11, "corner": 7, "address": 5}
 
 @pytest.fixture(scope="module")
 def questions():
-    return OpenQuestions(Landmarks.of(made_gazetteer(), CENTERS, ("shop", "amenity", "leisure")))
+    return OpenQuestions(Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity", "leisure")))
 
 
 @pytest.mark.parametrize("kind", OPEN)
@@ -66,5 +66,5 @@ def test_a_name_that_the_map_has_not_is_refused_with_advice(questions, kind, wha
 
 def test_a_map_without_names_asks_for_none():
     gazetteer = made_gazetteer()
-    bare = OpenQuestions(Landmarks.of(gazetteer, CENTERS, ("aeroway",)))
+    bare = OpenQuestions(Landmarks.build(gazetteer, CENTERS, ("aeroway",)))
     assert [bare.has(kind) for kind in OPEN] == [True, False, True, True]

@@ -12,7 +12,7 @@ from index.evaluation.trials import Trial, all_trials
 from models.citymap.types import Hint
 from models.errors import DataError
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
-from models.posterior.neighbours.neighbour_index import surroundings_of
+from models.posterior.neighbours.neighbour_index import build_neighbour_index
 
 HINTS = tuple(
     Hint(direction, label, colour)
@@ -40,7 +40,7 @@ def test_trials_say_what_their_name_says(asked):
 def test_hints_about_the_nearest_things_are_true(source, asked):
     data, queries = asked
     some = queries.take(np.arange(0, len(queries), 3))
-    around = surroundings_of(source.geometry(), data.cells)
+    around = build_neighbour_index(source.geometry(), data.cells)
     told = nearest_hints(data, some.positions_m, some.truth, around, 12)
     assert 6 < max(map(len, told)) <= 12
     shared = [
@@ -61,7 +61,7 @@ def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_e
     ranker = Ranker.of(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
     untrained.matcher = load_posterior().matcher  # knows the names already
-    posterior = posterior_of_map(untrained, data, ranker, surroundings_of(source.geometry(), data.cells))
+    posterior = posterior_of_map(untrained, data, ranker, build_neighbour_index(source.geometry(), data.cells))
     vectors = vectors_of_map(data, ranker)
     found = robustness(data, some, vectors, posterior, lambda *_: None)
     (head, table), *of_candidates = robustness_tables(found)

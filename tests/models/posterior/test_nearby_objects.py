@@ -2,13 +2,13 @@ import numpy as np
 import pytest
 
 from models.posterior.nearby_objects import FAR_M, NEAR_M, Sights
-from models.posterior.neighbours.map_objects import Things
+from models.posterior.neighbours.map_objects import MapObjects
 from models.posterior.neighbours.neighbours import STEP_M
-from models.posterior.neighbours.scan_index import ScanSurroundings
+from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 
 TREE, LAMP = 0, 1
 LABEL = np.array([TREE, TREE, LAMP])
-THINGS = Things(np.arange(3), np.zeros((3, 3)), np.ones(3, np.int32), np.zeros(3, np.bool_))
+THINGS = MapObjects(np.arange(3), np.zeros((3, 3)), np.ones(3, np.int32), np.zeros(3, np.bool_))
 WORDS = np.array([[0.9, 0.1], [0.2, 0.8], [0.5, 0.5]])
 
 
@@ -16,7 +16,7 @@ def sights(*nodes):
     """Of nodes with (part, metres east, metres north) from the node to the thing."""
     rows = [row for node in nodes for row in node]
     way = np.array([(-east / STEP_M, -north / STEP_M) for _, east, north in rows]).reshape(-1, 2)
-    surroundings = ScanSurroundings(
+    surroundings = ScanNeighbourIndex(
         things=THINGS,
         cell_starts=np.array([0, len(nodes)]),
         nodes_m=np.zeros((len(nodes), 2), np.float32),

@@ -6,7 +6,7 @@ import torch
 
 from models.citymap.colours import KITTI360_PALETTE
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.neighbours.neighbours import Around
+from models.posterior.neighbours.neighbours import Neighbours
 from models.posterior.node_batch import NodeBatch, colour_words, usual_statements
 from models.posterior.node_likelihood import NodeLikelihood
 
@@ -25,11 +25,11 @@ def model():
     return fitted
 
 
-def surroundings(rng, most=12) -> Around:
+def surroundings(rng, most=12) -> Neighbours:
     """What lies around some nodes; around the third there is nothing."""
     node = np.repeat(np.arange(NODES), [0 if n == 2 else int(rng.integers(1, most)) for n in range(NODES)])
     way = rng.integers(-127, 128, (len(node), 2)).astype(np.int8)
-    return Around(node, rng.integers(0, THINGS, len(node)), way, rng.random(len(node)) < 0.8)
+    return Neighbours(node, rng.integers(0, THINGS, len(node)), way, rng.random(len(node)) < 0.8)
 
 
 def batch_of(around, label, rgb) -> NodeBatch:
@@ -76,7 +76,7 @@ def test_what_explains_a_hint_is_seen_as_roughly_as_it_is_told_of(model) -> None
     label, rgb = torch.zeros(2, dtype=torch.long), torch.full((2, 3), 0.4)
     usual = usual_statements(label, rgb, torch.ones(2), KITTI360_PALETTE)
     way = np.array([[40, 39], [-40, 39]], dtype=np.int8)
-    around = Around(np.zeros(2, np.int64), np.arange(2), way, np.ones(2, np.bool_))
+    around = Neighbours(np.zeros(2, np.int64), np.arange(2), way, np.ones(2, np.bool_))
     relation, colour = torch.eye(10)[:1], torch.eye(WORDS + 1)[-1:]
     said = Reading(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.zeros(1))
     with torch.no_grad():

@@ -5,7 +5,7 @@ from scipy.sparse import csc_array
 
 from models.errors import IndexBroken
 from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.neighbours.neighbour_index import surroundings_of
+from models.posterior.neighbours.neighbour_index import build_neighbour_index
 from models.posterior.node_batch import NodeBatch
 from models.posterior.statements import _SECTOR_OF_RELATION, FILE, FLOOR, SECTORS, Statements
 
@@ -13,7 +13,7 @@ from models.posterior.statements import _SECTOR_OF_RELATION, FILE, FLOOR, SECTOR
 @pytest.fixture(scope="module")
 def given(source):
     """What statements are made of: surroundings, labels, colours and the words for them."""
-    surroundings = surroundings_of(source.geometry(), source.data.cells)
+    surroundings = build_neighbour_index(source.geometry(), source.data.cells)
     rgb, likelihood = torch.from_numpy(surroundings.things.rgb), Likelihood()
     label = torch.from_numpy(surroundings.things.labels(source.data.gallery)[1])
     return likelihood, surroundings, label, rgb, likelihood.words(rgb, source.data.palette)

@@ -3,10 +3,10 @@ import pytest
 
 from models.citymap.map_geometry import build_geometry, cut_cells
 from models.errors import IndexBroken
-from models.posterior.neighbours.neighbour_index import load_surroundings, surroundings_of
+from models.posterior.neighbours.neighbour_index import build_neighbour_index, load_neighbour_index
 from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.neighbours.nodes import SPACING_M
-from models.posterior.neighbours.scan_index import ScanSurroundings
+from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 from models.sources.source import MapSource, open_source
 
 
@@ -16,19 +16,19 @@ def scanned(osm_file, scan, cells):
     bodies = build_geometry(scan)
     cells = cut_cells(scan, bodies)
     clouds = MapSource(osm_file, scan, bodies, cells).geometry()
-    return cells, clouds, ScanSurroundings.of(clouds, cells)
+    return cells, clouds, ScanNeighbourIndex.build(clouds, cells)
 
 
 @pytest.fixture(scope="module")
 def around(source, cells):
     bodies = source.geometry()
-    return cells, bodies, surroundings_of(bodies, cells)
+    return cells, bodies, build_neighbour_index(bodies, cells)
 
 
 def test_nodes_are_the_same_however_many_columns_are_looked_at(around, monkeypatch):
     cells, bodies, expected = around
     monkeypatch.setattr("models.posterior.neighbours.nodes.COLUMNS", 7)
-    found = surroundings_of(bodies, cells)
+    found = build_neighbour_index(bodies, cells)
     assert np.array_equal(found.offset, expected.offset)
     assert np.array_equal(found.cell_starts, expected.cell_starts)
 
@@ -126,7 +126,7 @@ def test_taking_cells_keeps_their_nodes_and_what_they_show(kind, request) -> Non
 def test_saved_surroundings_come_back_and_broken_ones_are_named(kind, request, tmp_path) -> None:
     cells, s = request.getfixturevalue(kind)[::2]
     s.save(tmp_path)
-    again = load_surroundings(tmp_path, cells)
+    again = load_neighbour_index(tmp_path, cells)
     nodes = np.arange(s.cell_starts[-1])
     assert (again.cell_starts == s.cell_starts).all()
     assert (nodes_of(again) == nodes_of(s)).all()
@@ -138,7 +138,7 @@ def test_saved_surroundings_come_back_and_broken_ones_are_named(kind, request, t
     assert 0.9 * file.stat().st_size < s.num_bytes < file.stat().st_size
     file.write_bytes(b"no")
     with pytest.raises(IndexBroken, match="hereabouts index"):
-        load_surroundings(tmp_path, cells)
+        load_neighbour_index(tmp_path, cells)
 
 
 def test_what_is_around_nodes_does_not_depend_on_which_are_asked_for(around) -> None:
@@ -166,5 +166,5 @@ def test_a_data_set_has_the_points_that_its_cells_show(streets) -> None:
         xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]]
         gap = np.linalg.norm(xyz - cells.parts.closest_m[part], axis=1).min()
         assert gap < 0.4, "one point a voxel of 0.2 m is kept"
-    s = ScanSurroundings.of(bodies, cells)
+    s = ScanNeighbourIndex.build(bodies, cells)
     assert len(s.starts) == len(s.nodes_m) + 1

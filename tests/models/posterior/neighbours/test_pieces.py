@@ -9,7 +9,7 @@ import pytest
 from models.citymap.map_geometry import build_geometry, cut_cells
 from models.citymap.types import CityMap, CutRules, Instance
 from models.posterior.neighbours.neighbours import STEP_M
-from models.posterior.neighbours.scan_index import ScanSurroundings
+from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 from models.sources.source import MapSource
 
 LEFT, RIGHT = np.array([0.2, 0.2, 0.2]), np.array([0.8, 0.8, 0.8])
@@ -37,7 +37,7 @@ def street(*pieces: tuple[np.ndarray, np.ndarray]) -> tuple[CityMap, MapSource]:
     return city, MapSource(Path("street"), city, bodies, cut_cells(city, bodies))
 
 
-def rows_at(around: ScanSurroundings, source: MapSource, x: float, y: float) -> np.ndarray:
+def rows_at(around: ScanNeighbourIndex, source: MapSource, x: float, y: float) -> np.ndarray:
     """Rows of the sidewalk at the node nearest to a position."""
     node = ((around.nodes_m - [x, y]) ** 2).sum(axis=1).argmin()
     rows = np.arange(around.starts[node], around.starts[node + 1])
@@ -48,7 +48,7 @@ def rows_at(around: ScanSurroundings, source: MapSource, x: float, y: float) -> 
 
 def test_both_sidewalks_are_known_between_them() -> None:
     _, source = street()
-    around = ScanSurroundings.of(source.geometry(), source.data.cells)
+    around = ScanNeighbourIndex.build(source.geometry(), source.data.cells)
     rows = rows_at(around, source, 0.0, 1.5)
     way = around.way[rows] * STEP_M
     assert way[:, 1] == pytest.approx([1.5 - ROAD_M / 2, 1.5 + ROAD_M / 2 + 0.25], abs=2 * STEP_M)
@@ -63,23 +63,23 @@ def test_both_sidewalks_are_known_between_them() -> None:
 
 def test_sidewalks_that_meet_behind_the_corner_are_two_pieces_and_beside_it_one() -> None:
     _, source = street(paved(20, 22, -ROAD_M / 2, ROAD_M / 2, LEFT))  # they meet at x = 20
-    around = ScanSurroundings.of(source.geometry(), source.data.cells)
+    around = ScanNeighbourIndex.build(source.geometry(), source.data.cells)
     assert len(rows_at(around, source, -6.0, 0.0)) == 2
     assert len(rows_at(around, source, 18.0, 0.0)) == 1
 
 
 def test_too_small_a_piece_is_none() -> None:
     _, source = street(paved(0, 1, -0.5, 0.5, LEFT))
-    around = ScanSurroundings.of(source.geometry(), source.data.cells)
+    around = ScanNeighbourIndex.build(source.geometry(), source.data.cells)
     assert len(rows_at(around, source, 0.0, 1.5)) == 2
     bodies = replace(source.geometry(), min_part_points=10)
-    assert len(rows_at(ScanSurroundings.of(bodies, source.data.cells), source, 0.0, 1.5)) == 3
+    assert len(rows_at(ScanNeighbourIndex.build(bodies, source.data.cells), source, 0.0, 1.5)) == 3
 
 
 def test_pieces_far_apart_and_instances_in_one_piece_are_as_they_were() -> None:
     city, source = street()
     bodies = source.geometry()
-    around = ScanSurroundings.of(bodies, source.data.cells)
+    around = ScanNeighbourIndex.build(bodies, source.data.cells)
     for x, y in ((-20.0, 12.0), (20.0, -9.0), (0.0, 0.0)):
         node = ((around.nodes_m - [x, y]) ** 2).sum(axis=1).argmin()
         rows = rows_at(around, source, x, y)

@@ -20,7 +20,7 @@ HOUSES = [
 
 @pytest.fixture(scope="module")
 def addresses():
-    return Addresses.of(HOUSES)
+    return Addresses.build(HOUSES)
 
 
 @pytest.mark.parametrize(
@@ -60,5 +60,5 @@ def test_houses_of_one_address_share_a_column(addresses):
 
 
 def test_a_map_without_numbers_has_none():
-    assert len(Addresses.of([GazetteerObject(("shop",), ("A",))])) == 0
-    assert not len(Addresses.of([]).find("12 Bulevardi"))
+    assert len(Addresses.build([GazetteerObject(("shop",), ("A",))])) == 0
+    assert not len(Addresses.build([]).find("12 Bulevardi"))

@@ -8,7 +8,7 @@ from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.language.measures import Measure
 from models.language.mentions.cues import Cue
 from models.language.mentions.mentions import Mention
-from models.posterior.places.field import PlaceField, Told
+from models.posterior.places.field import PlaceEvidence, PlaceField
 from models.posterior.places.kernels import HEADINGS, TYPES, PlaceKernels, kernel_of
 from tests.models.citymap.gazetteer.made_town import BENCHES, line, made_gazetteer, numbered, point
 
@@ -39,7 +39,7 @@ def corner(x: float, y: float) -> Mention:
     return Mention("corner", 0, 1, "corner", lines_m=lines, weights=np.ones(1), is_exact=True, cue=Cue("at"))
 
 
-def best(told: Told) -> np.ndarray:
+def best(told: PlaceEvidence) -> np.ndarray:
     return np.asarray(NODES[told.at(NODES, ANYWHERE).argmax()])
 
 

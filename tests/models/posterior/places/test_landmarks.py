@@ -13,7 +13,7 @@ CENTERS = np.array([(100.0, 78.0), (190.0, 75.0), (200.0, 80.0), (120.0, 92.0), 
 
 @pytest.fixture(scope="module")
 def landmarks():
-    return Landmarks.of(made_gazetteer(), CENTERS, ("shop", "amenity"))
+    return Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity"))
 
 
 def dense(table):
@@ -52,14 +52,14 @@ def test_of_one_name_the_nearest_counts():
     chances = []
     for places in ([here, there], [there, here], [here], [there]):
         words = [GazetteerObject(("shop/bakery", "shop"), ("Rossi Bakery",))] * len(places)
-        town = Landmarks.of(build_gazetteer(words, places, [False] * len(places)), np.zeros((1, 2)), ("shop",))
+        town = Landmarks.build(build_gazetteer(words, places, [False] * len(places)), np.zeros((1, 2)), ("shop",))
         chances.append(chance_of(town.said, town.names, "Rossi Bakery")[0])
     assert chances[0] == chances[1] == chances[2] > chances[3] > 0
 
 
 def test_the_number_of_the_nearest_house_is_said():
     centers = np.array([(250.0, 88.0), (250.0, 80.0), (370.0, 95.0), (250.0, 300.0)])
-    town = Landmarks.of(made_gazetteer(), centers, ("shop",))
+    town = Landmarks.build(made_gazetteer(), centers, ("shop",))
     chance = chance_of(town.numbered, town.addresses, "450 W 25th St")
     assert chance[0] > 0.7  # 7 m away, that across the street 23 m
     assert chance[1] == pytest.approx(chance_of(town.numbered, town.addresses, "449 West 25th Street")[1])
@@ -91,7 +91,7 @@ def test_rows_and_columns_of_crossings_agree(landmarks, said):
 
 
 def test_cells_do_not_depend_on_which_others_there_are(landmarks):
-    some = Landmarks.of(made_gazetteer(), CENTERS[[3, 1]], ("shop", "amenity"))
+    some = Landmarks.build(made_gazetteer(), CENTERS[[3, 1]], ("shop", "amenity"))
     assert dense(some.said) == pytest.approx(dense(landmarks.said)[[3, 1]])
     assert dense(some.on_street) == pytest.approx(dense(landmarks.on_street)[[3, 1]])
     crossings = [dense(one.crossings.pairs) for one in (some, landmarks)]
@@ -101,7 +101,7 @@ def test_cells_do_not_depend_on_which_others_there_are(landmarks):
 @pytest.mark.parametrize("at_once", [1, 4])
 def test_landmarks_are_the_same_of_however_many_cells_at_once(at_once, landmarks, monkeypatch):
     monkeypatch.setattr("models.posterior.places.landmarks.AT_ONCE", at_once)
-    some = Landmarks.of(made_gazetteer(), CENTERS, ("shop", "amenity"))
+    some = Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity"))
     for name in ("on_street", "said", "numbered"):
         assert (dense(getattr(some, name)) == dense(getattr(landmarks, name))).all()
     assert (dense(some.crossings.pairs) == dense(landmarks.crossings.pairs)).all()

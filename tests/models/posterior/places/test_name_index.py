@@ -1,13 +1,13 @@
 import pytest
 
-from models.posterior.places.name_index import Spelt
+from models.posterior.places.name_index import NameIndex
 
 STREETS = [("East 42nd Street",), ("West 42nd Street",), ("Fabianinkatu", "Fabiansgatan"), ("Broadway",)]
 PLACES = [("Café Zoë",), ("R-Kioski",), ("R-kioski", "Ärrä"), ("The Strand", "Strand Books"), ("Ärrä",), ("!!!",)]
 
 
 def found(names, text, *, are_streets):
-    spelt = Spelt.of(names, are_streets=are_streets)
+    spelt = NameIndex.build(names, are_streets=are_streets)
     return [spelt.shown[n] for n in spelt.find(text)]
 
 
@@ -43,7 +43,7 @@ def test_places(text, names):
 
 
 def test_objects_of_one_name_share_a_column():
-    spelt = Spelt.of(PLACES, are_streets=False)
+    spelt = NameIndex.build(PLACES, are_streets=False)
     assert spelt.column.tolist() == [0, 1, 1, 2, 3, 4]
     assert len(spelt) == len(spelt.shown) == 5
-    assert len(Spelt.of([], are_streets=True)) == 0
+    assert len(NameIndex.build([], are_streets=True)) == 0
