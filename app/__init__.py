@@ -1,4 +1,4 @@
-"""Delivery: the HTTP service, its workers and jobs, the command line and the page.
+"""The user interfaces: the HTTP service with its workers and jobs, the command line and the web page.
 
-`main.create_app` and the command line put everything together. FastAPI, uvicorn and typer are imported only here.
+`main.create_app` and the command line compose everything. FastAPI, uvicorn and typer are imported only here.
 """

@@ -1,12 +1,13 @@
-"""A client of the service, typed, in two kinds: `Client` waits, `AsyncClient` is awaited. No model, no torch.
+"""Typed clients of the service: `Client` is synchronous and `AsyncClient` asynchronous. They need no model or torch.
 
-    from app.client import Client
-    with Client("http://127.0.0.1:8000") as here:
-        found = here.localize("I'm on Bulevardi, a church on my left")
-        print(found.status, found.estimate and found.estimate.wgs84)
+    from hereabouts import Client
 
-What is refused because too many ask (429), or because the service starts or ends (503), is asked again after the time
-that the service names, as is what no connection could be made for.
+    with Client("http://127.0.0.1:8000") as client:
+        answer = client.localize("I'm on Bulevardi, a church on my left")
+        print(answer.status, answer.estimate and answer.estimate.wgs84)
+
+Requests that fail with 429 (too many requests) or 503 (starting or stopping) are retried after the delay that the
+service asks for. Failed connections are retried too.
 """
 
 import asyncio
@@ -23,23 +24,23 @@ from app.http.schemas.responses import DescribeResponse, InfoResponse, LocalizeR
 from index.answering.query import Crs, Refine
 
 URL: Final = "http://127.0.0.1:8000"
-TRIES: Final = 4
-AGAIN: Final = frozenset({429, 503})
-PAUSE_S, LONGEST_PAUSE_S = 1.0, 30.0  # before it is asked again
+MAX_TRIES: Final = 4
+RETRIED_STATUSES: Final = frozenset({429, 503})
+DEFAULT_PAUSE_S, MAX_PAUSE_S = 1.0, 30.0  # before a retry; the service's Retry-After is capped
 
 _Answer = TypeVar("_Answer", bound=BaseModel)
-_Asked = tuple[str, str, dict[str, Any] | None]
+_Call = tuple[str, str, dict[str, Any] | None]
 
 
 class ServiceError(Exception):
-    """What the service refused, or that it could not be reached.
+    """The service refused a request or could not be reached.
 
     Attributes:
-        status: of HTTP; 0 if there was no answer.
-        code: stable, see /docs; "no_answer" if there was none.
-        detail: what is wrong, and what to do.
-        errors: the fields that are wrong: field, message.
-        request_id: of the request, for the service's operator.
+        status: HTTP status; 0 if there was no answer.
+        code: stable code, listed at /docs; "no_answer" if there was no answer.
+        detail: what is wrong and what to do.
+        errors: the invalid fields: field, message.
+        request_id: id of the request in the service's log.
     """
 
     def __init__(
@@ -51,10 +52,10 @@ class ServiceError(Exception):
 
 
 class Options(TypedDict, total=False):
-    """What `localize` takes besides the text: fields of POST /localize of the same names, see /docs.
+    """The options of `localize`: fields of POST /localize with the same names, documented at /docs.
 
     Attributes:
-        answers: to questions of earlier answers: their ids, and what was chosen or said.
+        answers: replies to questions of earlier answers: question id to choice.
     """
 
     top_k: int
@@ -70,21 +71,21 @@ class Options(TypedDict, total=False):
 
 
 class Client:
-    """Asks the service.
+    """A synchronous client.
 
     Args:
-        url: of the service.
-        key: its read key, if it needs one.
-        tries: how often something is asked at most.
-        timeout_s: for one answer.
-        transport: see httpx; for tests.
+        url: address of the service.
+        key: the read key of the service, if it needs one.
+        tries: the most attempts per request.
+        timeout_s: time-out of one attempt.
+        transport: a transport of httpx, for tests.
     """
 
     def __init__(
         self,
         url: str = URL,
         key: str | None = None,
-        tries: int = TRIES,
+        tries: int = MAX_TRIES,
         timeout_s: float = 60.0,
         transport: httpx.BaseTransport | None = None,
     ) -> None:
@@ -92,28 +93,28 @@ class Client:
         self._tries = tries
 
     def localize(self, text: str | Sequence[str], **options: Unpack[Options]) -> LocalizeResponse:
-        """Where the speaker of a description (or of hints, a sentence each) is.
+        """Localize the speaker of a description, or of a list of sentences.
 
         Raises:
-            ServiceError: it was refused, or nobody answered.
+            ServiceError: the request was refused, or the service did not answer.
         """
-        return self._ask(LocalizeResponse, _localize(text, options))
+        return self._send(LocalizeResponse, _localize(text, options))
 
     def describe(self, position: tuple[float, float], crs: Crs = "map", index: str = "default") -> DescribeResponse:
-        """What the map says at [x, y], metres, or [longitude, latitude] with crs wgs84.
+        """Describe a position: [x, y] in metres, or [longitude, latitude] with crs wgs84.
 
         Raises:
-            ServiceError: it was refused, or nobody answered.
+            ServiceError: the request was refused, or the service did not answer.
         """
-        return self._ask(DescribeResponse, _describe(position, crs, index))
+        return self._send(DescribeResponse, _describe(position, crs, index))
 
     def info(self) -> InfoResponse:
-        """The service, its limits, and what it serves.
+        """Return the limits and the indexes of the service.
 
         Raises:
-            ServiceError: nobody answered.
+            ServiceError: the service did not answer.
         """
-        return self._ask(InfoResponse, _INFO)
+        return self._send(InfoResponse, _INFO)
 
     def close(self) -> None:
         """Close the connections."""
@@ -127,11 +128,11 @@ class Client:
     ) -> None:
         self.close()
 
-    def _ask(self, kind: type[_Answer], asked: _Asked) -> _Answer:
+    def _send(self, kind: type[_Answer], call: _Call) -> _Answer:
         for n in count(1):
             outcome: httpx.Response | httpx.TransportError
             try:
-                outcome = self._http.request(asked[0], asked[1], json=asked[2])
+                outcome = self._http.request(call[0], call[1], json=call[2])
             except httpx.TransportError as error:
                 outcome = error
             pause_s = _pause_s(outcome) if n < self._tries else None
@@ -142,13 +143,13 @@ class Client:
 
 
 class AsyncClient:
-    """`Client`, awaited; the same arguments, methods and errors."""
+    """An asynchronous client with the arguments, methods and errors of `Client`."""
 
     def __init__(
         self,
         url: str = URL,
         key: str | None = None,
-        tries: int = TRIES,
+        tries: int = MAX_TRIES,
         timeout_s: float = 60.0,
         transport: httpx.AsyncBaseTransport | None = None,
     ) -> None:
@@ -156,18 +157,18 @@ class AsyncClient:
         self._tries = tries
 
     async def localize(self, text: str | Sequence[str], **options: Unpack[Options]) -> LocalizeResponse:
-        """See `Client.localize`."""
-        return await self._ask(LocalizeResponse, _localize(text, options))
+        """Localize the speaker of a description, as `Client.localize`."""
+        return await self._send(LocalizeResponse, _localize(text, options))
 
     async def describe(
         self, position: tuple[float, float], crs: Crs = "map", index: str = "default"
     ) -> DescribeResponse:
-        """See `Client.describe`."""
-        return await self._ask(DescribeResponse, _describe(position, crs, index))
+        """Describe a position, as `Client.describe`."""
+        return await self._send(DescribeResponse, _describe(position, crs, index))
 
     async def info(self) -> InfoResponse:
-        """See `Client.info`."""
-        return await self._ask(InfoResponse, _INFO)
+        """Return the limits and the indexes of the service, as `Client.info`."""
+        return await self._send(InfoResponse, _INFO)
 
     async def close(self) -> None:
         """Close the connections."""
@@ -181,11 +182,11 @@ class AsyncClient:
     ) -> None:
         await self.close()
 
-    async def _ask(self, kind: type[_Answer], asked: _Asked) -> _Answer:
+    async def _send(self, kind: type[_Answer], call: _Call) -> _Answer:
         for n in count(1):
             outcome: httpx.Response | httpx.TransportError
             try:
-                outcome = await self._http.request(asked[0], asked[1], json=asked[2])
+                outcome = await self._http.request(call[0], call[1], json=call[2])
             except httpx.TransportError as error:
                 outcome = error
             pause_s = _pause_s(outcome) if n < self._tries else None
@@ -195,31 +196,31 @@ class AsyncClient:
         return _read(kind, outcome)
 
 
-_INFO: Final[_Asked] = ("GET", "/info", None)
+_INFO: Final[_Call] = ("GET", "/info", None)
 
 
 def _headers(key: str | None) -> dict[str, str]:
     return {"Authorization": f"Bearer {key}"} if key else {}
 
 
-def _localize(text: str | Sequence[str], options: Options) -> _Asked:
-    said = {"description": text} if isinstance(text, str) else {"hints": list(text)}
-    answers = [{"question": asked, "choice": choice} for asked, choice in options.get("answers", {}).items()]
-    return "POST", "/localize", {**said, **options, "answers": answers}
+def _localize(text: str | Sequence[str], options: Options) -> _Call:
+    fields = {"description": text} if isinstance(text, str) else {"hints": list(text)}
+    answers = [{"question": question, "choice": choice} for question, choice in options.get("answers", {}).items()]
+    return "POST", "/localize", {**fields, **options, "answers": answers}
 
 
-def _describe(position: tuple[float, float], crs: Crs, index: str) -> _Asked:
+def _describe(position: tuple[float, float], crs: Crs, index: str) -> _Call:
     return "POST", "/describe", {"position": list(position), "crs": crs, "index": index}
 
 
 def _pause_s(outcome: httpx.Response | httpx.TransportError) -> float | None:
-    """How long to wait before it is asked again; None if the answer will do."""
+    """Return how long to wait before a retry; None if no retry is needed."""
     if isinstance(outcome, httpx.TransportError):
-        return PAUSE_S
-    if outcome.status_code not in AGAIN:
+        return DEFAULT_PAUSE_S
+    if outcome.status_code not in RETRIED_STATUSES:
         return None
-    said = outcome.headers.get("retry-after", "")
-    return min(float(said), LONGEST_PAUSE_S) if said.isdecimal() else PAUSE_S
+    retry_after = outcome.headers.get("retry-after", "")
+    return min(float(retry_after), MAX_PAUSE_S) if retry_after.isdecimal() else DEFAULT_PAUSE_S
 
 
 def _read(kind: type[_Answer], response: httpx.Response | httpx.TransportError) -> _Answer:
@@ -229,9 +230,9 @@ def _read(kind: type[_Answer], response: httpx.Response | httpx.TransportError) 
     if response.is_success:
         return kind.model_validate_json(response.content)
     try:
-        said = response.json()
+        problem = response.json()
         raise ServiceError(
-            response.status_code, said["code"], said["detail"], said.get("errors", ()), said["request_id"]
+            response.status_code, problem["code"], problem["detail"], problem.get("errors", ()), problem["request_id"]
         )
     except (ValueError, KeyError, TypeError):
-        raise ServiceError(response.status_code, "no_answer", "something else answers at this address") from None
+        raise ServiceError(response.status_code, "no_answer", "this address belongs to another service") from None

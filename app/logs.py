@@ -1,26 +1,26 @@
-"""Logs as JSON lines on stderr, ours and the libraries'."""
+"""Logging as JSON lines on stderr, for this project and its libraries."""
 
 import logging
 import sys
 
 import structlog
 
-from app.fault_logging import where
+from app.redaction import redacted_traceback
 
 
-def configure_logging(level: str, with_words: bool = False) -> None:
+def configure_logging(level: str, with_messages: bool = False) -> None:
     """Send structlog and the standard library's logging to stderr as JSON lines.
 
     Args:
-        level: least severe level to show: "debug", "info", "warning" or "error".
-        with_words: whether faults are shown with what they say, which may quote what somebody typed.
+        level: lowest level to log: "debug", "info", "warning" or "error".
+        with_messages: whether to log messages of exceptions, which may quote a user's text.
     """
-    without_words = structlog.processors.ExceptionRenderer(lambda exc_info: where(exc_info[1]))
+    without_messages = structlog.processors.ExceptionRenderer(lambda exc_info: redacted_traceback(exc_info[1]))
     shared: list[structlog.typing.Processor] = [
         structlog.stdlib.add_log_level,
         structlog.stdlib.add_logger_name,
         structlog.processors.TimeStamper(fmt="iso", utc=True),
-        structlog.processors.format_exc_info if with_words else without_words,
+        structlog.processors.format_exc_info if with_messages else without_messages,
     ]
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(
@@ -33,7 +33,7 @@ def configure_logging(level: str, with_words: bool = False) -> None:
         )
     )
     logging.basicConfig(level=level.upper(), handlers=[handler], force=True)
-    # It says at info which of its builds it tries and loads: three lines that are of use when debugging alone.
+    # At info, this logger writes three lines about the builds of FAISS, which help only in debugging.
     logging.getLogger("faiss.loader").setLevel(logging.WARNING if level == "info" else logging.NOTSET)
     structlog.configure(
         processors=[

@@ -1,4 +1,4 @@
-"""The service: put together here, and nowhere else."""
+"""The composition of the service."""
 
 from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
@@ -26,7 +26,7 @@ from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
 from app.threads import usable_cpus
 from app.workers.checksums import check_version
-from app.workers.order import OpenOrder
+from app.workers.messages import LocalizerSpec
 from app.workers.remote import open_workers
 from index.build.artifact import read_aliases
 from index.build.manifest import MANIFEST
@@ -41,14 +41,14 @@ Errors are problem+json (RFC 9457); `code` is stable:
 def create_app(
     settings: Settings, open_localizer: Callable[[], LocalizerLike] | None = None, page_dir: Path = page.PAGE_DIR
 ) -> FastAPI:
-    """The application.
+    """Create the application.
 
     Args:
-        settings: what the operator sets.
-        open_localizer: run when the service starts, in a thread of it; None opens settings.index_dir in workers.
-        page_dir: what the page's build wrote.
+        settings: the operator's settings.
+        open_localizer: opens a localizer in a thread when the service starts; None opens settings.index_dir in workers.
+        page_dir: output of the page's build.
     """
-    indexes = _indexes(settings, open_localizer)
+    indexes = _build_indexes(settings, open_localizer)
     jobs = EvaluationJobs(settings.jobs_dir)
 
     @asynccontextmanager
@@ -61,7 +61,7 @@ def create_app(
             await jobs.close()
             await indexes.close()
 
-    app = _fastapi(lifespan)
+    app = _create_fastapi(lifespan)
     app.state.settings = settings
     app.state.indexes = indexes
     app.state.metrics = Metrics(indexes)
@@ -72,36 +72,38 @@ def create_app(
     return app
 
 
-def _indexes(settings: Settings, open_localizer: Callable[[], LocalizerLike] | None) -> Indexes:
-    """What is served: indexes in workers, or what a test gives."""
+def _build_indexes(settings: Settings, open_localizer: Callable[[], LocalizerLike] | None) -> Indexes:
+    """Return the served indexes: in workers, or the given localizer."""
     if open_localizer is not None:
         return Indexes(lambda _alias, _version: [open_localizer()], dict, settings.max_wait_ms / 1000)
-    opener, read = partial(_open_workers, settings), partial(_aliases, settings.index_dir)
+    opener, read = partial(_open_workers, settings), partial(_read_aliases, settings.index_dir)
     return Indexes(opener, read, settings.max_wait_ms / 1000, partial(check_version, settings.index_dir))
 
 
-def _fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]]) -> FastAPI:
-    """An application without routes."""
+def _create_fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]]) -> FastAPI:
+    """Create an application without routes."""
     return FastAPIOffline(
         title="Hereabouts",
         version=version("hereabouts"),
         description=ABOUT + error_table(),
         lifespan=lifespan,
-        redoc_url=None,  # its page loads a logo from another origin
-        redirect_slashes=False,  # a redirect would repeat the client's Host header
-        swagger_ui_parameters={"validatorUrl": None},  # else Swagger shows a badge from swagger.io
-        # FastAPI's spans would hold the query string, which holds descriptions, and its logs the texts of errors.
+        redoc_url=None,  # ReDoc loads a logo from another origin
+        redirect_slashes=False,  # a redirect would echo the client's Host header
+        swagger_ui_parameters={"validatorUrl": None},  # otherwise Swagger loads a badge from swagger.io
+        # FastAPI's spans would contain query strings with descriptions, and its logs the messages of errors.
         telemetry=dict.fromkeys(("tracing", "metrics", "logs", "auto_configure"), False),
     )
 
 
 def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
-    """The routes, and what a request passes on its way to them: the middleware that is added last comes first."""
+    """Add the routes and the middleware; the middleware that is added last runs first."""
     modules = (localize, batch, describe, evaluate, geocoder, cells, maps, index_routes, health)
     routers = (*(module.router for module in modules), page.build_router(page_dir))
     for router in routers:
         app.include_router(router)
-    app.state.routes = [route for router in routers for route in router.routes]  # FastAPI hides those it includes
+    app.state.routes = [
+        route for router in routers for route in router.routes
+    ]  # FastAPI hides routes of included routers
     larger = {evaluate.PATH: limits.MAX_EVALUATE_BODY_BYTES, batch.PATH: limits.MAX_BATCH_BODY_BYTES}
     app.add_middleware(StrictBody, max_bytes=limits.MAX_BODY_BYTES, larger=larger)
     app.add_middleware(KeyCheck, read_key=settings.read_key, open_routes=open_routes(routers))
@@ -111,16 +113,16 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
 
 
 def _open_workers(settings: Settings, alias: str, version: str | None) -> Sequence[LocalizerLike]:
-    """The workers of an index: of the version that an alias names, or of a directory that is a version itself."""
-    return open_workers(open_order(settings, version), settings.workers or usable_cpus())
+    """Open an index in workers: the version of an alias, or a directory that is itself a version."""
+    return open_workers(localizer_spec(settings, version), settings.workers or usable_cpus())
 
 
-def open_order(settings: Settings, version: str | None = None) -> OpenOrder:
-    """What to open of the settings' index directory: a version, or what is there by default."""
+def localizer_spec(settings: Settings, version: str | None = None) -> LocalizerSpec:
+    """Return what to open: a version in the index directory, or its default version."""
     directory = settings.index_dir / version if version else settings.index_dir
-    return OpenOrder(directory, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir)
+    return LocalizerSpec(directory, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir)
 
 
-def _aliases(index_dir: Path) -> dict[str, str]:
-    """What the aliases name; nothing of a directory that is a version itself."""
+def _read_aliases(index_dir: Path) -> dict[str, str]:
+    """Return the aliases of an index directory; none if it is itself a version."""
     return {} if (index_dir / MANIFEST).is_file() else read_aliases(index_dir).aliases

@@ -1,4 +1,4 @@
-"""Running the service in one process, and ending it without dropping a request."""
+"""Running the service and shutting it down without dropping requests."""
 
 import signal
 import threading
@@ -16,15 +16,15 @@ from app.jobs.runner import EvaluationJobs
 from app.limits import MAX_CONNECTIONS, MAX_DEADLINE_MS
 from app.settings import Settings, address_of, is_local
 
-CLOSING_S = 5
+CLOSING_S: Final = 5  # to close connections after the longest deadline
 KEEP_ALIVE_S: Final = 10
-MAX_HEAD_BYTES: Final = 65_536  # of a request's line and headers
-CONNECTION_OPTIONS: Final[dict[str, Any]] = {  # of uvicorn; a reverse proxy guards against slow clients
+MAX_HEAD_BYTES: Final = 65_536  # of the request line and headers
+CONNECTION_OPTIONS: Final[dict[str, Any]] = {  # of uvicorn; leave slow clients to a reverse proxy
     "http": "h11",
     "timeout_keep_alive": KEEP_ALIVE_S,
     "limit_concurrency": MAX_CONNECTIONS,
     "h11_max_incomplete_event_size": MAX_HEAD_BYTES,
-    "proxy_headers": False,  # the client is whoever connects: app/http/keys.py decides by it
+    "proxy_headers": False,  # app/http/keys.py needs the address of the connecting client
     "server_header": False,
 }
 
@@ -32,10 +32,10 @@ log = structlog.get_logger()
 
 
 class DrainingServer(uvicorn.Server):
-    """On the first signal, stays reachable (readyz 503) until the waiting queries are answered, then exits with 0.
+    """A server that, on the first signal, answers the waiting queries (readyz is 503) and then exits with 0.
 
-    uvicorn alone closes the port at once, and kills itself with the signal when done. Evaluations are cancelled
-    before connections are closed, else those who follow one would keep the service from ending.
+    uvicorn itself closes the port at once and exits with the signal. Evaluations are cancelled before connections are
+    closed; otherwise clients that follow one would block the shutdown.
     """
 
     def __init__(self, config: uvicorn.Config, indexes: Indexes, jobs: EvaluationJobs) -> None:
@@ -45,40 +45,44 @@ class DrainingServer(uvicorn.Server):
         self._is_ending = False
 
     async def startup(self, sockets: list[socket] | None = None) -> None:
-        """Listen, and say where the page is."""
+        """Start listening, and log the address of the page."""
         if threading.current_thread() is threading.main_thread():
-            signal.signal(signal.SIGHUP, self.handle_exit)  # a terminal that closes ends it as others do
+            signal.signal(signal.SIGHUP, self.handle_exit)  # a closed terminal shuts the service down gracefully too
         await super().startup(sockets)
         if self.started:
-            port = self.servers[0].sockets[0].getsockname()[1]  # the one that was free, if the settings say 0
+            port = self.servers[0].sockets[0].getsockname()[1]  # the actual port if the setting is 0
             log.info("page", url=page_url(self.config.host, port))
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
-        """Drain; a second signal does not wait for that."""
+        """Start draining; a second signal stops at once."""
         if self._is_ending:
             super().handle_exit(sig, frame)
         self._is_ending = True
         self._indexes.drain()
 
     async def on_tick(self, counter: int) -> bool:
-        """Whether to leave, asked ten times a second."""
+        """Return whether to shut down; called ten times a second."""
         if self._is_ending:
-            self._indexes.drain()  # again: a signal may have come before the queue was started
+            self._indexes.drain()  # again, because a signal may arrive before the queue starts
         return await super().on_tick(counter) or (self._is_ending and self._indexes.is_idle)
 
     async def shutdown(self, sockets: list[socket] | None = None) -> None:
-        """Leave."""
+        """Cancel evaluations, then close connections."""
         await self._jobs.close()
         await super().shutdown(sockets)
 
 
 def serve(app: FastAPI, settings: Settings) -> None:
-    """Serve an application until a signal ends it."""
+    """Serve an application until a signal stops it."""
     if settings.read_key is None and not is_local(settings.host):
-        log.warning("no key", host=settings.host, remedy="whoever reaches this host can ask: set HEREABOUTS_READ_KEY")
+        log.warning(
+            "no key",
+            host=settings.host,
+            remedy="anyone who can reach this host can use the service; set HEREABOUTS_READ_KEY",
+        )
     if settings.log_descriptions:
         log.warning(
-            "descriptions are logged", remedy="the log holds what users write: unset HEREABOUTS_LOG_DESCRIPTIONS"
+            "descriptions are logged", remedy="the log contains users' texts; unset HEREABOUTS_LOG_DESCRIPTIONS"
         )
     config = uvicorn.Config(
         app,
@@ -93,11 +97,11 @@ def serve(app: FastAPI, settings: Settings) -> None:
 
 
 def page_url(host: str, port: int) -> str:
-    """Where a browser on this machine finds the page.
+    """Return the URL of the page for a browser on this machine.
 
     Args:
-        host: what the service listens on; all of a machine's addresses ("0.0.0.0") are none to go to.
-        port: of it.
+        host: the listening address; an unspecified one ("0.0.0.0") becomes localhost.
+        port: the listening port.
     """
     address = address_of(host)
     if not host or (address and address.is_unspecified):

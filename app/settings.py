@@ -1,4 +1,4 @@
-"""The settings of an operator, from the environment (HEREABOUTS_PORT=9000) or the command line."""
+"""Settings from the environment (HEREABOUTS_PORT=9000) or the command line."""
 
 import re
 from ipaddress import IPv4Address, IPv6Address, ip_address
@@ -10,55 +10,57 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from models.errors import HereaboutsError
 
-_KEY = re.compile(r"[!-~]{8,}")  # what every client and proxy can send in a header
+_KEY = re.compile(r"[!-~]{8,}")  # characters that every client and proxy can send in a header
 
 
 class Settings(BaseSettings):
-    """The settings of the service; docs/deploy.md lists them. Limits that nobody has to set are in app.limits."""
+    """The settings of the service; docs/deploy.md lists them. Fixed limits are in app.limits."""
 
     model_config = SettingsConfigDict(env_prefix="HEREABOUTS_", hide_input_in_errors=True)  # one is a secret
 
     index_dir: Path = Field(Path("data/index"), description="directory that `hereabouts index` wrote")
-    weights_dir: Path | None = Field(None, description="model weights; None: the ones shipped in the package")
+    weights_dir: Path | None = Field(None, description="weights of the retriever; None: the shipped ones")
     fine_weights_dir: Path | None = Field(
-        None, description="weights of a fine stage, for its own refine; None: the ones in the package"
+        None, description="weights of a fine stage, for refine regressor or matching; None: the shipped ones"
     )
-    posterior_weights_dir: Path | None = Field(
-        None, description="weights of the hint posterior; None: the ones in the package"
-    )
+    posterior_weights_dir: Path | None = Field(None, description="weights of the posterior; None: the shipped ones")
     host: str = "127.0.0.1"
     port: int = Field(8000, ge=0, le=65535)
     read_key: SecretStr | None = Field(
-        None, description="the key that every request needs; None: no key, and only direct local requests may evaluate"
+        None, description="the key that requests need; None: no key, and only direct local requests may evaluate"
     )
-    workers: PositiveInt | None = Field(None, description="processes that hold the model; None: as many as CPUs")
+    workers: PositiveInt | None = Field(None, description="worker processes; None: one per CPU")
     max_wait_ms: PositiveInt = Field(
         1500, description="longest expected wait for a worker; a request that would wait longer gets 429"
     )
-    data_dir: Path | None = Field(None, description="maps and data sets that POST /evaluate takes by name; None: none")
-    jobs_dir: Path | None = Field(None, description="keeps evaluations over restarts; None: they end with the service")
+    data_dir: Path | None = Field(None, description="directory of the data sets for POST /evaluate; None: no data sets")
+    jobs_dir: Path | None = Field(
+        None, description="directory that keeps evaluations over restarts; None: they end with the service"
+    )
     log_level: Literal["debug", "info", "warning", "error"] = "info"
-    log_descriptions: bool = Field(False, description="logs descriptions, and messages of faults, which may quote them")
+    log_descriptions: bool = Field(
+        False, description="whether to log descriptions and messages of internal errors, which may quote them"
+    )
 
     @field_validator("read_key")
     @classmethod
     def _key_can_be_sent(cls, key: SecretStr | None) -> SecretStr | None:
         if key is not None and not _KEY.fullmatch(key.get_secret_value()):
             raise ValueError(
-                "takes 8 or more ASCII characters and no white space, such as `openssl rand -hex 16` prints; without "
-                "the setting the service is open"
+                "must have 8 or more ASCII characters and no white space, for example the output of "
+                "`openssl rand -hex 16`; without this setting the service is open"
             )
         return key
 
 
-def load_settings(**given: object) -> Settings:
-    """Settings from the environment, overridden by what is given.
+def load_settings(**overrides: object) -> Settings:
+    """Load settings from the environment; arguments override it.
 
     Raises:
-        HereaboutsError: a value cannot be used; the message names it.
+        HereaboutsError: a value is invalid; the message names the setting.
     """
     try:
-        return Settings.model_validate(given)
+        return Settings.model_validate(overrides)
     except ValidationError as error:
         problems = "; ".join(
             f"{'.'.join(map(str, item['loc'])) or 'settings'}: {item['msg']}" for item in error.errors()
@@ -67,15 +69,15 @@ def load_settings(**given: object) -> Settings:
 
 
 def is_local(host: str) -> bool:
-    """Return whether a host, a name or an address, is this machine's loopback interface."""
+    """Return whether a host name or address is the loopback interface of this machine."""
     address = address_of(host)
     if isinstance(address, IPv6Address) and address.ipv4_mapped is not None:
-        address = address.ipv4_mapped  # a client over IPv4 of a socket that listens on both
+        address = address.ipv4_mapped  # an IPv4 client of a dual-stack socket
     return host == "localhost" if address is None else address.is_loopback
 
 
 def address_of(host: str) -> IPv4Address | IPv6Address | None:
-    """A host as an address; None if it is a name."""
+    """Return a host as an address; None if it is a name."""
     try:
         return ip_address(host)
     except ValueError:

@@ -1,4 +1,4 @@
-"""Starting quickly."""
+"""A faster start of processes."""
 
 import gc
 from collections.abc import Iterator
@@ -6,11 +6,11 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def no_collection() -> Iterator[None]:
-    """Collect no garbage while libraries are imported and models loaded, and never look at what is there by then.
+def without_garbage_collection() -> Iterator[None]:
+    """Disable the garbage collector while libraries and models load, and exclude the loaded objects afterwards.
 
-    The collector would visit a million objects that stay, again and again: a quarter of the time to start, and a second
-    when the process ends.
+    The collector would visit a million permanent objects repeatedly: a quarter of the start time, and a second when the
+    process exits.
     """
     gc.disable()
     try:

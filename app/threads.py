@@ -1,4 +1,4 @@
-"""How many threads numeric libraries may use; they read it once, so set it before torch is imported."""
+"""Thread counts of numeric libraries, which read them once: set them before torch is imported."""
 
 import os
 from collections.abc import Iterator, MutableMapping
@@ -8,28 +8,28 @@ THREAD_VARIABLES = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"
 
 
 def set_thread_env(threads: int = 1, environ: MutableMapping[str, str] = os.environ) -> None:
-    """Set the thread variables; what the operator has set stays.
+    """Set the thread variables, unless the operator has set them.
 
-    One thread a process is the default: a description is small work, and its many parallel regions would each wait for
-    a thread that a busy neighbour keeps from running. Other CPUs are for other processes and other requests.
-    OMP_NUM_THREADS, where it is set, speaks for the others too.
+    The default is one thread per process: a description is little work, and each of its many parallel regions would
+    wait for threads that other processes keep from running. Other CPUs serve other requests. If OMP_NUM_THREADS is set,
+    it also applies to the other libraries.
     """
     for name in THREAD_VARIABLES:
         environ.setdefault(name, environ.get("OMP_NUM_THREADS", str(threads)))
 
 
 def usable_cpus(root: Path = Path("/")) -> int:
-    """CPUs by affinity and by the cgroup's quota, whichever is less; at least 1.
+    """Return the number of CPUs by affinity or cgroup quota, whichever is less; at least 1.
 
     Args:
-        root: where /proc and /sys are.
+        root: directory with proc/ and sys/.
     """
     affinity = len(os.sched_getaffinity(0))
     return max(1, int(min([float(affinity), *_quotas(root)])))
 
 
 def _quotas(root: Path) -> Iterator[float]:
-    """CPU quotas of this process's cgroups and all their parents, version 2 and version 1."""
+    """Yield the CPU quotas of this process's cgroups and their parents (versions 1 and 2)."""
     for line in _read(root / "proc/self/cgroup").splitlines():
         _, controllers, path = line.split(":", 2)
         relative = Path(path.lstrip("/"))

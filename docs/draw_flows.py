@@ -48,9 +48,9 @@ def arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], labe
         axes.text(x, y, label, ha="left", va="center", fontsize=6.9, color=INK, style="italic")
 
 
-def down(axes: Axes, upper: Box, lower: Box, label: str = "", at: float | None = None) -> None:
+def down(axes: Axes, upper: Box, lower: Box, label: str = "", at_x: float | None = None) -> None:
     """Draw an arrow straight down from one box to another."""
-    x = lower[0] if at is None else at
+    x = lower[0] if at_x is None else at_x
     arrow(axes, (x, upper[1] - upper[3] / 2), (x, lower[1] + lower[3] / 2), label)
 
 
@@ -83,12 +83,12 @@ def description(axes: Axes) -> Box:
     axes.add_patch(Rectangle(corner, frame[2], frame[3], fc="none", ec=SOFT, lw=0.8, ls="--", zorder=0))
     down(axes, route, reader, "text")
     down(axes, reader, bound, "hints, mentions")
-    down(axes, bound, render, at=left)
-    down(axes, bound, inverted, "bound hints", at=right)
+    down(axes, bound, render, at_x=left)
+    down(axes, bound, inverted, "bound hints", at_x=right)
     down(axes, render, encode, "sentences")
     down(axes, encode, vector, "vector")
-    down(axes, vector, grid, "cells of both", at=left)
-    down(axes, inverted, grid, at=right)
+    down(axes, vector, grid, "cells of both", at_x=left)
+    down(axes, inverted, grid, at_x=right)
     down(axes, grid, answer, "position distribution")
     down(axes, answer, reply, "")
     return frame
@@ -115,10 +115,10 @@ def city(axes: Axes) -> Box:
                 "aliases.json: names of versions")  # fmt: skip
     down(axes, command, door, "path")
     down(axes, door, cells, "objects")
-    down(axes, cells, encode, at=left)
-    down(axes, cells, around, at=right)
-    down(axes, encode, write, at=left)
-    down(axes, around, write, at=right)
+    down(axes, cells, encode, at_x=left)
+    down(axes, cells, around, at_x=right)
+    down(axes, encode, write, at_x=left)
+    down(axes, around, write, at_x=right)
     down(axes, write, files)
     return files
 

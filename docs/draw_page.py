@@ -1,6 +1,6 @@
-"""Draws the pictures of the page in docs/page/, and times it: `hereabouts serve`, then `python docs/draw_page.py`.
+"""Draw the pictures of the page in docs/page/ and time it: `hereabouts serve`, then `python docs/draw_page.py`.
 
-Takes Chromium and Playwright. The pictures are of the shipped map of Helsinki; the times are printed as JSON.
+Needs Chromium and Playwright. The pictures show the shipped map of Helsinki; the times are printed as JSON.
 """
 
 import argparse
@@ -16,9 +16,9 @@ from PIL import Image
 from playwright.sync_api import Browser, Page, ViewportSize, sync_playwright
 
 OUT = Path(__file__).parent / "page"
-ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]  # no GPU is needed
+ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]  # works without a GPU
 WIDE, PHONE = ViewportSize(width=1280, height=800), ViewportSize(width=390, height=844)
-SURE = (
+PRECISE = (
     "I stand on a gray road. There is a park to my west, and I am east of a cycle path. A building and a wall are to "
     "my east; a gray footpath is south of me."
 )
@@ -64,12 +64,12 @@ def answer(page: Page) -> None:
 
 
 def ambiguous(page: Page) -> None:
-    """Places that fit, and the question which of them."""
+    """Show several fitting places and the question about them."""
     ask(page, VAGUE)
 
 
 def heat(page: Page) -> None:
-    """Where it might be, near a place."""
+    """Show the heat map of an ambiguous description."""
     ask(page, VAGUE)
     page.click("text=Show more on the map")
     page.click("text=Heat: where it might be")
@@ -77,7 +77,7 @@ def heat(page: Page) -> None:
 
 
 def report(page: Page) -> None:
-    """An evaluation."""
+    """Show the report of an evaluation."""
     page.click("text=Measure how well it does")
     texts = Path(__file__).parents[1] / "models/reports/people/helsinki_west.jsonl"
     rows = [json.loads(line) for line in texts.read_text().splitlines()[:40]]
@@ -93,13 +93,13 @@ STATES: dict[str, tuple[ViewportSize, Scheme, Callable[[Page], None]]] = {
     "answer": (WIDE, "light", answer),
     "which": (WIDE, "light", ambiguous),
     "heat": (WIDE, "dark", heat),
-    "phone": (PHONE, "light", lambda page: ask(page, SURE)),
+    "phone": (PHONE, "light", lambda page: ask(page, PRECISE)),
     "report": (WIDE, "light", report),
 }
 
 
 def open_page(browser: Browser, url: str, size: ViewportSize, scheme: Scheme) -> Page:
-    """The page with its map and chips."""
+    """Open the page and wait for its map and examples."""
     context = browser.new_context(viewport=size, color_scheme=scheme, device_scale_factor=1)
     page = context.new_page()
     page.goto(url)
@@ -109,7 +109,7 @@ def open_page(browser: Browser, url: str, size: ViewportSize, scheme: Scheme) ->
 
 
 def draw(browser: Browser, url: str) -> None:
-    """Write a picture a state."""
+    """Write one picture per state."""
     OUT.mkdir(exist_ok=True)
     for name, (size, scheme, act) in STATES.items():
         page = open_page(browser, url, size, scheme)
@@ -120,7 +120,7 @@ def draw(browser: Browser, url: str) -> None:
 
 
 def times(browser: Browser, url: str) -> dict[str, float]:
-    """Milliseconds to the first picture of the map, and of a frame while it turns: half of them, and 95 %."""
+    """Return milliseconds to the first paint of the map and the median and 95th percentile of a frame while turning."""
     first = []
     for _ in range(3):
         page = browser.new_context(viewport=WIDE).new_page()
@@ -129,24 +129,24 @@ def times(browser: Browser, url: str) -> dict[str, float]:
         page.wait_for_timeout(1500)
         frames = page.evaluate(FRAME, FRAMES)
         page.context.close()
-    found = {"first_paint_ms": sorted(first)[1], "frame_p50_ms": frames[FRAMES // 2], "frame_p95_ms": frames[-2]}
-    return {name: round(value, 1) for name, value in found.items()}
+    figures = {"first_paint_ms": sorted(first)[1], "frame_p50_ms": frames[FRAMES // 2], "frame_p95_ms": frames[-2]}
+    return {name: round(value, 1) for name, value in figures.items()}
 
 
 def main() -> None:
-    """Draw, or only time with --times."""
+    """Draw and time the page, or only time it with --times."""
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--url", default="http://127.0.0.1:8000/")
     arguments.add_argument("--times", action="store_true", help="only time the page")
-    given = arguments.parse_args()
+    options = arguments.parse_args()
     chromium = shutil.which("chromium")
     if chromium is None:
-        sys.exit("there is no chromium here: apt-get install chromium")
+        sys.exit("chromium is not installed: apt-get install chromium")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS)
-        json.dump(times(browser, given.url), sys.stdout)
-        if not given.times:
-            draw(browser, given.url)
+        json.dump(times(browser, options.url), sys.stdout)
+        if not options.times:
+            draw(browser, options.url)
         browser.close()
 
 

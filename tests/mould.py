@@ -184,7 +184,7 @@ class _Forks:
         with (
             patch("app.main.open_workers", _open_fakes),
             patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=WORKER, max_waiting=1000)),
-            patch("app.jobs.runner.KEPT", 1000),
+            patch("app.jobs.runner.MAX_FINISHED_JOBS", 1000),
         ):
             _limit(**limits)
             serve(create_app(settings), settings)

@@ -1,6 +1,6 @@
-"""How fast and how large, on this machine.
+"""Benchmarks of speed and size on this machine.
 
-`service` measures a map and an index as they are, `growth` how all of it grows with a city: `questions` are what it is
-asked, `searches` the stores of vectors side by side, `plots` the pictures. `processes` starts what is measured. May
-import index, what it measures with, and models.
+`service` measures one map and one index. `growth` measures cities of several sizes with the queries of `questions`, the
+vector stores of `searches` and the charts of `plots`. `processes` starts and measures processes. May import index and
+models.
 """

@@ -1,4 +1,4 @@
-"""How building, memory, size, latency and accuracy grow with a city: copies of a real one side by side."""
+"""Build time, memory, size, latency and accuracy of growing cities, which are tiled copies of a real one."""
 
 import json
 import time
@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from app.benchmark.processes import measure_index, serving
-from app.benchmark.questions import Question, ask_all, shared_out, take_questions
+from app.benchmark.questions import BenchmarkQuery, draw_queries, localize_all, split_questions
 from app.benchmark.searches import measure_searches
 from app.benchmark.service import PARTS, measure_parts, open_index
 from models.errors import DataError, HereaboutsError
@@ -17,49 +17,50 @@ from models.sources.osm.city_copies import CityExtract, CopyGrid
 if TYPE_CHECKING:  # so that the command line starts without torch
     from index.answering.localizer import Localizer
 
-ASKED_IN = "test"  # split of the map whose places are described
+QUERY_SPLIT = "test"  # split of the map whose places are described
 COMPARED = (
-    "Figures are of one run on one machine: 'ratios' are against the smallest size of it, FAISS against Milvus on the "
-    "same vectors and queries. PostGIS and Nominatim are not run."
+    "All figures are from one run on one machine. 'ratios' are relative to the smallest size. FAISS and Milvus search "
+    "the same vectors with the same queries. PostGIS and Nominatim are not measured."
 )
 REPORT_FILE = "benchmark.json"
 
 
 def parse_sizes(text: str) -> list[int]:
-    """Numbers of cells from "1e4,1e5", ascending, each once.
+    """Parse numbers of cells such as "1e4,1e5"; return them sorted and without duplicates.
 
     Raises:
-        DataError: it is no list of numbers of 1 or more.
+        DataError: the text is not a list of numbers of at least 1.
     """
     try:
         sizes = sorted({round(float(size)) for size in text.split(",")})
     except (ValueError, OverflowError):
         sizes = [0]
     if sizes[0] < 1:
-        raise DataError(f"--cells {text}: no list of numbers of cells; give it as 1e4,1e5,1e6")
+        raise DataError(f"--cells {text}: not a list of numbers of cells; write it as 1e4,1e5,1e6")
     return sizes
 
 
 def run_growth(map_path: Path, sizes: Sequence[int], out: Path | None = None) -> dict[str, Any]:
-    """Measure this machine with a city of several sizes.
+    """Measure cities of several sizes on this machine.
 
     Args:
-        map_path: OpenStreetMap file of a small city; larger ones are copies of it.
-        sizes: cells that each size is to have, about, ascending.
-        out: where benchmark.json and two plots go, the first after each size; None to write nothing.
+        map_path: OpenStreetMap file of a small city, which is copied to make larger ones.
+        sizes: approximate numbers of cells, ascending.
+        out: directory for benchmark.json (written after each size) and two plots; None to write nothing.
 
     Returns:
-        "compared" and "assumed", what the figures mean; "sizes", see `_measure_size`; "ratios" of their figures to
-        those of the smallest; and where a size could not be measured, "failed": which and why. No larger one is tried.
+        "compared" and "assumed", the conditions of the figures; "sizes", the results of `_measure_size`; "ratios" of
+        each size's figures to those of the smallest; and "failed", the size that could not be measured and why. Larger
+        sizes are then skipped.
 
     Raises:
-        MapError, DataError: the map cannot be used, or a size is smaller than it.
+        MapError, DataError: the map is not usable, or a size is smaller than the map.
     """
     extract = CityExtract.read(map_path)
-    cells, questions = _of_one_copy(map_path)
+    cells, questions = _measure_one_copy(map_path)
     if sizes[0] < cells:
         raise DataError(
-            f"--cells {sizes[0]}: one copy of {map_path.name} has {cells} cells; ask for {cells} or more, or give a "
+            f"--cells {sizes[0]}: one copy of {map_path.name} has {cells} cells; give at least {cells}, or a "
             "smaller map as --map"
         )
     report: dict[str, Any] = {"compared": COMPARED, "assumed": _assumed(map_path, cells), "sizes": [], "ratios": []}
@@ -77,44 +78,45 @@ def run_growth(map_path: Path, sizes: Sequence[int], out: Path | None = None) ->
     return report
 
 
-def _of_one_copy(map_path: Path) -> tuple[int, list[Question]]:
-    """Cells of a map, and what to ask about it."""
+def _measure_one_copy(map_path: Path) -> tuple[int, list[BenchmarkQuery]]:
+    """Return the number of cells of a map and the queries about it."""
     from models.sources.source import open_sources  # noqa: PLC0415 - heavy
 
-    whole, asked = open_sources(map_path, [None, ASKED_IN])
-    questions = take_questions(asked)
-    shared_out(questions)  # or MapError, before anything is built
+    whole, held_out = open_sources(map_path, [None, QUERY_SPLIT])
+    questions = draw_queries(held_out)
+    split_questions(questions)  # raises MapError before anything is built
     return len(whole.data.cells), questions
 
 
 def _assumed(map_path: Path, cells: int) -> str:
     return (
-        f"one copy of {map_path.name} has {cells} cells on a grid of 10 m, and n copies about n times as many; "
-        f"descriptions are of places of copy 0, of the split '{ASKED_IN}'; they tell classes, colours and directions, "
-        "which all copies share, so 'accuracy' without a street or a box is right by chance, in one of n copies"
+        f"One copy of {map_path.name} has {cells} cells on a grid of 10 m, and n copies have about n times as many. "
+        f"Descriptions are of places in copy 0, in the split '{QUERY_SPLIT}'. They give classes, colours and "
+        "directions, which all copies share, so without a street or a box an answer is in the right copy by chance, "
+        "once in n times."
     )
 
 
-def _measure_size(extract: CityExtract, copies: int, questions: list[Question], scratch: Path) -> dict[str, Any]:
-    """All figures of one size.
+def _measure_size(extract: CityExtract, copies: int, questions: list[BenchmarkQuery], scratch: Path) -> dict[str, Any]:
+    """Measure one size.
 
     Args:
-        extract: what is copied.
-        copies: how often.
-        questions: about copy 0.
-        scratch: a directory for the map and its index.
+        extract: the city to copy.
+        copies: the number of copies.
+        questions: queries about copy 0.
+        scratch: temporary directory for the map and its index.
 
     Returns:
-        "cells", "copies"; "map" {"seconds", "size_mb"}; "index", see `measure_index`, with "bytes_a_cell" by file;
-        "serve" {"ready_seconds", "memory_mib" when ready and after the queries}; "localize", see `ask_all`;
-        "one_thread", see `measure_parts`; "vector_search", see `measure_searches`.
+        "cells", "copies"; "map" {"seconds", "size_mb"}; "index", from `measure_index`, with "bytes_a_cell" by file;
+        "serve" {"ready_seconds", "memory_mib" when ready and after the queries}; "localize", from `localize_all`;
+        "one_thread", from `measure_parts`; "vector_search", from `measure_searches`.
     """
     path, index_dir, start = scratch / "city.osm.pbf", scratch / "index", time.perf_counter()
     block = extract.write_tiled(copies, path)
     written = {"seconds": round(time.perf_counter() - start, 2), "size_mb": round(path.stat().st_size / 1e6, 3)}
     index = measure_index(path, index_dir)
     served = _measure_service(index_dir, questions, block)
-    localizer = open_index(index_dir)  # when the service has ended, so that memory holds one of them
+    localizer = open_index(index_dir)  # after the service has stopped, so that only one copy is in memory
     cells, texts = localizer.manifest.cells, [question.hints for question in questions[:PARTS]]
     return {
         "cells": cells,
@@ -127,24 +129,24 @@ def _measure_size(extract: CityExtract, copies: int, questions: list[Question], 
     }
 
 
-def _measure_service(index_dir: Path, questions: list[Question], block: CopyGrid) -> dict[str, Any]:
+def _measure_service(index_dir: Path, questions: list[BenchmarkQuery], block: CopyGrid) -> dict[str, Any]:
     start = time.perf_counter()
     with serving(index_dir) as service:
         ready_s, ready_mib = time.perf_counter() - start, service.memory_mib()
-        asked = ask_all(service.client, questions, block)
+        answers = localize_all(service.client, questions, block)
         memory = {"ready": ready_mib, "after_queries": service.memory_mib()}
-    return {"serve": {"ready_seconds": round(ready_s, 1), "memory_mib": memory}, "localize": asked}
+    return {"serve": {"ready_seconds": round(ready_s, 1), "memory_mib": memory}, "localize": answers}
 
 
 def _bytes_a_cell(localizer: "Localizer", index_dir: Path) -> dict[str, float]:
-    """Of an index on disk, by file, and of all."""
+    """Return the bytes per cell of an index on disk, by file and in total."""
     version, cells = index_dir / localizer.manifest.version, localizer.manifest.cells
     sizes = {path.name: path.stat().st_size for path in sorted(version.iterdir())}
     return {name: round(size / cells, 1) for name, size in {**sizes, "all": sum(sizes.values())}.items()}
 
 
 def ratios(figures: Any, first: Any) -> Any:
-    """Figures as multiples of those of another size, of the same shape; None where there is no ratio."""
+    """Divide figures by those of another size, keeping their structure; None where there is no ratio."""
     if isinstance(figures, dict) and isinstance(first, dict):
         return {key: ratios(value, first.get(key)) for key, value in figures.items()}
     is_number = all(isinstance(value, int | float) for value in (figures, first))
@@ -161,4 +163,6 @@ def _write(report: dict[str, Any], out: Path) -> None:
             draw_costs(out / "costs.png", report["sizes"])
             draw_latencies(out / "latencies.png", report["sizes"])
     except OSError as error:
-        raise DataError(f"{out} cannot be written: {error}; make room, or give another directory as --out") from error
+        raise DataError(
+            f"{out} cannot be written: {error}; free some space, or give another directory as --out"
+        ) from error

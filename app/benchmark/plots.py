@@ -1,4 +1,4 @@
-"""The pictures of how a city grows: what it costs, and how long its answers take."""
+"""Charts of a growing city: its costs and its latencies."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 from index.evaluation.report import DPI
 
 Size = dict[str, Any]
-Lines = dict[str, tuple[str, ...]]  # a label, and the keys under which its value is
+Lines = dict[str, tuple[str, ...]]  # label: keys of its value
 COSTS: Final[dict[str, Lines]] = {
     "seconds": {"writing the map": ("map", "seconds"), "building the index": ("index", "seconds")},
     "memory (MiB)": {
@@ -39,7 +39,7 @@ LATENCIES: Final[Lines] = {
 
 
 def draw_costs(path: Path, sizes: Sequence[Size]) -> None:
-    """Write a PNG of seconds, memory and bytes a cell over cells, of sizes as `run_growth` gives them."""
+    """Write a PNG of seconds, memory and bytes per cell over cells, from the sizes of `run_growth`."""
     figure = Figure(figsize=(13, 4.2), layout="constrained", dpi=DPI)
     for axes, (unit, lines) in zip(figure.subplots(1, len(COSTS)), COSTS.items(), strict=True):
         _draw(axes, sizes, lines, unit)
@@ -49,7 +49,7 @@ def draw_costs(path: Path, sizes: Sequence[Size]) -> None:
 
 
 def draw_latencies(path: Path, sizes: Sequence[Size]) -> None:
-    """Write a PNG of milliseconds of answers and their parts over cells; see `draw_costs`."""
+    """Write a PNG of the milliseconds of answers and their parts over cells, from the sizes of `run_growth`."""
     figure = Figure(figsize=(9, 4.6), layout="constrained", dpi=DPI)
     axes = figure.subplots()
     _draw(axes, sizes, LATENCIES, "ms")
@@ -59,7 +59,7 @@ def draw_latencies(path: Path, sizes: Sequence[Size]) -> None:
 
 
 def _draw(axes: Any, sizes: Sequence[Size], lines: Lines, unit: str) -> None:
-    """Lines over cells, both axes logarithmic; what was not measured is left out."""
+    """Draw lines over cells on logarithmic axes, without values that were not measured."""
     for n, (label, keys) in enumerate(lines.items()):
         points = [(size["cells"], _value(size, keys)) for size in sizes]
         known = [(cells, value) for cells, value in points if value]
@@ -74,7 +74,7 @@ def _draw(axes: Any, sizes: Sequence[Size], lines: Lines, unit: str) -> None:
 
 
 def _value(size: Any, keys: Sequence[str]) -> Any:
-    """What lies under some keys; None if nothing does."""
+    """Return the value under nested keys; None if there is none."""
     for key in keys:
         size = size.get(key) if isinstance(size, dict) else None
     return size

@@ -1,4 +1,4 @@
-"""The processes that are measured: `hereabouts index`, `hereabouts serve`, a neighbour; their time and memory."""
+"""Starting `hereabouts index`, `hereabouts serve` and a busy process, and measuring time and memory."""
 
 import socket
 import subprocess
@@ -15,36 +15,36 @@ from app.settings import load_settings
 from models.errors import HereaboutsError
 
 POLL_S = 0.1
-LOOKING = 20  # of so many parts of the time one at most goes to counting pages, which slows who has many
-START_S = 600.0  # a large index is read and its sums are checked
+POLL_DUTY_DIVISOR = 20  # at most 1/20 of the time is spent reading smaps, which slows processes with many pages
+START_S = 600.0  # a large index takes long to read
 
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """A service that runs.
+    """A running service.
 
     Attributes:
-        client: asks it.
-        pid: of its first process.
+        client: an HTTP client of the service.
+        pid: its first process.
     """
 
     client: httpx.Client
     pid: int
 
     def memory_mib(self) -> int:
-        """Memory of all its processes together in MiB."""
+        """Return the memory of all its processes together in MiB."""
         return _memory_mib(self.pid)
 
 
 def measure_index(map_path: Path, out: Path) -> dict[str, float]:
-    """Seconds, peak memory of all its processes together, and size of one `hereabouts index`.
+    """Run `hereabouts index`; return its seconds, the peak memory of all its processes, and the size of the index.
 
     Args:
         map_path: map to index.
-        out: directory of the index, which is kept.
+        out: directory for the index, which is kept.
 
     Raises:
-        HereaboutsError: it did not end well.
+        HereaboutsError: the command failed.
     """
     start = time.perf_counter()
     job = subprocess.Popen(
@@ -53,15 +53,15 @@ def measure_index(map_path: Path, out: Path) -> dict[str, float]:
     peak = 0
     try:
         while job.poll() is None:
-            looked = time.perf_counter()
+            poll_start = time.perf_counter()
             peak = max(peak, _memory_mib(job.pid))
-            time.sleep(max(POLL_S, LOOKING * (time.perf_counter() - looked)))
+            time.sleep(max(POLL_S, POLL_DUTY_DIVISOR * (time.perf_counter() - poll_start)))
     finally:
         job.kill()
     if job.returncode:
         raise HereaboutsError(
-            f"'hereabouts index' of {map_path.name} ended with {job.returncode}; if it was killed (-9), it needs more "
-            "memory than there is: ask for a smaller city"
+            f"'hereabouts index' of {map_path.name} failed with exit status {job.returncode}; -9 usually "
+            "means that memory ran out: use a smaller city"
         )
     seconds = time.perf_counter() - start
     size = sum(path.stat().st_size for path in out.rglob("*") if path.is_file())
@@ -69,7 +69,7 @@ def measure_index(map_path: Path, out: Path) -> dict[str, float]:
 
 
 def timed_run(arguments: Sequence[str]) -> float:
-    """Seconds of one whole `hereabouts` with these arguments."""
+    """Return the seconds of one run of `hereabouts` with the given arguments."""
     start = time.perf_counter()
     subprocess.run([*_hereabouts(), *arguments], stdout=subprocess.DEVNULL, check=True)
     return time.perf_counter() - start
@@ -77,7 +77,7 @@ def timed_run(arguments: Sequence[str]) -> float:
 
 @contextmanager
 def busy_process() -> Iterator[None]:
-    """A neighbour that keeps one CPU busy."""
+    """Keep one CPU busy with another process."""
     process = subprocess.Popen([sys.executable, "-c", "while True: pass"])
     try:
         yield
@@ -88,10 +88,10 @@ def busy_process() -> Iterator[None]:
 
 @contextmanager
 def serving(index_dir: Path) -> Iterator[Service]:
-    """A service of an index on a free local port, ready to answer.
+    """Start a service of an index on a free local port and yield it when it is ready.
 
     Raises:
-        HereaboutsError: it does not become ready.
+        HereaboutsError: the service does not become ready.
     """
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
@@ -119,7 +119,7 @@ def _wait_until_ready(client: httpx.Client, server: "subprocess.Popen[bytes]") -
         except httpx.TransportError:
             pass
         time.sleep(POLL_S)
-    raise HereaboutsError("the service did not become ready; try 'hereabouts serve' to see why")
+    raise HereaboutsError("the service did not become ready; run 'hereabouts serve' to see why")
 
 
 def _hereabouts() -> list[str]:
@@ -127,9 +127,9 @@ def _hereabouts() -> list[str]:
 
 
 def _memory_mib(pid: int) -> int:
-    """Memory of a process and its descendants (Linux): their own pages, and each page of a file once.
+    """Return the memory of a process and its descendants (Linux): private pages, and each page of a file once.
 
-    Their PSS would be less while other processes have the same libraries open, as who measures has.
+    The sum of PSS would be too low, because this process maps the same libraries.
     """
     own, files = 0, dict[str, int]()
     for each in _tree(pid):
@@ -141,9 +141,9 @@ def _memory_mib(pid: int) -> int:
 
 
 def _tree(pid: int) -> Iterator[int]:
-    """A process and its descendants (Linux)."""
+    """Yield a process and its descendants (Linux)."""
     yield pid
-    for file in Path(f"/proc/{pid}/task").glob("*/children"):  # any thread may have forked: workers are of another one
+    for file in Path(f"/proc/{pid}/task").glob("*/children"):  # any thread may have forked
         try:
             children = file.read_text().split()
         except OSError:
@@ -153,7 +153,7 @@ def _tree(pid: int) -> Iterator[int]:
 
 
 def _mappings(pid: int) -> Iterator[tuple[str, dict[str, int]]]:
-    """The mappings of a process: which part of which file, "" of none, and KiB by kind; nothing if it is gone."""
+    """Yield the mappings of a process: the part of a file ("" if anonymous) and KiB by kind; none if it has exited."""
     try:
         lines = Path(f"/proc/{pid}/smaps").read_text().splitlines()
     except OSError:

@@ -1,4 +1,4 @@
-"""Vector search alone: FAISS, which ships, and Milvus, on the same vectors and queries."""
+"""Benchmark of vector search with FAISS and Milvus on the same vectors and queries."""
 
 import os
 import time
@@ -18,20 +18,20 @@ if TYPE_CHECKING:  # so that the command line starts without torch
     from index.stores.store import VectorStore
 
 NOT_INSTALLED = "not installed"
-ROUNDING = 1e-6
+SCORE_TOLERANCE = 1e-6  # rounding of float32 scores
 
 
 def measure_searches(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, Any]:
-    """Median milliseconds of a search for the candidates of one description, one thread; how many it finds.
+    """Measure the search for the candidates of one description on one thread, in median milliseconds.
 
     Args:
-        localizer: of an index whose vectors are a file.
-        texts: descriptions, each the sentences of one.
+        localizer: a localizer of an index with FAISS vectors.
+        texts: descriptions as tuples of sentences.
 
     Returns:
-        "candidates" how many are searched for, "faiss_ms", "found" the share of the best that FAISS gives, and
-        "milvus": its "kind" (milvus-lite, or the server that HEREABOUTS_MILVUS_URI names), "write_seconds" and "ms"; or
-        "not installed"; or why it does not answer.
+        "candidates", the number of candidates; "faiss_ms"; "found", the recall of FAISS against exact search; and
+        "milvus": its "kind" (milvus-lite, or the server of HEREABOUTS_MILVUS_URI), "write_seconds" and "ms"; or "not
+        installed"; or why Milvus does not answer.
     """
     from models.posterior.posterior import CANDIDATES  # noqa: PLC0415 - heavy
 
@@ -39,7 +39,7 @@ def measure_searches(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -
     return {
         "candidates": CANDIDATES,
         "faiss_ms": _median_ms(localizer.ranker.store, vectors, CANDIDATES),
-        "found": _found(localizer.ranker.store, vectors, CANDIDATES),
+        "found": _recall(localizer.ranker.store, vectors, CANDIDATES),
         "milvus": _measure_milvus(localizer, vectors, CANDIDATES),
     }
 
@@ -53,37 +53,37 @@ def _median_ms(store: "VectorStore", vectors: Any, count: int) -> float:
     return round(1000 * float(np.median(seconds)), 2)
 
 
-def _found(store: "VectorStore", vectors: Any, count: int) -> float:
-    """Share of what is found that is as good as the best of all lists."""
+def _recall(store: "VectorStore", vectors: Any, count: int) -> float:
+    """Return the share of the results that are as good as those of a search in all lists."""
     from index.stores.faiss_store import FEW  # noqa: PLC0415 - heavy
 
     worst = [store.search(vector[None], FEW + 1)[0][0, :count][-1] for vector in vectors]
     scores = [store.search(vector[None], count)[0][0] for vector in vectors]
-    return round(float(np.mean([(s >= w - ROUNDING).mean() for s, w in zip(scores, worst, strict=True)])), 4)
+    return round(float(np.mean([(s >= w - SCORE_TOLERANCE).mean() for s, w in zip(scores, worst, strict=True)])), 4)
 
 
 def _measure_milvus(localizer: "Localizer", vectors: Any, count: int) -> Any:
     from index.stores.milvus_store import MilvusStore  # noqa: PLC0415 - heavy
 
     try:
-        with _somewhere() as kind:
+        with _available_milvus() as kind:
             if kind is None:
                 return NOT_INSTALLED
             cells, start = localizer.gallery.cells, time.perf_counter()
-            known = localizer.ranker.store.vectors(np.arange(len(cells)))
+            gallery = localizer.ranker.store.vectors(np.arange(len(cells)))
             name = f"benchmark_{os.getpid()}_{len(cells)}"
-            with MilvusStore.written(name, known, cells.center_m[:, :2], cells.scenes) as store, closing(store):
+            with MilvusStore.written(name, gallery, cells.center_m[:, :2], cells.scenes) as store, closing(store):
                 write_s = time.perf_counter() - start
-                found = _median_ms(store, vectors, count)
+                search_ms = _median_ms(store, vectors, count)
                 store.drop()
-            return {"kind": kind, "write_seconds": round(write_s, 1), "ms": found}
+            return {"kind": kind, "write_seconds": round(write_s, 1), "ms": search_ms}
     except StoreUnavailable as error:
         return str(error)
 
 
 @contextmanager
-def _somewhere() -> Iterator[str | None]:
-    """Let HEREABOUTS_MILVUS_URI name a Milvus: the one that it names already, or a file, where milvus-lite is there."""
+def _available_milvus() -> Iterator[str | None]:
+    """Set HEREABOUTS_MILVUS_URI to a milvus-lite file unless it names a server; yield which of them it is."""
     from index.stores.milvus_connection import URI  # noqa: PLC0415 - heavy
 
     if find_spec("pymilvus") is None or (URI not in os.environ and find_spec("milvus_lite") is None):

@@ -1,4 +1,4 @@
-"""How fast and how large, on this machine: building an index, and answering over HTTP."""
+"""Benchmark of building an index and answering over HTTP on this machine."""
 
 import itertools
 import tempfile
@@ -18,24 +18,23 @@ if TYPE_CHECKING:  # so that the command line starts without torch
     from index.answering.localizer import Localizer
 
 REQUESTS = 200
-WARM_UP = 10  # requests that are not counted
-HINTS = 6
-PARTS = 100  # descriptions whose parts are measured in one thread
+WARM_UP = 10  # requests that are not measured
+MAX_HINTS = 6  # per description
+PARTS = 100  # descriptions for `measure_parts`
 
 
 def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
-    """Measure this machine.
+    """Measure one map and one index on this machine.
 
     Args:
         map_path: map to index once more, into a directory that is removed again.
         index_dir: index to serve.
 
     Returns:
-        Figures by stage: index building, seconds from starting `hereabouts serve` until it is ready and of one whole
-        `hereabouts localize`, then latencies of `POST /localize` with one client, warm, each
-        description of six hints: new text about places of the map, the same beside a process that keeps a CPU busy,
-        new text that fits many places, text that was read before, and, as the baseline of the same run, an endpoint
-        that computes nothing; then the parts of an answer, see `measure_parts`.
+        Figures by stage: building the index; seconds until `hereabouts serve` is ready and of one run of `hereabouts
+        localize`; warm latencies of `POST /localize` with one client and six hints per description, for new text about
+        places of the map, the same while another process keeps a CPU busy, new text that fits many places, cached text,
+        and `/healthz` as the baseline; and the parts of an answer, from `measure_parts`.
     """
     with tempfile.TemporaryDirectory() as scratch:
         index = measure_index(map_path, Path(scratch) / "index")
@@ -49,8 +48,8 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
         new, number = iter(texts), itertools.count()
         fresh = latencies(lambda: _localize(client, next(new)))
         with busy_process():
-            beside = latencies(lambda: _localize(client, next(new)))
-        vague = latencies(lambda: _localize(client, tuple(_vague_hint(next(number)) for _ in range(HINTS))))
+            busy = latencies(lambda: _localize(client, next(new)))
+        vague = latencies(lambda: _localize(client, tuple(_vague_hint(next(number)) for _ in range(MAX_HINTS))))
         again = iter(texts)
         cached = latencies(lambda: _localize(client, next(again)))
         nothing = latencies(lambda: client.get("/healthz").raise_for_status())
@@ -58,45 +57,45 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
         "index": index,
         "start_seconds": {"serve_until_ready": round(ready_s, 1), "localize": round(localize_s, 1)},
         "localize_new_text_ms": fresh,
-        "localize_new_text_beside_a_busy_process_ms": beside,
+        "localize_new_text_beside_a_busy_process_ms": busy,
         "localize_new_vague_text_ms": vague,
         "localize_cached_hints_ms": cached,
         "healthz_ms": nothing,
         "new_text_over_cached": round(fresh["p50"] / cached["p50"], 1),
-        "busy_over_idle": round(beside["p50"] / fresh["p50"], 2),
+        "busy_over_idle": round(busy["p50"] / fresh["p50"], 2),
         "one_thread": measure_parts(localizer, texts[:PARTS]),
     }
 
 
 def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
-    """The nearest things round random positions of a map, in the benchmark's words, at most `HINTS` each.
+    """Describe the nearest objects of random positions by templates, at most `MAX_HINTS` per description.
 
     Args:
-        localizer: of the map.
-        count: descriptions; fewer where there is little to tell.
+        localizer: a localizer of the map.
+        count: the most descriptions; positions without objects are skipped.
     """
     from index.evaluation.robustness import nearest_hints  # noqa: PLC0415 - heavy
     from models.citymap.templates import render_hint  # noqa: PLC0415
 
     cells, rng = localizer.gallery.cells, np.random.default_rng(0)
     around, data = localizer.posterior.surroundings, localizer.map_data()
-    told = np.flatnonzero(np.diff(around.cell_starts))  # where something is
-    rows = rng.choice(told, 2 * count)
+    occupied = np.flatnonzero(np.diff(around.cell_starts))  # cells with objects
+    rows = rng.choice(occupied, 2 * count)
     positions_m = cells.center_m[rows, :2] + rng.uniform(-cells.size_m / 4, cells.size_m / 4, (len(rows), 2))
-    hints = nearest_hints(data, positions_m, rows, around, HINTS)
-    return [tuple(map(render_hint, some)) for some in hints if some][:count]
+    hints = nearest_hints(data, positions_m, rows, around, MAX_HINTS)
+    return [tuple(map(render_hint, nearest)) for nearest in hints if nearest][:count]
 
 
 def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, float]:
-    """What a description costs, and a cell in bytes.
+    """Measure the steps of answering a description, and the bytes per cell.
 
     Args:
-        localizer: what to ask.
-        texts: descriptions that it has not read.
+        localizer: the localizer.
+        texts: descriptions that are not in its caches.
 
     Returns:
-        Medians in milliseconds of reading a new description, of its candidates from the vector index and of the
-        posterior, and, as the baseline of the same run, of encoding its sentences and of ranking by them.
+        Median milliseconds of parsing a new description, of its candidates from the vector index and of the posterior,
+        and, as the baseline, of encoding its sentences and of ranking cells by them.
     """
     from index.answering.vector_localizer import DEPTH  # noqa: PLC0415 - heavy
     from models.posterior.locate import locate  # noqa: PLC0415 - heavy
@@ -120,22 +119,22 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
 
 
 def open_index(index_dir: Path) -> "Localizer":
-    """An index with the weights of the settings."""
+    """Open an index with the weights of the settings."""
     from index.answering.localizer import Localizer  # noqa: PLC0415 - heavy
 
     settings = load_settings(index_dir=index_dir)
     return Localizer.open(index_dir, settings.weights_dir, posterior_weights_dir=settings.posterior_weights_dir)
 
 
-def _timed(seconds: list[float], work: Callable[..., Any], *given: Any) -> Any:
+def _timed(seconds: list[float], work: Callable[..., Any], *arguments: Any) -> Any:
     start = time.perf_counter()
-    done = work(*given)
+    result = work(*arguments)
     seconds.append(time.perf_counter() - start)
-    return done
+    return result
 
 
 def latencies(request: Callable[[], Any]) -> dict[str, float]:
-    """p50 and p99 in milliseconds of a request repeated, after a few that are not counted."""
+    """Repeat a request; return p50 and p99 in milliseconds, without the warm-up."""
     seconds = []
     for n in range(WARM_UP + REQUESTS):
         start = time.perf_counter()
@@ -146,7 +145,7 @@ def latencies(request: Callable[[], Any]) -> dict[str, float]:
 
 
 def percentiles(seconds: Sequence[float]) -> dict[str, float]:
-    """p50 and p99 in milliseconds of some durations; at least one."""
+    """Return p50 and p99 in milliseconds of one or more durations."""
     p50, p99 = np.percentile(seconds, [50, 99]) * 1000
     return {"p50": round(float(p50), 1), "p99": round(float(p99), 1)}
 
@@ -156,6 +155,6 @@ def _localize(client: httpx.Client, hints: tuple[str, ...]) -> None:
 
 
 def _vague_hint(n: int) -> str:
-    """A sentence that no one has sent before and that fits many places."""
+    """Return a sentence that is not cached and fits many places."""
     direction = ("north", "south", "east", "west")[n % 4]
     return f"I am {direction} of a gray building with the number {n}."

@@ -1,5 +1,5 @@
-"""The command line: `main` has index, serve and localize; `data`, `train`, `measure` and `reproduce` the others.
+"""The command line: `main` has index, serve, verify, mcp and localize; the other modules have the other commands.
 
-`options` and `progress` are shared. May import everything below it; heavy imports stand inside the commands, so that
---help is quick.
+`options` and `progress` are shared. May import everything; heavy imports are inside the commands, so that --help is
+fast.
 """

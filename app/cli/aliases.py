@@ -1,4 +1,4 @@
-"""The commands on the names that an index directory serves its versions under."""
+"""Commands on the aliases of an index directory."""
 # ruff: noqa: PLC0415
 
 import re
@@ -10,16 +10,14 @@ import typer
 from app.cli.options import INDEX_DIR, IndexDir
 from models.errors import DataError, IndexBroken
 
-AliasName = Annotated[str, typer.Argument(metavar="NAME", help="the alias; requests take it as `index`")]
+AliasName = Annotated[str, typer.Argument(metavar="NAME", help="the alias, which requests pass as `index`")]
 
-aliases = typer.Typer(
-    help="List and change the names (aliases) that an index directory serves its versions under.", no_args_is_help=True
-)
+aliases = typer.Typer(help="List and change the aliases of an index directory.", no_args_is_help=True)
 
 
 @aliases.command("list")
 def list_aliases(index_dir: IndexDir = INDEX_DIR) -> None:
-    """Print each alias and its version, then the versions without an alias after a "-"."""
+    """Print each alias with its version, then the versions without an alias, marked "-"."""
     from index.build.artifact import read_aliases
 
     known = read_aliases(index_dir)
@@ -38,7 +36,7 @@ def set_alias(
     version: Annotated[str, typer.Argument(metavar="VERSION", help="a version in the index directory")],
     index_dir: IndexDir = INDEX_DIR,
 ) -> None:
-    """Verify a version and let an alias name it. A version that was copied there is registered first."""
+    """Verify a version and point an alias to it. A version that was copied into the directory is registered first."""
     from index.build import artifact
     from index.build.manifest import NAME
 
@@ -57,7 +55,7 @@ def set_alias(
 
 @aliases.command("remove")
 def remove_alias(name: AliasName, index_dir: IndexDir = INDEX_DIR) -> None:
-    """Remove an alias. Its version stays, and so does the alias "default", which requests without `index` need."""
+    """Remove an alias but keep its version. The alias "default" cannot be removed, as requests use it by default."""
     from index.build import artifact
 
     if name == artifact.DEFAULT:
@@ -77,4 +75,6 @@ def _versions(index_dir: Path) -> list[str]:
 
 
 def _not_written(index_dir: Path, error: OSError) -> DataError:
-    return DataError(f"{index_dir} cannot be written: {error}; make room, or run this as the owner of the directory")
+    return DataError(
+        f"{index_dir} cannot be written: {error}; free some space, or run this as the owner of the directory"
+    )

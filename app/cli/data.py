@@ -1,4 +1,4 @@
-"""Commands that make data sets. Heavy imports are inside the commands, so that --help is quick."""
+"""Commands that prepare data sets. Heavy imports are inside the commands, so that --help is fast."""
 # ruff: noqa: PLC0415
 
 from pathlib import Path
@@ -11,11 +11,11 @@ from app.cli.options import Seed, Split
 
 def prepare(
     raw: Annotated[Path, typer.Option(help="raw KITTI-360: data_3d_semantics/ and data_poses/")],
-    out: Annotated[Path, typer.Option(help="where cells/, poses/ and direction/ go")],
-    scene: Annotated[str | None, typer.Option(help="one scene, as its folder or its digits; all if left out")] = None,
+    out: Annotated[Path, typer.Option(help="directory for cells/, poses/ and direction/")],
+    scene: Annotated[str | None, typer.Option(help="one scene, by folder name or digits; default: all")] = None,
     seed: Seed = 0,
 ) -> None:
-    """Make KITTI360Pose's cells and poses from raw KITTI-360; scenes that are done are kept."""
+    """Prepare KITTI360Pose's cells and poses from raw KITTI-360. Finished scenes are skipped."""
     from app.cli.progress import stage_bars
     from models.sources.kitti360.job import prepare_data
 
@@ -26,10 +26,10 @@ def prepare(
 
 def convert(
     data: Annotated[Path, typer.Option(help="a directory in KITTI360Pose's layout")],
-    out: Annotated[Path, typer.Option(help="the store, a new directory")],
+    out: Annotated[Path, typer.Option(help="new directory for the store")],
     split: Split = None,
 ) -> None:
-    """Write KITTI360Pose's pickles as a store that opens at once."""
+    """Convert KITTI360Pose's pickles to a store that opens immediately."""
     from app.cli.progress import stage_bars
     from models.sources.store.files import convert as run
 
@@ -39,14 +39,17 @@ def convert(
 
 
 def synth(
-    out: Annotated[Path, typer.Option(help="a new directory, for raw KITTI-360 files")],
-    scale: Annotated[str, typer.Option(help="demo (trains in minutes) or full (as large as KITTI360Pose)")] = "demo",
+    out: Annotated[Path, typer.Option(help="new directory for raw KITTI-360 files")],
+    scale: Annotated[
+        str, typer.Option(help="demo (training takes minutes) or full (as large as KITTI360Pose)")
+    ] = "demo",
     seed: Seed = 0,
     pieces: Annotated[
-        str, typer.Option(help="numbers of ground: official (all road of a town is one instance) or own (each piece)")
+        str,
+        typer.Option(help="instances of ground: official (all road of a town is one instance) or own (one per piece)"),
     ] = "official",
 ) -> None:
-    """Make up towns, as raw KITTI-360 files: nine scenes under KITTI-360's names, so that the standard splits work."""
+    """Generate synthetic towns as raw KITTI-360 files: nine scenes with KITTI-360's names, so that its splits apply."""
     from app.cli.progress import stage_bars
     from models.sources.synthetic.towns import write_towns
 

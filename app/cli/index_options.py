@@ -1,4 +1,4 @@
-"""The options of `hereabouts index` that share the work out."""
+"""The options of `hereabouts index` that split the work into shards."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
 
 def parse_shard(text: str | Shard) -> Shard:
-    """A shard as it was typed.
+    """Parse a shard.
 
     Raises:
-        BadParameter: it is none.
+        BadParameter: the text is not a shard.
     """
     try:
         return Shard.parse(str(text))
@@ -24,34 +24,36 @@ def parse_shard(text: str | Shard) -> Shard:
         raise typer.BadParameter(str(error)) from None
 
 
-def check_shares(
+def check_shard_options(
     shard: Shard | None, merge: int | None, engine: str | None, address: str | None, keep_current: bool
 ) -> None:
-    """Refuse what does not go together.
+    """Refuse options that exclude each other.
 
     Raises:
-        BadParameter: it does not.
+        BadParameter: the options exclude each other.
     """
     if shard and (merge or engine):
-        raise typer.BadParameter("--shard does one share, --merge and --engine ask for an index: give one of them")
+        raise typer.BadParameter("--shard builds one shard, --merge and --engine build an index: give one of them")
     if shard and keep_current:
-        raise typer.BadParameter("--keep-current is about an index, not a share: leave it out with --shard")
+        raise typer.BadParameter("--keep-current applies to an index, not to a shard: leave it out with --shard")
     if address is not None and not engine:
-        raise typer.BadParameter("--address is of a Ray cluster: give --engine ray with it, or leave it out")
+        raise typer.BadParameter(
+            "--address is the address of a Ray cluster: give --engine ray with it, or leave it out"
+        )
 
 
-def share_out(
+def run_index_job(
     job: "IndexJob", shard: Shard | None, merge: int | None, engine: str | None, address: str | None, show: "Progress"
 ) -> Path:
-    """Make an index, at once or of its parts, or one part of it; arguments as they were checked.
+    """Build an index, merge its shards, or build one shard, by options that `check_shard_options` has accepted.
 
     Returns:
-        The directory of what was made.
+        The directory of the index version or the shard.
     """
     if shard:
         return job.make_part(shard, show)
     if engine:
-        from index.build.ray_shards import build_on_ray  # noqa: PLC0415  # heavy, as all commands are
+        from index.build.ray_shards import build_on_ray  # noqa: PLC0415  # heavy
 
         return build_on_ray(job, merge, address, show)
     return job.merge(merge, show) if merge else job.build(show)

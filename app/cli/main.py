@@ -1,4 +1,4 @@
-"""The command line. Heavy imports are inside the commands, so that --help is quick."""
+"""The command line. Heavy imports are inside the commands, so that --help is fast."""
 # ruff: noqa: PLC0415
 
 import json
@@ -19,7 +19,7 @@ from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.aliases import aliases
-from app.cli.index_options import check_shares, parse_shard, share_out
+from app.cli.index_options import check_shard_options, parse_shard, run_index_job
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from index.build.shard import MOST_SHARDS, Shard
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
     from index.answering.localizer import Localizer
     from index.answering.query import Query
 
-LINES = "-"
+STDIN = "-"  # as the text of `localize`
 
 
 class _Commands(TyperGroup):
-    """Commands whose users see one line, not a traceback, when the input is wrong."""
+    """A group of commands that show user errors as one line instead of a traceback."""
 
-    def invoke(self, ctx: Any) -> Any:  # typer does not export the types of its base class
+    def invoke(self, ctx: Any) -> Any:  # typer does not export the types of the base class
         try:
             return super().invoke(ctx)
         except HereaboutsError as error:
@@ -56,8 +56,8 @@ app = typer.Typer(
 
 
 @app.callback()
-def before(context: typer.Context) -> None:
-    """Before any command, and so before torch is imported, which reads the number of threads once."""
+def set_threads(context: typer.Context) -> None:
+    """Set the number of threads before any command imports torch, which reads it once."""
     from app.threads import set_thread_env, usable_cpus
 
     set_thread_env(usable_cpus() if context.invoked_subcommand == "train" else 1)
@@ -66,40 +66,41 @@ def before(context: typer.Context) -> None:
 @app.command()
 def index(
     map_path: Annotated[Path, typer.Option("--map", help=DATA_HELP)],
-    out: Annotated[Path, typer.Option(envvar="HEREABOUTS_INDEX_DIR", help="directory of the index")] = INDEX_DIR,
+    out: Annotated[Path, typer.Option(envvar="HEREABOUTS_INDEX_DIR", help="index directory")] = INDEX_DIR,
     split: Split = None,
     keep_current: Annotated[
-        bool, typer.Option("--keep-current", help="build nothing if the index is of this map and this model")
+        bool, typer.Option("--keep-current", help="do nothing if the index was built from this map and model")
     ] = False,
     levels: Annotated[
         bool,
-        typer.Option("--levels", help="keep the retriever's other levels, for any refine but posterior: 6 kB a cell"),
+        typer.Option(
+            "--levels",
+            help="store all levels of the retriever, for other values of refine than posterior: 6 kB per cell",
+        ),
     ] = False,
     store: Annotated[
         Literal["faiss", "milvus"],
-        typer.Option(help="where the vectors go: a file, or the Milvus that HEREABOUTS_MILVUS_URI names"),
+        typer.Option(help="store of the vectors: a file, or the Milvus server of HEREABOUTS_MILVUS_URI"),
     ] = "faiss",
     within: Annotated[
         str | None,
-        typer.Option(help="a part of an OpenStreetMap file: west,south,east,north in degrees, or a GeoJSON file"),
+        typer.Option(help="region of an OpenStreetMap file: west,south,east,north in degrees, or a GeoJSON file"),
     ] = None,
     shard: Annotated[
         Shard | None,
-        typer.Option(parser=parse_shard, metavar="I/N", help="do the heavy work of this one of N shares, for --merge"),
+        typer.Option(parser=parse_shard, metavar="I/N", help="build only shard I of N, for --merge"),
     ] = None,
     merge: Annotated[
-        int | None, typer.Option(min=1, max=MOST_SHARDS, metavar="N", help="make the index of what N shards have done")
+        int | None, typer.Option(min=1, max=MOST_SHARDS, metavar="N", help="merge N shards into the index")
     ] = None,
     engine: Annotated[
         Literal["ray"] | None,
-        typer.Option(help="have a Ray cluster do the shards, --merge of them or one a CPU, and merge them"),
+        typer.Option(help="build and merge the shards on a Ray cluster: --merge of them, or one per CPU"),
     ] = None,
-    address: Annotated[
-        str | None, typer.Option(help="of the Ray cluster; this machine's own if it is left out")
-    ] = None,
+    address: Annotated[str | None, typer.Option(help="address of the Ray cluster; default: a local one")] = None,
 ) -> None:
     """Build an index of a map."""
-    check_shares(shard, merge, engine, address, keep_current)
+    check_shard_options(shard, merge, engine, address, keep_current)
 
     from app.cli.progress import stage_bars
     from app.settings import load_settings
@@ -107,12 +108,12 @@ def index(
     from models.sources.osm.extract import Region
 
     region = None if within is None else Region.parse(within)
-    given = map_path, out, load_settings().weights_dir, split, keep_current, levels
+    arguments = map_path, out, load_settings().weights_dir, split, keep_current, levels
     with stage_bars() as show:
-        path = share_out(IndexJob(*given, store, region), shard, merge, engine, address, show)
+        path = run_index_job(IndexJob(*arguments, store, region), shard, merge, engine, address, show)
     if shard:
-        rest = f"once all {shard.count} are there, give --merge {shard.count} in the place of --shard {shard}"
-        typer.echo(f"shard {shard} is in {path}; {rest}")
+        next_step = f"once all {shard.count} are built, run this with --merge {shard.count} instead of --shard {shard}"
+        typer.echo(f"shard {shard} is in {path}; {next_step}")
     else:
         typer.echo(f"index {path.name} is in {path}; serve it with: hereabouts serve --index {out}")
 
@@ -121,15 +122,15 @@ def index(
 def serve(
     index_dir: IndexDir = INDEX_DIR,
     host: Annotated[str, typer.Option(envvar="HEREABOUTS_HOST", help="address to listen on")] = "127.0.0.1",
-    port: Annotated[int, typer.Option(envvar="HEREABOUTS_PORT", help="0 takes a free one")] = 8000,
+    port: Annotated[int, typer.Option(envvar="HEREABOUTS_PORT", help="port to listen on; 0: any free port")] = 8000,
     jobs: Annotated[
-        Path, typer.Option(envvar="HEREABOUTS_JOBS_DIR", help="keeps evaluations and their reports over restarts")
+        Path, typer.Option(envvar="HEREABOUTS_JOBS_DIR", help="directory that keeps evaluations over restarts")
     ] = Path("data/jobs"),
 ) -> None:
-    """Serve an index over HTTP; the other settings are HEREABOUTS_ variables."""
-    from app.workers.launch import prepared
+    """Serve an index over HTTP. Other settings are HEREABOUTS_ environment variables."""
+    from app.workers.launch import prelaunched
 
-    with prepared():
+    with prelaunched():
         from app.logs import configure_logging
         from app.main import create_app
         from app.server import serve as serve_app
@@ -142,25 +143,27 @@ def serve(
 
 @app.command()
 def verify(index_dir: IndexDir = INDEX_DIR) -> None:
-    """Read every file of an index again, of each version that is registered or of the one that is named."""
+    """Verify the checksums of all registered versions of an index directory, or of one version."""
     from index.build.artifact import open_version, read_aliases
     from index.build.artifact import verify as verify_version
 
-    known = sorted(read_aliases(index_dir).versions)
-    for directory in [index_dir / version for version in known] or [open_version(index_dir)[0]]:
+    registered = sorted(read_aliases(index_dir).versions)
+    for directory in [index_dir / version for version in registered] or [open_version(index_dir)[0]]:
         manifest = verify_version(directory)
-        typer.echo(f"index {manifest.version} of {manifest.map_name} is whole: {manifest.cells} cells")
+        typer.echo(f"index {manifest.version} of {manifest.map_name} is intact: {manifest.cells} cells")
 
 
 @app.command()
 def mcp(
-    url: Annotated[str, typer.Option(help="of the running service")] = "http://127.0.0.1:8000",
-    key: Annotated[str | None, typer.Option(envvar="HEREABOUTS_READ_KEY", help="its read key, if it needs one")] = None,
+    url: Annotated[str, typer.Option(help="address of the running service")] = "http://127.0.0.1:8000",
+    key: Annotated[
+        str | None, typer.Option(envvar="HEREABOUTS_READ_KEY", help="read key of the service, if needed")
+    ] = None,
     http_port: Annotated[
-        int | None, typer.Option(help="serve streamable HTTP at http://127.0.0.1:PORT/mcp; else stdin and stdout")
+        int | None, typer.Option(help="serve streamable HTTP at http://127.0.0.1:PORT/mcp; default: stdin and stdout")
     ] = None,
 ) -> None:
-    """Give agents the running service as tools (Model Context Protocol)."""
+    """Offer the running service as tools for agents (Model Context Protocol)."""
     from app.client import AsyncClient
     from app.mcp import build_server
 
@@ -176,35 +179,35 @@ def localize(
     text: Annotated[
         str,
         typer.Argument(
-            help="what is around you, for example 'I am north of a gray building.'; -: a description a line from "
-            "standard input, an answer a line as JSON"
+            help="a description, for example 'I am north of a gray building.'; -: read one description per line from "
+            "standard input and print one JSON answer per line"
         ),
     ],
     index_dir: IndexDir = INDEX_DIR,
-    top_k: Annotated[int, typer.Option(min=1, max=40, help="candidates to list")] = DEFAULT_TOP_K,
+    top_k: Annotated[int, typer.Option(min=1, max=40, help="number of candidates")] = DEFAULT_TOP_K,
     refine: Annotated[Refine, typer.Option(help="how the position is found")] = DEFAULT_REFINE,
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
-    picture: Annotated[Path | None, typer.Option(help="PNG to draw the answer into")] = None,
+    picture: Annotated[Path | None, typer.Option(help="PNG file to draw the answer to")] = None,
 ) -> None:
-    """Say where the speaker of a description is."""
+    """Find the position of the speaker of a description."""
     from app.settings import load_settings
-    from app.startup import no_collection
+    from app.startup import without_garbage_collection
     from index.answering.query import Query
     from models.language.sentences import split_hints
 
-    if text != LINES:
-        split_hints(text)  # or DescriptionError, before anything is loaded
+    if text != STDIN:
+        split_hints(text)  # raises DescriptionError before anything is loaded
     settings = load_settings(index_dir=index_dir)
-    with no_collection():
+    with without_garbage_collection():
         from index.answering.localizer import Localizer
 
         localizer = Localizer.open(
             settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
         )
-        ask = partial(Query, top_k=top_k, refine=refine)
-        if text == LINES:
-            raise typer.Exit(_answer_lines(localizer, ask))
-        [answer] = localizer.localize([ask(text)])
+        make_query = partial(Query, top_k=top_k, refine=refine)
+        if text == STDIN:
+            raise typer.Exit(_answer_lines(localizer, make_query))
+        [answer] = localizer.localize([make_query(text)])
     if picture and answer.estimate:
         from index.answering.picture import draw_answer
 
@@ -215,11 +218,11 @@ def localize(
         _print_table(answer)
 
 
-def _answer_lines(localizer: "Localizer", ask: "Callable[[str], Query]") -> int:
-    """Answer every line of standard input by one of JSON, at once; a bad one fails alone.
+def _answer_lines(localizer: "Localizer", make_query: "Callable[[str], Query]") -> int:
+    """Answer each line of standard input with one line of JSON; an invalid line fails alone.
 
     Returns:
-        The exit status: 1 if any failed.
+        The exit status: 1 if any line failed.
     """
     from models.language.sentences import split_hints
 
@@ -227,7 +230,7 @@ def _answer_lines(localizer: "Localizer", ask: "Callable[[str], Query]") -> int:
     for line in filter(str.strip, sys.stdin):
         try:
             split_hints(line)
-            [answer] = localizer.localize([ask(line.strip())])
+            [answer] = localizer.localize([make_query(line.strip())])
             _print_json(answer, indent=None)
         except HereaboutsError as error:
             failed = 1
@@ -253,7 +256,7 @@ def _print_table(answer: "Answer") -> None:
         )
     console.print(table)
     if answer.estimate is None:
-        console.print(f"{answer.status}: no cell to answer with")
+        console.print(f"{answer.status}: no position")
     else:
         x, y = answer.estimate.position
         radius = answer.estimate.radius_m

@@ -1,4 +1,4 @@
-"""Commands that measure. Heavy imports are inside the commands, so that --help is quick."""
+"""Commands that measure. Heavy imports are inside the commands, so that --help is fast."""
 # ruff: noqa: PLC0415
 
 import json
@@ -14,7 +14,7 @@ import models
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Seed, Split
 from index.answering.query import Refine
 from models.errors import DataError
-from models.sources.place_texts import SUFFIXES as TOLD_SUFFIXES
+from models.sources.place_texts import SUFFIXES as PLACE_TEXT_SUFFIXES
 
 if TYPE_CHECKING:
     from app.settings import Settings
@@ -27,56 +27,62 @@ def evaluate(
     data: Annotated[
         Path | None,
         typer.Option(
-            help=f"{DATA_HELP}; or, asked of --index, a .json file with the queries of a POST /evaluate, "
-            "or texts about places as .jsonl: "
-            "text, goal [lat, lon] and perhaps start [lat, lon]"
+            help=f"{DATA_HELP}; or queries for --index: a .json file with the body of POST /evaluate, "
+            "or a .jsonl file of texts with text, goal [lat, lon] and, optionally, start [lat, lon]"
         ),
     ] = None,
     split: Split = None,
     index_dir: IndexDir = INDEX_DIR,
-    report: Annotated[Path | None, typer.Option(help="directory for predictions, report.json, tables, plots")] = None,
-    grow: Annotated[str | None, typer.Option(help="radii in metres of a growing gallery: 200,300,400,500")] = None,
+    report: Annotated[
+        Path | None, typer.Option(help="directory for predictions, report.json, tables and plots")
+    ] = None,
+    grow: Annotated[
+        str | None, typer.Option(help="radii in metres of a growing gallery, such as 200,300,400,500")
+    ] = None,
     refine: Annotated[
-        Refine | None, typer.Option(help="how positions are found; posterior, or what a .json says, if left out")
+        Refine | None, typer.Option(help="how positions are found; default: posterior, or the value in a .json file")
     ] = None,
     hard: Annotated[
-        bool, typer.Option("--robustness", help="fewer, wrong and misspelt hints, free wording, an outdated map")
+        bool,
+        typer.Option("--robustness", help="test fewer, wrong and misspelt hints, free wording and an outdated map"),
     ] = False,
-    rescore: Annotated[Path | None, typer.Option(help="score the predictions of this report's directory again")] = None,
+    rescore: Annotated[
+        Path | None, typer.Option(help="recompute the scores of the predictions in this report directory")
+    ] = None,
 ) -> None:
-    """Recall on queries with known positions, beside chance, an oracle and exact matching of the hints."""
+    """Measure recall on queries with known positions, compared with chance, an oracle and exact matching of hints."""
     from app.cli.progress import stage_bars
-    from app.jobs.order import WEIGHTS_DIRS, Evaluation, read_evaluation
+    from app.jobs.evaluation import WEIGHTS_DIRS, Evaluation, read_evaluation
     from app.settings import load_settings
-    from index.evaluation.evaluation import rescore as run_again
+    from index.evaluation.evaluation import rescore as rescore_report
 
     if (data is None) == (rescore is None):
-        raise DataError("name either --data, what to ask about, or --rescore, the directory of an earlier report")
+        raise DataError("give either --data, the queries, or --rescore, the directory of an earlier report")
     if data is None or rescore is not None:
-        _print_report(run_again(Path(str(rescore))))
+        _print_report(rescore_report(Path(str(rescore))))
         return
     radii = _radii(grow)
     settings = load_settings(index_dir=index_dir)
-    if data.name.endswith(TOLD_SUFFIXES):
-        _evaluate_told(data, settings, report)
+    if data.name.endswith(PLACE_TEXT_SUFFIXES):
+        _evaluate_place_texts(data, settings, report)
         return
     if data.suffix == ".json":
-        asked = read_evaluation(data, settings, split, radii)
+        evaluation = read_evaluation(data, settings, split, radii)
     else:
         weights = {name: getattr(settings, name) for name in WEIGHTS_DIRS}
-        asked = Evaluation(**weights, data=data, split=split, grow_m=radii, refine="posterior")
+        evaluation = Evaluation(**weights, data=data, split=split, grow_m=radii, refine="posterior")
     if refine:
-        asked = asked.model_copy(update={"refine": refine})
+        evaluation = evaluation.model_copy(update={"refine": refine})
     with stage_bars() as show:
-        found = asked.run_robustness(report, show) if hard else asked.run(report, show)
+        results = evaluation.run_robustness(report, show) if hard else evaluation.run(report, show)
     if hard:
-        _print_robustness(found)
+        _print_robustness(results)
     else:
-        _print_report(found)
+        _print_report(results)
 
 
-def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> None:
-    """Evaluate an index on texts about places."""
+def _evaluate_place_texts(data: Path, settings: "Settings", report: Path | None) -> None:
+    """Evaluate an index on texts with known positions."""
     from app.cli.progress import stage_bars
     from index.answering.localizer import Localizer
     from index.evaluation.place_texts import evaluate_told, told_tables
@@ -85,16 +91,16 @@ def _evaluate_told(data: Path, settings: "Settings", report: Path | None) -> Non
     texts = load_place_texts(data)
     weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     with stage_bars() as show:
-        found = evaluate_told(Localizer.open(settings.index_dir, *weights), texts, report, show)
-    _print_tables(Console(width=150), *told_tables(found))
+        results = evaluate_told(Localizer.open(settings.index_dir, *weights), texts, report, show)
+    _print_tables(Console(width=150), *told_tables(results))
 
 
-def _print_robustness(found: dict[str, Any]) -> None:
+def _print_robustness(results: dict[str, Any]) -> None:
     from index.evaluation.robustness import robustness_tables
 
     console = Console(width=140)
-    console.print(f"{found['data']}, {found['split']}: {found['queries']} queries, {found['cells']} cells")
-    _print_tables(console, *robustness_tables(found))
+    console.print(f"{results['data']}, {results['split']}: {results['queries']} queries, {results['cells']} cells")
+    _print_tables(console, *robustness_tables(results))
 
 
 def _print_tables(console: Console, *tables: "Rows") -> None:
@@ -109,7 +115,7 @@ def _radii(grow: str | None) -> list[float]:
     try:
         return [float(radius) for radius in grow.split(",")] if grow else []
     except ValueError:
-        raise DataError(f"--grow {grow}: no list of metres; give it as 200,300,400,500") from None
+        raise DataError(f"--grow {grow}: not a list of metres; write it as 200,300,400,500") from None
 
 
 def _print_report(report: dict[str, Any]) -> None:
@@ -127,19 +133,21 @@ def _print_report(report: dict[str, Any]) -> None:
     line += f"{report['calibration']['expected_calibration_error']:.3f}"
     if "ambiguity" in report:
         fits = report["ambiguity"]["median_cells_that_fit_as_well"]
-        line += f"; cells that fit a description as well as the true one (median): {fits:.0f}"
+        line += f"; cells that fit a description as well as the true cell (median): {fits:.0f}"
     console.print(line)
 
 
 def questions(
-    data: Annotated[Path, typer.Option(help=f"what tells the truth, which the index is of: {DATA_HELP}")],
+    data: Annotated[Path, typer.Option(help=f"the data set that the index was built from: {DATA_HELP}")],
     split: Split = None,
     index_dir: IndexDir = INDEX_DIR,
-    texts: Annotated[int, typer.Option(min=1, help="how many")] = 300,
+    texts: Annotated[int, typer.Option(min=1, help="number of texts")] = 300,
     seed: Seed = 0,
-    plain: Annotated[bool, typer.Option("--plain", help="hints name classes alone, without winds and colours")] = False,
+    plain: Annotated[
+        bool, typer.Option("--plain", help="hints with classes only, without directions and colours")
+    ] = False,
 ) -> None:
-    """How far the service's questions help made-up people who say two hints, and answer, sometimes wrongly."""
+    """Measure how much the follow-up questions help simulated users with two hints, who sometimes answer wrongly."""
     from app.cli.progress import stage_bars
     from app.settings import load_settings
     from index.answering.localizer import Localizer
@@ -151,19 +159,19 @@ def questions(
     localizer = Localizer.open(settings.index_dir, *weights)
     with stage_bars() as show:
         source = open_source(data, split, show)
-        found = evaluate_questions(localizer, source, texts, seed, show, is_plain=plain)
+        results = evaluate_questions(localizer, source, texts, seed, show, is_plain=plain)
     console = Console(width=120)
-    console.print(f"{found['data']}: {found['texts']} texts, seed {seed}")
-    _print_tables(console, questions_table(found))
-    console.print("asked: " + ", ".join(f"{count} {kind}" for kind, count in found["kinds"].items()))
+    console.print(f"{results['data']}: {results['texts']} texts, seed {seed}")
+    _print_tables(console, questions_table(results))
+    console.print("asked: " + ", ".join(f"{count} {kind}" for kind, count in results["kinds"].items()))
 
 
 def descriptions(
     index_dir: IndexDir = INDEX_DIR,
-    positions: Annotated[int, typer.Option(min=1, help="how many, each in another cell")] = 200,
+    positions: Annotated[int, typer.Option(min=1, help="number of positions, each in another cell")] = 200,
     seed: Seed = 0,
 ) -> None:
-    """How well random positions of the map are found again by what POST /describe says of them."""
+    """Measure how well random positions are found again from the text that POST /describe gives for them."""
     from app.cli.progress import stage_bars
     from app.settings import load_settings
     from index.answering.localizer import Localizer
@@ -173,42 +181,42 @@ def descriptions(
     weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     localizer = Localizer.open(settings.index_dir, *weights)
     with stage_bars() as show:
-        found = evaluate_descriptions(localizer, positions, seed, show)
+        results = evaluate_descriptions(localizer, positions, seed, show)
     console = Console(width=120)
-    console.print(f"{found['data']}: {found['positions']} positions, seed {seed}")
-    _print_tables(console, descriptions_table(found))
+    console.print(f"{results['data']}: {results['positions']} positions, seed {seed}")
+    _print_tables(console, descriptions_table(results))
 
 
 def benchmark(
     map_path: Annotated[
-        Path | None, typer.Option("--map", help="map to index; with --cells the shipped one if it is left out")
+        Path | None, typer.Option("--map", help="map to index; with --cells, the default is the shipped map")
     ] = None,
     index_dir: IndexDir = INDEX_DIR,
     cells: Annotated[
         str | None,
         typer.Option(
-            help="sizes of a city made of copies of the map, about so many cells each: 1e4,1e5,1e6; --index is not used"
+            help="approximate numbers of cells of cities made of copies of the map: 1e4,1e5,1e6; --index is ignored"
         ),
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="with --cells, directory for benchmark.json and plots")] = None,
+    out: Annotated[Path | None, typer.Option(help="with --cells: directory for benchmark.json and plots")] = None,
 ) -> None:
-    """Seconds, memory and latency on this machine, of an index or, with --cells, as a city grows."""
+    """Measure time, memory and latency on this machine, for one index or, with --cells, for growing cities."""
     if cells is None:
         if map_path is None:
-            raise typer.BadParameter("missing; only with --cells it may be left out", param_hint="'--map'")
+            raise typer.BadParameter("missing; it is optional only with --cells", param_hint="'--map'")
         if out is not None:
-            raise DataError("--out is for the figures of --cells; give that too, or leave --out out")
+            raise DataError("--out works only with --cells; give --cells too, or leave out --out")
         from app.benchmark.service import run_benchmark
 
-        found = run_benchmark(map_path, index_dir)
+        results = run_benchmark(map_path, index_dir)
     else:
         from app.benchmark.growth import parse_sizes, run_growth
 
-        found = run_growth(map_path or SHIPPED_MAP, parse_sizes(cells), out)
+        results = run_growth(map_path or SHIPPED_MAP, parse_sizes(cells), out)
     if out is None:
-        json.dump(found, sys.stdout, indent=2)
+        json.dump(results, sys.stdout, indent=2)
         sys.stdout.write("\n")
     else:
         typer.echo(f"figures and plots are in {out}")
-    if "failed" in found:
-        raise DataError(f"{found['failed']['cells']} cells were not measured: {found['failed']['why']}")
+    if "failed" in results:
+        raise DataError(f"{results['failed']['cells']} cells were not measured: {results['failed']['why']}")

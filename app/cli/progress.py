@@ -1,4 +1,4 @@
-"""A progress bar for long jobs: a line a stage, on standard error."""
+"""Progress bars for long jobs on standard error."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,7 +9,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 @contextmanager
 def stage_bars() -> Iterator[Callable[[str, int, int], None]]:
-    """Bars for a job that calls what it is given with (stage, done, to do); 0 to do is a stage of unknown length."""
+    """Yield a callback (stage, done, total) that shows one bar per stage; a total of 0 means unknown."""
     columns = (
         TextColumn("{task.description:<18}"),
         BarColumn(),

@@ -1,4 +1,4 @@
-"""The command that makes the paper's tables again. Heavy imports are inside, so that --help is quick."""
+"""The command that reproduces the paper's tables. Heavy imports are inside, so that --help is fast."""
 # ruff: noqa: PLC0415
 
 import tomllib
@@ -16,31 +16,40 @@ if TYPE_CHECKING:
 
     from models.training.experiments import TrainingRun, TrainingScale
 
-MADE_UP = ("demo", "full")  # scales of `models.sources.synthetic.towns.write_towns`
+SYNTHETIC_SCALES = ("demo", "full")  # scales of `models.sources.synthetic.towns.write_towns`
 TOWN_SEED = 0
 PARTS = ("retriever", "fine", "points")  # tables of a --config
 
 
 def reproduce(
-    out: Annotated[Path, typer.Option(help="directory for runs and report; what is done there is kept")],
-    data: Annotated[str, typer.Option(help="demo or full (made-up towns), or a directory of KITTI360Pose")] = "demo",
-    seeds: Annotated[str, typer.Option(help="of the trainings: 0 or 0,1,2; figure 4 is made with the first")] = "0",
+    out: Annotated[Path, typer.Option(help="directory for runs and report; finished runs in it are reused")],
+    data: Annotated[str, typer.Option(help="demo or full (synthetic towns), or a directory of KITTI360Pose")] = "demo",
+    seeds: Annotated[
+        str, typer.Option(help="seeds of the trainings, such as 0 or 0,1,2; figure 4 uses the first")
+    ] = "0",
     tables: Annotated[
-        str | None, typer.Option(help="1, 2, 3, 4, 4a, 4b, graph, attention, code, inputs; else all")
+        str | None, typer.Option(help="tables: 1, 2, 3, 4, 4a, 4b, graph, attention, code, inputs; default: all")
     ] = None,
-    steps: Annotated[int | None, typer.Option(min=1, help="of each training")] = None,
+    steps: Annotated[int | None, typer.Option(min=1, help="optimization steps of each training")] = None,
     epochs: Annotated[
-        int | None, typer.Option(min=1, help="of each training; validates after each, halves the rate every five")
+        int | None,
+        typer.Option(
+            min=1, help="epochs of each training; validates after each one and halves the learning rate every five"
+        ),
     ] = None,
     config: Annotated[
         Path | None,
-        typer.Option(help="TOML: tables retriever, fine, points, in each model and training, as --set of train"),
+        typer.Option(
+            help="TOML file with tables retriever, fine and points, each with model and training settings as in --set"
+        ),
     ] = None,
-    workers: Annotated[int | None, typer.Option(min=1, help="trainings at once; else one a GPU or processor")] = None,
-    device: Annotated[str | None, typer.Option(help="auto, cpu or cuda; of several GPUs each takes its turn")] = None,
-    report: Annotated[Path | None, typer.Option(help="directory for the report; OUT if left out")] = None,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="concurrent trainings; default: one per GPU or CPU")
+    ] = None,
+    device: Annotated[str | None, typer.Option(help="auto, cpu or cuda; several GPUs are used in turn")] = None,
+    report: Annotated[Path | None, typer.Option(help="directory for the report; default: OUT")] = None,
 ) -> None:
-    """Make the tables 1-4 and figures 3-5 of MNCL: train what is missing, measure, print beside what is published."""
+    """Reproduce tables 1-4 and figures 3-5 of MNCL: train missing models, measure, and compare with the paper."""
     from app.cli.progress import stage_bars
     from index.evaluation.reproduction.report import write_reproduction
     from index.evaluation.reproduction.reproduce import chosen, figure_3_of, in_epochs
@@ -48,33 +57,34 @@ def reproduce(
     from models.training.experiments import POINTS, SCALES, TrainingRun, required_runs
 
     if steps and epochs:
-        raise DataError("--steps and --epochs both say how long to train; give one of them")
-    numbers, experiments = _numbers(seeds), chosen(tables)
-    scale = _changed(SCALES["demo" if data == "demo" else "full"], config, steps, device)
-    at_once = _checked(scale, (*required_runs(experiments, every_seed=False), TrainingRun(POINTS)), config)
+        raise DataError("--steps and --epochs both set the length of training; give one of them")
+    numbers, experiments = _parse_seeds(seeds), chosen(tables)
+    scale = _override(SCALES["demo" if data == "demo" else "full"], config, steps, device)
+    max_workers = _check_runs(scale, (*required_runs(experiments, every_seed=False), TrainingRun(POINTS)), config)
     with stage_bars() as show:
-        store = _store(_towns(data, out, show) if data in MADE_UP else Path(data), out, show)
+        store = _store(_towns(data, out, show) if data in SYNTHETIC_SCALES else Path(data), out, show)
         scale = in_epochs(scale, store, epochs) if epochs else scale
-        found = run(store, out, scale, numbers, workers or at_once, show, experiments)
-    name = f"the {data} towns" if data in MADE_UP else Path(data).resolve().name
+        results = run(store, out, scale, numbers, workers or max_workers, show, experiments)
+    name = f"the {data} towns" if data in SYNTHETIC_SCALES else Path(data).resolve().name
     directory = report or out
-    write_reproduction(directory, found, name, figure_3_of(store, out, scale, numbers[0], experiments))
+    write_reproduction(directory, results, name, figure_3_of(store, out, scale, numbers[0], experiments))
     typer.echo(f"the report is {directory / 'report.md'}")
 
 
-def _changed(scale: "TrainingScale", config: Path | None, steps: int | None, device: str | None) -> "TrainingScale":
-    """A scale with what a configuration file and the options say, the latter last."""
-    told = _read(config) if config else {}
-    lasts = (f"training.steps={steps}", f"training.validate_every={max(1, steps // 20)}") if steps else ()
-    on = (f"training.device={device}",) if device else ()
+def _override(scale: "TrainingScale", config: Path | None, steps: int | None, device: str | None) -> "TrainingScale":
+    """Return a scale with the settings of a configuration file and then of the options."""
+    from_file = _read_config(config) if config else {}
+    length = (f"training.steps={steps}", f"training.validate_every={max(1, steps // 20)}") if steps else ()
+    device_setting = (f"training.device={device}",) if device else ()
     parts = {
-        part: (*getattr(scale, part), *told.get(part, ()), *(() if part == "points" else lasts), *on) for part in PARTS
+        part: (*getattr(scale, part), *from_file.get(part, ()), *(() if part == "points" else length), *device_setting)
+        for part in PARTS
     }
     return replace(scale, **parts)
 
 
-def _checked(scale: "TrainingScale", runs: "Sequence[TrainingRun]", config: Path | None) -> int:
-    """How many can be trained at once; what cannot be trained with is said before any work."""
+def _check_runs(scale: "TrainingScale", runs: "Sequence[TrainingRun]", config: Path | None) -> int:
+    """Check that all runs can be trained; return how many can be trained at once."""
     import torch
 
     from app.threads import usable_cpus
@@ -90,19 +100,23 @@ def _checked(scale: "TrainingScale", runs: "Sequence[TrainingRun]", config: Path
     return torch.cuda.device_count() if "cuda" in kinds else usable_cpus()
 
 
-def _read(config: Path) -> dict[str, tuple[str, ...]]:
-    """The settings of each part of a configuration file, as `load_settings` takes them."""
+def _read_config(config: Path) -> dict[str, tuple[str, ...]]:
+    """Return the settings of each part of a configuration file in the form of `load_settings`."""
     try:
         tables: dict[str, Any] = tomllib.loads(config.read_text())
     except (OSError, ValueError) as error:
-        raise DataError(f"--config {config} cannot be read ({error}); it is a TOML file, see docs/use.md") from error
+        raise DataError(
+            f"--config {config} cannot be read ({error}); it must be a TOML file as in docs/use.md"
+        ) from error
     if unknown := [part for part in tables if part not in PARTS]:
-        raise DataError(f"--config {config}: there is no table '{unknown[0]}'; it has {', '.join(PARTS)}")
+        raise DataError(f"--config {config}: unknown table '{unknown[0]}'; the tables are {', '.join(PARTS)}")
     for part, of_part in tables.items():
         if not isinstance(of_part, dict) or not all(isinstance(fields, dict) for fields in of_part.values()):
-            raise DataError(f"--config {config}: settings stand in {part}.model or {part}.training")
+            raise DataError(f"--config {config}: settings belong in {part}.model or {part}.training")
         if "inputs" in of_part.get("model", {}):
-            raise DataError(f"--config {config}: inputs are what the tables compare; choose a table with --tables")
+            raise DataError(
+                f"--config {config}: the tables compare inputs, so they cannot be set; choose a table with --tables"
+            )
     return {
         part: tuple(
             f"{table}.{name}={','.join(map(str, value)) if isinstance(value, list) else value}"
@@ -113,15 +127,15 @@ def _read(config: Path) -> dict[str, tuple[str, ...]]:
     }
 
 
-def _numbers(text: str) -> list[int]:
+def _parse_seeds(text: str) -> list[int]:
     try:
         return sorted({int(part) for part in text.split(",")})
     except ValueError:
-        raise DataError(f"--seeds {text}: no whole numbers; give them as 0 or 0,1,2") from None
+        raise DataError(f"--seeds {text}: not whole numbers; write them as 0 or 0,1,2") from None
 
 
 def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path:
-    """Made-up towns in the published layout, made if they are not there yet."""
+    """Return synthetic towns in the published layout; generate them if they do not exist."""
     from models.sources.kitti360.job import prepare_data
     from models.sources.synthetic.towns import write_towns
 
@@ -133,7 +147,7 @@ def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path
 
 
 def _store(data: Path, out: Path, show: Callable[[str, int, int], None]) -> Path:
-    """Data as a store, which each training opens in no time; an OpenStreetMap file and a store stay what they are."""
+    """Convert data to a store, which opens quickly; return OpenStreetMap files and stores unchanged."""
     from index.build.manifest import fingerprint
     from models.sources.store.files import convert
     from models.sources.store.layout import MANIFEST

@@ -1,4 +1,4 @@
-"""The command that trains. Heavy imports are inside, so that --help is quick."""
+"""The command that trains models. Heavy imports are inside, so that --help is fast."""
 # ruff: noqa: PLC0415
 
 from contextlib import contextmanager
@@ -19,52 +19,56 @@ if TYPE_CHECKING:
 
 def train(
     out: Annotated[Path, typer.Option(help="directory for the weights")],
-    data: Annotated[list[Path], typer.Option(help=DATA_HELP + "; may be given several times")],
+    data: Annotated[list[Path], typer.Option(help=DATA_HELP + "; repeatable")],
     method: Annotated[
         str,
         typer.Option(
-            help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), points: the point "
-            "encoder that either may take, posterior, or places: its reader of cues and kernels of places"
+            help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), points (a point "
+            "encoder for either), posterior, or places (the posterior's cue readers and place kernels)"
         ),
     ] = "mncl",
     change: Annotated[
         list[str] | None,
-        typer.Option("--set", help="a setting: model.levels=global,instance or training.batch_size=64; repeatable"),
+        typer.Option(
+            "--set", help="a setting, such as model.levels=global,instance or training.batch_size=64; repeatable"
+        ),
     ] = None,
-    split: Annotated[str, typer.Option(help="what to train on")] = "train",
-    val_split: Annotated[str, typer.Option(help="what to choose by")] = "val",
-    steps: Annotated[int | None, typer.Option(min=1, help="optimisation steps")] = None,
-    seed: Annotated[int | None, typer.Option(min=0, help="of everything that is drawn")] = None,
-    text_encoder: Annotated[str | None, typer.Option(help="minilm, or the directory or hub id of a T5")] = None,
+    split: Annotated[str, typer.Option(help="split to train on")] = "train",
+    val_split: Annotated[str, typer.Option(help="split for model selection")] = "val",
+    steps: Annotated[int | None, typer.Option(min=1, help="optimization steps")] = None,
+    seed: Annotated[int | None, typer.Option(min=0, help="random seed")] = None,
+    text_encoder: Annotated[str | None, typer.Option(help="minilm, or a directory or hub id of a T5")] = None,
     run_dir: Annotated[
-        Path | None, typer.Option(help="directory for metrics, curves, best weights and what --resume goes on from")
+        Path | None, typer.Option(help="directory for metrics, curves, the best weights and the state for --resume")
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="go on with the run in --run-dir, if there is one")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="continue the run in --run-dir, if there is one")] = False,
     reader: Annotated[
         Path | None,
-        typer.Option(help="weights that are kept but for the likelihood (posterior), or for cues and kernels (places)"),
+        typer.Option(
+            help="weights to start from: only the likelihood (posterior) or the cues and kernels (places) are fitted"
+        ),
     ] = None,
     texts: Annotated[
         list[str] | None,
-        typer.Option(help="of places: .jsonl files about each --data, joined by commas; as many as there are --data"),
+        typer.Option(help="for places: .jsonl files for a --data, separated by commas; one --texts per --data"),
     ] = None,
 ) -> None:
-    """Train a model: on the train scenes of a data set, or the west of an OpenStreetMap file."""
+    """Train a model on the train split of a data set; for an OpenStreetMap file this is its west."""
     from models.errors import TrainingError
     from models.paper.fine.checkpoint import FINE_METHODS
     from models.training.settings import load_settings
 
     if resume and run_dir is None:
-        raise TrainingError("--resume goes on with the run in --run-dir; name that directory")
+        raise TrainingError("--resume continues the run in --run-dir; give that directory")
     if reader is not None and method not in ("posterior", "places"):
         raise TrainingError("--reader is for --method posterior and places")
     if method == "places" or texts:
         _train_places(method, data, texts or [], reader, out, steps, seed)
         return
     options = {"training.seed": seed, "training.steps": steps, "model.text_encoder": text_encoder}
-    named = [f"{name}={value}" for name, value in options.items() if value is not None]
-    model, config = load_settings(method, [*(change or []), *named])
-    given = data, (split, val_split), method, model, config, out, run_dir, resume
+    overrides = [f"{name}={value}" for name, value in options.items() if value is not None]
+    model, config = load_settings(method, [*(change or []), *overrides])
+    arguments = data, (split, val_split), method, model, config, out, run_dir, resume
 
     with _training_bar() as show:
         train_it: Callable[..., str] = _train_fine if method in FINE_METHODS else _train_retriever
@@ -72,24 +76,24 @@ def train(
             train_it = partial(_train_posterior, reader)
         elif method == "points":
             train_it = _train_points
-        found = train_it(*given, show)
-        typer.echo(f"weights are in {out}; validation {found}")
+        figures = train_it(*arguments, show)
+        typer.echo(f"weights are in {out}; validation {figures}")
 
 
 def _train_places(
     method: str, data: list[Path], texts: list[str], reader: Path | None, out: Path, steps: int | None, seed: int | None
 ) -> None:
-    """Train the reader of cues and fit the kernels of places."""
+    """Train the cue readers and fit the place kernels."""
     from app.cli.progress import stage_bars
     from models.errors import TrainingError
     from models.training.posterior.fit_kernels import STEPS
     from models.training.posterior.train_places import train_places
 
     if method != "places" or len(texts) != len(data):
-        raise TrainingError("--texts is for --method places: name the texts of each --data, in the same order")
+        raise TrainingError("--texts is for --method places: give the texts of each --data, in the same order")
     maps = [(path, [Path(name) for name in files.split(",")]) for path, files in zip(data, texts, strict=True)]
     with stage_bars() as show:
-        found = train_places(
+        figures = train_places(
             maps,
             reader,
             out,
@@ -97,24 +101,24 @@ def _train_places(
             seed or 0,
             lambda stage, done, total, loss: show(f"{stage}, {loss:.2f}", done, total),
         )
-    typer.echo(f"weights are in {out}; {', '.join(f'{name} {value:.3f}' for name, value in found.items())}")
+    typer.echo(f"weights are in {out}; {', '.join(f'{name} {value:.3f}' for name, value in figures.items())}")
 
 
 def _loader(data: list[Path], splits: tuple[str, str], config: Any) -> "Callable[..., Any]":
-    """Reads what to train on, given a text encoder and a generator."""
+    """Return a function that loads the training data for a text encoder and a random generator."""
     from models.training.training_data import load_training_data
 
     return lambda encoder, rng: [load_training_data(path, splits, encoder, config, rng) for path in data]
 
 
 def _train_retriever(
-    data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any
+    data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *paths: Any
 ) -> str:
-    """Train a retriever; its figures in words."""
+    """Train a retriever and format its figures."""
     from models.paper.checkpoint import METHODS
     from models.training.fit_retriever import train_retriever
 
-    out, *rest = where
+    out, *rest = paths
     recall = train_retriever(
         _loader(data, splits, config),
         out, METHODS[method], model, config, *rest,
@@ -122,11 +126,11 @@ def _train_retriever(
     return f"recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
 
 
-def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
-    """Train a model of the fine stage; its figures in words."""
+def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *paths: Any) -> str:
+    """Train a fine stage and format its figures."""
     from models.training.fit_fine import train_fine
 
-    out, *rest = where
+    out, *rest = paths
     figures = train_fine(
         _loader(data, splits, config),
         out, method, model, config, *rest,
@@ -134,12 +138,12 @@ def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: A
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 
-def _train_points(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *where: Any) -> str:
-    """Train the point encoder; its figures in words."""
+def _train_points(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *paths: Any) -> str:
+    """Train the point encoder and format its figures."""
     from models.training.fit_points import train_points
     from models.training.training_data import load_training_cells
 
-    figures = train_points([load_training_cells(path, splits) for path in data], where[0], config, *where[1:])
+    figures = train_points([load_training_cells(path, splits) for path in data], paths[0], config, *paths[1:])
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 
@@ -153,7 +157,7 @@ def _train_posterior(
     out: Path,
     *rest: Any,
 ) -> str:
-    """Train the hint posterior, or fit its likelihood alone; its figures in words."""
+    """Train the posterior, or fit only its likelihood, and format its figures."""
     from models.training.posterior.fit_posterior import refit_posterior, train_posterior
 
     if reader is None:
@@ -165,23 +169,25 @@ def _train_posterior(
 
 @contextmanager
 def _training_bar() -> "Iterator[Callable[[Progress], None]]":
-    """A progress bar with the loss, the last validation and the speed."""
-    from rich import progress as bars
+    """Show a progress bar with the loss, the last validation figures and the speed."""
+    from rich import progress as rich_progress
 
     columns = (
-        bars.TextColumn("{task.description}"),
-        bars.BarColumn(),
-        bars.MofNCompleteColumn(),
-        bars.TimeRemainingColumn(),
+        rich_progress.TextColumn("{task.description}"),
+        rich_progress.BarColumn(),
+        rich_progress.MofNCompleteColumn(),
+        rich_progress.TimeRemainingColumn(),
     )
-    with bars.Progress(*columns, console=Console(stderr=True)) as bar:
+    with rich_progress.Progress(*columns, console=Console(stderr=True)) as bar:
         task = bar.add_task("preparing", total=None)
-        measured = ""
+        validation = ""
 
-        def show(at: "Progress") -> None:
-            nonlocal measured
-            measured = "  ".join(f"{name} {value:.3f}" for name, value in (at.figures or {}).items()) or measured
-            text = f"loss {at.loss:.3f}  {measured}  {at.descriptions_per_second:.0f} descriptions/s"
-            bar.update(task, total=at.steps, completed=at.step, description=text)
+        def show(progress: "Progress") -> None:
+            nonlocal validation
+            validation = (
+                "  ".join(f"{name} {value:.3f}" for name, value in (progress.figures or {}).items()) or validation
+            )
+            text = f"loss {progress.loss:.3f}  {validation}  {progress.descriptions_per_second:.0f} descriptions/s"
+            bar.update(task, total=progress.steps, completed=progress.step, description=text)
 
         yield show

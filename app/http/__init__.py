@@ -1,6 +1,6 @@
-"""The HTTP service: schemas/ of requests and responses, formats/, routes/, the queue before the model, errors.
+"""The HTTP service: request and response schemas, formats, routes, the queue before the workers, and errors.
 
-`keys`, `bodies`, `connection`, `middleware` and `openapi` are what all routes share, `indexes` what is served,
-`protocol` what a route asks of a localizer, `dependencies` hand it over. May import app.jobs, app.settings, and of
-index and models the types of answers, the errors and what splits a text.
+All routes share `keys`, `bodies`, `middleware` and `openapi`. `indexes` holds the served indexes, `protocol` is the
+interface of a localizer, and `dependencies` passes both to the routes. May import app.jobs, app.settings and, from
+index and models, only the types of answers, the errors and the sentence splitter.
 """

@@ -1,4 +1,4 @@
-"""Limits on request bodies: strict JSON, not too large, alone and together, and complete in time."""
+"""Limits on request bodies: strict JSON, bounded size (each and in total), and bounded time."""
 
 import asyncio
 import json
@@ -13,11 +13,11 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from app.http.errors import Code, Problem
 
 MAX_JSON_DEPTH: Final = 32
-MAX_JSON_VALUES: Final = 400_000  # of one body, commas in its texts included
-LARGE_BODY_BYTES: Final = 65_536  # from here on a body is checked in a thread, or the event loop would stand still
-MAX_LARGE_BODIES: Final = 4  # of the largest size, that are held at once
-BODY_TIMEOUT_S: Final = 30.0  # for a whole body to arrive
-REFUSALS: Final = (  # of a body, on any route
+MAX_JSON_VALUES: Final = 400_000  # of one body; commas inside strings count too
+LARGE_BODY_BYTES: Final = 65_536  # larger bodies are parsed in a thread, so that the event loop is not blocked
+MAX_LARGE_BODIES: Final = 4  # of the largest size, in memory at once
+BODY_TIMEOUT_S: Final = 30.0  # for the whole body to arrive
+REFUSALS: Final = (  # problems of a body, on any route
     Code.INVALID_JSON,
     Code.BODY_TOO_SLOW,
     Code.BODY_TOO_LARGE,
@@ -31,7 +31,7 @@ _CHARSET = re.compile(r";\s*charset=([^\s;]*)", re.I)
 
 
 class StrictBody:
-    """Checks a body when the route first reads it, so that an unknown path is a 404 whatever the body.
+    """Middleware that checks a body when the route first reads it, so that an unknown path is a 404 whatever the body.
 
     Args:
         app: the application behind this middleware.
@@ -83,10 +83,10 @@ class StrictBody:
 
 
 class LargeBodies:
-    """Bounds the memory of all large bodies together.
+    """A bound on the memory of all large bodies together.
 
     Args:
-        max_bytes: limit of their sum.
+        max_bytes: limit of their total size.
     """
 
     def __init__(self, max_bytes: int) -> None:
@@ -94,7 +94,7 @@ class LargeBodies:
 
     @contextmanager
     def share(self) -> Iterator["Share"]:
-        """Yield the share of one request; it is given back when the request is answered."""
+        """Yield the share of one request; it is released when the request is answered."""
         share = Share(self)
         try:
             yield share
@@ -109,10 +109,10 @@ class Share:
         self._large, self.taken = large, 0
 
     def grow(self, size: int) -> None:
-        """Take as much as a body of this size needs; a small body needs none.
+        """Reserve memory for a body of this size; small bodies need none.
 
         Raises:
-            Problem: 429, other requests hold it.
+            Problem: 429, other requests use all of it.
         """
         more = size - self.taken if size >= LARGE_BODY_BYTES else 0
         if self._large.bytes + more > self._large.max_bytes:
@@ -122,10 +122,10 @@ class Share:
 
 
 def check_headers(headers: RequestHeaders, max_bytes: int) -> None:
-    """Refuse a body by what its headers say.
+    """Refuse a body whose headers show the wrong type or too large a size.
 
     Raises:
-        Problem: 415, or 413.
+        Problem: 415 or 413.
     """
     content_type = _CONTENT_TYPE.fullmatch(headers.get("content-type", ""))
     charsets = _CHARSET.findall(content_type["parameters"]) if content_type else []
@@ -139,10 +139,10 @@ def check_headers(headers: RequestHeaders, max_bytes: int) -> None:
 
 
 async def read_body(receive: Receive, max_bytes: int, share: Share) -> bytes | None:
-    """Return the body, read no further than the limit; None if the client left.
+    """Read the body up to the limit; None if the client disconnected.
 
     Raises:
-        Problem: 413, or 429.
+        Problem: 413 or 429.
     """
     body = bytearray()
     while True:
@@ -158,13 +158,13 @@ async def read_body(receive: Receive, max_bytes: int, share: Share) -> bytes | N
 
 
 def check_json(body: bytes) -> None:
-    """Refuse what JSON parsers disagree about or Python's is too kind to.
+    """Refuse JSON on which parsers disagree or that Python's parser accepts wrongly.
 
     Raises:
-        Problem: 400: not UTF-8, not JSON, NaN or Infinity, a key twice, nested too deeply; 413: too many values.
+        Problem: 400: not UTF-8, not JSON, NaN or Infinity, a repeated key, too deep; 413: too many values.
     """
     if len(body) > MAX_JSON_VALUES and sum(map(body.count, (b"[", b"{", b","))) > MAX_JSON_VALUES:
-        raise Problem(Code.BODY_TOO_LARGE, f"The body has more than {MAX_JSON_VALUES} values; send less.")
+        raise Problem(Code.BODY_TOO_LARGE, f"The body has more than {MAX_JSON_VALUES} values; send fewer.")
     try:
         value = json.loads(body.decode(), object_pairs_hook=_unique, parse_constant=_refuse_constant)
     except UnicodeDecodeError:
@@ -202,8 +202,8 @@ def _refuse_constant(_name: str) -> None:
 
 
 def _too_large(max_bytes: int) -> Problem:
-    return Problem(Code.BODY_TOO_LARGE, f"The body has more than {max_bytes} bytes; send less.")
+    return Problem(Code.BODY_TOO_LARGE, f"The body has more than {max_bytes} bytes; send a smaller body.")
 
 
 def _too_deep() -> Problem:
-    return Problem(Code.INVALID_JSON, f"The body is nested more than {MAX_JSON_DEPTH} levels deep; send it flatter.")
+    return Problem(Code.INVALID_JSON, f"The body has more than {MAX_JSON_DEPTH} nested levels; send a flatter body.")

@@ -1,4 +1,4 @@
-"""What routes are given: the settings, the indexes, the evaluations, and a localizer that is ready."""
+"""Dependencies of routes: the settings, the indexes, the evaluation jobs, and a localizer that is ready."""
 
 from collections.abc import AsyncIterator
 from typing import Annotated
@@ -13,17 +13,17 @@ from app.settings import Settings
 from index.build.artifact import DEFAULT
 from index.build.manifest import NAME
 
-IndexName = Annotated[str, Query(pattern=NAME, description="which of the indexes that /info names")]
+IndexName = Annotated[str, Query(pattern=NAME, description="an index that GET /info lists")]
 
 
 async def get_settings(request: Request) -> Settings:
-    """The application's settings."""
+    """Return the application's settings."""
     settings: Settings = request.app.state.settings
     return settings
 
 
 async def get_indexes(request: Request) -> Indexes:
-    """The application's indexes."""
+    """Return the application's indexes."""
     indexes: Indexes = request.app.state.indexes
     return indexes
 
@@ -32,7 +32,7 @@ async def get_queue(
     request: Request,
     index: IndexName = DEFAULT,
 ) -> AsyncIterator[InferenceQueue]:
-    """The queue of an index, which stays until the request is answered.
+    """Yield the queue of an index and keep it open until the request is answered.
 
     Raises:
         Problem: 404, no such index.
@@ -42,7 +42,7 @@ async def get_queue(
 
 
 async def get_jobs(request: Request) -> EvaluationJobs:
-    """The application's evaluations."""
+    """Return the application's evaluation jobs."""
     jobs: EvaluationJobs = request.app.state.jobs
     return jobs
 
@@ -51,10 +51,10 @@ Queue = Annotated[InferenceQueue, Depends(get_queue)]
 
 
 async def get_localizer(queue: Queue) -> LocalizerLike:
-    """The localizer of an index.
+    """Return the localizer of an index.
 
     Raises:
-        Problem: 503 until it is loaded.
+        Problem: 503 until the index is loaded.
     """
     return queue.localizer
 

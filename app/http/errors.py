@@ -1,4 +1,4 @@
-"""Errors as clients see them: RFC 9457 problem+json, one table of stable codes, nothing of the input echoed."""
+"""Errors as RFC 9457 problem+json, with one table of stable codes. Problems never echo the input."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -18,8 +18,9 @@ from starlette.routing import Match, Route
 from models.errors import ReplyError, StoreUnavailable, WeightsError
 
 PROBLEM_JSON = "application/problem+json"
-MAX_LISTED_ERRORS, MAX_BYTES = 20, 1024  # of a problem
-SAID = {  # in place of pydantic's words, which tell nobody what to do
+MAX_LISTED_ERRORS = 20  # invalid fields in one problem
+MAX_PROBLEM_BYTES = 1024  # a longer problem lists fewer fields
+FIELD_MESSAGES = {  # replace pydantic's messages that do not say what to do
     "missing": "is missing; give it",
     "extra_forbidden": "is unknown; leave it out",
     "int_parsing_size": "has too many digits; send fewer",
@@ -29,75 +30,80 @@ _PLAIN_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 
 
 class Code(Enum):
-    """Every error of the service. The member's name in lower case is the stable `code`.
+    """All errors of the service. The member's name in lower case is the stable `code`.
 
-    A member holds: HTTP status, title, what to do about it, seconds for Retry-After.
+    A member holds its HTTP status, title, remedy, and the seconds of Retry-After.
     """
 
     INVALID_JSON = (400, "The body is not JSON", "Send one JSON object in UTF-8.", None)
     KEY_REQUIRED = (
         401,
         "A key is required",
-        "Send the service's key as `Authorization: Bearer KEY` or `X-API-Key: KEY`; its operator has it.",
+        "Send the service's key as `Authorization: Bearer KEY` or `X-API-Key: KEY`; ask the operator for it.",
         None,
     )
     KEY_WRONG = (
         401,
         "The key is wrong",
-        "Send the key that the service was started with (HEREABOUTS_READ_KEY); its operator has it.",
+        "Send the key that the service was started with (HEREABOUTS_READ_KEY); ask the operator for it.",
         None,
     )
     KEY_NOT_SET = (
         403,
-        "No key is set, so only programs on the service's own machine may change anything",
+        "No key is set, so only local requests may change anything",
         "Set HEREABOUTS_READ_KEY, restart the service, and send that key. Without a key, send the request from the "
         "service's machine, to localhost and not through a proxy.",
         None,
     )
-    NOT_FOUND = (404, "No such path", "See /docs for the paths there are.", None)
-    INDEX_NOT_FOUND = (404, "No such index", "GET /info names the indexes that are served.", None)
-    CELL_NOT_FOUND = (404, "No such cell", "Take a cell_id from an answer of the index that is served now.", None)
+    NOT_FOUND = (404, "No such path", "Use a path that /docs lists.", None)
+    INDEX_NOT_FOUND = (404, "No such index", "GET /info lists the served indexes.", None)
+    CELL_NOT_FOUND = (404, "No such cell", "Use a cell_id from an answer of the current index version.", None)
     MAP_NOT_FOUND = (
         404,
         "No such map, or no such part of it",
-        "/info names the map and its number of parts.",
+        "GET /info gives the map's name and its number of parts.",
         None,
     )
-    JOB_NOT_FOUND = (404, "No such job", "Finished jobs are kept for a while only; start another.", None)
-    METHOD_NOT_ALLOWED = (405, "The path does not take this method", "See the Allow header.", None)
-    NOT_ACCEPTABLE = (406, "No such format", "Accept application/json or application/geo+json.", None)
+    JOB_NOT_FOUND = (404, "No such job", "Finished jobs are kept only for a while; start a new one.", None)
+    METHOD_NOT_ALLOWED = (405, "The path does not support this method", "Use a method of the Allow header.", None)
+    NOT_ACCEPTABLE = (406, "The format is not available", "Accept application/json or application/geo+json.", None)
     NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.", None)
-    BODY_TOO_SLOW = (408, "The body did not come in time", "Send it without a pause, or send less.", None)
+    BODY_TOO_SLOW = (408, "The body did not arrive in time", "Send it without pauses, or send a smaller body.", None)
     INDEX_BROKEN = (
         409,
         "The index directory is broken",
-        "Its aliases.json cannot be read; its operator has to restore it or build the index again.",
+        "Its aliases.json cannot be read; the operator has to restore it or build the index again.",
         None,
     )
     NOT_WRITABLE = (
         409,
-        "The service cannot write",
-        "Its directory is read-only, or the disk is full; its operator has to see to that. Nothing was changed.",
+        "The service cannot write to its directory",
+        "The directory is read-only or the disk is full; the operator has to fix that. Nothing was changed.",
         None,
     )
-    BODY_TOO_LARGE = (413, "The body is too large", "Send less; /info shows the limits.", None)
-    UNSUPPORTED_MEDIA_TYPE = (415, "The body is of another type", "Send Content-Type: application/json.", None)
-    INVALID_REQUEST = (422, "The request cannot be used", "Correct the fields listed in `errors`.", None)
-    QUEUE_FULL = (429, "Too many requests wait", "Ask again after Retry-After seconds.", 1)
-    BODIES_FULL = (429, "Too many large bodies at once", "Ask again after Retry-After seconds.", 2)
-    JOBS_FULL = (429, "Too many evaluations wait", "Ask again after Retry-After seconds, or cancel one.", 30)
-    CLIENT_CLOSED_REQUEST = (499, "The client left", "Nobody reads this; it is for the log.", None)
-    INTERNAL_ERROR = (500, "A fault in the service", "Report it with the request_id.", None)
-    NOT_READY = (503, "The model is still loading", "Ask again after Retry-After seconds.", 2)
-    DRAINING = (503, "The service is shutting down", "Ask another replica, or again after Retry-After seconds.", 5)
+    BODY_TOO_LARGE = (413, "The body is too large", "Send a smaller body; GET /info gives the limits.", None)
+    UNSUPPORTED_MEDIA_TYPE = (415, "The body has the wrong type", "Send Content-Type: application/json.", None)
+    INVALID_REQUEST = (422, "The request is invalid", "Correct the fields listed in `errors`.", None)
+    QUEUE_FULL = (429, "Too many requests are waiting", "Try again after Retry-After seconds.", 1)
+    BODIES_FULL = (429, "Too many large bodies at once", "Try again after Retry-After seconds.", 2)
+    JOBS_FULL = (429, "Too many evaluations are waiting", "Try again after Retry-After seconds, or cancel one.", 30)
+    CLIENT_CLOSED_REQUEST = (499, "The client closed the connection", "This appears only in the log.", None)
+    INTERNAL_ERROR = (500, "Internal error", "Report it with the request_id.", None)
+    NOT_READY = (503, "The model is still loading", "Try again after Retry-After seconds.", 2)
+    DRAINING = (503, "The service is shutting down", "Try another replica, or try again after Retry-After seconds.", 5)
     STORE_UNAVAILABLE = (
         503,
-        "The store of vectors does not answer",
-        "Ask again after Retry-After seconds; its operator sees to Milvus.",
+        "The vector store does not answer",
+        "Try again after Retry-After seconds; if it persists, the operator has to check Milvus.",
         2,
     )
-    LOAD_FAILED = (503, "The index or the model could not be loaded", "The operator must correct it.", None)
-    DEADLINE_EXCEEDED = (504, "No answer before the deadline", "Allow more deadline_ms, or ask again later.", None)
+    LOAD_FAILED = (
+        503,
+        "The index or the model could not be loaded",
+        "The reason is in the service's log, for its operator.",
+        None,
+    )
+    DEADLINE_EXCEEDED = (504, "No answer before the deadline", "Send a larger deadline_ms, or try again later.", None)
 
     def __init__(self, status: int, title: str, remedy: str, retry_after_s: int | None) -> None:
         self.status = status
@@ -107,7 +113,7 @@ class Code(Enum):
 
     @property
     def code(self) -> str:
-        """What a client compares with."""
+        """The stable code that clients compare with."""
         return self.name.lower()
 
 
@@ -126,14 +132,14 @@ _BY_STATUS = {
 
 
 class FieldError(BaseModel):
-    """One field that is wrong."""
+    """An invalid field and what is wrong with it."""
 
     field: str = Field(examples=["within.bbox[3]"])
     message: str
 
 
 class ProblemBody(BaseModel):
-    """Any error of the service (RFC 9457); compare `code`, show `detail`."""
+    """An error of the service (RFC 9457). Programs compare `code`; people read `detail`."""
 
     model_config = ConfigDict(title="Problem")
 
@@ -143,11 +149,11 @@ class ProblemBody(BaseModel):
     detail: str
     code: str = Field(description="; ".join(f"{code.code} ({code.status})" for code in Code))
     request_id: str
-    errors: list[FieldError] | None = Field(None, description="with code invalid_request: what is wrong where")
+    errors: list[FieldError] | None = Field(None, description="the invalid fields; only with code invalid_request")
 
 
 class Problem(HTTPException):
-    """An error on its way to the client."""
+    """An error that is sent to the client."""
 
     def __init__(
         self,
@@ -163,12 +169,12 @@ class Problem(HTTPException):
         self.errors = tuple(errors)
 
     @classmethod
-    def of_field(cls, field: str, message: str) -> "Problem":
-        """A 422 about one field."""
+    def for_field(cls, field: str, message: str) -> "Problem":
+        """Return a 422 about one field."""
         return cls(Code.INVALID_REQUEST, f"{field}: {message}", [FieldError(field=field, message=message)])
 
     def body(self) -> dict[str, Any]:
-        """The problem+json object."""
+        """Return the problem+json object."""
         return ProblemBody(
             type=f"urn:hereabouts:problem:{self.code.code}",
             title=self.code.title,
@@ -180,31 +186,31 @@ class Problem(HTTPException):
         ).model_dump(exclude_none=True)
 
     def response(self) -> Response:
-        """The problem as a response."""
+        """Return the problem as a response."""
         return JSONResponse(self.body(), self.status_code, self.headers, media_type=PROBLEM_JSON)
 
 
 def add_error_handlers(app: FastAPI) -> None:
-    """Make every error of an application a problem."""
+    """Turn every error of an application into a problem."""
     for kind in (RequestValidationError, WeightsError, ReplyError, StoreUnavailable):
         app.add_exception_handler(kind, _on_error)
     app.add_exception_handler(StarletteHTTPException, _on_http_exception)
 
 
 def as_problem(error: Exception) -> "Problem":
-    """An error as clients see it.
+    """Return the problem that describes an error.
 
     Raises:
-        Exception: it is a fault of the service.
+        Exception: the error itself, if it is internal.
     """
     if isinstance(error, Problem):
         return error
     if isinstance(error, RequestValidationError):
-        return _of_fields(error)
-    if isinstance(error, WeightsError):  # the retriever was loaded before, so it is what `refine` asks for
-        return Problem.of_field("refine", "this service has no usable model for it; leave it out")
-    if isinstance(error, ReplyError):  # only the map knows what can be asked, so the model finds it
-        return Problem.of_field(f"answers[{error.number}].{error.field}", error.advice)
+        return _validation_problem(error)
+    if isinstance(error, WeightsError):  # the retriever is loaded already, so `refine` needs the missing weights
+        return Problem.for_field("refine", "this service has no usable model for it; leave it out")
+    if isinstance(error, ReplyError):  # only the map knows the possible questions, so the localizer checks replies
+        return Problem.for_field(f"answers[{error.number}].{error.field}", error.advice)
     if isinstance(error, StoreUnavailable):
         log.warning("store unavailable", reason=str(error))
         return Problem(Code.STORE_UNAVAILABLE)
@@ -228,7 +234,7 @@ async def _on_http_exception(request: Request, error: Exception) -> Response:
 
 
 def _methods(request: Request) -> set[str]:
-    """The methods that a path takes, of all its routes."""
+    """Return the methods that the routes of a path support."""
     methods: set[str] = set()
     for route in (*request.app.routes, *request.app.state.routes):
         if isinstance(route, Route) and route.matches(request.scope)[0] is not Match.NONE:
@@ -236,26 +242,29 @@ def _methods(request: Request) -> set[str]:
     return methods
 
 
-def _of_fields(error: RequestValidationError) -> Problem:
-    found = dict.fromkeys(  # one parameter may be read in two places, and so be wrong twice
-        (field_name(item["loc"], item.get("ctx", {})), SAID.get(item["type"], item["msg"])) for item in error.errors()
+def _validation_problem(error: RequestValidationError) -> Problem:
+    messages_by_field = dict.fromkeys(  # a parameter that is declared twice is reported twice
+        (field_name(item["loc"], item.get("ctx", {})), FIELD_MESSAGES.get(item["type"], item["msg"]))
+        for item in error.errors()
     )
-    listed = [FieldError(field=field, message=message) for field, message in islice(found, MAX_LISTED_ERRORS)]
+    listed = [
+        FieldError(field=field, message=message) for field, message in islice(messages_by_field, MAX_LISTED_ERRORS)
+    ]
     detail = f"{listed[0].field}: {listed[0].message}"
-    if len(found) > 1:
-        detail += f" (and {len(found) - 1} more)"
+    if len(messages_by_field) > 1:
+        detail += f" (and {len(messages_by_field) - 1} more)"
     problem = Problem(Code.INVALID_REQUEST, detail, listed)
-    while len(problem.response().body) > MAX_BYTES and len(problem.errors) > 1:
+    while len(problem.response().body) > MAX_PROBLEM_BYTES and len(problem.errors) > 1:
         problem.errors = problem.errors[:-1]
     return problem
 
 
 def field_name(location: Sequence[str | int], context: Mapping[str, Any]) -> str:
-    """Name of a field as a client would write it: "within.bbox[3]".
+    """Return the name of a field as a client writes it: "within.bbox[3]".
 
     Args:
-        location: pydantic's path, which begins with where the field is ("body", "path").
-        context: of the error; its "field", if any, is part of the path (checks of several fields give it).
+        location: pydantic's path, which begins with the part of the request ("body", "path").
+        context: pydantic's context of the error; checks of several fields name the invalid one as "field".
     """
     name = ""
     within = (int(step) if step.isdecimal() else step for step in context.get("field", "").split("."))
@@ -263,6 +272,6 @@ def field_name(location: Sequence[str | int], context: Mapping[str, Any]) -> str
         if isinstance(step, int):
             name += f"[{step}]"
         elif step:
-            # A name we do not know is the client's text: shown only if it is a plain, short word.
+            # An unknown name is the client's text; only a short, plain identifier is shown.
             name += f".{step}" if _PLAIN_NAME.fullmatch(step) else ".(unknown)"
     return name.lstrip(".") or "(body)"

@@ -1,4 +1,4 @@
-"""The indexes that are served: a queue an alias, exchanged under load when the alias names another version."""
+"""The served indexes: one queue per alias, replaced without downtime when the alias names another version."""
 
 import asyncio
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
@@ -16,30 +16,30 @@ from app.http.queue import InferenceQueue, refuse
 from index.build.artifact import DEFAULT
 from models.errors import HereaboutsError, IndexBroken, IndexUnusable
 
-LOOKED_AT_S: Final = 1.0  # how often aliases are read again
+ALIAS_POLL_S: Final = 1.0  # interval between two reads of aliases.json
 
 log = structlog.get_logger()
 
 
 @dataclass(eq=False, slots=True)
-class _Served:
-    """A queue, and how many requests use it."""
+class _ServedIndex:
+    """A queue and the number of requests that use it."""
 
     queue: InferenceQueue
-    version: str | None  # that its alias named when it was opened; None: nobody knew
-    checking: asyncio.Task[None] | None = None  # reads its files again
+    version: str | None  # the one its alias named when it was opened; None if unknown
+    checking: asyncio.Task[None] | None = None  # verifies its files
     leases: int = 0
     unused: asyncio.Event = field(default_factory=asyncio.Event)
 
 
 class Indexes:
-    """Queues by alias. A request leases one, so that one version answers it, whatever the alias names next.
+    """Queues by alias. A request leases a queue, so that one version answers it even if the alias changes meanwhile.
 
     Args:
-        open_index: what answers for an alias and the version that it names; blocks, runs on a thread.
-        read_aliases: the version that each alias names; blocks.
-        max_wait_s: longest expected wait of a query.
-        check_files: reads all files of a version that is served, or raises IndexBroken; None: they need not be.
+        open_index: opens the localizers of an alias and its version; it blocks and runs in a thread.
+        read_aliases: returns the version of each alias; it blocks.
+        max_wait_s: the longest expected wait of a query.
+        check_files: verifies the files of a served version and raises IndexBroken; None to skip the check.
     """
 
     def __init__(
@@ -51,28 +51,30 @@ class Indexes:
     ) -> None:
         self._open_index, self._read_aliases, self._max_wait_s = open_index, read_aliases, max_wait_s
         self._check_files = check_files
-        self._served: dict[str, _Served] = {}
+        self._served: dict[str, _ServedIndex] = {}
         self._retiring: set[asyncio.Task[None]] = set()
-        self._checks: set[asyncio.Task[None]] = set()  # of what is served, and of what was
+        self._checks: set[asyncio.Task[None]] = set()  # of served and of retired versions
         self._watching: asyncio.Task[None] | None = None
         self._checking = asyncio.Lock()
         self._is_draining = False
-        self._unreadable = ""  # why, when it was last logged
+        self._unreadable = ""  # the last logged reason why aliases cannot be read
 
     async def start(self) -> None:
-        """Begin to open what the aliases name, and to watch them."""
+        """Start opening the versions that the aliases name, and start watching the aliases."""
         self._is_draining, self._checking = False, asyncio.Lock()
-        named = await self._named() or {}
-        self._served = {alias: self._begin(alias, named.get(alias)) for alias in {DEFAULT, *named}}
+        versions_by_alias = await self._read_versions() or {}
+        self._served = {
+            alias: self._begin(alias, versions_by_alias.get(alias)) for alias in {DEFAULT, *versions_by_alias}
+        }
         for alias, served in self._served.items():
             self._begin_check(alias, served)
         self._watching = asyncio.create_task(self._watch())
 
     def queue(self, alias: str = DEFAULT) -> InferenceQueue:
-        """What answers for an alias now.
+        """Return the queue of an alias.
 
         Raises:
-            Problem: there is no such alias.
+            Problem: no such alias is served.
         """
         try:
             return self._served[alias].queue
@@ -80,20 +82,20 @@ class Indexes:
             raise Problem(Code.INDEX_NOT_FOUND) from None
 
     def names(self) -> list[str]:
-        """The aliases, in order."""
+        """Return the served aliases, sorted."""
         return sorted(self._served)
 
     def versions(self) -> dict[str, str]:
-        """The version that answers for each alias; those that are not ready are left out."""
+        """Return the version that each alias serves, without aliases that are not ready."""
         ready = {alias: served.queue for alias, served in self._served.items() if served.queue.num_workers}
         return {alias: queue.localizer.facts.version for alias, queue in sorted(ready.items())}
 
     @asynccontextmanager
     async def lease(self, alias: str = DEFAULT) -> AsyncIterator[InferenceQueue]:
-        """What answers for an alias, and goes on to until the block ends.
+        """Yield the queue of an alias and keep it open until the block ends.
 
         Raises:
-            Problem: there is no such alias.
+            Problem: no such alias is served.
         """
         self.queue(alias)
         served = self._served[alias]
@@ -107,42 +109,42 @@ class Indexes:
 
     @property
     def is_draining(self) -> bool:
-        """Whether new queries are refused for good."""
+        """Whether the service is shutting down and refuses new queries."""
         return self._is_draining
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing waits and nothing is computed."""
+        """Whether no query waits or is being computed."""
         return all(served.queue.is_idle for served in self._served.values())
 
     def check_accepting(self) -> None:
-        """Pass if a query to the default index would be taken now.
+        """Raise if a query to the default index would not be accepted now.
 
         Raises:
-            Problem: draining, not ready, or not loaded.
+            Problem: the service is draining, not ready, or the index failed to load.
         """
         if self._is_draining:
             raise Problem(Code.DRAINING)
         self.queue().check_accepting()
 
     async def check_room(self) -> None:
-        """Pass unless any query would be refused, whatever it asks.
+        """Refuse a request if the queues of all indexes are full.
 
         Raises:
             Problem: all queues are full.
         """
-        full = [served.queue.full() for served in self._served.values()]
-        if full and full[0] is not None and None not in full:
-            await refuse(full[0])
+        refusals = [served.queue.refusal() for served in self._served.values()]
+        if refusals and refusals[0] is not None and None not in refusals:
+            await refuse(refusals[0])
 
     def drain(self) -> None:
-        """Refuse new queries; the waiting ones are answered. Takes no lock: a signal handler may call it."""
+        """Refuse new queries; waiting ones are still answered. Takes no lock: a signal handler may call it."""
         self._is_draining = True
         for served in list(self._served.values()):
             served.queue.drain()
 
     async def close(self) -> None:
-        """Drain, wait for the waiting queries, end all queues."""
+        """Drain, answer the waiting queries, then close all queues."""
         self.drain()
         if self._watching is not None:
             self._watching.cancel()
@@ -153,14 +155,14 @@ class Indexes:
         await asyncio.gather(*(served.queue.close() for served in self._served.values()))
 
     async def _switch(self, alias: str, version: str) -> bool:
-        """Open a version, then let an alias serve it; earlier requests are answered by the version before.
+        """Open a version and let an alias serve it; requests that hold a lease finish with the previous version.
 
         Returns:
-            Whether it was opened; otherwise the alias serves what it served before.
+            Whether the version was opened; if not, the alias keeps serving its previous version.
         """
         new = self._begin(alias, version)
         try:
-            await new.queue.opened()
+            await new.queue.wait_until_open()
             new.queue.check_accepting()
         except BaseException as error:
             await new.queue.close()
@@ -176,37 +178,37 @@ class Indexes:
             self._begin_retiring(old)
         return True
 
-    def _begin(self, alias: str, version: str | None) -> _Served:
+    def _begin(self, alias: str, version: str | None) -> _ServedIndex:
         opener = partial(self._open_index, alias, version)
         queue = InferenceQueue(opener, limits.MAX_WAITING_QUERIES, self._max_wait_s)
         queue.start()
         if self._is_draining:
             queue.drain()
-        return _Served(queue, version)
+        return _ServedIndex(queue, version)
 
-    def _begin_retiring(self, served: _Served) -> None:
+    def _begin_retiring(self, served: _ServedIndex) -> None:
         task = asyncio.create_task(self._retire(served))
         self._retiring.add(task)
         task.add_done_callback(self._retiring.discard)
 
-    async def _retire(self, served: _Served) -> None:
-        """End a queue once no request uses it."""
+    async def _retire(self, served: _ServedIndex) -> None:
+        """Close a queue once no request uses it."""
         if served.checking is not None:
             _cancel(served.checking)
-            await asyncio.wait([served.checking])  # not gather: if this is cancelled, so would that be once more
+            await asyncio.wait([served.checking])  # not gather, which would cancel the check a second time
         while served.leases:
             served.unused.clear()
             await served.unused.wait()
         await served.queue.close()
 
-    def _begin_check(self, alias: str, served: _Served) -> None:
+    def _begin_check(self, alias: str, served: _ServedIndex) -> None:
         served.checking = task = asyncio.create_task(self._check(alias, served))
         self._checks.add(task)
         task.add_done_callback(self._checks.discard)
 
-    async def _check(self, alias: str, served: _Served) -> None:
-        """Read the files of a version once it is ready, one version at a time; what is broken answers no more."""
-        await served.queue.opened()
+    async def _check(self, alias: str, served: _ServedIndex) -> None:
+        """Verify the files of a ready version, one version at a time; a corrupt version stops answering."""
+        await served.queue.wait_until_open()
         if self._check_files is None or not served.queue.num_workers:
             return
         version = served.queue.localizer.facts.version
@@ -221,7 +223,7 @@ class Indexes:
         else:
             log.info("index verified", alias=alias, index_version=version)
 
-    async def _named(self) -> dict[str, str] | None:
+    async def _read_versions(self) -> dict[str, str] | None:
         """Return the version that each alias names; None if the aliases cannot be read."""
         try:
             return dict(await asyncio.to_thread(self._read_aliases))
@@ -232,17 +234,17 @@ class Indexes:
             return None
 
     async def _watch(self) -> None:
-        """Follow the aliases; a version that cannot be opened is tried again when its alias changes again."""
+        """Follow the alias file; a version that cannot be opened is retried only after its alias changes."""
         failed: dict[str, str] = {}
         while True:
-            await asyncio.sleep(LOOKED_AT_S)
-            named = await self._named()
-            if named is None:
+            await asyncio.sleep(ALIAS_POLL_S)
+            versions_by_alias = await self._read_versions()
+            if versions_by_alias is None:
                 continue
-            for alias in self._served.keys() - named.keys() - {DEFAULT}:
+            for alias in self._served.keys() - versions_by_alias.keys() - {DEFAULT}:
                 log.info("index removed", alias=alias)
                 self._begin_retiring(self._served.pop(alias))
-            for alias, version in named.items():
+            for alias, version in versions_by_alias.items():
                 served = self._served.get(alias)
                 if failed.get(alias) == version or (served is not None and served.version == version):
                     continue
@@ -253,6 +255,6 @@ class Indexes:
 
 
 def _cancel(task: asyncio.Task[None]) -> None:
-    """Cancel a task once: a second time would end it while it waits for the process that it has killed."""
+    """Cancel a task unless it is being cancelled: a second cancel would interrupt its wait for a killed process."""
     if not task.cancelling():
         task.cancel()

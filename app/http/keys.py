@@ -1,4 +1,4 @@
-"""The key that opens the service. A new route is closed, unless it says that it is open."""
+"""The read key of the service. A new route needs the key unless it is declared open."""
 
 import hmac
 import re
@@ -13,7 +13,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from app.http.errors import Code, Problem
 from app.settings import is_local
 
-OPEN: Final[dict[str, Any]] = {"security": []}  # `openapi_extra=` of a route that needs no key; OpenAPI's own words
+OPEN: Final[dict[str, Any]] = {"security": []}  # `openapi_extra=` of a route that needs no key, as OpenAPI defines it
 DOCS: Final = frozenset({("GET", "/docs"), ("GET", "/docs/oauth2-redirect"), ("GET", "/openapi.json")})
 DOCS_ASSETS: Final = "/static-offline-docs/"
 SCHEMES: Final[dict[str, Any]] = {
@@ -21,7 +21,7 @@ SCHEMES: Final[dict[str, Any]] = {
     "api_key": {"type": "apiKey", "in": "header", "name": "X-API-Key"},
 }
 SAFE_METHODS: Final = frozenset({"GET", "HEAD", "OPTIONS"})  # RFC 9110, 9.2.1
-READING_POSTS: Final = frozenset({"/localize", "/localize/batch", "/describe"})  # have a body, and change nothing
+READING_POSTS: Final = frozenset({"/localize", "/localize/batch", "/describe"})  # have a body but change no state
 FORWARDED_PREFIX: Final = b"x-forwarded"
 FORWARDED_HEADERS: Final = frozenset(  # a reverse proxy, a tunnel or a content delivery network sends one of them
     {
@@ -45,13 +45,13 @@ Headers = Iterable[tuple[bytes, bytes]]
 
 
 class KeyCheck:
-    """Refuses requests without the key before they are routed, their body is read or they take a place in the queue.
+    """Middleware that refuses requests without the key before routing, reading the body or queueing.
 
     Args:
         app: the application behind this middleware.
-        read_key: the key; None leaves reading open, and changes to direct requests from this machine.
-        open_routes: method and path of the routes that never need the key; HEAD goes with GET. Paths are compared as
-            they are, so a path with a parameter is never open.
+        read_key: the key; None lets anyone read, and only direct requests from this machine change state.
+        open_routes: method and path of the routes that never need the key; GET includes HEAD. Paths are compared
+            literally, so a path with a parameter is never open.
     """
 
     def __init__(self, app: ASGIApp, read_key: SecretStr | None, open_routes: Collection[tuple[str, str]]) -> None:
@@ -60,7 +60,7 @@ class KeyCheck:
         self._open_routes = frozenset(open_routes) | DOCS
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve one request if it may be."""
+        """Serve one request if it is allowed."""
         if scope["type"] != "lifespan" and not self._is_open(scope):
             try:
                 self._check(scope)
@@ -84,15 +84,15 @@ class KeyCheck:
 
 
 def changes_state(scope: Scope) -> bool:
-    """Return whether a request may change what the service keeps, or start work that outlives the request."""
+    """Return whether a request may change stored state or start work that outlives the request."""
     return scope.get("method") not in SAFE_METHODS and scope["path"] not in READING_POSTS
 
 
 def is_direct(scope: Scope) -> bool:
     """Return whether a request comes from this machine, addressed to this machine, and not through a proxy.
 
-    The address that the service listens on does not tell: a proxy on this machine connects over loopback too. A page
-    that reaches the service by a name of its own (DNS rebinding) is recognized by its Host header.
+    The listening address is not enough: a proxy on this machine connects over loopback too. A web page that reaches the
+    service under its own host name (DNS rebinding) is recognized by the Host header.
     """
     client = scope.get("client")
     hosts = [value for name, value in scope["headers"] if name == b"host"]
@@ -107,12 +107,12 @@ def is_direct(scope: Scope) -> bool:
 
 def _host_name(value: bytes) -> str:
     """Return the host of a Host header without its port and without the brackets of an IPv6 address."""
-    found = _HOST.fullmatch(value.decode("latin-1").strip())
-    return (found["address"] or found["name"]).removesuffix(".").lower() if found else ""
+    match = _HOST.fullmatch(value.decode("latin-1").strip())
+    return (match["address"] or match["name"]).removesuffix(".").lower() if match else ""
 
 
 def open_routes(routers: Iterable[APIRouter]) -> set[tuple[str, str]]:
-    """Method and path of the routes that say they are open, by `openapi_extra=OPEN`."""
+    """Return the method and path of the routes that are declared open by `openapi_extra=OPEN`."""
     return {
         (method, route.path)
         for router in routers
@@ -123,10 +123,10 @@ def open_routes(routers: Iterable[APIRouter]) -> set[tuple[str, str]]:
 
 
 def check_key(headers: Headers, key: bytes) -> None:
-    """Refuse a request unless it sends the key, and no other key.
+    """Refuse a request unless it sends the key and no other key.
 
     Raises:
-        Problem: 401, with the challenge that RFC 6750 asks for.
+        Problem: 401, with the challenge that RFC 6750 requires.
     """
     sent = sent_keys(headers)
     if not sent:
@@ -136,7 +136,7 @@ def check_key(headers: Headers, key: bytes) -> None:
 
 
 def sent_keys(headers: Headers) -> list[bytes]:
-    """The keys in a request's headers; Authorization of another kind, a proxy's Basic for example, is none."""
+    """Return the keys in the headers of a request, ignoring other Authorization schemes such as Basic."""
     keys = []
     for name, value in headers:
         if name == b"x-api-key":

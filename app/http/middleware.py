@@ -1,4 +1,4 @@
-"""What happens around a route: one log line a request, no fault unanswered, no body that is not plain JSON."""
+"""Middleware around all routes: the access log, the answer to internal errors, and security headers."""
 
 import re
 import time
@@ -9,8 +9,8 @@ from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
-from app.http.metrics import OTHER, Metrics, known
-from app.http.request_notes import notes_of
+from app.http.metrics import OTHER, Metrics, known_method
+from app.http.request_notes import get_notes
 
 _SANE_ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 
@@ -18,17 +18,17 @@ log = structlog.get_logger()
 
 
 def is_sane_request_id(value: str) -> bool:
-    """Whether a client's X-Request-ID can go into logs and headers as it is."""
+    """Return whether a client's X-Request-ID is safe in logs and headers."""
     return _SANE_ID.fullmatch(value) is not None
 
 
 class AccessLog:
-    """Writes a line a request and counts it, and answers 500 for what nobody else has caught.
+    """Middleware that logs and counts each request, and answers uncaught exceptions with 500.
 
     Args:
-        app: what is served.
-        metrics: count requests.
-        log_descriptions: whether a line has what was said; never else.
+        app: the application behind this middleware.
+        metrics: counts requests.
+        log_descriptions: whether log lines contain the descriptions.
     """
 
     def __init__(self, app: ASGIApp, metrics: Metrics, log_descriptions: bool) -> None:
@@ -41,7 +41,7 @@ class AccessLog:
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
-        status, notes = 0, notes_of(scope)
+        status, notes = 0, get_notes(scope)
         started_s = time.monotonic()
 
         async def note_status(message: Message) -> None:
@@ -53,16 +53,16 @@ class AccessLog:
         try:
             await self.app(scope, receive, note_status)
         except Exception:
-            log.exception("fault", request_id=correlation_id.get())
+            log.exception("internal error", request_id=correlation_id.get())
             if status:
                 raise
             await Problem(Code.INTERNAL_ERROR).response()(scope, receive, note_status)
         finally:
             route, seconds = getattr(scope.get("route"), "path", OTHER), time.monotonic() - started_s
-            self._metrics.note(scope["method"], route, status, seconds)
+            self._metrics.record(scope["method"], route, status, seconds)
             log.info(
                 "request",
-                method=known(scope["method"]),
+                method=known_method(scope["method"]),
                 route=route,
                 status=status,
                 ms=round(seconds * 1000, 1),
@@ -72,7 +72,7 @@ class AccessLog:
 
 
 class SafeHeaders:
-    """Has browsers take every answer for what its Content-Type says, and run nothing of it."""
+    """Middleware that makes browsers trust the Content-Type and run nothing in JSON answers."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app

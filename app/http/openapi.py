@@ -1,4 +1,4 @@
-"""What /docs and /openapi.json say about errors and formats that FastAPI cannot know."""
+"""The OpenAPI document: the errors, formats and keys that FastAPI does not document by itself."""
 
 from typing import Any
 
@@ -15,7 +15,7 @@ Responses = dict[int | str, dict[str, Any]]
 
 
 def problems(*codes: Code) -> Responses:
-    """`responses=` of a route that can fail in these ways."""
+    """Return the `responses=` of a route that can fail with these codes."""
     by_status: dict[int, list[Code]] = {}
     for code in sorted(codes, key=lambda code: code.status):
         by_status.setdefault(code.status, []).append(code)
@@ -30,13 +30,13 @@ def problems(*codes: Code) -> Responses:
 
 
 def geojson_content() -> dict[str, Any]:
-    """`responses={200: ...}` of a route that also answers in GeoJSON."""
+    """Return the `responses={200: ...}` of a route that also answers in GeoJSON."""
     schema = {"type": "object", "required": ["type", "features"], "description": "RFC 7946 FeatureCollection"}
     return {"content": {GEOJSON: {"schema": schema, "example": geojson.EXAMPLE}}}
 
 
 def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
-    """Return the OpenAPI document of an application, with errors as problem+json; it is made once.
+    """Return the OpenAPI document of an application, with errors as problem+json; it is built once.
 
     Args:
         app: the application.
@@ -50,7 +50,7 @@ def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
             for operation in path.values():
                 responses = operation["responses"]
                 if PROBLEM_JSON not in responses.get("422", {}).get("content", {}):
-                    responses.pop("422", None)  # FastAPI promises one for any parameter, be it one that takes all
+                    responses.pop("422", None)  # FastAPI adds one for any parameter, even one that accepts everything
                 for status, response in responses.items():
                     if int(status) >= 400:
                         _as_problem(response["content"])
@@ -63,15 +63,15 @@ def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
 
 
 def error_table() -> str:
-    """The table of codes, in Markdown."""
+    """Return the table of codes in Markdown."""
     rows = [f"| `{code.code}` | {code.status} | {code.title}. {code.remedy} |" for code in Code]
-    return "\n".join(["| code | status | what and what to do |", "|---|---|---|", *rows])
+    return "\n".join(["| code | status | meaning and remedy |", "|---|---|---|", *rows])
 
 
 def _require_key(document: dict[str, Any]) -> None:
     """Make /docs show a button for the key, and add the 401 to every operation that is not open."""
     document["components"]["securitySchemes"] = SCHEMES
-    document["security"] = [{name: []} for name in SCHEMES]  # open routes lift it for themselves
+    document["security"] = [{name: []} for name in SCHEMES]  # open routes override it
     [(status, refused)] = problems(Code.KEY_REQUIRED, Code.KEY_WRONG).items()
     content = {PROBLEM_JSON: {**refused["content"][PROBLEM_JSON], "schema": PROBLEM_SCHEMA}}
     for path in document["paths"].values():
@@ -81,7 +81,7 @@ def _require_key(document: dict[str, Any]) -> None:
 
 
 def _as_problem(content: dict[str, Any]) -> None:
-    """FastAPI says application/json, and its own model for a 422; ours is a problem and goes out as problem+json."""
+    """Document a response as problem+json instead of FastAPI's application/json and its own 422 model."""
     del content[JSON]
     content.setdefault(PROBLEM_JSON, {})["schema"] = PROBLEM_SCHEMA
 

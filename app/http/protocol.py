@@ -1,4 +1,4 @@
-"""What the service needs of a localizer; index.answering.localizer.Localizer is one, tests bring their own."""
+"""The interface of a localizer, as the service uses it."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -10,38 +10,41 @@ from models.citymap.scenery.files import SceneryPart
 
 
 class LocalizerLike(Protocol):
-    """Answers queries about one map."""
+    """A localizer of one map: `index.answering.localizer.Localizer`, a worker process, or a fake in tests.
+
+    `localize` runs on one thread. All other methods may be called from any thread.
+    """
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
-        """One answer a query, in order; blocks, and runs on one thread only."""
+        """Return one answer per query, in order; blocks."""
         ...
 
     def describe(self, position_m: tuple[float, float]) -> Described | None:
-        """What the map says at (x, y); None off the map, and where nothing is near. Called from any thread."""
+        """Describe the position (x, y); None off the map and where nothing is near."""
         ...
 
     def cell(self, cell_id: str) -> CellDetail | None:
-        """A cell of the map; None if there is none of that name. Called from any thread."""
+        """Return a cell of the map; None if there is no such cell."""
         ...
 
     def cells(self, first: int, count: int) -> list[CellSummary]:
-        """Cells in the map's order, from row `first`, at most `count`. Called from any thread."""
+        """Return at most `count` cells from row `first`, in the map's order."""
         ...
 
     def scenery(self, number: int) -> SceneryPart | None:
-        """A part of what the map looks like; None if there is no such part. Called from any thread."""
+        """Return a part of the map's scenery; None if there is no such part."""
         ...
 
     def close(self) -> None:
-        """Let go of what it holds; nothing is asked any more."""
+        """Release all resources; the localizer cannot be used afterwards."""
         ...
 
     @property
     def frame(self) -> Frame:
-        """What the map's metres mean on Earth."""
+        """The coordinate frame of the map."""
         ...
 
     @property
     def facts(self) -> IndexFacts:
-        """What the index says of itself."""
+        """The facts in the manifest of the index."""
         ...

@@ -19,31 +19,32 @@ from index.answering.answers import Answer
 from index.answering.query import Query
 from models.errors import HereaboutsError
 
-REFUSED_S = 0.2  # before a refusal is said: clients that ask again at once would else take the time of those answered
-FIRST_S = 0.05  # that a query is thought to take before one was answered
-UNAVAILABLE: Final = (Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED)  # why a query is not taken
-LEARNING, SLOWER = 0.1, 4.0  # weight of the last query; what is so much slower than usual is an exception
+REFUSAL_DELAY_S = 0.2  # before a 429: clients that retry at once would take CPU time from accepted queries
+INITIAL_QUERY_S = 0.05  # assumed time of a query before the first one is answered
+UNAVAILABLE: Final = (Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED)  # problems of a queue that accepts no query
+QUERY_TIME_WEIGHT = 0.1  # of the latest query in the moving average
+MAX_SLOWDOWN = 4.0  # times the average; a slower query is an outlier and counts as this slow
 
 log = structlog.get_logger()
 
 
 @dataclass(frozen=True, slots=True)
-class Served:
-    """An answer, and how long its query waited for the model."""
+class ServedAnswer:
+    """An answer and how long its query waited for a worker."""
 
     answer: Answer
     queue_ms: float
 
 
 @dataclass(eq=False, slots=True)
-class _Job:
+class _PendingQuery:
     query: Query
     deadline_s: float
     submitted_s: float = field(default_factory=time.monotonic)
-    result: Future[Served] = field(default_factory=Future)
+    result: Future[ServedAnswer] = field(default_factory=Future)
 
-    def begins(self) -> bool:
-        """Whether to compute it; after True it can no longer be cancelled. When late, it is answered with that."""
+    def claim(self) -> bool:
+        """Return whether to compute the query, which can then no longer be cancelled; a late query gets its error."""
         if not self.result.set_running_or_notify_cancel():
             return False
         if time.monotonic() < self.deadline_s:
@@ -52,28 +53,29 @@ class _Job:
         return False
 
 
-async def refuse(full: Problem) -> NoReturn:
-    """Say so a little later.
+async def refuse(problem: Problem) -> NoReturn:
+    """Raise a problem after a short delay.
 
     Raises:
-        Problem: that which is given.
+        Problem: always, the given one.
     """
-    await asyncio.sleep(REFUSED_S)
-    raise full
+    await asyncio.sleep(REFUSAL_DELAY_S)
+    raise problem
 
 
 class InferenceQueue:
-    """Answers queries on as many threads as there are workers, one after another as they come.
+    """A bounded first-in, first-out queue with one thread per worker.
 
-    A thread opens the localizers, then each of them has a thread that takes what has waited longest. Several at once
-    would be no faster a query on a CPU, and all of them would wait for the last. Of those that are idle the first is
-    asked, whose memory is at hand and which remembers most texts. A query whose client left or whose deadline is past
-    is not computed; one that would wait too long is refused at once.
+    One thread opens the localizers. Then each localizer has a thread that takes the query that has waited longest. Each
+    worker computes one query at a time: on a CPU, a batch is no faster per query, and every query would wait for the
+    slowest. The first idle worker gets the query, because its memory and its cache of texts are most likely warm. A
+    query whose client has left or whose deadline has passed is not computed. A query that would wait too long is
+    refused at once.
 
     Args:
-        open_localizers: run once; each of what it gives answers on a thread of its own.
-        max_queue: queries that wait.
-        max_wait_s: that a query may be expected to wait.
+        open_localizers: called once, in a thread; each localizer it returns gets its own thread.
+        max_queue: the most queries that may wait.
+        max_wait_s: the longest expected wait of an accepted query.
     """
 
     def __init__(
@@ -86,12 +88,12 @@ class InferenceQueue:
         self._max_queue = max_queue
         self._max_wait_s = max_wait_s
         self._lock = Lock()
-        self._idle: list[tuple[int, Condition]] = []  # heap, by number of the localizer, of threads that wait for a job
-        self._jobs: deque[_Job] = deque()
+        self._idle: list[tuple[int, Condition]] = []  # heap of waiting threads, by the number of their localizer
+        self._pending: deque[_PendingQuery] = deque()
         self._computing = 0
-        self._query_s = FIRST_S  # that a worker takes for a query, a moving average
+        self._query_s = INITIAL_QUERY_S  # moving average of the time of a query
         self._localizers: Sequence[LocalizerLike] = ()
-        self._failure: str | None = None  # why nothing is answered, in words for clients
+        self._failure: str | None = None  # why no query is answered, as clients see it
         self._error: Exception | None = None
         self._is_draining = False
         self._is_closed = False
@@ -100,10 +102,10 @@ class InferenceQueue:
 
     @property
     def localizer(self) -> LocalizerLike:
-        """The localizer, for its facts and cells; `localize` belongs to the threads of the queue.
+        """The first localizer, for its facts and cells; only the threads of the queue may call `localize`.
 
         Raises:
-            Problem: not ready, or it could not be loaded.
+            Problem: it is not ready, or it could not be loaded.
         """
         if self._failure is not None:
             raise Problem(Code.LOAD_FAILED, self._failure)
@@ -111,123 +113,123 @@ class InferenceQueue:
             raise Problem(Code.NOT_READY)
         return self._localizers[0]
 
-    async def opened(self) -> None:
-        """Wait until the localizers are there, or cannot be opened."""
-        await asyncio.shield(asyncio.wrap_future(self._opened))  # who waits no more must not cancel it for others
+    async def wait_until_open(self) -> None:
+        """Wait until the localizers are open or have failed to open."""
+        await asyncio.shield(asyncio.wrap_future(self._opened))  # cancelling one waiter must not cancel the others
 
     @property
     def failure(self) -> Exception | None:
-        """Why the localizers could not be opened, if they could not."""
+        """The error that opening the localizers raised, if any."""
         return self._error
 
     @property
     def num_waiting(self) -> int:
-        """Queries that wait."""
-        return len(self._jobs)
+        """The number of waiting queries."""
+        return len(self._pending)
 
     @property
     def num_workers(self) -> int:
-        """Localizers that answer; 0 until they are there, and once they must not."""
+        """The number of localizers that answer; 0 before they are open and after `fail`."""
         return 0 if self._failure is not None else len(self._localizers)
 
     @property
     def is_draining(self) -> bool:
-        """Whether new queries are refused for good."""
+        """Whether the queue is shutting down and refuses new queries."""
         return self._is_draining
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing waits and nothing is computed."""
+        """Whether no query waits or is being computed."""
         with self._lock:
-            return not self._jobs and not self._computing
+            return not self._pending and not self._computing
 
     def check_accepting(self) -> None:
-        """Pass if a query would be taken now.
+        """Raise if a query would not be accepted now.
 
         Raises:
-            Problem: draining, not ready, or not loaded.
+            Problem: the queue is draining, not ready, or failed to load.
         """
         if self._is_draining:
             raise Problem(Code.DRAINING)
         _ = self.localizer
 
     def start(self) -> None:
-        """Start to load the localizers."""
+        """Start loading the localizers in a thread."""
         self._is_draining = self._is_closed = False
         self._opened = Future()
         self._threads = [Thread(target=self._open, name="inference", daemon=True)]
         self._threads[0].start()
 
     def drain(self) -> None:
-        """Refuse new queries; the waiting ones are answered. Takes no lock: a signal handler may call it."""
+        """Refuse new queries; waiting ones are still answered. Takes no lock: a signal handler may call it."""
         self._is_draining = True
 
     def fail(self, reason: str) -> None:
-        """Refuse all queries from now on, those that wait too: what was opened is not what it should be.
+        """Refuse all queries from now on, including the waiting ones: the opened index is corrupt.
 
         Args:
-            reason: what is wrong and what to do, for clients.
+            reason: what is wrong and what to do, as clients will see it.
         """
         with self._lock:
             self._failure = reason
-            waiting = [self._jobs.popleft() for _ in range(len(self._jobs))]
-        for job in waiting:
-            if job.begins():
-                job.result.set_exception(Problem(Code.LOAD_FAILED, reason))
+            waiting = [self._pending.popleft() for _ in range(len(self._pending))]
+        for pending in waiting:
+            if pending.claim():
+                pending.result.set_exception(Problem(Code.LOAD_FAILED, reason))
 
     async def close(self) -> None:
-        """Drain, wait for the waiting queries, end the threads."""
+        """Drain, answer the waiting queries, then end the threads."""
         self.drain()
         with self._lock:
             self._is_closed = True
             while self._idle:
                 self._wake()
-        for thread in self._threads:  # the first adds the others before it ends
+        for thread in self._threads:  # the first thread adds the others before it ends
             await asyncio.to_thread(thread.join)
 
-    async def submit(self, query: Query, deadline_s: float) -> Served:
-        """Answer a query. When the caller is cancelled before the computation begins, it never begins.
+    async def submit(self, query: Query, deadline_s: float) -> ServedAnswer:
+        """Answer a query. If the caller is cancelled before the computation begins, the query is not computed.
 
         Args:
-            query: what to localize.
-            deadline_s: time.monotonic() by which an answer is worth something.
+            query: the query.
+            deadline_s: the time.monotonic() after which the answer is useless.
 
         Raises:
-            Problem: queue full, not accepting, or no answer before the deadline.
+            Problem: the queue is full, accepts no queries, or did not answer before the deadline.
         """
-        job = _Job(query, deadline_s)
+        pending = _PendingQuery(query, deadline_s)
         with self._lock:
             self.check_accepting()
-            full = self._full(deadline_s - time.monotonic())
-            if full is None:
-                self._jobs.append(job)
+            refusal = self._refusal(deadline_s - time.monotonic())
+            if refusal is None:
+                self._pending.append(pending)
                 self._wake()
-        if full is not None:
-            await refuse(full)
+        if refusal is not None:
+            await refuse(refusal)
         try:
             async with asyncio.timeout(deadline_s - time.monotonic()):
-                return await asyncio.wrap_future(job.result)
+                return await asyncio.wrap_future(pending.result)
         except TimeoutError:
             raise Problem(Code.DEADLINE_EXCEEDED) from None
         finally:
-            self._forget(job)
+            self._discard(pending)
 
-    def full(self) -> Problem | None:
-        """Why a query would be refused as too many wait, however long it may take; None if that is not why."""
+    def refusal(self) -> Problem | None:
+        """Return the problem with which any query would be refused because the queue is full; None if it is not."""
         with self._lock:
-            return self._full(math.inf) if self._localizers and not self._is_draining else None
+            return self._refusal(math.inf) if self._localizers and not self._is_draining else None
 
-    def _full(self, seconds: float) -> Problem | None:
-        """Why a query that may take so long is refused, if it is."""
-        wait_s = self._query_s * (len(self._jobs) + self._computing / 2) / len(self._localizers)
-        if len(self._jobs) < self._max_queue and wait_s <= min(self._max_wait_s, seconds):
+    def _refusal(self, seconds: float) -> Problem | None:
+        """Return why a query that can wait for this long is refused; None if it is accepted."""
+        wait_s = self._query_s * (len(self._pending) + self._computing / 2) / len(self._localizers)
+        if len(self._pending) < self._max_queue and wait_s <= min(self._max_wait_s, seconds):
             return None
         return Problem(Code.QUEUE_FULL, retry_after_s=max(1, math.ceil(wait_s)))
 
-    def _forget(self, job: _Job) -> None:
+    def _discard(self, pending: _PendingQuery) -> None:
         with self._lock:
-            if job in self._jobs:
-                self._jobs.remove(job)
+            if pending in self._pending:
+                self._pending.remove(pending)
 
     def _open(self) -> None:
         localizers = self._try_to_open()
@@ -243,56 +245,56 @@ class InferenceQueue:
             self._run(0, localizers[0])
 
     def _try_to_open(self) -> Sequence[LocalizerLike]:
-        """The localizers; none if they cannot be opened."""
+        """Return the localizers; none if they cannot be opened."""
         try:
             localizers = self._open_localizers()
         except HereaboutsError as error:
             log.error("load failed", reason=str(error))
             self._error = error
-            self._failure = "the index or the model cannot be used; the operator finds in the log why"
+            self._failure = "the index or the model cannot be used; the reason is in the service's log"
             return ()
         except Exception as error:
-            log.exception("load failed", reason=str(error))  # nobody has said anything yet
-            self._failure = "a fault in the service while loading; the operator finds it in the log"
+            log.exception("load failed", reason=str(error))  # safe to log: no text was received yet
+            self._failure = "an internal error occurred while loading; it is in the service's log"
             return ()
         facts = localizers[0].facts
         log.info("ready", index_version=facts.version, cells=facts.num_cells, workers=len(localizers))
         return localizers
 
     def _run(self, number: int, localizer: LocalizerLike) -> None:
-        while job := self._take(number):
-            if job.begins():
-                self._compute(localizer, job)
+        while pending := self._next_query(number):
+            if pending.claim():
+                self._compute(localizer, pending)
             with self._lock:
                 self._computing -= 1
         localizer.close()
 
-    def _take(self, number: int) -> _Job | None:
-        """What has waited longest; waits for it; None when closed and nothing is left."""
+    def _next_query(self, number: int) -> _PendingQuery | None:
+        """Wait for a query and return the oldest one; None when the queue is closed and empty."""
         with self._lock:
-            while not self._jobs and not self._is_closed:
+            while not self._pending and not self._is_closed:
                 idle = Condition(self._lock)
                 heappush(self._idle, (number, idle))
                 idle.wait()
-            if not self._jobs:
+            if not self._pending:
                 return None
             self._computing += 1
-            return self._jobs.popleft()
+            return self._pending.popleft()
 
     def _wake(self) -> None:
         if self._idle:
             heappop(self._idle)[1].notify()
 
-    def _compute(self, localizer: LocalizerLike, job: _Job) -> None:
+    def _compute(self, localizer: LocalizerLike, pending: _PendingQuery) -> None:
         started_s = time.monotonic()
         try:
-            [answer] = localizer.localize([job.query])
+            [answer] = localizer.localize([pending.query])
         except Exception as error:
-            job.result.set_exception(error)
+            pending.result.set_exception(error)
         else:
-            self._learn(time.monotonic() - started_s)
-            job.result.set_result(Served(answer, (started_s - job.submitted_s) * 1000))
+            self._update_query_time(time.monotonic() - started_s)
+            pending.result.set_result(ServedAnswer(answer, (started_s - pending.submitted_s) * 1000))
 
-    def _learn(self, query_s: float) -> None:
+    def _update_query_time(self, query_s: float) -> None:
         with self._lock:
-            self._query_s += LEARNING * (min(query_s, SLOWER * self._query_s) - self._query_s)
+            self._query_s += QUERY_TIME_WEIGHT * (min(query_s, MAX_SLOWDOWN * self._query_s) - self._query_s)

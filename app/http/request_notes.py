@@ -1,4 +1,4 @@
-"""Notes that a route leaves for the log line of its request."""
+"""Notes that a route adds to the log line of its request."""
 
 from dataclasses import dataclass, field
 from typing import Final
@@ -15,7 +15,7 @@ class RequestNotes:
     descriptions: list[str] = field(default_factory=list)
 
 
-def notes_of(scope: Scope) -> RequestNotes:
+def get_notes(scope: Scope) -> RequestNotes:
     """Return the notes of a request; the first caller creates them."""
     notes: RequestNotes = scope.setdefault(_NOTES, RequestNotes())
     return notes

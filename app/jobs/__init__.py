@@ -1,4 +1,4 @@
-"""Evaluations beside the service: what is asked (`order`), its state (`job`), the line of them (`runner`), its process.
+"""Evaluation jobs: `evaluation` is the work, `job` its state, `store` keeps jobs on disk, `runner` is the queue.
 
-`worker` is that process. May import app.http for its errors and requests, index and models, which the process opens.
+`worker` is the process that runs one job. May import app.http for errors and requests, index and models.
 """

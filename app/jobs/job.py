@@ -1,4 +1,4 @@
-"""One evaluation on its way, and what clients see of it."""
+"""An evaluation job and its state as clients see it."""
 
 import asyncio
 import time
@@ -13,44 +13,44 @@ from typing import Any, Literal
 from pydantic import BaseModel, Field
 
 Status = Literal["queued", "running", "done", "failed", "cancelled", "interrupted"]
-FINISHED = ("done", "failed", "cancelled", "interrupted")  # interrupted: the service ended; ask again
+FINISHED = ("done", "failed", "cancelled", "interrupted")  # interrupted: the service stopped; submit it again
 
 
 class JobProgress(BaseModel):
-    """How far a job is."""
+    """The progress of a job."""
 
     stage: str = Field(examples=["ask"])
     done: int
-    total: int = Field(description="0 if that is not known")
+    total: int = Field(description="0 if unknown")
 
 
 class JobError(BaseModel):
-    """Why a job failed."""
+    """The reason why a job failed."""
 
     code: Literal["evaluation_failed", "internal_error"]
     detail: str
 
 
 class JobState(BaseModel):
-    """An evaluation."""
+    """The state of an evaluation."""
 
     job: str
     status: Status
     progress: JobProgress
     created: str = Field(description="UTC, ISO 8601")
-    seconds: float = Field(description="that it has run")
-    report: dict[str, Any] | None = Field(description="what `hereabouts evaluate` writes as report.json, once done")
+    seconds: float = Field(description="how long it has run")
+    report: dict[str, Any] | None = Field(description="once done: the report.json of `hereabouts evaluate`")
     error: JobError | None
 
 
 @dataclass(eq=False, slots=True)
-class Job:
-    """An evaluation on its way; changed on the event loop only.
+class EvaluationJob:
+    """An evaluation job; it is changed only on the event loop.
 
     Attributes:
-        directory: holds what the worker reads and writes; removed with the job.
-        changed: set, and replaced, at every change.
-        stops: how it is to end, if it was told to, be the worker still alive or not.
+        directory: the files that the worker reads and writes; removed with the job.
+        changed: set and replaced at every change.
+        requested_end: the final status of a job that was asked to stop, whether or not its worker still runs.
     """
 
     directory: Path
@@ -60,16 +60,16 @@ class Job:
     progress: JobProgress = field(default_factory=lambda: JobProgress(stage="queued", done=0, total=0))
     report: dict[str, Any] | None = None
     error: JobError | None = None
-    stops: Literal["cancelled", "interrupted"] | None = None
+    requested_end: Literal["cancelled", "interrupted"] | None = None
     process: Process | None = None
     changed: asyncio.Event = field(default_factory=asyncio.Event)
     _started_s: float | None = None
     _ended_s: float | None = None
-    _ran_s: float = 0.0  # in an earlier life of the service
+    _earlier_run_s: float = 0.0  # before the service restarted
 
     @classmethod
-    def of(cls, directory: Path, state: JobState) -> "Job":
-        """A job as it was kept."""
+    def from_state(cls, directory: Path, state: JobState) -> "EvaluationJob":
+        """Restore a job from its stored state."""
         return cls(
             directory,
             state.job,
@@ -78,31 +78,31 @@ class Job:
             state.progress,
             state.report,
             state.error,
-            _ran_s=state.seconds,
+            _earlier_run_s=state.seconds,
         )
 
     @property
     def is_finished(self) -> bool:
-        """Whether nothing more will happen."""
+        """Whether the job has reached a final status."""
         return self.status in FINISHED
 
     def state(self) -> JobState:
-        """What clients see of it."""
+        """Return the state that clients see."""
         started_s, ended_s = self._started_s, self._ended_s or time.monotonic()
         return JobState(
             job=self.id,
             status=self.status,
             progress=self.progress,
             created=self.created.isoformat(timespec="milliseconds"),
-            seconds=self._ran_s if started_s is None else round(ended_s - started_s, 2),
+            seconds=self._earlier_run_s if started_s is None else round(ended_s - started_s, 2),
             report=self.report,
             error=self.error,
         )
 
     async def follow(self) -> AsyncIterator[JobState]:
-        """The state now and after every change, until it is finished; a slow reader misses states, never the last."""
+        """Yield the current state and the state after each change; a slow reader may miss states but not the last."""
         while True:
-            changed = self.changed  # taken before the state is read, so that no change goes by between the two
+            changed = self.changed  # taken before the state is read, so that no change in between is missed
             state = self.state()
             yield state
             if state.status in FINISHED:
@@ -110,18 +110,18 @@ class Job:
             await changed.wait()
 
     def begin(self) -> None:
-        """Note that the work begins."""
+        """Mark the job as running."""
         self._started_s = time.monotonic()
         self.status = "running"
         self.notify()
 
     def finish(self, status: Status, report: dict[str, Any] | None = None, error: JobError | None = None) -> None:
-        """Note how it ended."""
+        """Record the final status of the job."""
         self._ended_s = time.monotonic()
         self.status, self.report, self.error = status, report, error
         self.notify()
 
     def notify(self) -> None:
-        """Wake whoever follows."""
+        """Wake all followers."""
         self.changed.set()
         self.changed = asyncio.Event()

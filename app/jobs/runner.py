@@ -1,4 +1,4 @@
-"""Evaluations that run beside the service: one at a time, each in a process of its own, the others wait."""
+"""The queue of evaluation jobs: they run one at a time, each in its own process."""
 
 import asyncio
 import json
@@ -15,30 +15,30 @@ from typing import Any, Literal
 import structlog
 
 from app.http.errors import Code, Problem
-from app.jobs.job import Job, JobError, JobProgress, Status
-from app.jobs.order import Evaluation
+from app.jobs.evaluation import Evaluation
+from app.jobs.job import EvaluationJob, JobError, JobProgress, Status
 from app.jobs.store import JobStore
-from app.jobs.worker import REPORT
+from app.jobs.worker import REPORT_DIR
 from app.limits import MAX_WAITING_JOBS
 
 WORKER = (sys.executable, "-m", "app.jobs.worker")
-ROOT = Path(__file__).parents[2]  # where the worker finds this very code
-KEPT = 32  # finished jobs
-EXIT_S = 5.0
-ERRORS = "stderr.txt"
-SHOWN_BYTES = 4000  # of a crashed worker's last words, in the log
+ROOT = Path(__file__).parents[2]  # the worker imports the same code
+MAX_FINISHED_JOBS = 32  # older ones are deleted
+EXIT_TIMEOUT_S = 5.0  # for a worker to exit after it closed its output
+STDERR_FILE = "stderr.txt"
+MAX_LOGGED_STDERR_BYTES = 4000  # the end of a crashed worker's stderr
 
 log = structlog.get_logger()
 
 
 class EvaluationJobs:
-    """Runs evaluations in the order in which they came.
+    """Runs evaluations in the order of their submission.
 
     Args:
-        directory: keeps jobs beyond the end of the service: those that wait are begun at the next start, the one that
-            runs is interrupted, reports stay. None: nothing is kept.
-        command: of the worker, which is given the job's directory.
-        max_waiting: jobs that wait; one more is refused.
+        directory: keeps jobs over restarts: waiting jobs start again, a running job becomes interrupted, and reports
+            stay. None to keep nothing.
+        command: command of the worker; the job's directory is appended.
+        max_waiting: the most jobs that may wait.
     """
 
     def __init__(
@@ -46,13 +46,13 @@ class EvaluationJobs:
     ) -> None:
         self._max_waiting = max_waiting
         self._command = command
-        self._jobs: dict[str, Job] = {}
-        self._ready: asyncio.Queue[Job] = asyncio.Queue()
+        self._jobs: dict[str, EvaluationJob] = {}
+        self._ready: asyncio.Queue[EvaluationJob] = asyncio.Queue()
         self._runner: asyncio.Task[None] | None = None
         self._store = JobStore(directory)
 
     def start(self) -> None:
-        """Begin to take jobs, those that were kept first; called on the event loop that the jobs belong to."""
+        """Start running jobs, stored ones first; must be called on the event loop of the jobs."""
         self._jobs, self._ready = {job.id: job for job in self._store.open()}, asyncio.Queue()
         for job in self._jobs.values():
             if job.status == "queued":
@@ -60,7 +60,7 @@ class EvaluationJobs:
         self._runner = asyncio.create_task(self._run())
 
     async def close(self) -> None:
-        """End all jobs, wait until no worker is left; what is not kept is removed."""
+        """Stop all jobs and wait for the worker to exit; without a directory, remove all files."""
         runner, self._runner = self._runner, None
         if runner is None:
             return
@@ -70,18 +70,18 @@ class EvaluationJobs:
         await asyncio.gather(runner, return_exceptions=True)
         self._store.close()
 
-    async def submit(self, evaluation: Evaluation) -> Job:
+    async def submit(self, evaluation: Evaluation) -> EvaluationJob:
         """Queue an evaluation.
 
         Raises:
-            Problem: shutting down, too many wait, or it cannot be kept.
+            Problem: the service is shutting down, too many jobs wait, or the job cannot be stored.
         """
         if self._runner is None:
             raise Problem(Code.DRAINING)
         if sum(job.status == "queued" for job in self._jobs.values()) >= self._max_waiting:
             raise Problem(Code.JOBS_FULL)
         job_id = uuid.uuid4().hex
-        job = Job(self._store.directory_of(job_id), job_id)
+        job = EvaluationJob(self._store.job_dir(job_id), job_id)
         self._jobs[job.id] = job
         try:
             await asyncio.to_thread(self._store.add, job, evaluation)
@@ -92,26 +92,26 @@ class EvaluationJobs:
         except BaseException:
             self._forget(job)
             raise
-        if not job.stops:
+        if not job.requested_end:
             self._ready.put_nowait(job)
         return job
 
-    def get(self, job_id: str) -> Job:
-        """A job.
+    def get(self, job_id: str) -> EvaluationJob:
+        """Return a job.
 
         Raises:
-            Problem: there is none, or it was removed.
+            Problem: there is no such job, or it was deleted.
         """
         try:
             return self._jobs[job_id]
         except KeyError:
             raise Problem(Code.JOB_NOT_FOUND) from None
 
-    async def delete(self, job_id: str) -> Job:
-        """Cancel a job, returning when its worker is gone; forget it if it is finished.
+    async def delete(self, job_id: str) -> EvaluationJob:
+        """Cancel a job and wait for its worker to exit, or delete a finished job.
 
         Raises:
-            Problem: there is none.
+            Problem: there is no such job.
         """
         job = self.get(job_id)
         if job.is_finished:
@@ -120,13 +120,13 @@ class EvaluationJobs:
             await self._stop(job, "cancelled")
         return job
 
-    async def _stop(self, job: Job, status: Literal["cancelled", "interrupted"]) -> None:
+    async def _stop(self, job: EvaluationJob, status: Literal["cancelled", "interrupted"]) -> None:
         if job.is_finished:
             return
-        job.stops = status
+        job.requested_end = status
         if job.status == "queued":
             if status == "interrupted":
-                job.finish(status)  # for who follows it; it is kept as one that waits
+                job.finish(status)  # only for followers; it is stored as queued
             else:
                 self._finish(job, status)
             return
@@ -137,7 +137,7 @@ class EvaluationJobs:
     async def _run(self) -> None:
         while True:
             job = await self._ready.get()
-            if job.stops:
+            if job.requested_end:
                 continue
             job.begin()
             self._store.write(job)
@@ -147,68 +147,68 @@ class EvaluationJobs:
                 log.exception("evaluation failed", job=job.id)
                 self._finish(job, "failed", error=_fault())
 
-    async def _work(self, job: Job) -> None:
-        """Run a job's worker to its end."""
-        with (job.directory / ERRORS).open("wb") as errors:
+    async def _work(self, job: EvaluationJob) -> None:
+        """Run the worker of a job until it exits."""
+        with (job.directory / STDERR_FILE).open("wb") as errors:
             job.process = process = await asyncio.create_subprocess_exec(
                 *self._command,
                 str(job.directory),
-                stdin=PIPE,  # its end is how the worker knows that this process is gone
+                stdin=PIPE,  # the worker exits when this pipe closes
                 stdout=PIPE,
                 stderr=errors,
                 cwd=ROOT,
                 start_new_session=True,
             )
-        if job.stops:  # while it started
+        if job.requested_end:  # stopped during the start
             _kill(process)
         failure = await self._follow(job, process)
-        if job.stops:
-            self._finish(job, job.stops)
+        if job.requested_end:
+            self._finish(job, job.requested_end)
         elif failure is not None:
             self._finish(job, "failed", error=JobError(code="evaluation_failed", detail=failure))
         elif process.returncode == 0:
-            report = await asyncio.to_thread((job.directory / REPORT / "report.json").read_text)
+            report = await asyncio.to_thread((job.directory / REPORT_DIR / "report.json").read_text)
             self._finish(job, "done", report=json.loads(report))
         else:
-            said = (job.directory / ERRORS).read_bytes()[-SHOWN_BYTES:].decode(errors="replace")
-            log.error("evaluation crashed", job=job.id, exit_status=process.returncode, stderr=said)
+            stderr_text = (job.directory / STDERR_FILE).read_bytes()[-MAX_LOGGED_STDERR_BYTES:].decode(errors="replace")
+            log.error("evaluation crashed", job=job.id, exit_status=process.returncode, stderr=stderr_text)
             self._finish(job, "failed", error=_fault())
 
-    async def _follow(self, job: Job, process: Process) -> str | None:
-        """Take up a worker's lines until it is gone.
+    async def _follow(self, job: EvaluationJob, process: Process) -> str | None:
+        """Read the lines of a worker until it exits.
 
         Returns:
-            What it says is wrong with the input, if anything.
+            The worker's error message about the input, if any.
         """
         failure = None
         assert process.stdout is not None
         try:
             async for line in process.stdout:
-                said = json.loads(line)
-                if "error" in said:
-                    failure = str(said["error"])
+                message = json.loads(line)
+                if "error" in message:
+                    failure = str(message["error"])
                 else:
-                    job.progress = JobProgress.model_validate(said)
+                    job.progress = JobProgress.model_validate(message)
                     job.notify()
         finally:
-            with suppress(TimeoutError):  # the pipe closes as it exits, unless it says what is no JSON
-                await asyncio.wait_for(process.wait(), EXIT_S)
-            _kill(process)  # what it has forked outlives it if it crashed
+            with suppress(TimeoutError):  # the worker is exiting, unless it wrote invalid JSON
+                await asyncio.wait_for(process.wait(), EXIT_TIMEOUT_S)
+            _kill(process)  # children of a crashed worker may still run
             await process.communicate()
         return failure
 
     def _finish(
-        self, job: Job, status: Status, report: dict[str, Any] | None = None, error: JobError | None = None
+        self, job: EvaluationJob, status: Status, report: dict[str, Any] | None = None, error: JobError | None = None
     ) -> None:
         job.finish(status, report, error)
         self._store.write(job)
         log.info("evaluation", job=job.id, status=status, seconds=job.state().seconds)
         finished = [job for job in self._jobs.values() if job.is_finished]
-        for old in finished[:-KEPT]:
+        for old in finished[:-MAX_FINISHED_JOBS]:
             self._forget(old)
 
-    def _forget(self, job: Job) -> None:
-        """Remove a job; what cannot be removed of it is there again after a restart."""
+    def _forget(self, job: EvaluationJob) -> None:
+        """Delete a job; if its files cannot be removed, it is back after a restart."""
         self._jobs.pop(job.id, None)
         try:
             self._store.remove(job)
@@ -217,11 +217,11 @@ class EvaluationJobs:
 
 
 def _kill(process: Process | None) -> None:
-    """Kill a worker and all that it has forked; it holds nothing that is worth a farewell."""
+    """Kill a worker and its children; they have no state to save."""
     if process is not None:
         with suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
 
 
 def _fault() -> JobError:
-    return JobError(code="internal_error", detail="a fault in the service; the operator finds it in the log")
+    return JobError(code="internal_error", detail="an internal error, which is in the service's log")

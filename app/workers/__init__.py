@@ -1,7 +1,6 @@
-"""The processes that hold a model: `process` is theirs, `launch` and `pool` start them, `remote` is for the service.
+"""Worker processes that hold the model: `process` runs in them, `launch` and `pool` start them, `remote` calls them.
 
-`sums` reads the files of what they have opened again, in one more.
-
-One process opens an index; workers are forked from it, so that they share its memory, and one that dies is forked anew.
-The service itself holds no model and imports no torch. May import index.
+One process opens an index. Workers are forked from it, so that they share its memory; a worker that dies is replaced.
+The service itself holds no model and imports no torch. `checksums` verifies an index in another process. May import
+index.
 """

@@ -1,7 +1,7 @@
-"""Reading the files of a version again while it answers: `python -m app.workers.checksums DIRECTORY`.
+"""Verification of a served version: `python -m app.workers.checksums DIRECTORY`.
 
-A process of its own, which gives way to all others: a gigabyte takes a second of a CPU that has nothing else to do. A
-thread of the service would make requests wait whenever it is put off while it holds the interpreter.
+It runs in its own process at the lowest priority; a gigabyte takes about a second of an idle CPU. A thread of the
+service would delay requests by holding the interpreter lock.
 """
 
 import asyncio
@@ -18,20 +18,20 @@ from index.build.manifest import MANIFEST
 from models.errors import HereaboutsError, IndexBroken
 
 PROCESS: Final = (sys.executable, "-m", "app.workers.checksums")
-NICENESS: Final = 19  # the last of all
-SHOWN_BYTES: Final = 1000  # of a crashed process's last words
+NICENESS: Final = 19  # the lowest priority
+MAX_SHOWN_STDERR_BYTES: Final = 1000  # the end of a crashed process's stderr
 
 
 async def check_version(index_dir: Path, version: str) -> None:
-    """Compare all files of a version with its manifest; a process that it started ends with it.
+    """Compare all files of a version with its manifest, in a process that ends with this call.
 
     Args:
-        index_dir: an index directory, or the version itself.
-        version: of it.
+        index_dir: an index directory or the version itself.
+        version: name of the version.
 
     Raises:
-        IndexBroken: one is not what was written; the message names it by its version, not by its place on this machine.
-        HereaboutsError: nobody knows, as the process was killed or crashed.
+        IndexBroken: a file is corrupt; the message gives its path below the index directory.
+        HereaboutsError: the process was killed or crashed.
     """
     directory = index_dir if (index_dir / MANIFEST).is_file() else index_dir / version
     process = await asyncio.create_subprocess_exec(
@@ -47,12 +47,12 @@ async def check_version(index_dir: Path, version: str) -> None:
     if broken:
         raise IndexBroken(broken.decode().strip())
     if process.returncode:
-        said = crashed[-SHOWN_BYTES:].decode(errors="replace")
-        raise HereaboutsError(f"exit status {process.returncode}; check it with 'hereabouts verify'. {said}")
+        stderr_text = crashed[-MAX_SHOWN_STDERR_BYTES:].decode(errors="replace")
+        raise HereaboutsError(f"exit status {process.returncode}; check it with 'hereabouts verify'. {stderr_text}")
 
 
 def main(directory: Path) -> None:
-    """Print what is wrong with a version, if anything."""
+    """Print the error of a corrupt version; print nothing if it is intact."""
     os.nice(NICENESS)
     try:
         open_version(directory)

@@ -1,4 +1,4 @@
-"""Starting the processes that hold a model, without importing anything of what they do: that would make them wait."""
+"""Starting worker processes, without importing their heavy modules here, which would delay the start."""
 
 import os
 import socket
@@ -13,12 +13,12 @@ from typing import Final
 from app.threads import THREAD_VARIABLES
 
 PROCESS: Final = (sys.executable, "-m", "app.workers.process")
-AHEAD: Final = "index.answering.localizer"  # brings torch, which takes seconds
-ROOT: Final = Path(__file__).parents[2]  # where the processes find this very code
+PRELOADED_MODULE: Final = "index.answering.localizer"  # imports torch, which takes seconds
+ROOT: Final = Path(__file__).parents[2]  # the processes import the same code
 
 
 def launch(command: Sequence[str]) -> tuple[subprocess.Popen[bytes], Connection]:
-    """Start a process that opens what it is told to, and ends when its connection does."""
+    """Start a process that exits when the returned connection closes."""
     own, other = socket.socketpair()
     with own, other:
         process = subprocess.Popen(
@@ -27,28 +27,28 @@ def launch(command: Sequence[str]) -> tuple[subprocess.Popen[bytes], Connection]
             pass_fds=[other.fileno()],
             cwd=ROOT,
             env={**os.environ, **dict.fromkeys(THREAD_VARIABLES, "1"), "TOKENIZERS_PARALLELISM": "false"},
-            start_new_session=True,  # what a terminal sends is for the service alone
+            start_new_session=True,  # signals of a terminal are for the service only
         )
         return process, Connection(own.detach())
 
 
 @contextmanager
-def prepared() -> Iterator[None]:
-    """Have the process of the next pool import what it needs while the service imports the rest."""
-    _prepared.append(launch((*PROCESS, AHEAD)))
+def prelaunched() -> Iterator[None]:
+    """Start the process of the next pool early, so that it imports torch while the service imports the rest."""
+    _prelaunched.append(launch((*PROCESS, PRELOADED_MODULE)))
     try:
         yield
     finally:
-        while (left := take_prepared()) is not None:  # no pool was opened
-            process, control = left
+        while (unused := take_prelaunched()) is not None:  # no pool was opened
+            process, control = unused
             control.close()
             process.kill()
             process.wait()
 
 
-def take_prepared() -> tuple[subprocess.Popen[bytes], Connection] | None:
-    """The process that is importing ahead, whose caller ends it from now on; None if there is none."""
-    return _prepared.pop() if _prepared else None
+def take_prelaunched() -> tuple[subprocess.Popen[bytes], Connection] | None:
+    """Return the early process, which the caller has to end; None if there is none."""
+    return _prelaunched.pop() if _prelaunched else None
 
 
-_prepared: Final[list[tuple[subprocess.Popen[bytes], Connection]]] = []
+_prelaunched: Final[list[tuple[subprocess.Popen[bytes], Connection]]] = []

@@ -1,4 +1,4 @@
-"""The process that opens an index, and the workers that are forked from it."""
+"""The process that opens an index and the workers forked from it."""
 
 import os
 import signal
@@ -11,45 +11,45 @@ from multiprocessing.reduction import send_handle
 from threading import Lock
 from typing import Final
 
-from app.workers.launch import PROCESS, launch, take_prepared
-from app.workers.order import FORK, OpenOrder
+from app.workers.launch import PROCESS, launch, take_prelaunched
+from app.workers.messages import FORK, LocalizerSpec
 from index.answering.answers import IndexFacts
 from models.citymap.frame import Frame
 
-EXIT_S: Final = 5.0
+EXIT_TIMEOUT_S: Final = 5.0  # for the process to exit after its connection closed
 
 
 class WorkerPool:
-    """An index, opened in a process of its own, from which workers are forked.
+    """A process that has opened an index and forks workers.
 
     Args:
-        order: what to open.
-        command: of the process.
+        spec: the index and weights to open.
+        command: command of the process.
 
     Raises:
-        HereaboutsError: it cannot be opened.
+        HereaboutsError: the index or the weights cannot be opened.
     """
 
-    def __init__(self, order: OpenOrder, command: Sequence[str] = PROCESS) -> None:
-        self._order, self._command = order, command
+    def __init__(self, spec: LocalizerSpec, command: Sequence[str] = PROCESS) -> None:
+        self._spec, self._command = spec, command
         self._lock = Lock()
         self._closed = False
         self._users = 0
         self._start()
 
     def _start(self) -> None:
-        if self._command == PROCESS and (ahead := take_prepared()) is not None:
+        if self._command == PROCESS and (prelaunched := take_prelaunched()) is not None:
             try:
-                self._open(*ahead)
-            except (EOFError, OSError):  # somebody killed it
-                self._bury()
+                self._open(*prelaunched)
+            except (EOFError, OSError):  # it was killed
+                self._end_process()
             else:
                 return
         self._open(*launch(self._command))
 
     def _open(self, process: subprocess.Popen[bytes], control: Connection) -> None:
         self._process, self._control = process, control
-        self._control.send(self._order)
+        self._control.send(self._spec)
         opened = self._control.recv()
         if isinstance(opened, Exception):
             self._process.wait()
@@ -58,11 +58,11 @@ class WorkerPool:
         self.frame: Frame = opened[1]
 
     def fork(self) -> tuple[int, Connection, Connection]:
-        """A new worker: its process id, its connection for queries, and that for everything else.
+        """Fork a worker; return its process id, its connection for queries and its connection for other calls.
 
         Raises:
             EOFError: the pool is closed.
-            HereaboutsError: the index had to be opened anew, as its process was gone, and cannot be any more.
+            HereaboutsError: the process had died, and the index cannot be opened again.
         """
         with self._lock:
             if self._closed:
@@ -70,7 +70,7 @@ class WorkerPool:
             try:
                 return self._fork()
             except (EOFError, OSError):
-                self._bury()
+                self._end_process()
                 self._start()
                 return self._fork()
 
@@ -89,22 +89,22 @@ class WorkerPool:
         return queries.recv(), queries, reads
 
     def enter(self) -> None:
-        """Note that somebody uses a worker."""
+        """Count a user of the pool."""
         with self._lock:
             self._users += 1
 
     def leave(self) -> None:
-        """Note that somebody does no longer; after the last one, the process ends."""
+        """Release a user of the pool; after the last one, the process ends."""
         with self._lock:
             self._users -= 1
             if not self._users:
                 self._closed = True
-                self._bury()
+                self._end_process()
 
-    def _bury(self) -> None:
+    def _end_process(self) -> None:
         self._control.close()
         try:
-            self._process.wait(EXIT_S)
+            self._process.wait(EXIT_TIMEOUT_S)
         except subprocess.TimeoutExpired:
             with suppress(ProcessLookupError):
                 os.kill(self._process.pid, signal.SIGKILL)

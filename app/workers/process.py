@@ -1,8 +1,8 @@
-"""The processes that hold a model: `python -m app.workers.process [MODULE ...] FD`.
+"""The processes that hold the model: `python -m app.workers.process [MODULE ...] FD`.
 
-The first opens an index and is the mould: on request it forks workers, which share its memory and each answer on two
-connections of their own, one for queries and one for what needs no model. It ends when FD closes, a worker when its
-connections do, so that none outlives the service.
+The first process opens an index and forks workers on request. Workers share its memory, and each answers on two
+connections: one for queries and one for calls that need no model. The first process exits when FD closes, and a worker
+when its connections close, so that none outlives the service.
 """
 
 import os
@@ -16,45 +16,45 @@ from multiprocessing.reduction import recv_handle
 from threading import Thread
 from typing import TYPE_CHECKING, Final
 
-from app.fault_logging import where
-from app.startup import no_collection
-from app.workers.order import FORK, WorkerFault
+from app.redaction import redacted_traceback
+from app.startup import without_garbage_collection
+from app.workers.messages import FORK, WorkerFault
 from models.errors import HereaboutsError
 from models.processes import forget_code, give_back, share_one_heap
 
 if TYPE_CHECKING:
     from index.answering.localizer import Localizer
 
-IDLE_S: Final = 1.0  # without calls, and memory is given back
-MANY: Final = 100  # calls since it was the last time; the next one has to take it again
-SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # are for the service, which drains
+IDLE_S: Final = 1.0  # without calls, after which free memory is returned to the system
+CALLS_BETWEEN_TRIMS: Final = 100  # fewer calls since the last trim are not worth another one
+SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # left to the service, which drains
 
 
-def main(control: Connection, ahead: Sequence[str] = ()) -> None:
-    """Open what the first message says, answer (facts, frame) or an error, then fork workers as they are asked for.
+def main(control: Connection, preloaded: Sequence[str] = ()) -> None:
+    """Open the index of the first message, answer with (facts, frame) or an error, then fork workers on request.
 
     Args:
-        control: to the service.
-        ahead: modules to import before there is a message.
+        control: connection to the service.
+        preloaded: modules to import before the first message.
     """
     for number in SIGNALS:
         signal.signal(number, signal.SIG_IGN)
     share_one_heap()
     try:
-        with no_collection():
-            for name in ahead:
+        with without_garbage_collection():
+            for name in preloaded:
                 import_module(name)
             try:
-                order = control.recv()
+                spec = control.recv()
             except EOFError:
-                return  # the service has ended
-            localizer = order.open()
+                return  # the service is gone
+            localizer = spec.open()
     except Exception as error:
-        control.send(_as_sent(error))
+        control.send(_to_picklable(error))
         return
-    give_back()  # what opening needed for a moment, or every worker would have it too
+    give_back()  # before forking, or every worker would inherit the free memory
     forget_code()
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the dead are buried at once
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # exited workers are reaped automatically
     control.send((localizer.facts, localizer.frame))
     while True:
         try:
@@ -77,33 +77,33 @@ def _work(localizer: "Localizer", queries: Connection, reads: Connection) -> Non
     _answer(localizer, queries)
 
 
-def _answer(localizer: "Localizer", asked: Connection) -> None:
+def _answer(localizer: "Localizer", connection: Connection) -> None:
     """Answer calls (name of a method, arguments), one after another."""
-    answered = 0
+    calls = 0
     while True:
         try:
-            if answered >= MANY and not asked.poll(IDLE_S):
+            if calls >= CALLS_BETWEEN_TRIMS and not connection.poll(IDLE_S):
                 give_back()
-                answered = 0
-            name, arguments = asked.recv()
+                calls = 0
+            name, arguments = connection.recv()
         except (EOFError, OSError):
             return
-        answered += 1
+        calls += 1
         try:
             answer = getattr(localizer, name)(*arguments)
         except Exception as error:
-            answer = _as_sent(error)
+            answer = _to_picklable(error)
         try:
-            asked.send(answer)
+            connection.send(answer)
         except OSError:
             return
 
 
-def _as_sent(error: Exception) -> Exception:
-    """An error that another process can read: those that users meet are themselves, others become text."""
+def _to_picklable(error: Exception) -> Exception:
+    """Return an error that can be pickled: user errors as they are, others as text."""
     if isinstance(error, HereaboutsError):
         return error
-    return WorkerFault("".join(traceback.format_exception(error)), where(error))
+    return WorkerFault("".join(traceback.format_exception(error)), redacted_traceback(error))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""A localizer in a process of its own, as the service sees it."""
+"""A localizer in a worker process, as the service sees it."""
 
 from collections.abc import Sequence
 from multiprocessing.connection import Connection
@@ -7,23 +7,23 @@ from typing import Any, Final
 
 import structlog
 
-from app.workers.order import OpenOrder, WorkerFault
+from app.workers.messages import LocalizerSpec, WorkerFault
 from app.workers.pool import WorkerPool
 from index.answering.answers import Answer, CellDetail, CellSummary, Described, IndexFacts
 from index.answering.query import Query
 from models.citymap.frame import Frame
 from models.citymap.scenery.files import SceneryPart
 
-TRIES: Final = 2  # a worker that dies may have been killed; what kills a second one is at fault itself
+MAX_TRIES: Final = 2  # one lost worker may have been killed; a call that loses two is itself the cause
 
 log = structlog.get_logger()
 
 
 class RemoteLocalizer:
-    """Has a worker answer; `localize` is for one thread, everything else for any.
+    """A `LocalizerLike` that calls a worker process; its methods are documented there.
 
     Args:
-        pool: forks the worker, and another one if it dies.
+        pool: forks the worker and replaces it if it dies.
     """
 
     def __init__(self, pool: WorkerPool) -> None:
@@ -35,85 +35,85 @@ class RemoteLocalizer:
 
     @property
     def facts(self) -> IndexFacts:
-        """What the index says of itself."""
+        """The facts in the manifest of the index."""
         return self._pool.facts
 
     @property
     def frame(self) -> Frame:
-        """What the map's metres mean on Earth."""
+        """The coordinate frame of the map."""
         return self._pool.frame
 
     @property
     def pid(self) -> int:
-        """The worker's process."""
+        """The process id of the worker."""
         return self._pid
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
-        """See `app.http.protocol.LocalizerLike`."""
-        answers: list[Answer] = self._tried("_queries", "localize", list(queries))
+        """Return one answer per query."""
+        answers: list[Answer] = self._call("_queries", "localize", list(queries))
         return answers
 
     def describe(self, position_m: tuple[float, float]) -> Described | None:
-        """See `app.http.protocol.LocalizerLike`."""
-        found: Described | None = self._read("describe", position_m)
-        return found
+        """Describe a position."""
+        described: Described | None = self._read("describe", position_m)
+        return described
 
     def cell(self, cell_id: str) -> CellDetail | None:
-        """See `app.http.protocol.LocalizerLike`."""
-        found: CellDetail | None = self._read("cell", cell_id)
-        return found
+        """Return a cell."""
+        cell: CellDetail | None = self._read("cell", cell_id)
+        return cell
 
     def cells(self, first: int, count: int) -> list[CellSummary]:
-        """See `app.http.protocol.LocalizerLike`."""
-        found: list[CellSummary] = self._read("cells", first, count)
-        return found
+        """Return a page of cells."""
+        cells: list[CellSummary] = self._read("cells", first, count)
+        return cells
 
     def scenery(self, number: int) -> SceneryPart | None:
-        """See `app.http.protocol.LocalizerLike`."""
-        found: SceneryPart | None = self._read("scenery", number)
-        return found
+        """Return a part of the scenery."""
+        part: SceneryPart | None = self._read("scenery", number)
+        return part
 
     def close(self) -> None:
-        """End the worker, and with the last one of a pool its process."""
+        """End the worker; the last worker of a pool also ends the pool's process."""
         self._queries.close()
         self._reads.close()
         self._pool.leave()
 
     def _read(self, name: str, *arguments: Any) -> Any:
         with self._reading:
-            return self._tried("_reads", name, *arguments)
+            return self._call("_reads", name, *arguments)
 
-    def _tried(self, connection: str, name: str, *arguments: Any) -> Any:
-        for left in range(TRIES)[::-1]:
-            asked: Connection = getattr(self, connection)
+    def _call(self, attribute: str, name: str, *arguments: Any) -> Any:
+        for tries_left in range(MAX_TRIES)[::-1]:
+            connection: Connection = getattr(self, attribute)
             try:
-                asked.send((name, arguments))
-                answer = asked.recv()
+                connection.send((name, arguments))
+                answer = connection.recv()
             except (EOFError, OSError) as error:
-                self._replace(asked, connection)
-                if left == 0:
-                    said = f"workers die of {name}"
-                    raise WorkerFault(said, said) from error
+                self._replace(connection, attribute)
+                if tries_left == 0:
+                    message = f"{name} makes workers crash"
+                    raise WorkerFault(message, message) from error
                 continue
             if isinstance(answer, Exception):
                 raise answer
             return answer
         raise AssertionError
 
-    def _replace(self, lost: Connection, connection: str) -> None:
-        """Fork another worker, unless the other connection's thread did; that one closes its own lost connection."""
+    def _replace(self, lost: Connection, attribute: str) -> None:
+        """Fork another worker unless the thread of the other connection has done so; close only the lost connection."""
         with self._changing:
-            if getattr(self, connection) is lost:
+            if getattr(self, attribute) is lost:
                 log.warning("worker lost", pid=self._pid)
                 self._pid, self._queries, self._reads = self._pool.fork()
         lost.close()
 
 
-def open_workers(order: OpenOrder, count: int) -> list[RemoteLocalizer]:
-    """Workers that answer from one index.
+def open_workers(spec: LocalizerSpec, count: int) -> list[RemoteLocalizer]:
+    """Open an index in `count` workers.
 
     Raises:
-        HereaboutsError: it cannot be opened.
+        HereaboutsError: the index cannot be opened.
     """
-    pool = WorkerPool(order)
+    pool = WorkerPool(spec)
     return [RemoteLocalizer(pool) for _ in range(count)]

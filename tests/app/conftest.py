@@ -159,8 +159,8 @@ def logged(capfd):
     level, handlers = root.level, root.handlers[:]
     levels = {name: logger.level for name, logger in loggers.items()}
 
-    def begin(level="debug", with_words=False):
-        configure_logging(level, with_words)
+    def begin(level="debug", with_messages=False):
+        configure_logging(level, with_messages)
         for name in levels.keys() - {"faiss.loader"}:  # of the tests' own clients
             loggers[name].setLevel(logging.WARNING)
         return lambda: capfd.readouterr().err

@@ -28,5 +28,5 @@ configure_logging("info")
 worker = sys.argv[2:] or (sys.executable, Path(__file__).parent / "jobs/fake_worker.py")
 with patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=worker)):
     app = create_app(settings, TellingLocalizer)
-app.add_api_route("/waiting", lambda: len(app.state.indexes.queue()._jobs))
+app.add_api_route("/waiting", lambda: len(app.state.indexes.queue()._pending))
 serve(app, settings)

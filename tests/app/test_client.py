@@ -76,7 +76,7 @@ def test_nobody_there_says_so(monkeypatch):
 
 def test_another_service_is_not_taken_for_this_one():
     other = httpx.MockTransport(lambda _request: httpx.Response(404, text="<html>"))
-    with Client("http://x", transport=other) as client, pytest.raises(ServiceError, match="something else answers"):
+    with Client("http://x", transport=other) as client, pytest.raises(ServiceError, match="another service"):
         client.info()
 
 

@@ -113,13 +113,15 @@ def test_no_line_has_what_was_said_however_the_request_ends(logged, in_a_thread,
     lines = said()
     assert statuses == {200, 400, 404, 406, 413, 415, 422, 429, 500, 504}
     assert {line["status"] for line in requests(lines)} == statuses | {401, 499}
-    faults = {json.loads(line)["exception"].splitlines()[-1] for line in lines.splitlines() if '"fault"' in line}
+    faults = {
+        json.loads(line)["exception"].splitlines()[-1] for line in lines.splitlines() if '"internal error"' in line
+    }
     assert faults == {"RuntimeError", "ValidationError", "ExceptionGroup"}, "and not what they say"
     assert SECRET not in lines.lower()
 
 
 def test_lines_have_what_was_said_where_the_operator_wants_it(logged, in_a_thread):
-    said = logged(with_words=True)
+    said = logged(with_messages=True)
     with client(in_a_thread, Settings(log_descriptions=True), FakeLocalizer()) as here:
         here.post("/localize", json={"description": f'{TEXT}\n{{"event": "forged"}}'})
         here.post("/localize", json={"hints": ["A tree.", "A bench."]})
@@ -131,7 +133,7 @@ def test_lines_have_what_was_said_where_the_operator_wants_it(logged, in_a_threa
     assert [line.get("descriptions") for line in requests(lines)] == [
         [f'{TEXT}\n{{"event": "forged"}}'], ["A tree.\nA bench."], [TEXT], ["A tree.", TEXT], [f"bad {TEXT}"], None,
     ]  # fmt: skip
-    [fault] = [json.loads(line) for line in lines.splitlines() if '"fault"' in line]
+    [fault] = [json.loads(line) for line in lines.splitlines() if '"internal error"' in line]
     assert fault["exception"].endswith(f"RuntimeError: secret: bad {TEXT}")
 
 

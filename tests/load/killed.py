@@ -13,8 +13,8 @@ from contextlib import contextmanager, suppress
 
 import httpx
 
+from app.jobs.evaluation import Evaluation
 from app.jobs.job import JobState
-from app.jobs.order import Evaluation
 from index.build.artifact import ALIASES, Aliases, open_version, read_aliases
 from index.build.manifest import MANIFEST
 from models.files import TEMP_PREFIX, remove_abandoned, replace_file

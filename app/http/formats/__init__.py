@@ -1,4 +1,4 @@
-"""Other forms of an answer: GeoJSON, Nominatim's, and which form a client gets.
+"""Other formats of an answer: GeoJSON, Nominatim's JSON, and the negotiation between them.
 
-May import app.http, its schemas, and of index and models the types of answers.
+May import app.http, its schemas and, from index and models, the types of answers.
 """

@@ -27,7 +27,7 @@ EXAMPLE = {
 
 
 class LocalizeCollection(FeatureCollection[AnyFeature]):
-    """An answer: a Point for the estimate, then a Polygon a candidate; the rest as foreign members."""
+    """An answer: a Point for the estimate, then one Polygon per candidate; the rest as foreign members."""
 
     request_id: str
     status: Status
@@ -38,13 +38,13 @@ class LocalizeCollection(FeatureCollection[AnyFeature]):
 
 
 class CellCollection(FeatureCollection[AnyFeature]):
-    """A cell: its Polygon, then a Point an instance."""
+    """A cell: its Polygon, then one Point per instance."""
 
     provenance: Provenance
 
 
 class CellsCollection(FeatureCollection[AnyFeature]):
-    """Cells: a Polygon each."""
+    """Cells: one Polygon each."""
 
     total: int
     next: str | None
@@ -52,7 +52,7 @@ class CellsCollection(FeatureCollection[AnyFeature]):
 
 
 def localize_collection(response: LocalizeResponse, frame: Frame) -> LocalizeCollection:
-    """An answer in a georeferenced frame as features."""
+    """Convert an answer in a georeferenced frame to features."""
     features = []
     if response.estimate is not None:
         properties = asdict(response.estimate)
@@ -67,7 +67,7 @@ def localize_collection(response: LocalizeResponse, frame: Frame) -> LocalizeCol
 
 
 def cell_collection(cell: CellResponse, frame: Frame) -> CellCollection:
-    """A cell in a georeferenced frame as features."""
+    """Convert a cell in a georeferenced frame to features."""
     properties = cell.model_dump(mode="json", include={"cell_id", "scene", "center", "bbox", "wgs84"})
     features = [_feature(cell.cell_id, _polygon(cell.bbox, frame), {"kind": "cell", **properties})]
     for instance in cell.instances:
@@ -76,13 +76,13 @@ def cell_collection(cell: CellResponse, frame: Frame) -> CellCollection:
     return CellCollection(type="FeatureCollection", features=features, provenance=cell.provenance)
 
 
-def cells_collection(found: CellsResponse, frame: Frame) -> CellsCollection:
-    """Cells in a georeferenced frame as features."""
+def cells_collection(response: CellsResponse, frame: Frame) -> CellsCollection:
+    """Convert cells in a georeferenced frame to features."""
     features = [
-        _feature(cell.cell_id, _polygon(cell.bbox, frame), {"kind": "cell", **asdict(cell)}) for cell in found.cells
+        _feature(cell.cell_id, _polygon(cell.bbox, frame), {"kind": "cell", **asdict(cell)}) for cell in response.cells
     ]
-    more = {"total": found.total, "next": found.next, "provenance": found.provenance}
-    return CellsCollection(type="FeatureCollection", features=features, **more)
+    members = {"total": response.total, "next": response.next, "provenance": response.provenance}
+    return CellsCollection(type="FeatureCollection", features=features, **members)
 
 
 def _feature(name: str | None, geometry: Point | Polygon, properties: dict[str, Any]) -> AnyFeature:

@@ -1,4 +1,4 @@
-"""Which of the formats we have a client would rather read (RFC 9110, 12.5), and whether it has it already."""
+"""Content negotiation and validators (RFC 9110, 12.5 and 13)."""
 
 import hashlib
 import re
@@ -16,61 +16,61 @@ GEOJSON = "application/geo+json"
 _QUALITY = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?")
 
 
-def choose(accept: str, offers: Sequence[str]) -> str | None:
-    """The offer that an Accept header likes best; of equals the first; None if it takes none.
+def choose_media_type(accept: str, offers: Sequence[str]) -> str | None:
+    """Return the offer that an Accept header prefers, the first of equals; None if it accepts none.
 
     Args:
-        accept: value of the header; empty takes anything. Ranges that are not well formed are passed over.
-        offers: media types, the one we would rather send first.
+        accept: value of the header; an empty one accepts anything. Malformed ranges are ignored.
+        offers: media types, the preferred one first.
     """
     if not accept.strip():
         return offers[0]
-    ranges = [found for part in accept.split(",") if (found := _parse_range(part))]
+    ranges = [parsed for part in accept.split(",") if (parsed := _parse_range(part))]
     best = max(offers, key=lambda offer: _quality(offer, ranges))
     return best if _quality(best, ranges) > 0 else None
 
 
 def negotiate(request: Request, frame: Frame) -> str:
-    """The format to answer in: JSON, or GeoJSON if the client asks for it and the map is on Earth.
+    """Return the media type of the answer: JSON, or GeoJSON if requested and the map is georeferenced.
 
     Raises:
         Problem: 406.
     """
     accept = ",".join(request.headers.getlist("accept"))
-    media_type = choose(accept, (JSON, GEOJSON) if frame.is_georeferenced else (JSON,))
+    media_type = choose_media_type(accept, (JSON, GEOJSON) if frame.is_georeferenced else (JSON,))
     if media_type is None:
-        raise Problem(Code.NO_GEOREFERENCE if choose(accept, (GEOJSON,)) else Code.NOT_ACCEPTABLE)
+        raise Problem(Code.NO_GEOREFERENCE if choose_media_type(accept, (GEOJSON,)) else Code.NOT_ACCEPTABLE)
     return media_type
 
 
-def takes_gzip(request: Request) -> bool:
-    """Whether a client can read what gzip compressed."""
-    takes = {}
+def accepts_gzip(request: Request) -> bool:
+    """Return whether a client accepts gzip."""
+    accepted = {}
     for part in ",".join(request.headers.getlist("accept-encoding")).lower().split(","):
         coding, *parameters = (each.strip() for each in part.split(";"))
         quality = _parse_quality(parameters)
-        takes[coding] = quality is not None and quality > 0
-    return takes.get("gzip", takes.get("*", False))
+        accepted[coding] = quality is not None and quality > 0
+    return accepted.get("gzip", accepted.get("*", False))
 
 
 def respond(body: BaseModel, media_type: str, headers: dict[str, str] | None = None) -> Response:
-    """A negotiated answer."""
+    """Return a body in the negotiated media type."""
     return Response(body.model_dump_json(), media_type=media_type, headers={"Vary": "Accept", **(headers or {})})
 
 
 def etag(*parts: str) -> str:
-    """A strong validator of what these parts name."""
+    """Return a strong ETag of the given parts."""
     return f'"{hashlib.sha256(repr(parts).encode()).hexdigest()[:32]}"'
 
 
-def has_already(request: Request, tag: str) -> bool:
-    """Whether the client has what an ETag names (If-None-Match)."""
+def is_unchanged(request: Request, tag: str) -> bool:
+    """Return whether the client already has the content with this ETag (If-None-Match)."""
     known = {each.strip().removeprefix("W/") for each in request.headers.get("if-none-match", "").split(",")}
     return tag in known or "*" in known
 
 
 def _parse_range(text: str) -> tuple[str, float] | None:
-    """(media range, quality) of one element of an Accept header; None if it is not well formed."""
+    """Return (media range, quality) of one element of an Accept header; None if it is malformed."""
     media_range, *parameters = (part.strip().lower() for part in text.split(";"))
     main, slash, sub = media_range.partition("/")
     if not (main and slash and sub) or (main == "*" and sub != "*"):
@@ -79,15 +79,15 @@ def _parse_range(text: str) -> tuple[str, float] | None:
 
 
 def _parse_quality(parameters: Sequence[str]) -> float | None:
-    """The quality that stands in parameters, 1 if none does; None if it is not well formed."""
+    """Return the quality among parameters, by default 1; None if it is malformed."""
     quality = next((value for name, _, value in (p.partition("=") for p in parameters) if name == "q"), "1")
     return float(quality) if _QUALITY.fullmatch(quality) else None
 
 
 def _quality(offer: str, ranges: Sequence[tuple[str, float]]) -> float:
-    """What the most specific range that fits says; 0 if none fits."""
-    for fitting in (offer, f"{offer.partition('/')[0]}/*", "*/*"):
-        qualities = [quality for media_range, quality in ranges if media_range == fitting]
+    """Return the quality of the most specific range that matches an offer; 0 if none matches."""
+    for pattern in (offer, f"{offer.partition('/')[0]}/*", "*/*"):
+        qualities = [quality for media_range, quality in ranges if media_range == pattern]
         if qualities:
             return max(qualities)
     return 0.0

@@ -1,4 +1,1 @@
-"""The service's routes, one file a resource: localize, describe, evaluate, cells, maps, health, page.
-
-May import what app.http may.
-"""
+"""The routes of the service, one module per resource. They may import whatever app.http may."""

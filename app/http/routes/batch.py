@@ -1,4 +1,4 @@
-"""Several descriptions in one request; one that cannot be used fails alone."""
+"""Several descriptions in one request; an invalid item fails alone."""
 
 import asyncio
 from typing import Annotated, Any
@@ -13,7 +13,7 @@ from app.http.errors import Code, Problem, ProblemBody, as_problem
 from app.http.indexes import Indexes
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
-from app.http.routes.localize import check_reach, found_for
+from app.http.routes.localize import check_reach, localize_for
 from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.limits import MAX_BATCH_ITEMS
@@ -21,31 +21,31 @@ from index.build.artifact import DEFAULT
 from models.errors import HereaboutsError
 
 PATH = "/localize/batch"
-ERRORS = (*REFUSALS, Code.INVALID_REQUEST, Code.INTERNAL_ERROR, *UNAVAILABLE)  # others are of an item alone
-CONCURRENT_ITEMS = 4  # of one request that wait for a worker, so that other requests get workers too
+ERRORS = (*REFUSALS, Code.INVALID_REQUEST, Code.INTERNAL_ERROR, *UNAVAILABLE)  # other problems belong to one item
+CONCURRENT_ITEMS = 4  # of one request in the queue, so that other requests get workers too
 BATCH_EXAMPLE: JsonValue = {"items": [EXAMPLE, {"hints": ["I stand on a gray road."]}]}
 
 
 class BatchRequest(Body):
-    """Several descriptions. Items are checked one by one."""
+    """Several descriptions. Items are validated one by one."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [BATCH_EXAMPLE]})
 
     items: Annotated[
         list[dict[str, JsonValue]],
-        Field(min_length=1, max_length=MAX_BATCH_ITEMS, description="each as the body of POST /localize"),
+        Field(min_length=1, max_length=MAX_BATCH_ITEMS, description="each like the body of POST /localize"),
     ]
 
 
 class BatchItem(BaseModel):
-    """The answer to one item: one of the two."""
+    """The answer to one item: either a result or an error."""
 
     result: LocalizeResponse | None = None
     error: ProblemBody | None = None
 
 
 class BatchResponse(BaseModel):
-    """An answer an item, in their order."""
+    """One answer per item, in order."""
 
     items: list[BatchItem]
 
@@ -59,13 +59,13 @@ async def batch(
     body: BatchRequest,
     indexes: AllIndexes,
 ) -> BatchResponse:
-    """Localize several descriptions; an item that cannot be answered has an error instead."""
+    """Localize several descriptions; an item that cannot be answered gets an error instead."""
     if indexes.is_draining or all(item.get("index", DEFAULT) == DEFAULT for item in body.items):
         indexes.check_accepting()
-    turn = asyncio.Semaphore(CONCURRENT_ITEMS)
+    slots = asyncio.Semaphore(CONCURRENT_ITEMS)
 
     async def answer(item: dict[str, Any]) -> BatchItem:
-        async with turn:
+        async with slots:
             return await _answer(request, item, indexes)
 
     async with asyncio.TaskGroup() as group:
@@ -75,13 +75,13 @@ async def batch(
 
 async def _answer(request: Request, item: dict[str, Any], indexes: Indexes) -> BatchItem:
     try:
-        asked = LocalizeRequest.model_validate(item)
+        body = LocalizeRequest.model_validate(item)
     except ValidationError as error:
-        wrong = RequestValidationError([{**each, "loc": ("body", *each["loc"])} for each in error.errors()])
-        return BatchItem(error=ProblemBody.model_validate(as_problem(wrong).body()))
+        invalid = RequestValidationError([{**each, "loc": ("body", *each["loc"])} for each in error.errors()])
+        return BatchItem(error=ProblemBody.model_validate(as_problem(invalid).body()))
     try:
-        async with indexes.lease(asked.index) as queue:
-            check_reach(asked, queue.localizer.frame)
-            return BatchItem(result=await found_for(request, asked, queue))
+        async with indexes.lease(body.index) as queue:
+            check_reach(body, queue.localizer.frame)
+            return BatchItem(result=await localize_for(request, body, queue))
     except (Problem, HereaboutsError) as error:
         return BatchItem(error=ProblemBody.model_validate(as_problem(error).body()))

@@ -8,12 +8,12 @@ from starlette.responses import Response
 from app.http.dependencies import IndexName, Localizer
 from app.http.errors import Code, Problem
 from app.http.formats.geojson import cell_collection, cells_collection
-from app.http.formats.negotiation import GEOJSON, etag, has_already, negotiate, respond
+from app.http.formats.negotiation import GEOJSON, etag, is_unchanged, negotiate, respond
 from app.http.openapi import geojson_content, problems
 from app.http.schemas.responses import CellResponse, CellsResponse, CrsOut, Provenance
 from index.build.artifact import DEFAULT
 
-MOST_CELLS, LONGEST_PAGE = 1_000_000_000, 1000
+MAX_OFFSET, MAX_PAGE_CELLS = 1_000_000_000, 1000  # in cells
 router = APIRouter(tags=["map"])
 
 
@@ -22,7 +22,7 @@ router = APIRouter(tags=["map"])
     response_model=CellsResponse,
     responses={
         200: geojson_content(),
-        304: {"description": "What the client has (If-None-Match) is still what is served"},
+        304: {"description": "The content of If-None-Match has not changed"},
         **problems(Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST, Code.NOT_ACCEPTABLE, Code.NO_GEOREFERENCE),
         **problems(Code.INTERNAL_ERROR, Code.NOT_READY, Code.LOAD_FAILED),
     },
@@ -30,22 +30,22 @@ router = APIRouter(tags=["map"])
 def cells(
     request: Request,
     localizer: Localizer,
-    offset: Annotated[int, Query(ge=0, le=MOST_CELLS, description="cells that are passed over")] = 0,
-    limit: Annotated[int, Query(ge=1, le=LONGEST_PAGE)] = 100,
+    offset: Annotated[int, Query(ge=0, le=MAX_OFFSET, description="the number of cells to skip")] = 0,
+    limit: Annotated[int, Query(ge=1, le=MAX_PAGE_CELLS)] = 100,
     index: IndexName = DEFAULT,
 ) -> Response:
-    """The map's cells, some at a time, as JSON, or as GeoJSON if Accept says so."""
+    """Return a page of the map's cells, as JSON, or as GeoJSON if the Accept header requests it."""
     media_type, facts = negotiate(request, localizer.frame), localizer.facts
     headers = {"ETag": etag(facts.version, f"{offset} {limit}", media_type), "Cache-Control": "no-cache"}
-    if has_already(request, headers["ETag"]):
+    if is_unchanged(request, headers["ETag"]):
         return Response(status_code=304, headers={"Vary": "Accept", **headers})
-    ends = offset + limit >= facts.num_cells
+    is_last_page = offset + limit >= facts.num_cells
     body = CellsResponse(
         cells=tuple(localizer.cells(offset, limit)),
         total=facts.num_cells,
-        next=None if ends else f"/cells?offset={offset + limit}&limit={limit}&index={index}",
-        crs=CrsOut.of(localizer.frame),
-        provenance=Provenance.of(localizer, index=index),
+        next=None if is_last_page else f"/cells?offset={offset + limit}&limit={limit}&index={index}",
+        crs=CrsOut.from_frame(localizer.frame),
+        provenance=Provenance.build(localizer, index=index),
     )
     return respond(cells_collection(body, localizer.frame) if media_type == GEOJSON else body, media_type, headers)
 
@@ -55,7 +55,7 @@ def cells(
     response_model=CellResponse,
     responses={
         200: geojson_content(),
-        304: {"description": "The cell that the client has (If-None-Match) is still the one that is served"},
+        304: {"description": "The content of If-None-Match has not changed"},
         **problems(
             Code.CELL_NOT_FOUND,
             Code.INDEX_NOT_FOUND,
@@ -69,13 +69,13 @@ def cells(
     },
 )
 def cell(cell_id: str, request: Request, localizer: Localizer) -> Response:
-    """A cell and what is in it, as JSON, or as GeoJSON if Accept says so."""
+    """Return a cell and its instances, as JSON, or as GeoJSON if the Accept header requests it."""
     media_type = negotiate(request, localizer.frame)
     detail = localizer.cell(cell_id)
     if detail is None:
         raise Problem(Code.CELL_NOT_FOUND)
     headers = {"ETag": etag(localizer.facts.version, cell_id, media_type), "Cache-Control": "no-cache"}
-    if has_already(request, headers["ETag"]):
+    if is_unchanged(request, headers["ETag"]):
         return Response(status_code=304, headers={"Vary": "Accept", **headers})
-    body = CellResponse.of(detail, localizer)
+    body = CellResponse.build(detail, localizer)
     return respond(cell_collection(body, localizer.frame) if media_type == GEOJSON else body, media_type, headers)

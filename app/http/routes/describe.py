@@ -1,4 +1,4 @@
-"""From a position to a description."""
+"""POST /describe: from a position to a description."""
 
 import asyncio
 import time
@@ -23,8 +23,7 @@ ERRORS = (
     *UNAVAILABLE,
     Code.DEADLINE_EXCEEDED,
 )
-NOTHING_THERE = "is off the map, or nothing is near it; take a place where one can stand on the map that /info names"
-
+NOTHING_NEARBY = "is off the map, or nothing is near it; choose a position on the map where a person can stand"
 
 router = APIRouter(tags=["localize"])
 
@@ -34,20 +33,20 @@ async def describe(
     body: DescribeRequest,
     indexes: AllIndexes,
 ) -> DescribeResponse:
-    """Describe a position in words by which POST /localize finds it again."""
+    """Describe a position in words from which POST /localize can find it again."""
     started_s = time.monotonic()
     async with indexes.lease(body.index) as queue:
         queue.check_accepting()
         localizer = queue.localizer
         check_reach(body, localizer.frame)
         x, y = localizer.frame.position_m(body.position, body.crs).tolist()
-        # It reads what the localizer holds and runs no model: a thread of its own will do.
+        # This runs no model, so it needs no worker: a thread is enough.
         work = asyncio.to_thread(localizer.describe, (x, y))
         try:
             described = await asyncio.wait_for(work, body.deadline_ms / 1000)
         except TimeoutError:
             raise Problem(Code.DEADLINE_EXCEEDED) from None
         if described is None:
-            raise Problem.of_field("position", NOTHING_THERE)
+            raise Problem.for_field("position", NOTHING_NEARBY)
         timings_ms = {"total": (time.monotonic() - started_s) * 1000}
-        return DescribeResponse.of(described, localizer, correlation_id.get() or "", timings_ms, body.index)
+        return DescribeResponse.build(described, localizer, correlation_id.get() or "", timings_ms, body.index)

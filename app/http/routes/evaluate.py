@@ -1,4 +1,4 @@
-"""Recall on queries with known positions: jobs that a client starts, follows and cancels."""
+"""Evaluations on queries with known positions: jobs that a client starts, follows and cancels."""
 
 import asyncio
 from collections.abc import AsyncIterator
@@ -15,11 +15,11 @@ from app.http.errors import Code
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
 from app.http.schemas.evaluate_requests import EvaluateRequest
-from app.jobs.job import FINISHED, Job, JobState, Status
-from app.jobs.order import to_evaluation
+from app.jobs.evaluation import build_evaluation
+from app.jobs.job import FINISHED, EvaluationJob, JobState, Status
 
 PATH = "/evaluate"
-PING_S = 15  # between two signs of life on a stream without news
+PING_S = 15  # interval of keep-alive comments on an idle event stream
 POST_ERRORS = (
     *REFUSALS,
     Code.INVALID_REQUEST,
@@ -31,22 +31,22 @@ POST_ERRORS = (
     *UNAVAILABLE,
 )
 EVENT_STREAM: dict[str, Any] = {
-    "description": "server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the "
-    "service ended); the data of each is what GET /evaluate/{job} answers. Who comes late is told the state at once; "
-    "who leaves cancels nothing.",
+    "description": "Server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the "
+    "service stopped). The data of each event is the answer of GET /evaluate/{job}. A new client gets the current "
+    "state at once; disconnecting does not cancel the job.",
     "content": {"text/event-stream": {"schema": {"type": "string"}}},
 }
 
 
 class JobLinks(BaseModel):
-    """Where to follow a job."""
+    """The paths of a job's state and events."""
 
     status: str
     events: str
 
 
 class JobAccepted(BaseModel):
-    """An evaluation that waits for its turn."""
+    """An evaluation that was accepted and is queued."""
 
     job: str
     status: Status
@@ -64,12 +64,12 @@ async def evaluate(
     jobs: Jobs,
     settings: SettingsNow,
 ) -> JobAccepted:
-    """Start an evaluation of your own queries, or of a data set of the service by its name."""
+    """Start an evaluation on your own queries or on a data set of the service."""
     queue = indexes.queue(body.index)
     queue.check_accepting()
     localizer = queue.localizer
     index_dir = version_dir(settings.index_dir, localizer.facts.version)
-    job = await jobs.submit(await asyncio.to_thread(to_evaluation, body, settings, index_dir, localizer.frame))
+    job = await jobs.submit(await asyncio.to_thread(build_evaluation, body, settings, index_dir, localizer.frame))
     links = JobLinks(status=f"{PATH}/{job.id}", events=f"{PATH}/{job.id}/events")
     response.headers["Location"] = links.status
     return JobAccepted(job=job.id, status="queued", links=links)
@@ -83,7 +83,7 @@ async def evaluation(job: str, jobs: Jobs) -> JobState:
 
 @router.delete(PATH + "/{job}", responses=problems(Code.KEY_NOT_SET, Code.JOB_NOT_FOUND))
 async def cancel(job: str, jobs: Jobs) -> JobState:
-    """Cancel an evaluation; a finished one is deleted."""
+    """Cancel an evaluation, or delete a finished one."""
     return (await jobs.delete(job)).state()
 
 
@@ -93,17 +93,17 @@ async def cancel(job: str, jobs: Jobs) -> JobState:
     responses={200: EVENT_STREAM, **problems(Code.JOB_NOT_FOUND)},
 )
 async def follow(job: str, jobs: Jobs) -> EventSourceResponse:
-    """Follow an evaluation."""
+    """Stream the states of an evaluation as server-sent events."""
     return EventSourceResponse(events(jobs.get(job)), ping=PING_S)
 
 
-async def events(job: Job) -> AsyncIterator[ServerSentEvent]:
-    """A job's states as events."""
+async def events(job: EvaluationJob) -> AsyncIterator[ServerSentEvent]:
+    """Yield the states of a job as events."""
     async for state in job.follow():
         name = state.status if state.status in FINISHED else "progress"
         yield ServerSentEvent(state.model_dump_json(), event=name)
 
 
 def version_dir(index_dir: Path, version: str) -> Path:
-    """The directory of the version that is served, whatever the alias names by now."""
+    """Return the directory of the served version, even if the alias names another one by now."""
     return index_dir / version if (index_dir / version).is_dir() else index_dir

@@ -1,4 +1,4 @@
-"""Is it alive, is it ready, what is it."""
+"""Liveness, readiness, metrics and information about the service."""
 
 from importlib.metadata import version
 
@@ -12,44 +12,44 @@ from app.http.metrics import Metrics
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
 from app.http.schemas.responses import Health, IndexInfo, InfoResponse, Limits
-from app.jobs.order import data_sets
+from app.jobs.evaluation import list_data_sets
 
 router = APIRouter(tags=["service"])
 
 
 @router.get("/healthz", openapi_extra=OPEN)
 async def healthz() -> Health:
-    """Whether the process runs; never waits for the model."""
+    """Report that the process runs; never waits for the model."""
     return Health(status="ok")
 
 
 @router.get("/readyz", responses=problems(*UNAVAILABLE), openapi_extra=OPEN)
 async def readyz(indexes: AllIndexes) -> Health:
-    """Whether a description would be answered now."""
+    """Report whether a description would be answered now."""
     indexes.check_accepting()
     return Health(status="ready")
 
 
 @router.get("/metrics", response_class=PlainTextResponse, openapi_extra=OPEN)
 async def metrics(request: Request) -> Response:
-    """Counts, as Prometheus reads them."""
-    counted: Metrics = request.app.state.metrics
-    return counted.response()
+    """Return the metrics for Prometheus."""
+    app_metrics: Metrics = request.app.state.metrics
+    return app_metrics.response()
 
 
 @router.get("/info", openapi_extra=OPEN)
 async def info(indexes: AllIndexes, settings: SettingsNow) -> InfoResponse:
-    """The service's version and limits, and the index it serves."""
+    """Return the version and the limits of the service, and the index it serves."""
     try:
-        index = IndexInfo.of(indexes.queue().localizer)
+        index = IndexInfo.build(indexes.queue().localizer)
     except Problem:
         index = None
     return InfoResponse(
         service="hereabouts",
         version=version("hereabouts"),
         key_required=settings.read_key is not None,
-        limits=Limits.of(settings),
+        limits=Limits.from_settings(settings),
         index=index,
         indexes=indexes.names(),
-        data_sets=[path.name for path in data_sets(settings.data_dir)],
+        data_sets=[path.name for path in list_data_sets(settings.data_dir)],
     )

@@ -1,4 +1,4 @@
-"""The versions in the service's index directory, and the names that serve them."""
+"""The versions in the index directory and the aliases that serve them."""
 
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
@@ -17,20 +17,20 @@ class VersionInfo(BaseModel):
     """A version of an index."""
 
     version: str
-    registered: bool = Field(description="whether it may be served; `hereabouts alias set` registers it")
-    aliases: list[str] = Field(description="names that serve it now")
+    registered: bool = Field(description="whether it may be served; `hereabouts alias set` registers a version")
+    aliases: list[str] = Field(description="the aliases that serve it now")
 
 
 class IndexesResponse(BaseModel):
-    """All versions of the service's directory."""
+    """All versions in the index directory."""
 
-    aliases: dict[str, str] = Field(description="the version that answers for each name")
+    aliases: dict[str, str] = Field(description="the version that each alias serves")
     versions: list[VersionInfo]
 
 
 @router.get("/indexes", responses=problems(Code.INDEX_BROKEN))
 def list_indexes(indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
-    """List the versions of the index directory, and the names that serve them."""
+    """List the versions in the index directory and the aliases that serve them."""
     try:
         registered = read_aliases(settings.index_dir).versions
     except IndexBroken:
@@ -43,7 +43,7 @@ def list_indexes(indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
             VersionInfo(
                 version=version,
                 registered=version in registered,
-                aliases=sorted(alias for alias, named in served.items() if named == version),
+                aliases=sorted(alias for alias, served_version in served.items() if served_version == version),
             )
             for version in sorted(directories | set(registered))
         ],

@@ -1,4 +1,4 @@
-"""From a description to a position."""
+"""POST /localize: from a description to a position."""
 
 import asyncio
 import time
@@ -17,11 +17,11 @@ from app.http.errors import Code, Problem
 from app.http.formats.geojson import localize_collection
 from app.http.formats.negotiation import GEOJSON, negotiate, respond
 from app.http.openapi import geojson_content, problems
-from app.http.queue import UNAVAILABLE, InferenceQueue, Served
-from app.http.request_notes import notes_of
+from app.http.queue import UNAVAILABLE, InferenceQueue, ServedAnswer
+from app.http.request_notes import get_notes
 from app.http.schemas.requests import DescribeRequest, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
-from app.http.schemas.ros import pose_of
+from app.http.schemas.ros import to_ros_pose
 from models.citymap.frame import Frame
 
 ERRORS = (
@@ -38,21 +38,24 @@ ERRORS = (
 )
 
 
-class Door(APIRoute):
-    """Refuses what cannot wait before it is read: under load, what reading costs is taken from those answered."""
+class AdmissionRoute(APIRoute):
+    """A route that refuses requests before their body is read if the queues are full.
+
+    Under overload, reading the bodies of refused requests would take CPU time from accepted ones.
+    """
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-        """See FastAPI."""
+        """Return the handler of the route behind the admission check."""
         handle = super().get_route_handler()
 
-        async def handle_if_there_is_room(request: Request) -> Response:
+        async def handle_if_admitted(request: Request) -> Response:
             await request.app.state.indexes.check_room()
             return await handle(request)
 
-        return handle_if_there_is_room
+        return handle_if_admitted
 
 
-router = APIRouter(tags=["localize"], route_class=Door)
+router = APIRouter(tags=["localize"], route_class=AdmissionRoute)
 
 
 @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **problems(*ERRORS)})
@@ -61,53 +64,55 @@ async def localize(
     body: LocalizeRequest,
     indexes: AllIndexes,
 ) -> Response:
-    """Localize the speaker of a description; the answer is JSON, or GeoJSON if Accept says so."""
+    """Localize the speaker of a description; the answer is JSON, or GeoJSON if the Accept header requests it."""
     async with indexes.lease(body.index) as queue:
         frame = queue.localizer.frame
         media_type = negotiate(request, frame)
         check_reach(body, frame)
-        response = await found_for(request, body, queue)
+        response = await localize_for(request, body, queue)
     return respond(localize_collection(response, frame) if media_type == GEOJSON else response, media_type)
 
 
-async def found_for(request: Request, asked: LocalizeRequest, queue: InferenceQueue) -> LocalizeResponse:
-    """The answer to a description, unless its client leaves.
+async def localize_for(request: Request, body: LocalizeRequest, queue: InferenceQueue) -> LocalizeResponse:
+    """Return the answer to a description; cancel the query if the client disconnects.
 
     Raises:
-        Problem: it is refused, too late, or nobody waits for it.
+        Problem: the query was refused or too late, or the client disconnected.
     """
     started_s = time.monotonic()
-    deadline_s = started_s + asked.deadline_ms / 1000
-    notes_of(request.scope).descriptions.append(asked.text())
-    served = await unless_client_leaves(request, queue.submit(asked.query(), deadline_s))
+    deadline_s = started_s + body.deadline_ms / 1000
+    get_notes(request.scope).descriptions.append(body.text())
+    served = await run_while_connected(request, queue.submit(body.to_query(), deadline_s))
     timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
-    found = LocalizeResponse.of(served.answer, queue.localizer, correlation_id.get() or "", timings_ms, asked.index)
-    if asked.ros and found.estimate is not None:
-        found.ros = pose_of(found.estimate, found.crs.frame_id)
-    return found
+    response = LocalizeResponse.build(
+        served.answer, queue.localizer, correlation_id.get() or "", timings_ms, body.index
+    )
+    if body.ros and response.estimate is not None:
+        response.ros = to_ros_pose(response.estimate, response.crs.frame_id)
+    return response
 
 
-def check_reach(asked: LocalizeRequest | DescribeRequest, frame: Frame) -> None:
-    """Refuse degrees that are no place in the map's frame.
+def check_reach(body: LocalizeRequest | DescribeRequest, frame: Frame) -> None:
+    """Refuse degrees that cannot be projected into the map's frame.
 
     Raises:
-        Problem: the map has no georeference, or a point is on another side of the Earth.
+        Problem: the map has no georeference, or a point is too far away.
     """
-    if asked.crs == "map":
+    if body.crs == "map":
         return
     if not frame.is_georeferenced:
-        raise Problem.of_field("crs", "this map has no georeference; give metres, with crs map")
-    for field, (lon, lat) in asked.points():
+        raise Problem.for_field("crs", "this map has no georeference; send metres with crs map")
+    for field, (lon, lat) in body.points():
         # A box is compared in degrees; only single points are projected.
         if field != "within.bbox" and not np.isfinite(frame.from_wgs84(lat, lon)).all():
-            raise Problem.of_field(field, "is too far from the map; give [longitude, latitude] near it")
+            raise Problem.for_field(field, "is too far from the map; send [longitude, latitude] near it")
 
 
-async def unless_client_leaves(request: Request, work: Coroutine[Any, Any, Served]) -> Served:
-    """The result of some work, which is cancelled when the client disconnects (FastAPI itself goes on).
+async def run_while_connected(request: Request, work: Coroutine[Any, Any, ServedAnswer]) -> ServedAnswer:
+    """Return the result of some work; cancel it when the client disconnects, which FastAPI does not do.
 
     Raises:
-        Problem: the client left.
+        Problem: the client disconnected.
     """
     working = asyncio.create_task(work)
     leaving = asyncio.create_task(_disconnected(request))

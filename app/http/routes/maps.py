@@ -1,4 +1,4 @@
-"""What the map looks like."""
+"""The scenery of the map for the page: geometry or points."""
 
 import gzip
 from typing import Annotated
@@ -8,7 +8,7 @@ from starlette.responses import FileResponse, Response
 
 from app.http.dependencies import Localizer
 from app.http.errors import Code, Problem
-from app.http.formats.negotiation import etag, has_already, takes_gzip
+from app.http.formats.negotiation import accepts_gzip, etag, is_unchanged
 from app.http.openapi import problems
 
 router = APIRouter(tags=["map"])
@@ -20,11 +20,11 @@ BINARY = "application/octet-stream"
     response_class=Response,
     responses={
         200: {
-            "description": "a safetensors file, compressed by gzip: geometry (`kind` shapes) or coloured points "
-            "(`kind` points), see docs/formats.md",
+            "description": "A safetensors file, compressed with gzip: geometry (`kind` shapes) or coloured points "
+            "(`kind` points); docs/formats.md describes it",
             "content": {BINARY: {"schema": {"type": "string", "format": "binary"}}},
         },
-        304: {"description": "What the client has (If-None-Match) is still what is served"},
+        304: {"description": "The content of If-None-Match has not changed"},
         **problems(Code.MAP_NOT_FOUND, Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST),
         **problems(Code.INTERNAL_ERROR, Code.NOT_READY, Code.LOAD_FAILED),
     },
@@ -33,20 +33,20 @@ def points(
     name: str,
     request: Request,
     localizer: Localizer,
-    part: Annotated[int, Query(ge=0, le=1_000_000, description="the first shows all of the map")] = 0,
+    part: Annotated[int, Query(ge=0, le=1_000_000, description="number of the part; 0 shows the whole map")] = 0,
 ) -> Response:
-    """A part of what a map looks like; the first shows all of it, further ones have more points."""
-    found = localizer.scenery(part) if name == localizer.facts.map_name else None
-    if found is None:
+    """Return a part of a map's scenery; part 0 shows the whole map, and further parts add points."""
+    scenery = localizer.scenery(part) if name == localizer.facts.map_name else None
+    if scenery is None:
         raise Problem(Code.MAP_NOT_FOUND)
-    zipped = takes_gzip(request)
+    use_gzip = accepts_gzip(request)
     headers = {
-        "ETag": etag(found.sha256, str(zipped)),
+        "ETag": etag(scenery.sha256, str(use_gzip)),
         "Cache-Control": "no-cache",
         "Vary": "Accept-Encoding",
     }
-    if has_already(request, headers["ETag"]):
+    if is_unchanged(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
-    if zipped:
-        return FileResponse(found.path, media_type=BINARY, headers={**headers, "Content-Encoding": "gzip"})
-    return Response(gzip.decompress(found.path.read_bytes()), media_type=BINARY, headers=headers)
+    if use_gzip:
+        return FileResponse(scenery.path, media_type=BINARY, headers={**headers, "Content-Encoding": "gzip"})
+    return Response(gzip.decompress(scenery.path.read_bytes()), media_type=BINARY, headers=headers)

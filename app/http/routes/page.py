@@ -1,4 +1,4 @@
-"""The page: the files of app/web/page, read once when the service starts."""
+"""The web page: the files of app/web/page, read once when the service starts."""
 
 import gzip
 from dataclasses import dataclass
@@ -10,15 +10,13 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from app.http.errors import Code, Problem
-from app.http.formats.negotiation import etag, has_already, takes_gzip
+from app.http.formats.negotiation import accepts_gzip, etag, is_unchanged
 from app.http.keys import OPEN
 
 PAGE_DIR: Final = Path(__file__).parents[2] / "web" / "page"
 INDEX: Final = "index.html"
-NOT_BUILT: Final = (
-    "The page is not built: run `npm ci && npm run build` in app/web/source, and start the service again."
-)
-MEDIA_TYPES: Final = {  # not the `mimetypes` of Python, which a machine's own files change
+NOT_BUILT: Final = "The page is not built: run `npm ci && npm run build` in app/web/source, then restart the service."
+MEDIA_TYPES: Final = {  # not Python's `mimetypes`, which depend on files of the machine
     ".html": "text/html",
     ".js": "text/javascript",
     ".css": "text/css",
@@ -49,7 +47,7 @@ HEADERS: Final = {
 
 @dataclass(frozen=True, slots=True)
 class PageFile:
-    """A file of the page: as it is, and compressed by gzip if that makes it smaller."""
+    """A file of the page, plain and, if that is smaller, compressed with gzip."""
 
     media_type: str
     plain: bytes
@@ -69,10 +67,10 @@ class PageFile:
         )
 
     async def send(self, request: Request) -> Response:
-        """The file as the client can read it, or 304 if the client has it."""
-        zipped = self.zipped if takes_gzip(request) else None
+        """Return the file in an encoding that the client accepts, or 304 if the client has it."""
+        zipped = self.zipped if accepts_gzip(request) else None
         headers = {**HEADERS, "ETag": etag(self.sha256, str(zipped is not None))}
-        if has_already(request, headers["ETag"]):
+        if is_unchanged(request, headers["ETag"]):
             return Response(status_code=304, headers=headers)
         if zipped is None:
             return Response(self.plain, media_type=self.media_type, headers=headers)
@@ -80,22 +78,22 @@ class PageFile:
 
 
 def build_router(page_dir: Path) -> APIRouter:
-    """A route a file, so that a client's path is never looked for on the disk; index.html is at /.
+    """Return one route per file, so that a client's path never reaches the disk; index.html is served at /.
 
     Args:
-        page_dir: what the page's build writes; without an index.html in it, / says how to build it.
+        page_dir: output of the page's build; without an index.html, / explains how to build the page.
     """
     router = APIRouter(include_in_schema=False)
     methods = ["GET", "HEAD"]
     if not (page_dir / INDEX).is_file():
-        router.add_api_route("/", _say_how_to_build, methods=methods, openapi_extra=OPEN)
+        router.add_api_route("/", _explain_how_to_build, methods=methods, openapi_extra=OPEN)
         return router
     for path in sorted(page_dir.iterdir()):
-        if path.is_file() and path.suffix:  # what has no suffix is hidden, or could pass for a route
+        if path.is_file() and path.suffix:  # a name without a suffix is hidden or could clash with a route
             route = "/" if path.name == INDEX else f"/{path.name}"
             router.add_api_route(route, PageFile.load(path).send, methods=methods, openapi_extra=OPEN)
     return router
 
 
-async def _say_how_to_build() -> Response:
+async def _explain_how_to_build() -> Response:
     raise Problem(Code.NOT_FOUND, NOT_BUILT)

@@ -4,7 +4,7 @@ from typing import Annotated, Self
 
 from pydantic import ConfigDict, Field, JsonValue, Strict, StringConstraints, model_validator
 
-from app.http.schemas.fields import IndexName, Length, Point, either, wrong
+from app.http.schemas.fields import IndexName, Length, Point, field_error, one_of
 from app.http.schemas.requests import REFINE, Body, DescriptionFields
 from app.limits import MAX_EVALUATE_QUERIES
 from index.answering.query import Crs, Refine
@@ -21,25 +21,25 @@ MAX_RADII = 8
 
 
 class EvaluateQuery(DescriptionFields):
-    """A description and where it was said: [x, y] in metres, or [lon, lat] with crs wgs84."""
+    """A description and its true position: [x, y] in metres, or [lon, lat] with crs wgs84."""
 
     position: Point
 
 
 class EvaluateRequest(Body):
-    """Queries with known positions, or a data set of the service by its name."""
+    """Queries with known positions, or the name of a data set of the service."""
 
-    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE], **either("queries", "array", "data", "string")})
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE], **one_of("queries", "array", "data", "string")})
 
     queries: Annotated[list[EvaluateQuery], Field(min_length=1, max_length=MAX_EVALUATE_QUERIES)] | None = Field(
-        None, description="asked of the index that is served"
+        None, description="queries to the served index"
     )
-    crs: Crs = Field("map", description="what the positions of queries mean")
+    crs: Crs = Field("map", description="the reference system of the positions of queries")
     data: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=255)] | None = Field(
-        None, description="instead of queries: a data set of the service, by its name in /info"
+        None, description="instead of queries: the name of a data set that GET /info lists"
     )
     split: Annotated[str, Strict(), StringConstraints(pattern=r"^[A-Za-z0-9_,-]{1,255}$")] | None = Field(
-        None, description="of data: train, val or test, or a comma list of scenes; everything if it is left out"
+        None, description="part of the data set: train, val, test, or scenes separated by commas; by default all"
     )
     grow: Annotated[list[Length], Field(min_length=1, max_length=MAX_RADII)] | None = Field(
         None, description="radii in metres of a growing gallery, for example [200, 300, 400, 500]"
@@ -50,9 +50,9 @@ class EvaluateRequest(Body):
     @model_validator(mode="after")
     def _is_one_source(self) -> Self:
         if (self.queries is None) == (self.data is None):
-            raise wrong("give either queries or data", "queries")
+            raise field_error("give either queries or data", "queries")
         if self.queries is not None and self.split is not None:
-            raise wrong("goes with data, not with queries; leave it out", "split")
+            raise field_error("works only with data, not with queries; leave it out", "split")
         if self.data is not None and "crs" in self.model_fields_set:
-            raise wrong("goes with queries, not with data; leave it out", "crs")
+            raise field_error("works only with queries, not with data; leave it out", "crs")
         return self

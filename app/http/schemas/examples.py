@@ -1,4 +1,4 @@
-"""Answers as the documentation of the service shows them."""
+"""Example answers in the OpenAPI document."""
 
 from pydantic import JsonValue
 

@@ -1,4 +1,4 @@
-"""The bodies of requests. Numbers are strict and finite, unknown fields are refused."""
+"""The bodies of requests. Numbers are strict and finite; unknown fields are refused."""
 
 from typing import Annotated, Any, Self
 
@@ -22,9 +22,9 @@ from app.http.schemas.fields import (
     check_bbox,
     check_degrees,
     check_text,
-    either,
+    field_error,
     join_hints,
-    wrong,
+    one_of,
 )
 from app.limits import (
     DEFAULT_DEADLINE_MS,
@@ -51,11 +51,11 @@ from models.language.sentences import split_hints
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
-MAX_ID = 1000  # characters; a name, and a question with four colours, are far shorter
+MAX_ID_CHARACTERS = 1000  # far longer than any name or any question with four colours
 
 
 class Body(BaseModel):
-    """The body of a request, or a part of it; unknown fields are refused."""
+    """The body of a request or a part of it; unknown fields are refused."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -68,9 +68,9 @@ class WithinCircle(Body):
 
 
 class Within(Body):
-    """A filter: nothing outside it is answered. Give `bbox` or `circle`."""
+    """A filter on positions: answers lie inside it. Give either `bbox` or `circle`."""
 
-    model_config = ConfigDict(json_schema_extra=either("bbox", "array", "circle", "object"))
+    model_config = ConfigDict(json_schema_extra=one_of("bbox", "array", "circle", "object"))
 
     bbox: Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], AfterValidator(check_bbox)] | None = Field(
         None, description="[west, south, east, north] in metres, or in degrees with crs wgs84"
@@ -80,11 +80,11 @@ class Within(Body):
     @model_validator(mode="after")
     def _is_one(self) -> Self:
         if (self.bbox is None) == (self.circle is None):
-            raise wrong("give either bbox or circle")
+            raise field_error("give either bbox or circle")
         return self
 
-    def filter(self) -> Box | Circle:
-        """As the localizer takes it."""
+    def to_filter(self) -> Box | Circle:
+        """Return the filter as the localizer takes it."""
         if self.circle is not None:
             return Circle(self.circle.center, self.circle.radius_m)
         assert self.bbox is not None
@@ -92,48 +92,52 @@ class Within(Body):
 
 
 class PriorPosition(Body):
-    """A bias, for example a poor GPS fix; `position` is [x, y] in metres, or [lon, lat] with crs wgs84."""
+    """A prior, for example a poor GPS fix; `position` is [x, y] in metres, or [lon, lat] with crs wgs84."""
 
     position: Point
     sigma_m: Length
 
-    def prior(self) -> Prior:
-        """As the localizer takes it."""
+    def to_prior(self) -> Prior:
+        """Return the prior as the localizer takes it."""
         return Prior(self.position, self.sigma_m)
 
 
 class GivenAnswer(Body):
-    """An answer to the `question` of an earlier answer to the same description."""
+    """A reply to the `question` of an earlier answer to the same description."""
 
-    question: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID)] = Field(description="its id")
-    choice: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID)] = Field(
-        description="the value of one of its choices; to an open question also a name that is not listed"
+    question: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID_CHARACTERS)] = Field(
+        description="the id of the question"
+    )
+    choice: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=MAX_ID_CHARACTERS)] = Field(
+        description="the value of one of its choices; for an open question also a name that is not listed"
     )
 
 
 def check_sentences(description: str) -> str:
-    """Refuse a description with too many sentences, or with none.
+    """Refuse a description with too many sentences or with none.
 
     Raises:
-        PydanticCustomError: what is wrong, without the text.
+        PydanticCustomError: the description is refused; the message does not quote it.
     """
     try:
         count = len(split_hints(description))
     except DescriptionError as error:
-        raise wrong(str(error)) from None
+        raise field_error(str(error)) from None
     if count > MAX_HINTS:
-        raise wrong(f"has {count} sentences, at most {MAX_HINTS} are taken; shorten it")
+        raise field_error(f"has {count} sentences, but at most {MAX_HINTS} are allowed; shorten it")
     return description
 
 
 def check_hints(hints: list[str]) -> list[str]:
-    """Refuse hints that are too long together.
+    """Refuse hints that are too long in total.
 
     Raises:
-        PydanticCustomError: what is wrong, without the texts.
+        PydanticCustomError: the hints are refused; the message does not quote them.
     """
     if sum(map(len, hints)) > MAX_DESCRIPTION_CHARACTERS:
-        raise wrong(f"have more than {MAX_DESCRIPTION_CHARACTERS} characters together; send fewer or shorter ones")
+        raise field_error(
+            f"have more than {MAX_DESCRIPTION_CHARACTERS} characters in total; send fewer or shorter hints"
+        )
     check_sentences(join_hints(hints))
     return hints
 
@@ -141,50 +145,57 @@ def check_hints(hints: list[str]) -> list[str]:
 Text = Annotated[str, Strict(), StringConstraints(max_length=MAX_DESCRIPTION_CHARACTERS), AfterValidator(check_text)]
 Description = Annotated[Text, AfterValidator(check_sentences)]
 Hints = Annotated[list[Text], Field(min_length=1, max_length=MAX_HINTS), AfterValidator(check_hints)]
-DeadlineMs = Annotated[int, Strict(), Field(ge=1, le=MAX_DEADLINE_MS, description="504 if there is no answer by then")]
+DeadlineMs = Annotated[
+    int,
+    Strict(),
+    Field(ge=1, le=MAX_DEADLINE_MS, description="milliseconds to answer; after that the request fails with 504"),
+]
 
 
 class DescriptionFields(Body):
-    """A description, or its sentences as hints."""
+    """A description in free text, or its sentences as a list."""
 
     model_config = ConfigDict(json_schema_extra=DESCRIPTION_OR_HINTS)
 
     description: Description | None = Field(None, description="what is around the speaker, in plain words")
-    hints: Hints | None = Field(None, description="the same in sentences, one hint each")
+    hints: Hints | None = Field(None, description="the same as a list of sentences")
 
     @model_validator(mode="after")
     def _is_one_text(self) -> Self:
         if (self.description is None) == (self.hints is None):
-            raise wrong("give either description or hints", "description")
+            raise field_error("give either description or hints", "description")
         return self
 
     def text(self) -> str:
-        """Return the description, of hints a line each."""
+        """Return the description; hints are joined, one per line."""
         return join_hints(self.hints or ()) if self.description is None else self.description
 
 
 REFINE: Any = Field(
     DEFAULT_REFINE,
-    description="posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: "
-    "vector search, then a network that matches hints with a cell's instances; none: vector search alone, cells' "
-    "centres; these three rank by all of the retriever's levels only on an index that was built with --levels",
+    description="how the position is found. posterior: a position distribution from all hints and the map; regressor: "
+    "vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's "
+    "instances; none: vector search alone, which gives the centres of cells. Except for posterior, ranking uses all "
+    "levels of the retriever only if the index was built with --levels",
 )
 
 
 class LocalizeRequest(DescriptionFields):
-    """One description, or its sentences as hints, and where to look."""
+    """One description and where to search."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE], **DESCRIPTION_OR_HINTS})
 
-    top_k: Annotated[int, Strict(), Field(ge=1, le=MAX_TOP_K, description="candidates to list")] = DEFAULT_TOP_K
+    top_k: Annotated[int, Strict(), Field(ge=1, le=MAX_TOP_K, description="candidates in the answer")] = DEFAULT_TOP_K
     within: Within | None = None
     prior: PriorPosition | None = None
-    crs: Crs = Field("map", description="what the coordinates of within and prior mean")
+    crs: Crs = Field(
+        "map", description="the reference system of within and prior: metres of the map, or longitude and latitude"
+    )
     refine: Refine = REFINE
-    heat_map: Annotated[bool, Strict()] = Field(False, description="the distribution behind the answer")
-    ros: Annotated[bool, Strict()] = Field(False, description="the estimate as a pose of ROS too")
+    heat_map: Annotated[bool, Strict()] = Field(False, description="whether to add the position distribution")
+    ros: Annotated[bool, Strict()] = Field(False, description="whether to add the estimate as a ROS pose")
     answers: Annotated[list[GivenAnswer], Field(max_length=MOST_REPLIES)] = Field(
-        [], description="to questions of earlier answers, all of them each time: the service remembers none"
+        [], description="replies to the questions of all earlier answers: the service keeps no conversation"
     )
     deadline_ms: DeadlineMs = DEFAULT_DEADLINE_MS
     index: IndexName = DEFAULT
@@ -195,22 +206,22 @@ class LocalizeRequest(DescriptionFields):
         return self
 
     @model_validator(mode="after")
-    def _asks_once(self) -> Self:
+    def _has_one_reply_per_question(self) -> Self:
         if self.answers and self.refine != "posterior":
-            raise wrong("goes with refine posterior; leave one of them out", "answers")
-        asked = [answer.question for answer in self.answers]
-        twice = next((n for n, one in enumerate(asked) if one in asked[:n]), None)
-        if twice is not None:
-            raise wrong("is answered twice; send one answer to each question", f"answers.{twice}.question")
+            raise field_error("works only with refine posterior; leave one of them out", "answers")
+        questions = [answer.question for answer in self.answers]
+        repeated = next((n for n, question in enumerate(questions) if question in questions[:n]), None)
+        if repeated is not None:
+            raise field_error("is answered twice; send one answer per question", f"answers.{repeated}.question")
         return self
 
-    def query(self) -> Query:
-        """As the localizer takes it."""
+    def to_query(self) -> Query:
+        """Return the query as the localizer takes it."""
         return Query(
             description=self.text(),
             top_k=self.top_k,
-            within=self.within.filter() if self.within else None,
-            prior=self.prior.prior() if self.prior else None,
+            within=self.within.to_filter() if self.within else None,
+            prior=self.prior.to_prior() if self.prior else None,
             crs=self.crs,
             refine=self.refine,
             heat_map=self.heat_map,
@@ -218,7 +229,7 @@ class LocalizeRequest(DescriptionFields):
         )
 
     def points(self) -> list[tuple[str, tuple[float, float]]]:
-        """All (x, y) or (lon, lat) of the request, each with the name of its field."""
+        """Return all (x, y) or (lon, lat) of the request, each with the name of its field."""
         points = []
         if self.within and self.within.bbox:
             west, south, east, north = self.within.bbox
@@ -236,7 +247,7 @@ class DescribeRequest(Body):
     model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBE_EXAMPLE]})
 
     position: Point = Field(description="[x, y] in metres, or [lon, lat] with crs wgs84")
-    crs: Crs = Field("map", description="what the coordinates of position mean")
+    crs: Crs = Field("map", description="the reference system of position")
     deadline_ms: DeadlineMs = DEFAULT_DEADLINE_MS
     index: IndexName = DEFAULT
 
@@ -246,5 +257,5 @@ class DescribeRequest(Body):
         return self
 
     def points(self) -> list[tuple[str, Point]]:
-        """The (x, y) or (lon, lat) of the request, with the name of its field."""
+        """Return the (x, y) or (lon, lat) of the request with the name of its field."""
         return [("position", self.position)]

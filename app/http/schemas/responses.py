@@ -1,4 +1,4 @@
-"""What the service answers: the localizer's dataclasses with what the service knows besides; NaN is refused."""
+"""Responses: the localizer's dataclasses and the service's own fields. NaN is refused."""
 
 from dataclasses import fields
 
@@ -30,45 +30,45 @@ from models.citymap.frame import Frame
 
 
 class _Out(BaseModel):
-    # An instance of a dataclass would pass unchecked; checked again, a NaN in it is found.
+    # Without revalidation, a NaN inside an instance of a dataclass would pass.
     model_config = ConfigDict(allow_inf_nan=False, revalidate_instances="always")
 
 
 class CrsOut(_Out):
-    """What the metres of an answer mean."""
+    """The coordinate reference system of an answer."""
 
     frame_id: str
     epsg: int | None
-    origin: LatLon | None = Field(description="of the point (0, 0); null if the map has no georeference")
+    origin: LatLon | None = Field(description="position of the point (0, 0); null if the map has no georeference")
     units: str = "m"
     axes: str = "ENU"
 
     @classmethod
-    def of(cls, frame: Frame) -> "CrsOut":
-        """Of a map's frame."""
+    def from_frame(cls, frame: Frame) -> "CrsOut":
+        """Describe the frame of a map."""
         lat, lon = frame.origin_lat, frame.origin_lon
         origin = None if lat is None or lon is None else LatLon(lat, lon)
         return cls(frame_id=frame.frame_id, epsg=frame.epsg, origin=origin)
 
 
 class Provenance(_Out):
-    """What made an answer."""
+    """The index, model and map behind an answer."""
 
     index: str
     index_version: str
-    model: str = Field(description="what answered; of a cell or an index, what made its vectors")
-    model_sha256: str = Field(description="of all its weights")
+    model: str = Field(description="the model that answered; for a cell or an index, the model of its vectors")
+    model_sha256: str = Field(description="checksum of all its weights")
     map: str
     attribution: str
 
     @classmethod
-    def of(cls, localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT) -> "Provenance":
-        """Of what a localizer answers.
+    def build(cls, localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT) -> "Provenance":
+        """Return the provenance of an answer.
 
         Args:
-            localizer: what answers.
-            model: what it answered with; None for the one that made the index.
-            index: the name by which it was asked.
+            localizer: the localizer that answered.
+            model: the model that answered; None for the model of the index.
+            index: the alias in the request.
         """
         facts = localizer.facts
         model = model or facts.model
@@ -89,17 +89,17 @@ class LocalizeResponse(_Out):
 
     request_id: str
     status: Status
-    estimate: Estimate | None = Field(description="null only with status no_match")
+    estimate: Estimate | None = Field(description="null only if status is no_match")
     candidates: tuple[Candidate, ...] = Field(description="best first")
-    other_probability: float = Field(description="mass outside the listed candidates")
-    evidence: tuple[Evidence, ...] = Field(description="one a hint; empty unless refine is posterior")
-    heat_map: HeatMap | None = Field(description="if it was asked for")
-    ros: PoseWithCovarianceStamped | None = Field(None, description="if it was asked for, and there is an estimate")
+    other_probability: float = Field(description="probability outside the listed candidates")
+    evidence: tuple[Evidence, ...] = Field(description="one entry per hint; empty unless refine is posterior")
+    heat_map: HeatMap | None = Field(description="only if requested")
+    ros: PoseWithCovarianceStamped | None = Field(None, description="only if requested and there is an estimate")
     question: Question | None = Field(
-        description="what to ask the speaker, whose answer would narrow this most: send it in `answers`. With status "
-        "ambiguous; with no_match on a map with names, if the text is in English and not of a place outside `within`: "
-        "replies alone then make an answer; with ok once something was replied, until radius_m.p50 is 10 m. Else null, "
-        "and where nothing is worth asking"
+        description="the question whose reply is expected to narrow the position most; send the reply in `answers`. "
+        "Asked if status is ambiguous; if it is no_match on a map with names, for an English text about a place inside "
+        "`within` (the replies alone can then give an answer); and if it is ok after a reply, until radius_m.p50 is "
+        "10 m. Otherwise, or if no question helps, null"
     )
     crs: CrsOut
     provenance: Provenance
@@ -107,7 +107,7 @@ class LocalizeResponse(_Out):
     warnings: tuple[str, ...]
 
     @classmethod
-    def of(
+    def build(
         cls,
         answer: Answer,
         localizer: LocalizerLike,
@@ -115,39 +115,39 @@ class LocalizeResponse(_Out):
         timings_ms: dict[str, float],
         index: str = DEFAULT,
     ) -> "LocalizeResponse":
-        """Of a localizer's answer.
+        """Build the response from a localizer's answer.
 
         Args:
-            answer: what was found.
-            localizer: what found it.
-            request_id: of the request.
-            timings_ms: the service's own, shown with the localizer's.
-            index: the name by which it was asked.
+            answer: the answer.
+            localizer: the localizer that gave it.
+            request_id: id of the request.
+            timings_ms: the service's timings, added to the localizer's.
+            index: the alias in the request.
         """
-        found = {f.name: getattr(answer, f.name) for f in fields(answer) if f.name != "model"}
-        found["timings_ms"] = {**answer.timings_ms, **timings_ms}
-        crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer, answer.model, index)
-        return cls(request_id=request_id, crs=crs, provenance=provenance, **found)
+        values = {f.name: getattr(answer, f.name) for f in fields(answer) if f.name != "model"}
+        values["timings_ms"] = {**answer.timings_ms, **timings_ms}
+        crs, provenance = CrsOut.from_frame(localizer.frame), Provenance.build(localizer, answer.model, index)
+        return cls(request_id=request_id, crs=crs, provenance=provenance, **values)
 
 
 class DescribeResponse(_Out):
-    """What the map says at a position; metres, map frame."""
+    """A position in words; metres, map frame."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBED]})
 
     request_id: str
-    description: str = Field(description="the sentences of `hints`; POST /localize finds the position by it")
+    description: str = Field(description="the sentences of `hints`; POST /localize can find the position from it")
     hints: tuple[Fact, ...]
     place: str | None = Field(description="the position in words; null on a map without names")
     position: tuple[float, float]
     wgs84: LatLon | None = Field(description="null if the map has no georeference")
-    cell_id: str = Field(description="the cell whose centre is nearest")
+    cell_id: str = Field(description="the cell with the nearest centre")
     crs: CrsOut
     provenance: Provenance
     timings_ms: dict[str, float]
 
     @classmethod
-    def of(
+    def build(
         cls,
         described: Described,
         localizer: LocalizerLike,
@@ -155,14 +155,14 @@ class DescribeResponse(_Out):
         timings_ms: dict[str, float],
         index: str = DEFAULT,
     ) -> "DescribeResponse":
-        """Of what a localizer says of a position; the rest as `LocalizeResponse.of`."""
-        said = {f.name: getattr(described, f.name) for f in fields(described)}
-        crs, provenance = CrsOut.of(localizer.frame), Provenance.of(localizer, index=index)
-        return cls(request_id=request_id, crs=crs, provenance=provenance, timings_ms=timings_ms, **said)
+        """Build the response from a described position; the other arguments are those of `LocalizeResponse.build`."""
+        values = {f.name: getattr(described, f.name) for f in fields(described)}
+        crs, provenance = CrsOut.from_frame(localizer.frame), Provenance.build(localizer, index=index)
+        return cls(request_id=request_id, crs=crs, provenance=provenance, timings_ms=timings_ms, **values)
 
 
 class CellResponse(_Out):
-    """A cell and what is in it; metres, map frame."""
+    """A cell and its instances; metres, map frame."""
 
     cell_id: str
     scene: str
@@ -174,46 +174,46 @@ class CellResponse(_Out):
     provenance: Provenance
 
     @classmethod
-    def of(cls, cell: CellDetail, localizer: LocalizerLike) -> "CellResponse":
-        """Of a localizer's cell."""
-        shown = {f.name: getattr(cell, f.name) for f in fields(cell)}
-        return cls(crs=CrsOut.of(localizer.frame), provenance=Provenance.of(localizer), **shown)
+    def build(cls, cell: CellDetail, localizer: LocalizerLike) -> "CellResponse":
+        """Build the response from a localizer's cell."""
+        values = {f.name: getattr(cell, f.name) for f in fields(cell)}
+        return cls(crs=CrsOut.from_frame(localizer.frame), provenance=Provenance.build(localizer), **values)
 
 
 class CellsResponse(_Out):
-    """Some of the map's cells, in its order."""
+    """A page of the map's cells, in the map's order."""
 
     cells: tuple[CellSummary, ...]
-    total: int = Field(description="of the map")
-    next: str | None = Field(description="the path of those that follow; null at the end")
+    total: int = Field(description="number of cells of the map")
+    next: str | None = Field(description="path of the next page; null on the last one")
     crs: CrsOut
     provenance: Provenance
 
 
 class Health(_Out):
-    """Whether the process runs, or the service is ready."""
+    """The state of the process or the service."""
 
     status: str
 
 
 class Limits(_Out):
-    """What a client can run into."""
+    """The limits of the service."""
 
-    max_bytes: int = Field(description="of a body; POST /localize/batch takes four times as many")
+    max_bytes: int = Field(description="size of a body; POST /localize/batch accepts four times as much")
     max_evaluate_bytes: int
     max_characters: int
     max_hints: int
-    max_items: int = Field(description="of one POST /localize/batch")
+    max_items: int = Field(description="items of one POST /localize/batch")
     max_top_k: int
     max_queue: int
-    max_wait_ms: int = Field(description="that a request may be expected to wait for the model")
-    max_queries: int = Field(description="of one evaluation")
-    max_jobs: int = Field(description="evaluations that wait")
-    deadline_ms: int = Field(description="of a request that names none")
+    max_wait_ms: int = Field(description="longest expected wait for a worker; a longer one is refused with 429")
+    max_queries: int = Field(description="queries of one evaluation")
+    max_jobs: int = Field(description="waiting evaluations")
+    deadline_ms: int = Field(description="deadline of a request that sends none")
     max_deadline_ms: int
 
     @classmethod
-    def of(cls, settings: Settings) -> "Limits":
+    def from_settings(cls, settings: Settings) -> "Limits":
         """Return the limits of a service with these settings."""
         return cls(
             max_bytes=limits.MAX_BODY_BYTES,
@@ -232,19 +232,19 @@ class Limits(_Out):
 
 
 class IndexInfo(_Out):
-    """The index that is served."""
+    """A served index."""
 
     num_cells: int
     num_instances: int
     dim: int
-    scenery_parts: int = Field(description="of GET /maps/{map}/points")
+    scenery_parts: int = Field(description="number of parts of GET /maps/{map}/points")
     created: str
     crs: CrsOut
     provenance: Provenance
 
     @classmethod
-    def of(cls, localizer: LocalizerLike) -> "IndexInfo":
-        """Of what a localizer answers from."""
+    def build(cls, localizer: LocalizerLike) -> "IndexInfo":
+        """Describe the index of a localizer."""
         facts = localizer.facts
         return cls(
             num_cells=facts.num_cells,
@@ -252,18 +252,20 @@ class IndexInfo(_Out):
             dim=facts.dim,
             scenery_parts=facts.scenery_parts,
             created=facts.created,
-            crs=CrsOut.of(localizer.frame),
-            provenance=Provenance.of(localizer),
+            crs=CrsOut.from_frame(localizer.frame),
+            provenance=Provenance.build(localizer),
         )
 
 
 class InfoResponse(_Out):
-    """The service, its limits, and what it serves."""
+    """The service, its limits, its indexes and its data sets."""
 
     service: str
     version: str
-    key_required: bool = Field(description="whether all but this, the page and the checks of health needs the read key")
+    key_required: bool = Field(
+        description="whether all paths except this one, the page, /healthz, /readyz and /metrics need the read key"
+    )
     limits: Limits
-    index: IndexInfo | None = Field(description="the one that is asked by default; null until it is loaded")
-    indexes: list[str] = Field(description="names that requests take as index")
-    data_sets: list[str] = Field(description="names that POST /evaluate takes as data")
+    index: IndexInfo | None = Field(description="the default index; null until it is loaded")
+    indexes: list[str] = Field(description="values of `index` in requests")
+    data_sets: list[str] = Field(description="values of `data` in POST /evaluate")

@@ -1,4 +1,4 @@
-"""An answer as ROS has it: geometry_msgs/PoseWithCovarianceStamped, axes as REP-103 says (x east, y north, z up)."""
+"""Answers as ROS messages: geometry_msgs/PoseWithCovarianceStamped with the axes of REP-103 (x east, y north, z up)."""
 
 import math
 import time
@@ -8,25 +8,25 @@ from pydantic import BaseModel, Field
 
 from index.answering.answers import Estimate
 
-UNKNOWN_M2: Final = 1e4  # variance of a height that nobody told
-UNKNOWN_RAD2: Final = math.pi**2 / 3  # of an angle that could be any
+UNKNOWN_M2: Final = 1e4  # variance of the unknown height
+UNKNOWN_RAD2: Final = math.pi**2 / 3  # variance of an angle that is uniform on the circle
 
 
-class Stamp(BaseModel):
+class RosTime(BaseModel):
     """builtin_interfaces/Time."""
 
     sec: int
     nanosec: int
 
 
-class Header(BaseModel):
+class RosHeader(BaseModel):
     """std_msgs/Header."""
 
-    stamp: Stamp
+    stamp: RosTime
     frame_id: str
 
 
-class Vector(BaseModel):
+class RosPoint(BaseModel):
     """geometry_msgs/Point."""
 
     x: float
@@ -34,7 +34,7 @@ class Vector(BaseModel):
     z: float
 
 
-class Quaternion(BaseModel):
+class RosQuaternion(BaseModel):
     """geometry_msgs/Quaternion."""
 
     x: float
@@ -43,34 +43,34 @@ class Quaternion(BaseModel):
     w: float
 
 
-class Pose(BaseModel):
+class RosPose(BaseModel):
     """geometry_msgs/Pose."""
 
-    position: Vector
-    orientation: Quaternion
+    position: RosPoint
+    orientation: RosQuaternion
 
 
 class PoseWithCovariance(BaseModel):
     """geometry_msgs/PoseWithCovariance."""
 
-    pose: Pose
+    pose: RosPose
     covariance: list[float] = Field(min_length=36, max_length=36, description="x, y, z, roll, pitch, yaw; row by row")
 
 
 class PoseWithCovarianceStamped(BaseModel):
-    """geometry_msgs/PoseWithCovarianceStamped; its heading is the identity, with a wide variance, if none was told."""
+    """geometry_msgs/PoseWithCovarianceStamped; an unknown heading is the identity with a wide variance."""
 
-    header: Header
+    header: RosHeader
     pose: PoseWithCovariance
 
 
-def pose_of(estimate: Estimate, frame_id: str, now_s: float | None = None) -> PoseWithCovarianceStamped:
-    """An estimate as a pose.
+def to_ros_pose(estimate: Estimate, frame_id: str, now_s: float | None = None) -> PoseWithCovarianceStamped:
+    """Convert an estimate to a ROS pose.
 
     Args:
-        estimate: metres, map frame.
-        frame_id: of the map.
-        now_s: seconds since 1970 when it was found; None: now.
+        estimate: the estimate in metres, map frame.
+        frame_id: ROS name of the map frame.
+        now_s: Unix time of the answer; None for now.
     """
     seconds, rest = divmod(time.time() if now_s is None else now_s, 1)
     yaw, yaw_rad2 = 0.0, UNKNOWN_RAD2
@@ -81,11 +81,11 @@ def pose_of(estimate: Estimate, frame_id: str, now_s: float | None = None) -> Po
     (covariance[0], covariance[1]), (covariance[6], covariance[7]) = estimate.covariance
     covariance[14], covariance[21], covariance[28], covariance[35] = UNKNOWN_M2, UNKNOWN_RAD2, UNKNOWN_RAD2, yaw_rad2
     x, y = estimate.position
-    pose = Pose(
-        position=Vector(x=x, y=y, z=0.0),
-        orientation=Quaternion(x=0.0, y=0.0, z=math.sin(yaw / 2), w=math.cos(yaw / 2)),
+    pose = RosPose(
+        position=RosPoint(x=x, y=y, z=0.0),
+        orientation=RosQuaternion(x=0.0, y=0.0, z=math.sin(yaw / 2), w=math.cos(yaw / 2)),
     )
     return PoseWithCovarianceStamped(
-        header=Header(stamp=Stamp(sec=int(seconds), nanosec=int(rest * 1e9)), frame_id=frame_id),
+        header=RosHeader(stamp=RosTime(sec=int(seconds), nanosec=int(rest * 1e9)), frame_id=frame_id),
         pose=PoseWithCovariance(pose=pose, covariance=covariance),
     )

@@ -1,7 +1,7 @@
-"""The public names of Hereabouts; `app`, `index` and `models` are internal and may change.
+"""The public interface of Hereabouts; `app`, `index` and `models` are internal and may change.
 
-`Client` and `AsyncClient` talk to a running service and import no torch. `Localizer` opens an index in this process
-and answers each `Query`; it loads torch when it is first used.
+`Client` and `AsyncClient` call a running service and do not import torch. `Localizer` opens an index in this process
+and answers each `Query`; torch is imported on first use.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -16,9 +16,9 @@ __all__ = ["AsyncClient", "Box", "Circle", "Client", "Localizer", "Prior", "Quer
 
 
 def __getattr__(name: str) -> Any:
-    """Import `Localizer`, and with it torch, when somebody asks for it."""
+    """Import `Localizer`, and with it torch, on first use."""
     if name != "Localizer":
         raise AttributeError(f"module 'hereabouts' has no attribute {name!r}")
-    from index.answering.localizer import Localizer  # noqa: PLC0415  # the client does without torch
+    from index.answering.localizer import Localizer  # noqa: PLC0415  # the client needs no torch
 
     return Localizer

@@ -19,7 +19,7 @@ PARTS = ("read_ms", "encode_ms", "candidates_ms", "posterior_ms")
 def run(monkeypatch, weights_dir):
     monkeypatch.setenv("HEREABOUTS_WEIGHTS_DIR", str(weights_dir))
     monkeypatch.setenv("HEREABOUTS_WORKERS", "1")
-    for module, name, count in ((questions, "QUERIES", 2), (questions, "WARM_UP", 1), (growth, "PARTS", 2)):
+    for module, name, count in ((questions, "QUERIES_PER_KIND", 2), (questions, "WARM_UP", 1), (growth, "PARTS", 2)):
         monkeypatch.setattr(module, name, count)
     return lambda *args: CliRunner().invoke(app, ["benchmark", *(str(arg) for arg in args)])
 
@@ -63,7 +63,7 @@ def test_a_city_of_two_copies_is_measured_whole(run, osm_file, cells, tmp_path, 
 def test_what_is_no_list_of_sizes_says_what_one_is(run, text) -> None:
     result = run("--cells", text)
     assert result.exit_code == 1
-    assert "give it as 1e4,1e5,1e6" in result.output
+    assert "write it as 1e4,1e5,1e6" in result.output
 
 
 def test_sizes_are_ascending_and_come_once() -> None:
@@ -73,7 +73,7 @@ def test_sizes_are_ascending_and_come_once() -> None:
 def test_a_size_below_one_copy_is_refused_before_anything_is_built(run, osm_file, cells) -> None:
     result = run("--cells", f"{len(cells) - 1},1e6", "--map", osm_file)
     assert result.exit_code == 1
-    assert f"ask for {len(cells)} or more" in " ".join(result.output.split())
+    assert f"give at least {len(cells)}" in " ".join(result.output.split())
 
 
 def test_no_such_map_and_no_map_are_said(run, tmp_path) -> None:
@@ -108,7 +108,7 @@ def test_what_fails_is_told_with_what_was_measured(run, osm_file, cells, monkeyp
 
 def test_an_out_that_cannot_be_written_is_said(osm_file, cells, monkeypatch, tmp_path) -> None:
     monkeypatch.setattr(growth, "_measure_size", lambda *_: {"cells": 1})
-    monkeypatch.setattr(growth, "take_questions", lambda _: [None] * 100)
+    monkeypatch.setattr(growth, "draw_queries", lambda _: [None] * 100)
     (tmp_path / "file").write_text("")
     with pytest.raises(DataError, match="another directory as --out"):
         run_growth(osm_file, [len(cells)], tmp_path / "file")
@@ -147,7 +147,7 @@ def test_milvus_is_asked_the_same_and_leaves_nothing(localizer, monkeypatch) -> 
 
 def test_too_few_places_are_said() -> None:
     with pytest.raises(MapError, match="a larger one as --map"):
-        questions.shared_out([questions.Question(("a",), None, 60.0, 25.0)] * questions.WARM_UP)
+        questions.split_questions([questions.BenchmarkQuery(("a",), None, 60.0, 25.0)] * questions.WARM_UP)
 
 
 def test_percentiles_are_in_milliseconds() -> None:

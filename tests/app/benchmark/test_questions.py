@@ -8,7 +8,7 @@ import pytest
 from pyproj import Geod
 
 from app.benchmark import questions
-from app.benchmark.questions import Question, ask_all, shared_out, take_questions
+from app.benchmark.questions import BenchmarkQuery, draw_queries, localize_all, split_questions
 from models.sources.osm.city_copies import CopyGrid
 
 BOX = 250_000_000, 600_000_000, 250_100_000, 600_050_000  # 0.01 by 0.005 degrees
@@ -18,14 +18,14 @@ FAR = 0.001  # degrees of latitude, some 111 m
 
 
 @pytest.fixture
-def asked(monkeypatch) -> list[Question]:
-    monkeypatch.setattr(questions, "QUERIES", 4)
+def asked(monkeypatch) -> list[BenchmarkQuery]:
+    monkeypatch.setattr(questions, "QUERIES_PER_KIND", 4)
     monkeypatch.setattr(questions, "WARM_UP", 1)
-    return [Question((f"hint {n}",), "High Road" if n % 2 else None, LAT, LON) for n in range(17)]
+    return [BenchmarkQuery((f"hint {n}",), "High Road" if n % 2 else None, LAT, LON) for n in range(17)]
 
 
 def ask(asked, answer) -> tuple[dict, list[dict]]:
-    """What `ask_all` finds of a service that answers by `answer` (body -> estimate, or a status), and all bodies."""
+    """Run `localize_all` on a service that answers by `answer` (body -> estimate or status); return also the bodies."""
     bodies = []
 
     def respond(request: httpx.Request) -> httpx.Response:
@@ -34,7 +34,7 @@ def ask(asked, answer) -> tuple[dict, list[dict]]:
         return httpx.Response(found) if isinstance(found, int) else httpx.Response(200, json={"estimate": found})
 
     with httpx.Client(transport=httpx.MockTransport(respond), base_url="http://a") as client:
-        return ask_all(client, asked, BLOCK), bodies
+        return localize_all(client, asked, BLOCK), bodies
 
 
 def at(lat, lon) -> dict:
@@ -78,7 +78,9 @@ def test_no_text_is_sent_twice_but_with_its_street(asked) -> None:
 
 
 def test_boxes_are_a_share_of_the_block_round_the_place_and_inside_it(asked) -> None:
-    _, bodies = ask([*asked[:-1], Question(("corner",), None, BOX[1] / 1e7, BOX[0] / 1e7)], lambda body: at(LAT, LON))
+    _, bodies = ask(
+        [*asked[:-1], BenchmarkQuery(("corner",), None, BOX[1] / 1e7, BOX[0] / 1e7)], lambda body: at(LAT, LON)
+    )
     west, south, east, north = BLOCK.bounds()
     shares = []
     for body in bodies:
@@ -96,7 +98,7 @@ def test_boxes_are_a_share_of_the_block_round_the_place_and_inside_it(asked) -> 
 
 
 def test_questions_are_of_the_split_and_always_the_same(source, regions) -> None:
-    one, two = take_questions(regions[0]), take_questions(regions[0])
+    one, two = draw_queries(regions[0]), draw_queries(regions[0])
     assert one == two
     assert len({question.hints for question in one}) > 0.9 * len(one)
     assert {question.street for question in one} <= {
@@ -108,6 +110,6 @@ def test_questions_are_of_the_split_and_always_the_same(source, regions) -> None
     near = int(np.hypot(*(queries.positions_m - place).T).argmin())
     assert queries.positions_m[near] == pytest.approx(place, abs=1e-6)
     assert queries.sentences[near] == one[0].hints
-    warm, sorts = shared_out(one)
+    warm, sorts = split_questions(one)
     assert len(warm) == questions.WARM_UP
     assert len({len(some) for some in sorts}) == 1

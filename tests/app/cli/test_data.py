@@ -55,7 +55,7 @@ def test_what_prepare_made_is_converted_indexed_and_asked(run, prepared, tmp_pat
     ("args", "message"),
     [
         (("evaluate",), "--data"),
-        (("evaluate", "--data", "DATA", "--grow", "near,far"), "no list of metres"),
+        (("evaluate", "--data", "DATA", "--grow", "near,far"), "not a list of metres"),
         (("evaluate", "--data", "DATA", "--split", "train"), "no scene of split 'train'"),
         (("evaluate", "--data", "NOTHING"), "NOTHING"),
         (("index", "--map", "DATA", "--out", "OUT", "--split", "0042"), "0042"),
@@ -96,7 +96,7 @@ def test_an_index_is_verified_whole_or_by_version(run, index_dir, tmp_path) -> N
     for named in (root, root / version):
         result = run("verify", "--index", named)
         assert result.exit_code == 0, result.output
-        assert f"index {version} of tinytown is whole" in result.output
+        assert f"index {version} of tinytown is intact" in result.output
     file = root / version / "statements.safetensors"
     content = bytearray(file.read_bytes())
     content[-1] ^= 1

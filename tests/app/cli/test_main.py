@@ -125,7 +125,7 @@ def test_index_builds_and_says_what_next(monkeypatch):
 def test_serve_takes_options_then_environment(monkeypatch):
     served = []
     monkeypatch.setattr("app.server.serve", lambda _app, settings: served.append(settings))
-    monkeypatch.setattr("app.logs.configure_logging", lambda level, with_words: None)
+    monkeypatch.setattr("app.logs.configure_logging", lambda level, with_messages: None)
     monkeypatch.setenv("HEREABOUTS_HOST", "0.0.0.0")
     monkeypatch.setenv("HEREABOUTS_WORKERS", "7")
     assert run("serve", "--index", "/i", "--port", "9").exit_code == 0

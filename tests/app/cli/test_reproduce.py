@@ -5,7 +5,7 @@ import torch
 from typer.testing import CliRunner
 
 from app.cli.main import app
-from app.cli.reproduce import _changed
+from app.cli.reproduce import _override
 from models.errors import DataError
 from models.training.experiments import SCALES
 from models.training.settings import load_settings
@@ -24,13 +24,13 @@ steps = 5
 [points.training]
 steps = 6
 """)
-    scale = _changed(SCALE, config, None, "cpu")
+    scale = _override(SCALE, config, None, "cpu")
     model, training = load_settings("mncl", scale.retriever)
     assert model.text_encoder == "/models/flan-t5-large"
     assert (training.steps, training.device, training.batch_size) == (5, "cpu", 64)
     assert load_settings("points", scale.points)[1].steps == 6
     assert load_settings("regressor", scale.fine)[1].steps == load_settings("regressor", SCALE.fine)[1].steps
-    said = _changed(SCALE, config, 40, None)
+    said = _override(SCALE, config, 40, None)
     assert load_settings("mncl", said.retriever)[1].steps == 40, "an option wins"
     assert load_settings("mncl", said.retriever)[1].validate_every == 2
     assert load_settings("points", said.points)[1].steps == 6
@@ -39,17 +39,17 @@ steps = 6
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[coarse.model]\nwidth = 3", "no table 'coarse'"),
+        ("[coarse.model]\nwidth = 3", "unknown table 'coarse'"),
         ("width", "cannot be read"),
         ("[retriever]\nwidth = 3", "retriever.model"),
         ("retriever = 3", "retriever.model"),
-        ("[fine.model]\ninputs = ['points']", "what the tables compare"),
+        ("[fine.model]\ninputs = ['points']", "the tables compare inputs"),
     ],
 )
 def test_a_configuration_that_is_none_is_refused(tmp_path, text, message) -> None:
     (tmp_path / "c.toml").write_text(text)
     with pytest.raises(DataError, match=message):
-        _changed(SCALE, tmp_path / "c.toml", None, None)
+        _override(SCALE, tmp_path / "c.toml", None, None)
 
 
 @pytest.mark.parametrize(

@@ -49,7 +49,7 @@ def run(*arguments):
 def test_a_shard_is_made_and_what_comes_next_is_said(calls) -> None:
     result = run("--shard", "2/4", "--levels")
     assert result.stdout == (
-        "shard 2/4 is in o/.parts/x/2-of-4; once all 4 are there, give --merge 4 in the place of --shard 2/4\n"
+        "shard 2/4 is in o/.parts/x/2-of-4; once all 4 are built, run this with --merge 4 instead of --shard 2/4\n"
     )
     assert calls == [(Path("a.osm"), Path("o"), False, True, "faiss", Shard(2, 4))]
 

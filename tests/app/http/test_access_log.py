@@ -34,7 +34,7 @@ def test_line_has_the_template_and_not_the_path(api, lines):
 
 def test_fault_is_logged_with_the_id(api, lines):
     response = api.post("/localize", json={"description": "a bad tree"})
-    [fault] = [line for line in lines if line["event"] == "fault"]
+    [fault] = [line for line in lines if line["event"] == "internal error"]
     assert fault["request_id"] == response.headers["x-request-id"]
     assert fault["exc_info"]
     assert requests(lines)[0]["status"] == 500

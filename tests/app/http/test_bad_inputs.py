@@ -13,7 +13,7 @@ from fake_localizer import FakeLocalizer
 from good_requests import GOOD, IN_PATH, JSON, WITH_BODY, ask
 from local_client import local_client
 
-from app.jobs.job import Job
+from app.jobs.job import EvaluationJob
 from app.main import create_app
 from app.settings import Settings
 from models.citymap.scenery.files import SceneryPart
@@ -23,7 +23,7 @@ MOST_BYTES = 2_000_000
 ECHO = re.compile(rf"{values.MARK}|9876|98\.76|passwd|<script|alert|\\u0000|[\x00-\x08]", re.I)
 MACHINERY = re.compile(r"Traceback|\.py\b|pydantic|/(home|root|tmp|usr|var|work|etc|app)/|0x[0-9a-f]{6}")
 ADVICE = re.compile(
-    r"\b(should|send|gives?|takes?|ask|accept|see|leave|say|start|names|lists|mean|at most \d+)\b", re.I
+    r"\b(must|should|send|gives?|use|choose|describe|say|try|accept|leave|start|lists|at most \d+)\b", re.I
 )
 FLEETING = ("request_id", "timings_ms")
 NEGOTIATED = ("POST /localize", "GET /cells", "GET /cells/{cell_id}")
@@ -129,7 +129,7 @@ def api(fake, until, versions_dir):
     """A client, with the key, of a service whose evaluations are not run."""
 
     async def submit(_jobs, _evaluation):
-        return Job(Path("nowhere"), "the-job")
+        return EvaluationJob(Path("nowhere"), "the-job")
 
     settings = Settings(index_dir=versions_dir, read_key=KEY)
     with pytest.MonkeyPatch.context() as patch:

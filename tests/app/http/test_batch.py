@@ -82,7 +82,7 @@ def test_items_of_an_index_that_answers_do_not_wait_for_one_that_cannot(monkeypa
 
     monkeypatch.setattr("app.main._open_workers", open_workers)
     monkeypatch.setattr("app.main.check_version", check_version)
-    monkeypatch.setattr("app.main._aliases", lambda _dir: {"default": "v1", "berlin": "v2"})
+    monkeypatch.setattr("app.main._read_aliases", lambda _dir: {"default": "v1", "berlin": "v2"})
     here, there = {"description": TEXT}, {"description": TEXT, "index": "berlin"}
     with TestClient(create_app(Settings())) as api:
         until(lambda: api.post("/localize", json=there).status_code == 200)

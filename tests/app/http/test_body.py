@@ -20,7 +20,7 @@ def post(api, content, headers=JSON):
     ("content", "said"),
     [
         (b'{"description": "\xff\xfe"}', "not UTF-8"),
-        (b'{"a":' * 20_000 + b"1" + b"}" * 20_000, "nested more than 32"),
+        (b'{"a":' * 20_000 + b"1" + b"}" * 20_000, "more than 32 nested levels"),
         (b'{"prior": NaN}', "NaN"),
         (b'{"a": 1, "a": 2}', "twice"),
         (b'{"top_k": ' + b"9" * 5000 + b"}", "too many digits"),

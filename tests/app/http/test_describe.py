@@ -104,7 +104,7 @@ def test_bad_input_is_a_problem(api, problem, body, status, code, field):
 
 def test_a_place_off_the_map_is_told_what_to_do(api, problem):
     told = problem(api.post(PATH, json={"position": [0, 1e8]}), 422, "invalid_request", "position")
-    assert "take a place" in told["detail"]
+    assert "choose a position" in told["detail"]
 
 
 def test_degrees_need_a_georeference(settings, start, problem):

@@ -7,7 +7,7 @@ import pytest
 from fake_localizer import TRUE_FRAME, FakeLocalizer
 
 from app.http.schemas.evaluate_requests import EvaluateRequest
-from app.jobs.order import find_data, read_evaluation, to_evaluation
+from app.jobs.evaluation import build_evaluation, find_data, read_evaluation
 from app.settings import Settings
 from models.citymap.frame import Frame
 from models.errors import DataError
@@ -21,10 +21,10 @@ def submitted(monkeypatch):
     found = []
 
     async def submit(self, evaluation):
-        from app.jobs.job import Job
+        from app.jobs.job import EvaluationJob
 
         found.append(evaluation)
-        return Job(Path("/nowhere"))
+        return EvaluationJob(Path("/nowhere"))
 
     monkeypatch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
     return found
@@ -97,7 +97,8 @@ def test_wgs84_is_projected(api, submitted):
 )
 def test_what_cannot_be_used_is_named(refused, body, field):
     fields, said = refused(
-        lambda body: to_evaluation(EvaluateRequest.model_validate(body), Settings(), Path("/nowhere"), TRUE_FRAME), body
+        lambda body: build_evaluation(EvaluateRequest.model_validate(body), Settings(), Path("/nowhere"), TRUE_FRAME),
+        body,
     )
     assert field in fields
     assert "utm" not in said
@@ -198,7 +199,7 @@ def test_folder_and_file_of_one_name(data_dir):
         ('{"queries": NaN}', "NaN"),
         ("{}", "queries: give either"),
         ('{"queries": [{"description": "a tree", "position": [1]}]}', r"queries\[0\].position\[1\]"),
-        ('{"data": "town"}', "give its path to --data"),
+        ('{"data": "town"}', "pass its path as --data"),
     ],
 )
 def test_file_that_is_no_such_body(settings, tmp_path, content, said):

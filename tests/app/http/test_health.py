@@ -31,8 +31,8 @@ def test_alive_at_once_and_ready_when_loaded(settings, fake, until, problem):
 @pytest.mark.parametrize(
     ("error", "said"),
     [
-        (IndexMismatch("/secret/index built by a, model is b; rebuild it"), "the operator finds in the log why"),
-        (KeyError("secret"), "the operator finds it in the log"),
+        (IndexMismatch("/secret/index built by a, model is b; rebuild it"), "the reason is in the service's log"),
+        (KeyError("secret"), "it is in the service's log"),
     ],
 )
 def test_load_that_failed_is_said_by_readyz(settings, until, problem, error, said):

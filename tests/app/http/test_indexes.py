@@ -37,7 +37,7 @@ async def serving(city, check_files=None):
     await indexes.start()
     try:
         for alias in indexes.names():
-            await indexes.queue(alias).opened()
+            await indexes.queue(alias).wait_until_open()
         yield indexes
     finally:
         for fake in city.opened.values():
@@ -60,7 +60,7 @@ async def soon(condition):
 
 @pytest.fixture(autouse=True)
 def _looks_often(monkeypatch):
-    monkeypatch.setattr("app.http.indexes.LOOKED_AT_S", 0.01)
+    monkeypatch.setattr("app.http.indexes.ALIAS_POLL_S", 0.01)
 
 
 def test_each_alias_is_served_by_its_own_version():
@@ -321,10 +321,10 @@ def test_there_is_room_while_one_index_has_some(monkeypatch):
         async with serving(City(default="one", canary="two")) as indexes:
             for alias in ("default", "canary"):
                 with monkeypatch.context() as patch:
-                    patch.setattr(indexes.queue(alias), "full", lambda: full)
+                    patch.setattr(indexes.queue(alias), "refusal", lambda: full)
                     await indexes.check_room()
             for alias in ("default", "canary"):
-                monkeypatch.setattr(indexes.queue(alias), "full", lambda: full)
+                monkeypatch.setattr(indexes.queue(alias), "refusal", lambda: full)
             with pytest.raises(Problem) as refused:
                 await indexes.check_room()
             assert refused.value is full

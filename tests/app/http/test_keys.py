@@ -13,7 +13,7 @@ from local_client import local_client
 from structlog.testing import capture_logs
 
 from app.http.keys import OPEN, KeyCheck, open_routes
-from app.jobs.job import Job
+from app.jobs.job import EvaluationJob
 from app.main import create_app
 from app.settings import Settings
 
@@ -179,7 +179,7 @@ CHANGES = (("POST", "/evaluate", EVALUATION), ("DELETE", "/evaluate/x", None))
 @pytest.fixture
 def evaluates_nothing(monkeypatch):
     async def submit(_jobs, _evaluation):
-        return Job(Path("nowhere"))
+        return EvaluationJob(Path("nowhere"))
 
     monkeypatch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
 

@@ -153,7 +153,7 @@ def test_full_queue_is_429_with_retry_after(settings, fake, start, until, proble
         assert fake.entered.acquire(timeout=5)
         threads.append(threading.Thread(target=lambda: statuses.append(api.post("/localize", **ask).status_code)))
         threads[1].start()
-        until(lambda: len(api.app.state.indexes.queue()._jobs) == 1)
+        until(lambda: len(api.app.state.indexes.queue()._pending) == 1)
         response = api.post("/localize", **ask)
         problem(response, 429, "queue_full")
         assert response.headers["retry-after"] == "1"

@@ -1,7 +1,7 @@
 import pytest
 from fastapi import Request
 
-from app.http.formats.negotiation import choose, takes_gzip
+from app.http.formats.negotiation import accepts_gzip, choose_media_type
 
 JSON, GEO = "application/json", "application/geo+json"
 
@@ -29,7 +29,7 @@ JSON, GEO = "application/json", "application/geo+json"
     ],
 )
 def test_choice(accept, chosen):
-    assert choose(accept, (JSON, GEO)) == chosen
+    assert choose_media_type(accept, (JSON, GEO)) == chosen
 
 
 @pytest.mark.parametrize(
@@ -49,4 +49,4 @@ def test_choice(accept, chosen):
 )
 def test_gzip_is_taken_by_who_says_so(accepts, takes):
     headers = [(b"accept-encoding", each.encode()) for each in accepts]
-    assert takes_gzip(Request({"type": "http", "headers": headers})) == takes
+    assert accepts_gzip(Request({"type": "http", "headers": headers})) == takes

@@ -166,9 +166,9 @@ def test_full_queue_refuses(fake):
             with pytest.raises(Problem) as raised:
                 await queue.submit(ask("c"), soon())
             assert raised.value.code is Code.QUEUE_FULL
-            assert queue.full() is not None
+            assert queue.refusal() is not None
             queue.drain()
-            assert queue.full() is None, "it is refused as the service ends, and not to be tried again here"
+            assert queue.refusal() is None, "it is refused as the service ends, and not to be tried again here"
             fake.gate.set()
             await asyncio.gather(first, *waiting)
 
@@ -212,9 +212,9 @@ def test_what_would_wait_too_long_is_refused_at_the_door(fake):
     async def run():
         queue = InferenceQueue(lambda: [fake], 100, max_wait_s=0.5)
         queue.start()
-        await queue.opened()
+        await queue.wait_until_open()
         for _ in range(200):
-            queue._learn(0.1)
+            queue._update_query_time(0.1)
         first = await busy(queue, fake)
         rest = await submitted(queue, *"abcdef", deadline_s=soon(60))
         await asyncio.sleep(0.3)  # a refusal takes its time
@@ -237,7 +237,7 @@ def test_a_deadline_that_the_wait_would_pass_is_refused_too(fake):
     async def run():
         async with running(fake) as queue:
             for _ in range(200):
-                queue._learn(0.1)
+                queue._update_query_time(0.1)
             first = await busy(queue, fake)
             waiting = await submitted(queue, *"abc")
             with pytest.raises(Problem) as problem:
@@ -251,7 +251,7 @@ def test_a_deadline_that_the_wait_would_pass_is_refused_too(fake):
 
 def test_one_slow_query_shuts_no_door(fake):
     queue = InferenceQueue(lambda: [fake], 100)
-    queue._learn(60.0)
+    queue._update_query_time(60.0)
     assert queue._query_s < 0.1
 
 
@@ -261,7 +261,7 @@ def test_a_busy_worker_keeps_nothing_from_an_idle_one(fake):
     async def run():
         queue = InferenceQueue(lambda: fakes, 100)
         queue.start()
-        await queue.opened()
+        await queue.wait_until_open()
         assert queue.num_workers == 2
         for one in fakes:
             one.gate.clear()
@@ -287,7 +287,7 @@ def test_of_idle_workers_the_first_is_asked(fake):
     async def run():
         queue = InferenceQueue(lambda: workers, 100)
         queue.start()
-        await queue.opened()
+        await queue.wait_until_open()
         for n in range(9):
             while len(queue._idle) < len(workers):
                 await asyncio.sleep(0.001)

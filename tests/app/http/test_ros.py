@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from fake_localizer import FakeLocalizer
 
-from app.http.schemas.ros import UNKNOWN_RAD2, pose_of
+from app.http.schemas.ros import UNKNOWN_RAD2, to_ros_pose
 from index.answering.answers import Estimate, Heading, Radius
 
 ESTIMATE = Estimate((3.0, -4.0), "posterior", ((9.0, 2.0), (2.0, 4.0)), Radius(2.0, 4.0), 0.5, None)
@@ -16,7 +16,7 @@ ESTIMATE = Estimate((3.0, -4.0), "posterior", ((9.0, 2.0), (2.0, 4.0)), Radius(2
     [(0, (0, 1)), (90, (1, 0)), (180, (0, -1)), (270, (-1, 0)), (45, (2**-0.5, 2**-0.5)), (359, (-0.01745, 0.99985))],
 )
 def test_heading_turns_x_to_where_the_speaker_looks(heading, forward):
-    pose = pose_of(replace(ESTIMATE, heading=Heading(heading, 10.0)), "map").pose
+    pose = to_ros_pose(replace(ESTIMATE, heading=Heading(heading, 10.0)), "map").pose
     q = pose.pose.orientation
     assert q.x == q.y == 0
     assert (1 - 2 * q.z**2, 2 * q.z * q.w) == pytest.approx(forward, abs=1e-4)
@@ -24,7 +24,7 @@ def test_heading_turns_x_to_where_the_speaker_looks(heading, forward):
 
 
 def test_covariance_is_of_the_plane_and_wide_in_what_nobody_told():
-    message = pose_of(ESTIMATE, "town", now_s=1234.25)
+    message = to_ros_pose(ESTIMATE, "town", now_s=1234.25)
     matrix = np.array(message.pose.covariance).reshape(6, 6)
     assert matrix[:2, :2].tolist() == [[9.0, 2.0], [2.0, 4.0]]
     assert np.array_equal(matrix, matrix.T)

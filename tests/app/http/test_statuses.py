@@ -176,7 +176,7 @@ def index_that_is_no_name(services, operation, patch):
 
 @provokes(429, "queue_full", "POST /localize", "GET /search")
 def queue_without_a_place(services, operation, patch):
-    patch.setattr("app.http.queue.REFUSED_S", 0)
+    patch.setattr("app.http.queue.REFUSAL_DELAY_S", 0)
     patch.setattr(services().app.state.indexes.queue(), "_max_queue", 0)
     return ask(services(), operation)
 

@@ -86,7 +86,7 @@ def test_200_switches_under_64_clients_lose_nothing_and_no_answer_mixes_versions
         return opened[-1:]
 
     monkeypatch.setattr("app.main.open_workers", open_version_of)
-    monkeypatch.setattr("app.http.indexes.LOOKED_AT_S", 0.01)
+    monkeypatch.setattr("app.http.indexes.ALIAS_POLL_S", 0.01)
     every = httpx.Limits(max_connections=CLIENTS + 1, max_keepalive_connections=CLIENTS + 1)
     with (
         in_a_thread(create_app(Settings(index_dir=root, max_wait_ms=60_000))) as port,

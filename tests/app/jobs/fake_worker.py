@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from app.jobs import worker as evaluation_worker
-from app.jobs.order import Evaluation
+from app.jobs.evaluation import Evaluation
 from models.errors import DataError
 
 

@@ -12,7 +12,7 @@ import pytest
 import structlog
 
 from app.http.routes import evaluate
-from app.jobs.job import Job
+from app.jobs.job import EvaluationJob
 from app.jobs.runner import EvaluationJobs
 
 COMMAND = (sys.executable, str(Path(__file__).parent / "fake_worker.py"))
@@ -108,7 +108,7 @@ def test_silent_stream_has_signs_of_life(api, monkeypatch):
 
 def test_follower_that_is_slow_misses_no_end():
     async def follow():
-        job = Job(Path("/nowhere"))
+        job = EvaluationJob(Path("/nowhere"))
         seen = []
         async for now in job.follow():
             seen.append(now.status)
@@ -122,11 +122,11 @@ def test_follower_that_is_slow_misses_no_end():
 
 def test_follower_that_leaves_cancels_nothing():
     async def leave():
-        job = Job(Path("/nowhere"))
+        job = EvaluationJob(Path("/nowhere"))
         stream = evaluate.events(job)
         await anext(stream)
         await stream.aclose()
-        return job.stops
+        return job.requested_end
 
     assert not asyncio.run(leave())
 
@@ -148,15 +148,15 @@ def test_crash_is_told_in_the_log_alone(api):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("with_words", [True, False])
-def test_a_fault_is_told_in_the_log_and_what_was_said_where_it_is_wanted(api, monkeypatch, with_words):
-    monkeypatch.setenv("HEREABOUTS_LOG_DESCRIPTIONS", str(with_words))
+@pytest.mark.parametrize("with_messages", [True, False])
+def test_a_fault_is_told_in_the_log_and_what_was_said_where_it_is_wanted(api, monkeypatch, with_messages):
+    monkeypatch.setenv("HEREABOUTS_LOG_DESCRIPTIONS", str(with_messages))
     with structlog.testing.capture_logs() as logged:
         wait_for(api, begin(api, "a quixotic fault"), "failed")
     [told] = [entry["stderr"] for entry in logged if entry["event"] == "evaluation crashed"]
     assert "fake_worker.py" in told
     assert "KeyError" in told
-    assert ("quixotic" in told) == with_words
+    assert ("quixotic" in told) == with_messages
 
 
 @pytest.mark.parametrize("command", [("/nowhere/python",)])
@@ -213,7 +213,7 @@ def test_one_runs_some_wait_and_one_more_is_refused(api, problem):
 
 
 def test_finished_jobs_are_kept_for_a_while(api, monkeypatch, problem):
-    monkeypatch.setattr("app.jobs.runner.KEPT", 2)
+    monkeypatch.setattr("app.jobs.runner.MAX_FINISHED_JOBS", 2)
     running = begin(api, "held")
     wait_for(api, running, "running")
     old = []

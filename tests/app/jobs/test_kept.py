@@ -132,7 +132,7 @@ def test_a_full_disk_stops_no_job_and_takes_no_other(service, until, monkeypatch
         slow, old, waiting = (begin(api, "slow") for _ in range(3))
         until(lambda: status(api, slow) == "running")
         api.delete(f"/evaluate/{old}")
-        patch.setattr("app.jobs.runner.KEPT", 1)
+        patch.setattr("app.jobs.runner.MAX_FINISHED_JOBS", 1)
         patch.setattr("app.jobs.store.replace_file", fails)
         patch.setattr("app.jobs.store.JobStore.remove", fails)
         problem(api.post("/evaluate", json=body("a tree")), 409, "not_writable")

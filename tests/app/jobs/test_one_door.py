@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.jobs.order import Evaluation
+from app.jobs.evaluation import Evaluation
 from index.answering.localizer import Localizer
 from index.build.build import build_index
 from index.evaluation.predictions import FILE, Predictions

@@ -13,7 +13,7 @@ from fastapi.testclient import TestClient
 from app.main import create_app
 from app.settings import Settings
 from app.workers import checksums as sums
-from app.workers.order import OpenOrder
+from app.workers.messages import LocalizerSpec
 from index.build.artifact import read_aliases, set_alias
 from models.errors import HereaboutsError, IndexBroken
 
@@ -85,7 +85,7 @@ def test_what_cannot_be_opened_as_it_was_changed_is_named(root, weights_dir, nam
     path = root / version_of(root) / name
     path.write_bytes(b"\xff" * 16 + path.read_bytes()[16:])  # no JSON, no header
     with pytest.raises(IndexBroken, match=f"{name} was changed"):
-        OpenOrder(root, weights_dir).open()
+        LocalizerSpec(root, weights_dir).open()
 
 
 def test_a_flipped_bit_ends_readiness_by_name_until_the_alias_moves_to_what_is_whole(
@@ -99,7 +99,7 @@ def test_a_flipped_bit_ends_readiness_by_name_until_the_alias_moves_to_what_is_w
     flip(root / broken / "statements.safetensors")
     monkeypatch.setattr("app.main.open_workers", lambda _order, _count: [FakeLocalizer()])
     monkeypatch.setattr("app.main.check_version", lambda where, _: sums.check_version(where, version_of(where)))
-    monkeypatch.setattr("app.http.indexes.LOOKED_AT_S", 0.05)
+    monkeypatch.setattr("app.http.indexes.ALIAS_POLL_S", 0.05)
     said = logged("info")
     with TestClient(create_app(Settings(index_dir=root))) as api:
         until(lambda: api.get("/readyz").json().get("code") == "load_failed")

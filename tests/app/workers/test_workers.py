@@ -19,7 +19,7 @@ from ordered import Broken, Order
 from app.main import create_app
 from app.settings import Settings
 from app.workers import launch
-from app.workers.order import WorkerFault
+from app.workers.messages import WorkerFault
 from app.workers.process import _answer
 from app.workers.remote import open_workers
 from index.answering.query import Query
@@ -65,9 +65,9 @@ def test_workers_are_processes_of_one_mould(workers):
 @pytest.fixture
 def ahead(monkeypatch):
     """A process is prepared that imports what takes a moment."""
-    monkeypatch.setattr(launch, "AHEAD", "colorsys")
-    with launch.prepared():
-        [(process, _)] = launch._prepared
+    monkeypatch.setattr(launch, "PRELOADED_MODULE", "colorsys")
+    with launch.prelaunched():
+        [(process, _)] = launch._prelaunched
         yield process
 
 
@@ -90,10 +90,10 @@ def test_a_prepared_process_that_was_killed_is_replaced(ahead):
 
 
 def test_a_prepared_process_that_nobody_needs_ends():
-    with launch.prepared():
-        [(process, _)] = launch._prepared
+    with launch.prelaunched():
+        [(process, _)] = launch._prelaunched
     assert process.poll() is not None
-    assert not launch._prepared
+    assert not launch._prelaunched
     process, control = launch.launch((*launch.PROCESS, "colorsys"))
     control.close()
     assert process.wait(20) == 0, "and by itself, when the service is gone"
@@ -137,9 +137,9 @@ def test_a_worker_that_is_killed_is_forked_again_and_nothing_is_lost(workers, tm
 
 
 def test_what_kills_every_worker_is_refused_and_the_next_is_answered(workers):
-    with pytest.raises(WorkerFault, match="workers die of localize"):
+    with pytest.raises(WorkerFault, match="localize makes workers crash"):
         ask(workers[0], "die")
-    with pytest.raises(WorkerFault, match="workers die of scenery"):
+    with pytest.raises(WorkerFault, match="scenery makes workers crash"):
         workers[0].scenery(0)
     assert ask(workers[0])
 
@@ -148,7 +148,7 @@ def test_what_kills_every_worker_is_refused_and_the_next_is_answered(workers):
     ("text", "faults"),
     [
         ("a quoted quixotic tree", ["ordered.py", "ValueError", "WorkerFault"]),
-        ("a deadly quixotic tree", ["worker lost", "workers die of localize"]),
+        ("a deadly quixotic tree", ["worker lost", "localize makes workers crash"]),
     ],
 )
 def test_no_line_has_what_was_said_when_a_worker_fails_of_it(logged, until, text, faults):
@@ -207,7 +207,7 @@ def test_memory_that_is_free_is_given_back_though_some_above_it_is_not() -> None
 
 def test_a_worker_gives_memory_back_when_it_rests_after_many_answers(monkeypatch):
     times = []
-    monkeypatch.setattr("app.workers.process.MANY", 3)
+    monkeypatch.setattr("app.workers.process.CALLS_BETWEEN_TRIMS", 3)
     monkeypatch.setattr("app.workers.process.IDLE_S", 0.2)
     monkeypatch.setattr("app.workers.process.give_back", lambda: times.append(1))
     own, other = Pipe()

@@ -15,7 +15,7 @@ export interface paths {
         put?: never;
         /**
          * Localize
-         * @description Localize the speaker of a description; the answer is JSON, or GeoJSON if Accept says so.
+         * @description Localize the speaker of a description; the answer is JSON, or GeoJSON if the Accept header requests it.
          */
         post: operations["localize_localize_post"];
         delete?: never;
@@ -35,7 +35,7 @@ export interface paths {
         put?: never;
         /**
          * Batch
-         * @description Localize several descriptions; an item that cannot be answered has an error instead.
+         * @description Localize several descriptions; an item that cannot be answered gets an error instead.
          */
         post: operations["batch_localize_batch_post"];
         delete?: never;
@@ -55,7 +55,7 @@ export interface paths {
         put?: never;
         /**
          * Describe
-         * @description Describe a position in words by which POST /localize finds it again.
+         * @description Describe a position in words from which POST /localize can find it again.
          */
         post: operations["describe_describe_post"];
         delete?: never;
@@ -75,7 +75,7 @@ export interface paths {
         put?: never;
         /**
          * Evaluate
-         * @description Start an evaluation of your own queries, or of a data set of the service by its name.
+         * @description Start an evaluation on your own queries or on a data set of the service.
          */
         post: operations["evaluate_evaluate_post"];
         delete?: never;
@@ -100,7 +100,7 @@ export interface paths {
         post?: never;
         /**
          * Cancel
-         * @description Cancel an evaluation; a finished one is deleted.
+         * @description Cancel an evaluation, or delete a finished one.
          */
         delete: operations["cancel_evaluate__job__delete"];
         options?: never;
@@ -117,7 +117,7 @@ export interface paths {
         };
         /**
          * Follow
-         * @description Follow an evaluation.
+         * @description Stream the states of an evaluation as server-sent events.
          */
         get: operations["follow_evaluate__job__events_get"];
         put?: never;
@@ -137,7 +137,7 @@ export interface paths {
         };
         /**
          * Search
-         * @description Localize the speaker of a description and answer as Nominatim does; its other parameters are ignored.
+         * @description Localize the speaker of a description and answer like Nominatim; its other parameters are ignored.
          */
         get: operations["search_search_get"];
         put?: never;
@@ -157,7 +157,7 @@ export interface paths {
         };
         /**
          * Reverse
-         * @description Describe a position and answer as Nominatim does; its other parameters are ignored.
+         * @description Describe a position and answer like Nominatim; its other parameters are ignored.
          */
         get: operations["reverse_reverse_get"];
         put?: never;
@@ -177,7 +177,7 @@ export interface paths {
         };
         /**
          * Cells
-         * @description The map's cells, some at a time, as JSON, or as GeoJSON if Accept says so.
+         * @description Return a page of the map's cells, as JSON, or as GeoJSON if the Accept header requests it.
          */
         get: operations["cells_cells_get"];
         put?: never;
@@ -197,7 +197,7 @@ export interface paths {
         };
         /**
          * Cell
-         * @description A cell and what is in it, as JSON, or as GeoJSON if Accept says so.
+         * @description Return a cell and its instances, as JSON, or as GeoJSON if the Accept header requests it.
          */
         get: operations["cell_cells__cell_id__get"];
         put?: never;
@@ -217,7 +217,7 @@ export interface paths {
         };
         /**
          * Points
-         * @description A part of what a map looks like; the first shows all of it, further ones have more points.
+         * @description Return a part of a map's scenery; part 0 shows the whole map, and further parts add points.
          */
         get: operations["points_maps__name__points_get"];
         put?: never;
@@ -237,7 +237,7 @@ export interface paths {
         };
         /**
          * List Indexes
-         * @description List the versions of the index directory, and the names that serve them.
+         * @description List the versions in the index directory and the aliases that serve them.
          */
         get: operations["list_indexes_indexes_get"];
         put?: never;
@@ -257,7 +257,7 @@ export interface paths {
         };
         /**
          * Healthz
-         * @description Whether the process runs; never waits for the model.
+         * @description Report that the process runs; never waits for the model.
          */
         get: operations["healthz_healthz_get"];
         put?: never;
@@ -277,7 +277,7 @@ export interface paths {
         };
         /**
          * Readyz
-         * @description Whether a description would be answered now.
+         * @description Report whether a description would be answered now.
          */
         get: operations["readyz_readyz_get"];
         put?: never;
@@ -297,7 +297,7 @@ export interface paths {
         };
         /**
          * Metrics
-         * @description Counts, as Prometheus reads them.
+         * @description Return the metrics for Prometheus.
          */
         get: operations["metrics_metrics_get"];
         put?: never;
@@ -317,7 +317,7 @@ export interface paths {
         };
         /**
          * Info
-         * @description The service's version and limits, and the index it serves.
+         * @description Return the version and the limits of the service, and the index it serves.
          */
         get: operations["info_info_get"];
         put?: never;
@@ -334,7 +334,7 @@ export interface components {
     schemas: {
         /**
          * BatchItem
-         * @description The answer to one item: one of the two.
+         * @description The answer to one item: either a result or an error.
          */
         BatchItem: {
             result?: components["schemas"]["LocalizeResponse"] | null;
@@ -342,7 +342,7 @@ export interface components {
         };
         /**
          * BatchRequest
-         * @description Several descriptions. Items are checked one by one.
+         * @description Several descriptions. Items are validated one by one.
          * @example {
          *       "items": [
          *         {
@@ -360,7 +360,7 @@ export interface components {
         BatchRequest: {
             /**
              * Items
-             * @description each as the body of POST /localize
+             * @description each like the body of POST /localize
              */
             items: {
                 [key: string]: components["schemas"]["JsonValue"];
@@ -368,7 +368,7 @@ export interface components {
         };
         /**
          * BatchResponse
-         * @description An answer an item, in their order.
+         * @description One answer per item, in order.
          */
         BatchResponse: {
             /** Items */
@@ -461,7 +461,7 @@ export interface components {
         };
         /**
          * CellResponse
-         * @description A cell and what is in it; metres, map frame.
+         * @description A cell and its instances; metres, map frame.
          */
         CellResponse: {
             /** Cell Id */
@@ -524,19 +524,19 @@ export interface components {
         };
         /**
          * CellsResponse
-         * @description Some of the map's cells, in its order.
+         * @description A page of the map's cells, in the map's order.
          */
         CellsResponse: {
             /** Cells */
             cells: components["schemas"]["CellSummary"][];
             /**
              * Total
-             * @description of the map
+             * @description number of cells of the map
              */
             total: number;
             /**
              * Next
-             * @description the path of those that follow; null at the end
+             * @description path of the next page; null on the last one
              */
             next: string | null;
             crs: components["schemas"]["CrsOut"];
@@ -560,14 +560,14 @@ export interface components {
         };
         /**
          * CrsOut
-         * @description What the metres of an answer mean.
+         * @description The coordinate reference system of an answer.
          */
         CrsOut: {
             /** Frame Id */
             frame_id: string;
             /** Epsg */
             epsg: number | null;
-            /** @description of the point (0, 0); null if the map has no georeference */
+            /** @description position of the point (0, 0); null if the map has no georeference */
             origin: components["schemas"]["LatLon"] | null;
             /**
              * Units
@@ -601,27 +601,27 @@ export interface components {
             ];
             /**
              * Crs
-             * @description what the coordinates of position mean
+             * @description the reference system of position
              * @default map
              * @enum {string}
              */
             crs: "map" | "wgs84";
             /**
              * Deadline Ms
-             * @description 504 if there is no answer by then
+             * @description milliseconds to answer; after that the request fails with 504
              * @default 10000
              */
             deadline_ms: number;
             /**
              * Index
-             * @description which of the indexes that GET /info names
+             * @description an index that GET /info lists
              * @default default
              */
             index: string;
         };
         /**
          * DescribeResponse
-         * @description What the map says at a position; metres, map frame.
+         * @description A position in words; metres, map frame.
          * @example {
          *       "cell_id": "helsinki_00042",
          *       "crs": {
@@ -699,7 +699,7 @@ export interface components {
             request_id: string;
             /**
              * Description
-             * @description the sentences of `hints`; POST /localize finds the position by it
+             * @description the sentences of `hints`; POST /localize can find the position from it
              */
             description: string;
             /** Hints */
@@ -718,7 +718,7 @@ export interface components {
             wgs84: components["schemas"]["LatLon"] | null;
             /**
              * Cell Id
-             * @description the cell whose centre is nearest
+             * @description the cell with the nearest centre
              */
             cell_id: string;
             crs: components["schemas"]["CrsOut"];
@@ -779,7 +779,7 @@ export interface components {
         };
         /**
          * EvaluateQuery
-         * @description A description and where it was said: [x, y] in metres, or [lon, lat] with crs wgs84.
+         * @description A description and its true position: [x, y] in metres, or [lon, lat] with crs wgs84.
          */
         EvaluateQuery: {
             /**
@@ -789,7 +789,7 @@ export interface components {
             description?: string | null;
             /**
              * Hints
-             * @description the same in sentences, one hint each
+             * @description the same as a list of sentences
              */
             hints?: string[] | null;
             /** Position */
@@ -806,7 +806,7 @@ export interface components {
         });
         /**
          * EvaluateRequest
-         * @description Queries with known positions, or a data set of the service by its name.
+         * @description Queries with known positions, or the name of a data set of the service.
          * @example {
          *       "crs": "map",
          *       "queries": [
@@ -833,24 +833,24 @@ export interface components {
         EvaluateRequest: {
             /**
              * Queries
-             * @description asked of the index that is served
+             * @description queries to the served index
              */
             queries?: components["schemas"]["EvaluateQuery"][] | null;
             /**
              * Crs
-             * @description what the positions of queries mean
+             * @description the reference system of the positions of queries
              * @default map
              * @enum {string}
              */
             crs: "map" | "wgs84";
             /**
              * Data
-             * @description instead of queries: a data set of the service, by its name in /info
+             * @description instead of queries: the name of a data set that GET /info lists
              */
             data?: string | null;
             /**
              * Split
-             * @description of data: train, val or test, or a comma list of scenes; everything if it is left out
+             * @description part of the data set: train, val, test, or scenes separated by commas; by default all
              */
             split?: string | null;
             /**
@@ -860,14 +860,14 @@ export interface components {
             grow?: number[] | null;
             /**
              * Refine
-             * @description posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, cells' centres; these three rank by all of the retriever's levels only on an index that was built with --levels
+             * @description how the position is found. posterior: a position distribution from all hints and the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, which gives the centres of cells. Except for posterior, ranking uses all levels of the retriever only if the index was built with --levels
              * @default posterior
              * @enum {string}
              */
             refine: "none" | "matching" | "regressor" | "posterior";
             /**
              * Index
-             * @description which of the indexes that GET /info names
+             * @description an index that GET /info lists
              * @default default
              */
             index: string;
@@ -999,7 +999,7 @@ export interface components {
         };
         /**
          * FieldError
-         * @description One field that is wrong.
+         * @description An invalid field and what is wrong with it.
          */
         FieldError: {
             /**
@@ -1012,28 +1012,19 @@ export interface components {
         };
         /**
          * GivenAnswer
-         * @description An answer to the `question` of an earlier answer to the same description.
+         * @description A reply to the `question` of an earlier answer to the same description.
          */
         GivenAnswer: {
             /**
              * Question
-             * @description its id
+             * @description the id of the question
              */
             question: string;
             /**
              * Choice
-             * @description the value of one of its choices; to an open question also a name that is not listed
+             * @description the value of one of its choices; for an open question also a name that is not listed
              */
             choice: string;
-        };
-        /**
-         * Header
-         * @description std_msgs/Header.
-         */
-        Header: {
-            stamp: components["schemas"]["Stamp"];
-            /** Frame Id */
-            frame_id: string;
         };
         /**
          * Heading
@@ -1053,7 +1044,7 @@ export interface components {
         };
         /**
          * Health
-         * @description Whether the process runs, or the service is ready.
+         * @description The state of the process or the service.
          */
         Health: {
             /** Status */
@@ -1081,7 +1072,7 @@ export interface components {
         };
         /**
          * IndexInfo
-         * @description The index that is served.
+         * @description A served index.
          */
         IndexInfo: {
             /** Num Cells */
@@ -1092,7 +1083,7 @@ export interface components {
             dim: number;
             /**
              * Scenery Parts
-             * @description of GET /maps/{map}/points
+             * @description number of parts of GET /maps/{map}/points
              */
             scenery_parts: number;
             /** Created */
@@ -1102,12 +1093,12 @@ export interface components {
         };
         /**
          * IndexesResponse
-         * @description All versions of the service's directory.
+         * @description All versions in the index directory.
          */
         IndexesResponse: {
             /**
              * Aliases
-             * @description the version that answers for each name
+             * @description the version that each alias serves
              */
             aliases: {
                 [key: string]: string;
@@ -1117,7 +1108,7 @@ export interface components {
         };
         /**
          * InfoResponse
-         * @description The service, its limits, and what it serves.
+         * @description The service, its limits, its indexes and its data sets.
          */
         InfoResponse: {
             /** Service */
@@ -1126,26 +1117,26 @@ export interface components {
             version: string;
             /**
              * Key Required
-             * @description whether all but this, the page and the checks of health needs the read key
+             * @description whether all paths except this one, the page, /healthz, /readyz and /metrics need the read key
              */
             key_required: boolean;
             limits: components["schemas"]["Limits"];
-            /** @description the one that is asked by default; null until it is loaded */
+            /** @description the default index; null until it is loaded */
             index: components["schemas"]["IndexInfo"] | null;
             /**
              * Indexes
-             * @description names that requests take as index
+             * @description values of `index` in requests
              */
             indexes: string[];
             /**
              * Data Sets
-             * @description names that POST /evaluate takes as data
+             * @description values of `data` in POST /evaluate
              */
             data_sets: string[];
         };
         /**
          * JobAccepted
-         * @description An evaluation that waits for its turn.
+         * @description An evaluation that was accepted and is queued.
          */
         JobAccepted: {
             /** Job */
@@ -1159,7 +1150,7 @@ export interface components {
         };
         /**
          * JobError
-         * @description Why a job failed.
+         * @description The reason why a job failed.
          */
         JobError: {
             /**
@@ -1172,7 +1163,7 @@ export interface components {
         };
         /**
          * JobLinks
-         * @description Where to follow a job.
+         * @description The paths of a job's state and events.
          */
         JobLinks: {
             /** Status */
@@ -1182,7 +1173,7 @@ export interface components {
         };
         /**
          * JobProgress
-         * @description How far a job is.
+         * @description The progress of a job.
          */
         JobProgress: {
             /**
@@ -1194,13 +1185,13 @@ export interface components {
             done: number;
             /**
              * Total
-             * @description 0 if that is not known
+             * @description 0 if unknown
              */
             total: number;
         };
         /**
          * JobState
-         * @description An evaluation.
+         * @description The state of an evaluation.
          */
         JobState: {
             /** Job */
@@ -1218,12 +1209,12 @@ export interface components {
             created: string;
             /**
              * Seconds
-             * @description that it has run
+             * @description how long it has run
              */
             seconds: number;
             /**
              * Report
-             * @description what `hereabouts evaluate` writes as report.json, once done
+             * @description once done: the report.json of `hereabouts evaluate`
              */
             report: {
                 [key: string]: unknown;
@@ -1243,12 +1234,12 @@ export interface components {
         };
         /**
          * Limits
-         * @description What a client can run into.
+         * @description The limits of the service.
          */
         Limits: {
             /**
              * Max Bytes
-             * @description of a body; POST /localize/batch takes four times as many
+             * @description size of a body; POST /localize/batch accepts four times as much
              */
             max_bytes: number;
             /** Max Evaluate Bytes */
@@ -1259,7 +1250,7 @@ export interface components {
             max_hints: number;
             /**
              * Max Items
-             * @description of one POST /localize/batch
+             * @description items of one POST /localize/batch
              */
             max_items: number;
             /** Max Top K */
@@ -1268,22 +1259,22 @@ export interface components {
             max_queue: number;
             /**
              * Max Wait Ms
-             * @description that a request may be expected to wait for the model
+             * @description longest expected wait for a worker; a longer one is refused with 429
              */
             max_wait_ms: number;
             /**
              * Max Queries
-             * @description of one evaluation
+             * @description queries of one evaluation
              */
             max_queries: number;
             /**
              * Max Jobs
-             * @description evaluations that wait
+             * @description waiting evaluations
              */
             max_jobs: number;
             /**
              * Deadline Ms
-             * @description of a request that names none
+             * @description deadline of a request that sends none
              */
             deadline_ms: number;
             /** Max Deadline Ms */
@@ -1291,7 +1282,7 @@ export interface components {
         };
         /**
          * LocalizeRequest
-         * @description One description, or its sentences as hints, and where to look.
+         * @description One description and where to search.
          * @example {
          *       "description": "I am north of a gray building. A black pole is to my west.",
          *       "top_k": 3
@@ -1305,12 +1296,12 @@ export interface components {
             description?: string | null;
             /**
              * Hints
-             * @description the same in sentences, one hint each
+             * @description the same as a list of sentences
              */
             hints?: string[] | null;
             /**
              * Top K
-             * @description candidates to list
+             * @description candidates in the answer
              * @default 5
              */
             top_k: number;
@@ -1318,45 +1309,45 @@ export interface components {
             prior?: components["schemas"]["PriorPosition"] | null;
             /**
              * Crs
-             * @description what the coordinates of within and prior mean
+             * @description the reference system of within and prior: metres of the map, or longitude and latitude
              * @default map
              * @enum {string}
              */
             crs: "map" | "wgs84";
             /**
              * Refine
-             * @description posterior: hints are matched with the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, cells' centres; these three rank by all of the retriever's levels only on an index that was built with --levels
+             * @description how the position is found. posterior: a position distribution from all hints and the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, which gives the centres of cells. Except for posterior, ranking uses all levels of the retriever only if the index was built with --levels
              * @default posterior
              * @enum {string}
              */
             refine: "none" | "matching" | "regressor" | "posterior";
             /**
              * Heat Map
-             * @description the distribution behind the answer
+             * @description whether to add the position distribution
              * @default false
              */
             heat_map: boolean;
             /**
              * Ros
-             * @description the estimate as a pose of ROS too
+             * @description whether to add the estimate as a ROS pose
              * @default false
              */
             ros: boolean;
             /**
              * Answers
-             * @description to questions of earlier answers, all of them each time: the service remembers none
+             * @description replies to the questions of all earlier answers: the service keeps no conversation
              * @default []
              */
             answers: components["schemas"]["GivenAnswer"][];
             /**
              * Deadline Ms
-             * @description 504 if there is no answer by then
+             * @description milliseconds to answer; after that the request fails with 504
              * @default 10000
              */
             deadline_ms: number;
             /**
              * Index
-             * @description which of the indexes that GET /info names
+             * @description an index that GET /info lists
              * @default default
              */
             index: string;
@@ -1601,7 +1592,7 @@ export interface components {
              * @enum {string}
              */
             status: "ok" | "ambiguous" | "no_match";
-            /** @description null only with status no_match */
+            /** @description null only if status is no_match */
             estimate: components["schemas"]["Estimate"] | null;
             /**
              * Candidates
@@ -1610,19 +1601,19 @@ export interface components {
             candidates: components["schemas"]["Candidate"][];
             /**
              * Other Probability
-             * @description mass outside the listed candidates
+             * @description probability outside the listed candidates
              */
             other_probability: number;
             /**
              * Evidence
-             * @description one a hint; empty unless refine is posterior
+             * @description one entry per hint; empty unless refine is posterior
              */
             evidence: components["schemas"]["Evidence"][];
-            /** @description if it was asked for */
+            /** @description only if requested */
             heat_map: components["schemas"]["HeatMap"] | null;
-            /** @description if it was asked for, and there is an estimate */
+            /** @description only if requested and there is an estimate */
             ros?: components["schemas"]["PoseWithCovarianceStamped"] | null;
-            /** @description what to ask the speaker, whose answer would narrow this most: send it in `answers`. With status ambiguous; with no_match on a map with names, if the text is in English and not of a place outside `within`: replies alone then make an answer; with ok once something was replied, until radius_m.p50 is 10 m. Else null, and where nothing is worth asking */
+            /** @description the question whose reply is expected to narrow the position most; send the reply in `answers`. Asked if status is ambiguous; if it is no_match on a map with names, for an English text about a place inside `within` (the replies alone can then give an answer); and if it is ok after a reply, until radius_m.p50 is 10 m. Otherwise, or if no question helps, null */
             question: components["schemas"]["Question"] | null;
             crs: components["schemas"]["CrsOut"];
             provenance: components["schemas"]["Provenance"];
@@ -1634,19 +1625,11 @@ export interface components {
             warnings: string[];
         };
         /**
-         * Pose
-         * @description geometry_msgs/Pose.
-         */
-        Pose: {
-            position: components["schemas"]["Vector"];
-            orientation: components["schemas"]["Quaternion"];
-        };
-        /**
          * PoseWithCovariance
          * @description geometry_msgs/PoseWithCovariance.
          */
         PoseWithCovariance: {
-            pose: components["schemas"]["Pose"];
+            pose: components["schemas"]["RosPose"];
             /**
              * Covariance
              * @description x, y, z, roll, pitch, yaw; row by row
@@ -1655,15 +1638,15 @@ export interface components {
         };
         /**
          * PoseWithCovarianceStamped
-         * @description geometry_msgs/PoseWithCovarianceStamped; its heading is the identity, with a wide variance, if none was told.
+         * @description geometry_msgs/PoseWithCovarianceStamped; an unknown heading is the identity with a wide variance.
          */
         PoseWithCovarianceStamped: {
-            header: components["schemas"]["Header"];
+            header: components["schemas"]["RosHeader"];
             pose: components["schemas"]["PoseWithCovariance"];
         };
         /**
          * PriorPosition
-         * @description A bias, for example a poor GPS fix; `position` is [x, y] in metres, or [lon, lat] with crs wgs84.
+         * @description A prior, for example a poor GPS fix; `position` is [x, y] in metres, or [lon, lat] with crs wgs84.
          */
         PriorPosition: {
             /** Position */
@@ -1676,7 +1659,7 @@ export interface components {
         };
         /**
          * Problem
-         * @description Any error of the service (RFC 9457); compare `code`, show `detail`.
+         * @description An error of the service (RFC 9457). Programs compare `code`; people read `detail`.
          */
         ProblemBody: {
             /** Type */
@@ -1696,13 +1679,13 @@ export interface components {
             request_id: string;
             /**
              * Errors
-             * @description with code invalid_request: what is wrong where
+             * @description the invalid fields; only with code invalid_request
              */
             errors?: components["schemas"]["FieldError"][] | null;
         };
         /**
          * Provenance
-         * @description What made an answer.
+         * @description The index, model and map behind an answer.
          */
         Provenance: {
             /** Index */
@@ -1711,32 +1694,18 @@ export interface components {
             index_version: string;
             /**
              * Model
-             * @description what answered; of a cell or an index, what made its vectors
+             * @description the model that answered; for a cell or an index, the model of its vectors
              */
             model: string;
             /**
              * Model Sha256
-             * @description of all its weights
+             * @description checksum of all its weights
              */
             model_sha256: string;
             /** Map */
             map: string;
             /** Attribution */
             attribution: string;
-        };
-        /**
-         * Quaternion
-         * @description geometry_msgs/Quaternion.
-         */
-        Quaternion: {
-            /** X */
-            x: number;
-            /** Y */
-            y: number;
-            /** Z */
-            z: number;
-            /** W */
-            w: number;
         };
         /**
          * Question
@@ -1776,26 +1745,57 @@ export interface components {
             p90: number;
         };
         /**
-         * Stamp
-         * @description builtin_interfaces/Time.
+         * RosHeader
+         * @description std_msgs/Header.
          */
-        Stamp: {
-            /** Sec */
-            sec: number;
-            /** Nanosec */
-            nanosec: number;
+        RosHeader: {
+            stamp: components["schemas"]["RosTime"];
+            /** Frame Id */
+            frame_id: string;
         };
         /**
-         * Vector
+         * RosPoint
          * @description geometry_msgs/Point.
          */
-        Vector: {
+        RosPoint: {
             /** X */
             x: number;
             /** Y */
             y: number;
             /** Z */
             z: number;
+        };
+        /**
+         * RosPose
+         * @description geometry_msgs/Pose.
+         */
+        RosPose: {
+            position: components["schemas"]["RosPoint"];
+            orientation: components["schemas"]["RosQuaternion"];
+        };
+        /**
+         * RosQuaternion
+         * @description geometry_msgs/Quaternion.
+         */
+        RosQuaternion: {
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+            /** Z */
+            z: number;
+            /** W */
+            w: number;
+        };
+        /**
+         * RosTime
+         * @description builtin_interfaces/Time.
+         */
+        RosTime: {
+            /** Sec */
+            sec: number;
+            /** Nanosec */
+            nanosec: number;
         };
         /**
          * VersionInfo
@@ -1806,18 +1806,18 @@ export interface components {
             version: string;
             /**
              * Registered
-             * @description whether it may be served; `hereabouts alias set` registers it
+             * @description whether it may be served; `hereabouts alias set` registers a version
              */
             registered: boolean;
             /**
              * Aliases
-             * @description names that serve it now
+             * @description the aliases that serve it now
              */
             aliases: string[];
         };
         /**
          * Within
-         * @description A filter: nothing outside it is answered. Give `bbox` or `circle`.
+         * @description A filter on positions: answers lie inside it. Give either `bbox` or `circle`.
          */
         Within: {
             /**
@@ -1921,7 +1921,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description No such format; The map has no latitude and longitude */
+            /** @description The format is not available; The map has no latitude and longitude */
             406: {
                 headers: {
                     [name: string]: unknown;
@@ -1930,7 +1930,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The body did not come in time */
+            /** @description The body did not arrive in time */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -1948,7 +1948,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The body is of another type */
+            /** @description The body has the wrong type */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -1957,7 +1957,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -1966,7 +1966,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many large bodies at once; Too many requests wait */
+            /** @description Too many large bodies at once; Too many requests are waiting */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -1975,7 +1975,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;
@@ -1984,7 +1984,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded; The store of vectors does not answer */
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded; The vector store does not answer */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -2035,7 +2035,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The body did not come in time */
+            /** @description The body did not arrive in time */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -2053,7 +2053,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The body is of another type */
+            /** @description The body has the wrong type */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -2062,7 +2062,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2080,7 +2080,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;
@@ -2140,7 +2140,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The body did not come in time */
+            /** @description The body did not arrive in time */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -2158,7 +2158,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The body is of another type */
+            /** @description The body has the wrong type */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -2167,7 +2167,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2185,7 +2185,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;
@@ -2245,7 +2245,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description No key is set, so only programs on the service's own machine may change anything */
+            /** @description No key is set, so only local requests may change anything */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -2263,7 +2263,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The body did not come in time */
+            /** @description The body did not arrive in time */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -2272,7 +2272,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The service cannot write */
+            /** @description The service cannot write to its directory */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2290,7 +2290,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The body is of another type */
+            /** @description The body has the wrong type */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -2299,7 +2299,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2308,7 +2308,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many large bodies at once; Too many evaluations wait */
+            /** @description Too many large bodies at once; Too many evaluations are waiting */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -2317,7 +2317,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;
@@ -2388,7 +2388,7 @@ export interface operations {
                     "application/json": components["schemas"]["JobState"];
                 };
             };
-            /** @description No key is set, so only programs on the service's own machine may change anything */
+            /** @description No key is set, so only local requests may change anything */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -2419,7 +2419,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the service ended); the data of each is what GET /evaluate/{job} answers. Who comes late is told the state at once; who leaves cancels nothing. */
+            /** @description Server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the service stopped). The data of each event is the answer of GET /evaluate/{job}. A new client gets the current state at once; disconnecting does not cancel the job. */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2444,14 +2444,14 @@ export interface operations {
             query: {
                 /** @description what is around the speaker, in plain words */
                 q: string;
-                /** @description as of Nominatim; xml is not spoken */
+                /** @description as in Nominatim; xml is not supported */
                 format?: "json" | "jsonv2" | "geojson";
                 limit?: number;
-                /** @description lon,lat,lon,lat: two corners of where to look first */
+                /** @description lon,lat,lon,lat: two corners of the preferred area */
                 viewbox?: string | null;
-                /** @description look nowhere else */
+                /** @description search only inside viewbox */
                 bounded?: boolean;
-                /** @description which of the indexes that /info names */
+                /** @description an index that GET /info lists */
                 index?: string;
             };
             header?: never;
@@ -2460,7 +2460,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description what Nominatim answers, with the place in words as display_name */
+            /** @description Nominatim's format; display_name is the place in words */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2508,7 +2508,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2517,7 +2517,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description Too many requests wait */
+            /** @description Too many requests are waiting */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -2526,7 +2526,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;
@@ -2535,7 +2535,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded; The store of vectors does not answer */
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded; The vector store does not answer */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -2560,9 +2560,9 @@ export interface operations {
             query: {
                 lat: number;
                 lon: number;
-                /** @description as of Nominatim; xml is not spoken */
+                /** @description as in Nominatim; xml is not supported */
                 format?: "json" | "jsonv2" | "geojson";
-                /** @description which of the indexes that /info names */
+                /** @description an index that GET /info lists */
                 index?: string;
             };
             header?: never;
@@ -2571,7 +2571,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description what Nominatim answers, with the place in words as display_name */
+            /** @description Nominatim's format; display_name is the place in words */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2619,7 +2619,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2628,7 +2628,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;
@@ -2651,10 +2651,10 @@ export interface operations {
     cells_cells_get: {
         parameters: {
             query?: {
-                /** @description cells that are passed over */
+                /** @description the number of cells to skip */
                 offset?: number;
                 limit?: number;
-                /** @description which of the indexes that /info names */
+                /** @description an index that GET /info lists */
                 index?: string;
             };
             header?: never;
@@ -2693,7 +2693,7 @@ export interface operations {
                     "application/geo+json": Record<string, never>;
                 };
             };
-            /** @description What the client has (If-None-Match) is still what is served */
+            /** @description The content of If-None-Match has not changed */
             304: {
                 headers: {
                     [name: string]: unknown;
@@ -2709,7 +2709,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description No such format; The map has no latitude and longitude */
+            /** @description The format is not available; The map has no latitude and longitude */
             406: {
                 headers: {
                     [name: string]: unknown;
@@ -2718,7 +2718,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2727,7 +2727,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;
@@ -2750,7 +2750,7 @@ export interface operations {
     cell_cells__cell_id__get: {
         parameters: {
             query?: {
-                /** @description which of the indexes that /info names */
+                /** @description an index that GET /info lists */
                 index?: string;
             };
             header?: never;
@@ -2791,7 +2791,7 @@ export interface operations {
                     "application/geo+json": Record<string, never>;
                 };
             };
-            /** @description The cell that the client has (If-None-Match) is still the one that is served */
+            /** @description The content of If-None-Match has not changed */
             304: {
                 headers: {
                     [name: string]: unknown;
@@ -2807,7 +2807,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description No such format; The map has no latitude and longitude */
+            /** @description The format is not available; The map has no latitude and longitude */
             406: {
                 headers: {
                     [name: string]: unknown;
@@ -2816,7 +2816,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2825,7 +2825,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;
@@ -2848,9 +2848,9 @@ export interface operations {
     points_maps__name__points_get: {
         parameters: {
             query?: {
-                /** @description the first shows all of the map */
+                /** @description number of the part; 0 shows the whole map */
                 part?: number;
-                /** @description which of the indexes that /info names */
+                /** @description an index that GET /info lists */
                 index?: string;
             };
             header?: never;
@@ -2861,7 +2861,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description a safetensors file, compressed by gzip: geometry (`kind` shapes) or coloured points (`kind` points), see docs/formats.md */
+            /** @description A safetensors file, compressed with gzip: geometry (`kind` shapes) or coloured points (`kind` points); docs/formats.md describes it */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2870,7 +2870,7 @@ export interface operations {
                     "application/octet-stream": string;
                 };
             };
-            /** @description What the client has (If-None-Match) is still what is served */
+            /** @description The content of If-None-Match has not changed */
             304: {
                 headers: {
                     [name: string]: unknown;
@@ -2886,7 +2886,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description The request cannot be used */
+            /** @description The request is invalid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2895,7 +2895,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["ProblemBody"];
                 };
             };
-            /** @description A fault in the service */
+            /** @description Internal error */
             500: {
                 headers: {
                     [name: string]: unknown;

@@ -1,4 +1,4 @@
-"""An evaluation as it is asked for, in a request or in a file, and the work itself; HTTP and command line share it."""
+"""An evaluation: built from a request, a file or command-line options, and run by a job or the command line."""
 
 import json
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from models.citymap.frame import Frame
 from models.citymap.types import Progress
 from models.errors import DataError
 
-if TYPE_CHECKING:  # torch takes seconds, and the service itself does without SciPy and Numba too
+if TYPE_CHECKING:  # importing torch takes seconds, and the service process needs no SciPy or Numba
     from index.answering.posterior_localizer import PosteriorLocalizer
     from index.answering.ranking import Ranker
     from index.answering.result import CellLocalizer
@@ -32,16 +32,16 @@ WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # o
 
 
 class Evaluation(BaseModel):
-    """What to ask of what: a data set, or queries of one's own of an index.
+    """An evaluation of a data set, or of given queries on an index.
 
     Attributes:
-        weights_dir: the model; None for the weights that ship with the package.
+        weights_dir: weights of the retriever; None for the shipped ones.
         grow_m: radii of a growing gallery.
-        refine: what finds positions inside the retrieved cells.
-        fine_weights_dir, posterior_weights_dir: its model, as weights_dir.
-        data, split: as `models.sources.source.open_sources`; None for queries of one's own.
-        index_dir: an index directory or a version of it, which queries of one's own are asked of.
-        descriptions, positions_m: what was said, and where, map frame.
+        refine: how positions are found.
+        fine_weights_dir, posterior_weights_dir: weights of the fine stage and of the posterior, like weights_dir.
+        data, split: the data set, as in `models.sources.source.open_sources`; None for given queries.
+        index_dir: an index directory or a version of it, for given queries.
+        descriptions, positions_m: the given queries: texts and true positions, map frame.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -58,10 +58,10 @@ class Evaluation(BaseModel):
     positions_m: list[tuple[float, float]] = []
 
     def run(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
-        """Do the work.
+        """Run the evaluation and return the report of `index.evaluation.evaluation.evaluate`.
 
         Args:
-            report_dir: as `index.evaluation.evaluation.evaluate`, which gives the report.
+            report_dir: directory for the report; None to write nothing.
             progress: called as the work goes on.
 
         Raises:
@@ -82,10 +82,10 @@ class Evaluation(BaseModel):
         data = localizer.map_data()
         sentences = [(description,) for description in self.descriptions]
         queries = Queries.from_text(sentences, np.array(self.positions_m), data.cells)
-        measured: CellLocalizer = localizer.posterior
+        evaluated: CellLocalizer = localizer.posterior
         if self.refine != "posterior":
-            measured = with_raw_texts(localizer.by_vectors(self.refine))
-        return evaluate(data, queries, measured, report_dir, self.grow_m, progress)
+            evaluated = with_raw_texts(localizer.by_vectors(self.refine))
+        return evaluate(data, queries, evaluated, report_dir, self.grow_m, progress)
 
     def _open(self, progress: Progress) -> "tuple[Source, Queries]":
         from models.sources.source import open_source  # noqa: PLC0415
@@ -99,7 +99,7 @@ class Evaluation(BaseModel):
         return self._posterior(source, progress) if self.refine == "posterior" else self._vectors(source, progress)
 
     def _posterior(self, source: "Source", progress: Progress) -> "PosteriorLocalizer":
-        """The hint posterior of a data set."""
+        """Build the posterior localizer of a data set."""
         from index.evaluation.localizers import posterior_of_map  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
@@ -111,13 +111,13 @@ class Evaluation(BaseModel):
         return posterior_of_map(model, source.data, ranker, surroundings, source.gazetteer())
 
     def _vectors(self, source: "Source", progress: Progress) -> "VectorLocalizer":
-        """Vector search of a data set: raw text, all levels."""
+        """Build the vector localizer of a data set: raw text, all levels."""
         from index.evaluation.localizers import vectors_of_map  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.paper.fine.checkpoint import load_refiner  # noqa: PLC0415
 
         refiner = None
-        if self.refine == "matching" or self.refine == "regressor":  # noqa: PLR1714, which mypy does not see through
+        if self.refine == "matching" or self.refine == "regressor":  # noqa: PLR1714  # mypy cannot narrow `in`
             refiner = load_refiner(self.refine, self.fine_weights_dir)
         ranker = self._ranker(source, load_retriever(self.weights_dir), progress)
         return vectors_of_map(source.data, ranker, refiner)
@@ -130,26 +130,24 @@ class Evaluation(BaseModel):
         return Ranker.of(retriever, source.data.cells, source.data.gallery.labels)
 
     def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
-        """Retriever and posterior side by side under every trial of `robustness`, and where candidates come from.
+        """Compare retriever and posterior in every trial of `index.evaluation.robustness`.
 
         Args:
-            report_dir: where robustness.json and robustness.md go; None to write nothing.
+            report_dir: directory for robustness.json and robustness.md; None to write nothing.
             progress: called as the work goes on.
 
         Raises:
-            HereaboutsError: as `run`; or there is text alone, whose hints nobody knows.
+            HereaboutsError: as `run`, or the queries are texts without known hints.
         """
         from index.evaluation.report import as_markdown  # noqa: PLC0415  # brings torch, which takes seconds
         from index.evaluation.robustness import robustness, robustness_tables, some_of  # noqa: PLC0415
 
         if self.data is None:
-            raise DataError(
-                "--robustness needs a data set or a map: nobody knows what the hints of one's own text mean"
-            )
+            raise DataError("--robustness needs a data set or a map: the true hints of other texts are unknown")
         source, queries = self._open(progress)
         vectors = self.model_copy(update={"refine": "none"})._vectors(source, progress)
         posterior = self._posterior(source, progress)
-        found: dict[str, Any] = {
+        report: dict[str, Any] = {
             "data": source.data.name,
             "split": source.data.split,
             "queries": len(some_of(queries)),
@@ -158,69 +156,69 @@ class Evaluation(BaseModel):
         }
         if report_dir:
             report_dir.mkdir(parents=True, exist_ok=True)
-            (report_dir / "robustness.json").write_text(json.dumps(found, indent=1) + "\n")
-            tables = "\n\n".join(as_markdown(table) for table in robustness_tables(found))
+            (report_dir / "robustness.json").write_text(json.dumps(report, indent=1) + "\n")
+            tables = "\n\n".join(as_markdown(table) for table in robustness_tables(report))
             (report_dir / "robustness.md").write_text(tables + "\n")
-        return found
+        return report
 
-    def public(self, message: str) -> str:
-        """A message without the directories of the machine."""
+    def hide_paths(self, message: str) -> str:
+        """Return a message with paths shortened to their last component."""
         weights = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
         for path in (self.data, self.index_dir, *weights):
             message = message.replace(str(path), path.name) if path else message
         return message
 
 
-def to_evaluation(asked: EvaluateRequest, settings: Settings, index_dir: Path, frame: Frame) -> Evaluation:
-    """A request as the work takes it.
+def build_evaluation(body: EvaluateRequest, settings: Settings, index_dir: Path, frame: Frame) -> Evaluation:
+    """Build an evaluation from a request.
 
     Args:
-        asked: a request that passed its model.
-        settings: the model, and where data sets are.
-        index_dir: what queries of one's own are asked of.
-        frame: of the index's map.
+        body: a validated request.
+        settings: gives the weights and the directory of data sets.
+        index_dir: the index for given queries.
+        frame: frame of the index's map.
 
     Raises:
-        Problem: no such data set, or a query that cannot be asked of this map; the field is named.
+        Problem: there is no such data set, or a position cannot be projected; the problem names the field.
     """
     weights = {name: getattr(settings, name) for name in WEIGHTS_DIRS}
     common: dict[str, Any] = {name: path and path.absolute() for name, path in weights.items()}
-    common |= {"grow_m": asked.grow or [], "refine": asked.refine}
-    if asked.data is not None:
-        return Evaluation(**common, data=find_data(settings.data_dir, asked.data).absolute(), split=asked.split)
-    queries = asked.queries or []
+    common |= {"grow_m": body.grow or [], "refine": body.refine}
+    if body.data is not None:
+        return Evaluation(**common, data=find_data(settings.data_dir, body.data).absolute(), split=body.split)
+    queries = body.queries or []
     return Evaluation(
         **common,
         index_dir=index_dir.absolute(),
         descriptions=[query.text() for query in queries],
-        positions_m=_positions_m(queries, frame) if asked.crs == "wgs84" else [query.position for query in queries],
+        positions_m=_positions_m(queries, frame) if body.crs == "wgs84" else [query.position for query in queries],
     )
 
 
 def read_evaluation(path: Path, settings: Settings, split: str | None, grow_m: list[float]) -> Evaluation:
-    """An evaluation from a file with the body of an inline `POST /evaluate`, asked of settings.index_dir.
+    """Read an evaluation on settings.index_dir from a file with the body of a `POST /evaluate`.
 
     Args:
-        path: of the file.
-        settings: the model, the index.
-        split: None; such a file has none.
-        grow_m: radii in place of those in the file, if any.
+        path: the file.
+        settings: gives the weights and the index.
+        split: must be None, as such a file has no splits.
+        grow_m: radii that replace those in the file, if any.
 
     Raises:
-        DataError: the file cannot be read, or is no such body; the message names the field.
-        IndexUnusable: there is no index to ask.
+        DataError: the file cannot be read or is not a valid body; the message names the field.
+        IndexUnusable: there is no index.
     """
     if split is not None:
-        raise DataError(f"{path}: queries of one's own have no split; leave --split out")
+        raise DataError(f"{path}: a file of queries has no splits; leave out --split")
     try:
-        body = path.read_bytes()
-        check_json(body)
-        asked = EvaluateRequest.model_validate(json.loads(body))
-        if asked.data is not None:
-            raise DataError(f"{path}: data: names a data set of a service; give its path to --data")
+        content = path.read_bytes()
+        check_json(content)
+        body = EvaluateRequest.model_validate(json.loads(content))
+        if body.data is not None:
+            raise DataError(f"{path}: data: names a data set of a service; pass its path as --data instead")
         frame = Frame(**open_version(settings.index_dir)[1].frame.model_dump())
-        found = to_evaluation(asked, settings, settings.index_dir, frame)
-        return found.model_copy(update={"grow_m": grow_m or found.grow_m})
+        evaluation = build_evaluation(body, settings, settings.index_dir, frame)
+        return evaluation.model_copy(update={"grow_m": grow_m or evaluation.grow_m})
     except OSError as error:
         raise DataError(f"{path}: cannot be read ({error.strerror})") from None
     except ValidationError as error:
@@ -231,8 +229,8 @@ def read_evaluation(path: Path, settings: Settings, split: str | None, grow_m: l
         raise DataError(f"{path}: {problem.detail}") from None
 
 
-def data_sets(data_dir: Path | None) -> list[Path]:
-    """What an operator offers by name: the folders and OpenStreetMap files of a directory."""
+def list_data_sets(data_dir: Path | None) -> list[Path]:
+    """Return the data sets in a directory: its folders and OpenStreetMap files."""
     if data_dir is None or not data_dir.is_dir():
         return []
     entries = sorted(path for path in data_dir.iterdir() if not path.name.startswith("."))
@@ -240,30 +238,30 @@ def data_sets(data_dir: Path | None) -> list[Path]:
 
 
 def find_data(data_dir: Path | None, name: str) -> Path:
-    """A data set by its name, with or without the suffix; it is compared with what there is, never used as a path.
+    """Return a data set by name, with or without its suffix. The name is only compared, never used as a path.
 
     Raises:
-        Problem: there is none of that name.
+        Problem: there is no data set of that name.
     """
-    offered = {path.name: path for path in data_sets(data_dir)}
+    paths = {path.name: path for path in list_data_sets(data_dir)}
     for known in (name, *(name + suffix for suffix in MAP_SUFFIXES)):
-        if known in offered:
-            return offered[known]
-    raise Problem.of_field("data", "is no data set of this service; /info lists those there are")
+        if known in paths:
+            return paths[known]
+    raise Problem.for_field("data", "is not a data set of this service; GET /info lists them")
 
 
 def _positions_m(queries: Sequence[EvaluateQuery], frame: Frame) -> list[tuple[float, float]]:
-    """[Q] positions given as (lon, lat), in the map's metres."""
+    """Project the (lon, lat) positions of Q queries into the map frame."""
     if not frame.is_georeferenced:
-        raise Problem.of_field("crs", "this map has no georeference; give positions in metres, with crs map")
+        raise Problem.for_field("crs", "this map has no georeference; send positions in metres with crs map")
     lon, lat = np.array([query.position for query in queries]).T
-    wrong = np.flatnonzero((np.abs(lon) > 180) | (np.abs(lat) > 90))
-    if len(wrong):
-        advice = "is not [longitude -180..180, latitude -90..90]; or did you mean crs map?"
-        raise Problem.of_field(f"queries[{wrong[0]}].position", advice)
+    invalid = np.flatnonzero((np.abs(lon) > 180) | (np.abs(lat) > 90))
+    if len(invalid):
+        advice = "must be [longitude -180..180, latitude -90..90]; for metres, send crs map"
+        raise Problem.for_field(f"queries[{invalid[0]}].position", advice)
     positions_m = frame.from_wgs84(lat, lon)
-    wrong = np.flatnonzero(~np.isfinite(positions_m).all(axis=1))
-    if len(wrong):
-        advice = "is too far from the map; give [longitude, latitude] near it"
-        raise Problem.of_field(f"queries[{wrong[0]}].position", advice)
+    invalid = np.flatnonzero(~np.isfinite(positions_m).all(axis=1))
+    if len(invalid):
+        advice = "is too far from the map; send [longitude, latitude] near it"
+        raise Problem.for_field(f"queries[{invalid[0]}].position", advice)
     return [(x, y) for x, y in positions_m.tolist()]

@@ -1,4 +1,4 @@
-"""What is said between the service and the processes that hold a model."""
+"""Messages between the service and its worker processes."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,20 +13,20 @@ FORK: Final = "fork"
 
 
 class WorkerFault(Exception):
-    """A fault in a worker, with its traceback.
+    """An internal error in a worker, with its traceback.
 
     Attributes:
-        where: the same without its words, which may quote a description.
+        redacted_traceback: the traceback without messages, which may quote a description.
     """
 
-    def __init__(self, said: str, where: str = "") -> None:
-        super().__init__(said)
-        self.where = where
+    def __init__(self, message: str, redacted_traceback: str = "") -> None:
+        super().__init__(message)
+        self.redacted_traceback = redacted_traceback
 
 
 @dataclass(frozen=True, slots=True)
-class OpenOrder:
-    """What to open; as `index.answering.localizer.Localizer.open`."""
+class LocalizerSpec:
+    """The arguments of `index.answering.localizer.Localizer.open`."""
 
     index_dir: Path
     weights_dir: Path | None = None
@@ -34,18 +34,18 @@ class OpenOrder:
     posterior_weights_dir: Path | None = None
 
     def open(self) -> "Localizer":
-        """The localizer, with everything read that its usual queries need; `app.workers.checksums` checks the files.
+        """Open and warm up the localizer. `app.workers.checksums` verifies its files later.
 
         Raises:
             HereaboutsError: as `Localizer.open`.
         """
-        from index.answering.localizer import Localizer  # noqa: PLC0415  # brings torch, which takes seconds
+        from index.answering.localizer import Localizer  # noqa: PLC0415  # imports torch, which takes seconds
 
         dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
         try:
             localizer = Localizer.open(self.index_dir, *dirs, with_sums=False)
             localizer.warm()
         except Exception:
-            open_version(self.index_dir)  # which names the file, if one was changed
+            open_version(self.index_dir)  # if a file is corrupt, this error names it
             raise
         return localizer
