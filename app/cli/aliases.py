@@ -40,9 +40,9 @@ def set_alias(
 ) -> None:
     """Verify a version and let an alias name it. A version that was copied there is registered first."""
     from index.build import artifact
-    from index.build.manifest import NAME
+    from index.build.manifest import NAME_PATTERN
 
-    if not re.fullmatch(NAME, name):
+    if not re.fullmatch(NAME_PATTERN, name):
         raise DataError(f"{name!r} is not a name for an alias; use letters, digits, '.', '_' and '-'")
     versions = _versions(index_dir)
     if version not in versions:
@@ -60,7 +60,7 @@ def remove_alias(name: AliasName, index_dir: IndexDir = INDEX_DIR) -> None:
     """Remove an alias. Its version stays, and so does the alias "default", which requests without `index` need."""
     from index.build import artifact
 
-    if name == artifact.DEFAULT:
+    if name == artifact.DEFAULT_ALIAS:
         raise DataError(f"{name} cannot be removed; let it name another version with 'hereabouts alias set'")
     try:
         artifact.remove_alias(index_dir, name)

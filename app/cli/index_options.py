@@ -49,7 +49,7 @@ def share_out(
         The directory of what was made.
     """
     if shard:
-        return job.make_part(shard, show)
+        return job.make_shard(shard, show)
     if engine:
         from index.build.ray_shards import build_on_ray  # noqa: PLC0415  # heavy, as all commands are
 

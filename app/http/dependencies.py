@@ -10,10 +10,10 @@ from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
-from index.build.artifact import DEFAULT
-from index.build.manifest import NAME
+from index.build.artifact import DEFAULT_ALIAS
+from index.build.manifest import NAME_PATTERN
 
-IndexName = Annotated[str, Query(pattern=NAME, description="which of the indexes that /info names")]
+IndexName = Annotated[str, Query(pattern=NAME_PATTERN, description="which of the indexes that /info names")]
 
 
 async def get_settings(request: Request) -> Settings:
@@ -30,7 +30,7 @@ async def get_indexes(request: Request) -> Indexes:
 
 async def get_queue(
     request: Request,
-    index: IndexName = DEFAULT,
+    index: IndexName = DEFAULT_ALIAS,
 ) -> AsyncIterator[InferenceQueue]:
     """The queue of an index, which stays until the request is answered.
 

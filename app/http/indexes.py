@@ -13,7 +13,7 @@ from app import limits
 from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue, refuse
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 from models.errors import HereaboutsError, IndexBroken, IndexUnusable
 
 LOOKED_AT_S: Final = 1.0  # how often aliases are read again
@@ -63,12 +63,12 @@ class Indexes:
         """Begin to open what the aliases name, and to watch them."""
         self._is_draining, self._checking = False, asyncio.Lock()
         named = await self._named() or {}
-        self._served = {alias: self._begin(alias, named.get(alias)) for alias in {DEFAULT, *named}}
+        self._served = {alias: self._begin(alias, named.get(alias)) for alias in {DEFAULT_ALIAS, *named}}
         for alias, served in self._served.items():
             self._begin_check(alias, served)
         self._watching = asyncio.create_task(self._watch())
 
-    def queue(self, alias: str = DEFAULT) -> InferenceQueue:
+    def queue(self, alias: str = DEFAULT_ALIAS) -> InferenceQueue:
         """What answers for an alias now.
 
         Raises:
@@ -89,7 +89,7 @@ class Indexes:
         return {alias: queue.localizer.facts.version for alias, queue in sorted(ready.items())}
 
     @asynccontextmanager
-    async def lease(self, alias: str = DEFAULT) -> AsyncIterator[InferenceQueue]:
+    async def lease(self, alias: str = DEFAULT_ALIAS) -> AsyncIterator[InferenceQueue]:
         """What answers for an alias, and goes on to until the block ends.
 
         Raises:
@@ -239,7 +239,7 @@ class Indexes:
             named = await self._named()
             if named is None:
                 continue
-            for alias in self._served.keys() - named.keys() - {DEFAULT}:
+            for alias in self._served.keys() - named.keys() - {DEFAULT_ALIAS}:
                 log.info("index removed", alias=alias)
                 self._begin_retiring(self._served.pop(alias))
             for alias, version in named.items():

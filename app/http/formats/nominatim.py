@@ -64,7 +64,7 @@ def _place(
     described: Described | None,
     localizer: LocalizerLike,
 ) -> Place:
-    at = LatLon.of(np.array(position), localizer.frame)
+    at = LatLon.from_position(np.array(position), localizer.frame)
     assert at is not None
     name = described.place if described and described.place else f"{at.lat:.6f}, {at.lon:.6f}"
     return {

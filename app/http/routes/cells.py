@@ -11,7 +11,7 @@ from app.http.formats.geojson import cell_collection, cells_collection
 from app.http.formats.negotiation import GEOJSON, etag, has_already, negotiate, respond
 from app.http.openapi import geojson_content, problems
 from app.http.schemas.responses import CellResponse, CellsResponse, CrsOut, Provenance
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 
 MOST_CELLS, LONGEST_PAGE = 1_000_000_000, 1000
 router = APIRouter(tags=["map"])
@@ -32,7 +32,7 @@ def cells(
     localizer: Localizer,
     offset: Annotated[int, Query(ge=0, le=MOST_CELLS, description="cells that are passed over")] = 0,
     limit: Annotated[int, Query(ge=1, le=LONGEST_PAGE)] = 100,
-    index: IndexName = DEFAULT,
+    index: IndexName = DEFAULT_ALIAS,
 ) -> Response:
     """The map's cells, some at a time, as JSON, or as GeoJSON if Accept says so."""
     media_type, facts = negotiate(request, localizer.frame), localizer.facts

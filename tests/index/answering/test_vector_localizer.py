@@ -18,7 +18,7 @@ from models.paper.fine.regressor import Regressor, RegressorConfig
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 
 
-class Told:
+class OracleRefiner:
     """A refiner that knows where each description was said."""
 
     method, name, fingerprint, error_m = "regressor", "oracle", "told", 0.5
@@ -39,7 +39,7 @@ class Told:
 
 @pytest.fixture(scope="module")
 def ranker(asked, model):
-    return Ranker.of(model, asked[0].cells, asked[0].gallery.labels)
+    return Ranker.from_cells(model, asked[0].cells, asked[0].gallery.labels)
 
 
 @pytest.fixture
@@ -98,7 +98,7 @@ def test_a_query_may_ask_for_positions_inside_the_cells(localizer, regressor) ->
 
 def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
     center = localizer.gallery.cells.center_m[:, :2]
-    told = Told(localizer.gallery.cells, center[:1] + 4)
+    told = OracleRefiner(localizer.gallery.cells, center[:1] + 4)
     # One cell alone is surely the right one.
     sure = Query(TEXT, 1, within=Circle(tuple(center[0]), 1.0), refine="none")
     plain, refined = refining(localizer, lambda _: told).localize([sure, dataclasses.replace(sure, refine="regressor")])
