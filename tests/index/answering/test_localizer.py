@@ -149,7 +149,7 @@ def test_template_hints_are_never_read_again(index_dir, weights_dir, monkeypatch
     hints = ("The pose is on-top of a road.", "The pose is north of a tree.")
     expected = load_retriever(weights_dir).encode_descriptions([hints])  # that never saw the index
     fresh = Localizer.open(index_dir, weights_dir)
-    monkeypatch.setattr(fresh.retriever, "_read_sentences", None)  # what would run the text encoder
+    monkeypatch.setattr(fresh.retriever, "embed_hints", None)  # what would run the text encoder
     assert fresh.retriever.encode_descriptions([hints]) == pytest.approx(expected, abs=1e-5)
     assert fresh.localize([Query(" ".join(hints), refine="none")])[0].estimate
 

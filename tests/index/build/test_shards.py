@@ -42,7 +42,7 @@ def given(job, monkeypatch):
     kept = job.out_dir / "kept"
     part_of(job, SECOND).rename(kept)
     monkeypatch.setattr(
-        ShardData, "of", lambda _encoder, _likelihood, source, *_: ShardData.load(kept, LEVELS, source.data.cells)
+        ShardData, "build", lambda _encoder, _likelihood, source, *_: ShardData.load(kept, LEVELS, source.data.cells)
     )
 
 
