@@ -13,7 +13,7 @@ from index.answering.query import Query
 from index.answering.result import CellLocalizer
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.localizers import on_some_cells
-from index.evaluation.predictions import FILE, Predictions
+from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
 from models.citymap.gallery import MapData

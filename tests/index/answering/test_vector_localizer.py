@@ -50,7 +50,7 @@ def regressor(text_encoder):
 
 def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> None:
     data, queries = asked
-    report = evaluate(*asked, vectors_of_map(data, ranker, Told(data.cells, queries.positions_m)), tmp_path)
+    report = evaluate(*asked, vectors_of_map(data, ranker, OracleRefiner(data.cells, queries.positions_m)), tmp_path)
     plain = evaluate(*asked, vectors_of_map(data, ranker))
     assert {v for row in report["localization"].values() for v in row.values()} == {1.0}
     assert report["method"] == "regressor"

@@ -6,9 +6,9 @@ import pytest
 
 from index.answering.ranking import Ranker
 from index.evaluation.ambiguity import ambiguity
-from index.evaluation.evaluation import evaluate, grow, rescore
+from index.evaluation.evaluation import evaluate, grow_gallery, rescore
 from index.evaluation.localizers import vectors_of_map
-from index.evaluation.predictions import FILE, Predictions
+from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from index.evaluation.scoring import score
 from models.citymap.hints import build_hint_table
 from models.citymap.queries import Queries

@@ -5,9 +5,9 @@ import pytest
 import torch
 
 from index.answering.ranking import Ranker
-from index.evaluation.candidates import SIZES, SOURCES, candidate_recall
+from index.evaluation.candidates import CANDIDATE_COUNTS, SOURCES, candidate_recall
 from index.evaluation.localizers import posterior_of_map, vectors_of_map
-from index.evaluation.robustness import _damage, nearest_hints, robustness, robustness_tables
+from index.evaluation.robustness import _damage_map, nearest_hints, robustness, robustness_tables
 from index.evaluation.trials import Trial, all_trials
 from models.citymap.types import Hint
 from models.errors import DataError
