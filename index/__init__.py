@@ -1,5 +1,5 @@
-"""From models to answers, without HTTP: build an index, open it, localize, measure.
+"""Everything between the models and HTTP: build an index, open it, localize, evaluate.
 
-`build/` makes an index, `stores/` holds its vectors, `answering/` opens it and answers, `asking/` finds the next
-question, `evaluation/` measures and makes the paper's tables again.
+`build/` builds an index, `stores/` holds its vectors, `answering/` opens it and answers queries, `asking/` chooses the
+follow-up question, `evaluation/` computes metrics and reproduces the paper's tables.
 """

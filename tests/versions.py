@@ -3,17 +3,18 @@
 import hashlib
 
 from index.build.artifact import set_alias
-from index.build.manifest import NEEDED, FrameRecord, Manifest, write_manifest
+from index.build.manifest import REQUIRED_FILES, FrameRecord, Manifest, write_manifest
 from models.files import FileRecord
 
 
 def write_version(directory):
     """Files that are what their manifest says, whatever that is."""
     directory.mkdir()
-    for name in NEEDED:
+    for name in REQUIRED_FILES:
         (directory / name).write_text(name)
     files = {
-        name: FileRecord(sha256=hashlib.sha256(name.encode()).hexdigest(), bytes=len(name)) for name in sorted(NEEDED)
+        name: FileRecord(sha256=hashlib.sha256(name.encode()).hexdigest(), bytes=len(name))
+        for name in sorted(REQUIRED_FILES)
     }
     manifest = Manifest(
         version=directory.name,

@@ -55,9 +55,9 @@ def _median_ms(store: "VectorStore", vectors: Any, count: int) -> float:
 
 def _recall(store: "VectorStore", vectors: Any, count: int) -> float:
     """Return the share of the results that are as good as those of a search in all lists."""
-    from index.stores.faiss_store import FEW  # noqa: PLC0415 - heavy
+    from index.stores.faiss_store import MAX_PROBED_K  # noqa: PLC0415 - heavy
 
-    worst = [store.search(vector[None], FEW + 1)[0][0, :count][-1] for vector in vectors]
+    worst = [store.search(vector[None], MAX_PROBED_K + 1)[0][0, :count][-1] for vector in vectors]
     scores = [store.search(vector[None], count)[0][0] for vector in vectors]
     return round(float(np.mean([(s >= w - SCORE_TOLERANCE).mean() for s, w in zip(scores, worst, strict=True)])), 4)
 
@@ -72,7 +72,7 @@ def _measure_milvus(localizer: "Localizer", vectors: Any, count: int) -> Any:
             cells, start = localizer.gallery.cells, time.perf_counter()
             gallery = localizer.ranker.store.vectors(np.arange(len(cells)))
             name = f"benchmark_{os.getpid()}_{len(cells)}"
-            with MilvusStore.written(name, gallery, cells.center_m[:, :2], cells.scenes) as store, closing(store):
+            with MilvusStore.create(name, gallery, cells.center_m[:, :2], cells.scenes) as store, closing(store):
                 write_s = time.perf_counter() - start
                 search_ms = _median_ms(store, vectors, count)
                 store.drop()

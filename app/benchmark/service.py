@@ -97,19 +97,19 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
         Median milliseconds of parsing a new description, of its candidates from the vector index and of the posterior,
         and, as the baseline, of encoding its sentences and of ranking cells by them.
     """
-    from index.answering.vector_localizer import DEPTH  # noqa: PLC0415 - heavy
+    from index.answering.vector_localizer import RANKED_CELLS  # noqa: PLC0415 - heavy
     from models.posterior.locate import locate  # noqa: PLC0415 - heavy
 
     posterior, retriever = localizer.posterior, localizer.retriever
-    ranker = localizer.by_vectors("none").ranker
+    ranker = localizer.vector_localizer("none").ranker
     steps: dict[str, list[float]] = {"read": [], "posterior": [], "candidates": [], "encode": [], "vector_search": []}
     for text in texts:
-        [hints] = _timed(steps["read"], posterior.texts.parse, [" ".join(text)])
+        [hints] = _timed(steps["read"], posterior.chunk_reader.parse, [" ".join(text)])
         reading = posterior.binding.reading(hints)
         rows = _timed(steps["candidates"], posterior.search, hints, reading)
         _timed(steps["posterior"], partial(locate, further=rows), posterior.nodes, reading)
         encoded = _timed(steps["encode"], retriever.encode_texts, [text])
-        _timed(steps["vector_search"], ranker.rank, encoded, DEPTH)
+        _timed(steps["vector_search"], ranker.rank, encoded, RANKED_CELLS)
     surroundings, cells = posterior.surroundings, len(localizer.gallery.cells)
     return {f"{name}_ms": round(1000 * float(np.median(seconds)), 1) for name, seconds in steps.items()} | {
         "cells": cells,

@@ -38,9 +38,9 @@ def set_alias(
 ) -> None:
     """Verify a version and point an alias to it. A version that was copied into the directory is registered first."""
     from index.build import artifact
-    from index.build.manifest import NAME
+    from index.build.manifest import NAME_PATTERN
 
-    if not re.fullmatch(NAME, name):
+    if not re.fullmatch(NAME_PATTERN, name):
         raise DataError(f"{name!r} is not a name for an alias; use letters, digits, '.', '_' and '-'")
     versions = _versions(index_dir)
     if version not in versions:
@@ -58,7 +58,7 @@ def remove_alias(name: AliasName, index_dir: IndexDir = INDEX_DIR) -> None:
     """Remove an alias but keep its version. The alias "default" cannot be removed, as requests use it by default."""
     from index.build import artifact
 
-    if name == artifact.DEFAULT:
+    if name == artifact.DEFAULT_ALIAS:
         raise DataError(f"{name} cannot be removed; let it name another version with 'hereabouts alias set'")
     try:
         artifact.remove_alias(index_dir, name)

@@ -51,7 +51,7 @@ def run_index_job(
         The directory of the index version or the shard.
     """
     if shard:
-        return job.make_part(shard, show)
+        return job.make_shard(shard, show)
     if engine:
         from index.build.ray_shards import build_on_ray  # noqa: PLC0415  # heavy
 

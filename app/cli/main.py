@@ -22,7 +22,7 @@ from app.cli.aliases import aliases
 from app.cli.index_options import check_shard_options, parse_shard, run_index_job
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
-from index.build.shard import MOST_SHARDS, Shard
+from index.build.shard import MAX_SHARDS, Shard
 from models.errors import HereaboutsError
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def index(
         typer.Option(parser=parse_shard, metavar="I/N", help="build only shard I of N, for --merge"),
     ] = None,
     merge: Annotated[
-        int | None, typer.Option(min=1, max=MOST_SHARDS, metavar="N", help="merge N shards into the index")
+        int | None, typer.Option(min=1, max=MAX_SHARDS, metavar="N", help="merge N shards into the index")
     ] = None,
     engine: Annotated[
         Literal["ray"] | None,

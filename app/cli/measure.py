@@ -85,14 +85,14 @@ def _evaluate_place_texts(data: Path, settings: "Settings", report: Path | None)
     """Evaluate an index on texts with known positions."""
     from app.cli.progress import stage_bars
     from index.answering.localizer import Localizer
-    from index.evaluation.place_texts import evaluate_told, told_tables
+    from index.evaluation.place_texts import evaluate_texts, text_tables
     from models.sources.place_texts import load_place_texts
 
     texts = load_place_texts(data)
     weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     with stage_bars() as show:
-        results = evaluate_told(Localizer.open(settings.index_dir, *weights), texts, report, show)
-    _print_tables(Console(width=150), *told_tables(results))
+        results = evaluate_texts(Localizer.open(settings.index_dir, *weights), texts, report, show)
+    _print_tables(Console(width=150), *text_tables(results))
 
 
 def _print_robustness(results: dict[str, Any]) -> None:

@@ -52,22 +52,22 @@ def reproduce(
     """Reproduce tables 1-4 and figures 3-5 of MNCL: train missing models, measure, and compare with the paper."""
     from app.cli.progress import stage_bars
     from index.evaluation.reproduction.report import write_reproduction
-    from index.evaluation.reproduction.reproduce import chosen, figure_3_of, in_epochs
+    from index.evaluation.reproduction.reproduce import choose_experiments, figure_3_path, scale_in_epochs
     from index.evaluation.reproduction.reproduce import reproduce as run
     from models.training.experiments import POINTS, SCALES, TrainingRun, required_runs
 
     if steps and epochs:
         raise DataError("--steps and --epochs both set the length of training; give one of them")
-    numbers, experiments = _parse_seeds(seeds), chosen(tables)
+    numbers, experiments = _parse_seeds(seeds), choose_experiments(tables)
     scale = _override(SCALES["demo" if data == "demo" else "full"], config, steps, device)
     max_workers = _check_runs(scale, (*required_runs(experiments, every_seed=False), TrainingRun(POINTS)), config)
     with stage_bars() as show:
         store = _store(_towns(data, out, show) if data in SYNTHETIC_SCALES else Path(data), out, show)
-        scale = in_epochs(scale, store, epochs) if epochs else scale
+        scale = scale_in_epochs(scale, store, epochs) if epochs else scale
         results = run(store, out, scale, numbers, workers or max_workers, show, experiments)
     name = f"the {data} towns" if data in SYNTHETIC_SCALES else Path(data).resolve().name
     directory = report or out
-    write_reproduction(directory, results, name, figure_3_of(store, out, scale, numbers[0], experiments))
+    write_reproduction(directory, results, name, figure_3_path(store, out, scale, numbers[0], experiments))
     typer.echo(f"the report is {directory / 'report.md'}")
 
 
@@ -88,13 +88,13 @@ def _check_runs(scale: "TrainingScale", runs: "Sequence[TrainingRun]", config: P
     import torch
 
     from app.threads import usable_cpus
-    from index.evaluation.reproduction.jobs import settings_of
+    from index.evaluation.reproduction.jobs import run_settings
     from models.training.engine.loop import pick_device
 
     kinds = set()
     for run in runs:
         try:
-            kinds.add(pick_device(settings_of(run, 0, scale)[1].device).type)
+            kinds.add(pick_device(run_settings(run, 0, scale)[1].device).type)
         except TrainingError as error:
             raise TrainingError(f"{f'--config {config}, ' if config else ''}{run.method}: {error}") from error
     return torch.cuda.device_count() if "cuda" in kinds else usable_cpus()

@@ -10,10 +10,10 @@ from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
-from index.build.artifact import DEFAULT
-from index.build.manifest import NAME
+from index.build.artifact import DEFAULT_ALIAS
+from index.build.manifest import NAME_PATTERN
 
-IndexName = Annotated[str, Query(pattern=NAME, description="an index that GET /info lists")]
+IndexName = Annotated[str, Query(pattern=NAME_PATTERN, description="an index that GET /info lists")]
 
 
 async def get_settings(request: Request) -> Settings:
@@ -30,7 +30,7 @@ async def get_indexes(request: Request) -> Indexes:
 
 async def get_queue(
     request: Request,
-    index: IndexName = DEFAULT,
+    index: IndexName = DEFAULT_ALIAS,
 ) -> AsyncIterator[InferenceQueue]:
     """Yield the queue of an index and keep it open until the request is answered.
 

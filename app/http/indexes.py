@@ -13,7 +13,7 @@ from app import limits
 from app.http.errors import Code, Problem
 from app.http.protocol import LocalizerLike
 from app.http.queue import InferenceQueue, refuse
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 from models.errors import HereaboutsError, IndexBroken, IndexUnusable
 
 ALIAS_POLL_S: Final = 1.0  # interval between two reads of aliases.json
@@ -64,13 +64,13 @@ class Indexes:
         self._is_draining, self._checking = False, asyncio.Lock()
         versions_by_alias = await self._read_versions() or {}
         self._served = {
-            alias: self._begin(alias, versions_by_alias.get(alias)) for alias in {DEFAULT, *versions_by_alias}
+            alias: self._begin(alias, versions_by_alias.get(alias)) for alias in {DEFAULT_ALIAS, *versions_by_alias}
         }
         for alias, served in self._served.items():
             self._begin_check(alias, served)
         self._watching = asyncio.create_task(self._watch())
 
-    def queue(self, alias: str = DEFAULT) -> InferenceQueue:
+    def queue(self, alias: str = DEFAULT_ALIAS) -> InferenceQueue:
         """Return the queue of an alias.
 
         Raises:
@@ -91,7 +91,7 @@ class Indexes:
         return {alias: queue.localizer.facts.version for alias, queue in sorted(ready.items())}
 
     @asynccontextmanager
-    async def lease(self, alias: str = DEFAULT) -> AsyncIterator[InferenceQueue]:
+    async def lease(self, alias: str = DEFAULT_ALIAS) -> AsyncIterator[InferenceQueue]:
         """Yield the queue of an alias and keep it open until the block ends.
 
         Raises:
@@ -241,7 +241,7 @@ class Indexes:
             versions_by_alias = await self._read_versions()
             if versions_by_alias is None:
                 continue
-            for alias in self._served.keys() - versions_by_alias.keys() - {DEFAULT}:
+            for alias in self._served.keys() - versions_by_alias.keys() - {DEFAULT_ALIAS}:
                 log.info("index removed", alias=alias)
                 self._begin_retiring(self._served.pop(alias))
             for alias, version in versions_by_alias.items():

@@ -84,7 +84,7 @@ class Evaluation(BaseModel):
         queries = Queries.from_text(sentences, np.array(self.positions_m), data.cells)
         evaluated: CellLocalizer = localizer.posterior
         if self.refine != "posterior":
-            evaluated = with_raw_texts(localizer.by_vectors(self.refine))
+            evaluated = with_raw_texts(localizer.vector_localizer(self.refine))
         return evaluate(data, queries, evaluated, report_dir, self.grow_m, progress)
 
     def _open(self, progress: Progress) -> "tuple[Source, Queries]":
@@ -127,7 +127,7 @@ class Evaluation(BaseModel):
         from index.answering.ranking import Ranker  # noqa: PLC0415
 
         progress("encode cells", 0, 0)
-        return Ranker.of(retriever, source.data.cells, source.data.gallery.labels)
+        return Ranker.from_cells(retriever, source.data.cells, source.data.gallery.labels)
 
     def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
         """Compare retriever and posterior in every trial of `index.evaluation.robustness`.
@@ -140,7 +140,7 @@ class Evaluation(BaseModel):
             HereaboutsError: as `run`, or the queries are texts without known hints.
         """
         from index.evaluation.report import as_markdown  # noqa: PLC0415  # brings torch, which takes seconds
-        from index.evaluation.robustness import robustness, robustness_tables, some_of  # noqa: PLC0415
+        from index.evaluation.robustness import robustness, robustness_tables, sample_queries  # noqa: PLC0415
 
         if self.data is None:
             raise DataError("--robustness needs a data set or a map: the true hints of other texts are unknown")
@@ -150,7 +150,7 @@ class Evaluation(BaseModel):
         report: dict[str, Any] = {
             "data": source.data.name,
             "split": source.data.split,
-            "queries": len(some_of(queries)),
+            "queries": len(sample_queries(queries)),
             "cells": len(source.data.cells),
             **robustness(source.data, queries, vectors, posterior, progress),
         }

@@ -1,4 +1,4 @@
-"""What a localizer answers: plain dataclasses, whose descriptions are those of the HTTP API."""
+"""Answers of a localizer: plain dataclasses, whose descriptions appear in the HTTP API."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -15,7 +15,7 @@ Method = Literal["cell_center", "regressor", "matching", "posterior"]
 
 @dataclass(frozen=True, slots=True)
 class ModelName:
-    """A model, and the sha256 of all its weights."""
+    """A model and the sha256 of all its weights."""
 
     name: str
     sha256: str
@@ -29,8 +29,8 @@ class LatLon:
     lon: float
 
     @classmethod
-    def of(cls, position_m: "Floats", frame: "Frame") -> "LatLon | None":
-        """A position of the map; None if the map is not georeferenced."""
+    def from_position(cls, position_m: "Floats", frame: "Frame") -> "LatLon | None":
+        """Convert a position of the map; None if the map is not georeferenced."""
         if not frame.is_georeferenced:
             return None
         lat, lon = frame.to_wgs84(position_m[:2])
@@ -39,7 +39,7 @@ class LatLon:
 
 @dataclass(frozen=True, slots=True)
 class Radius:
-    """Metres around the estimate that hold the true position with probability .5 and .9."""
+    """Radii in metres around the estimate that contain the true position with probability 0.5 and 0.9."""
 
     p50: float
     p90: float
@@ -47,7 +47,7 @@ class Radius:
 
 @dataclass(frozen=True, slots=True)
 class Heading:
-    """Where the speaker looks, as the text tells it by left, right, ahead and behind."""
+    """Where the speaker looks, if the text uses left, right, ahead or behind."""
 
     mean_deg: Annotated[float, Field(description="clockwise from north")]
     spread_deg: Annotated[float, Field(description="circular standard deviation")]
@@ -55,43 +55,42 @@ class Heading:
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """Where the speaker is, how sure that is, and what made it."""
+    """The estimated position of the speaker and its uncertainty."""
 
     position: Annotated[tuple[float, float], Field(description="x, y in metres, map frame")]
     method: Annotated[
         Method,
         Field(
-            description="posterior: the hint posterior; cell_center: the centre of the best cell; the others are "
+            description="posterior: the hint posterior; cell_center: the centre of the best cell; regressor, matching: "
             "models of the fine stage"
         ),
     ]
     covariance: Annotated[
         tuple[tuple[float, float], tuple[float, float]],
-        Field(description="square metres, of the true position around `position`; wide when unsure"),
+        Field(description="covariance of the true position around `position`, square metres"),
     ]
     radius_m: Radius
-    probability: Annotated[float, Field(description="that the best candidate is the right cell")]
+    probability: Annotated[float, Field(description="probability that the best candidate is the right cell")]
     wgs84: Annotated[LatLon | None, Field(description="null if the map has no georeference")]
     place: Annotated[str | None, Field(description="the position in words; null on a map without names")] = None
-    heading: Annotated[Heading | None, Field(description="null where the text tells none")] = None
+    heading: Annotated[Heading | None, Field(description="null if the text does not tell")] = None
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A cell that may be the right one."""
+    """A cell that may contain the speaker."""
 
     rank: Annotated[int, Field(description="1 is the best")]
     cell_id: str
     score: Annotated[
         float,
         Field(
-            description="what cells are ranked by, before any prior; with posterior the logarithm of the likelihood "
-            "summed over the part of the map that the cell owns, comparable within one answer; with any other refine "
-            "the similarity of text and cell (a cosine, or the weighted sum of one a level), comparable within one "
-            "index"
+            description="score before any prior; with posterior the log likelihood summed over the area of the cell, "
+            "comparable within one answer; with any other refine the similarity of text and cell (a cosine, or a "
+            "weighted sum of one per level), comparable within one index"
         ),
     ]
-    probability: Annotated[float, Field(description="calibrated")]
+    probability: Annotated[float, Field(description="calibrated probability that this is the right cell")]
     center: tuple[float, float]
     bbox: Annotated[
         tuple[float, float, float, float], Field(description="west, south, east, north in metres, map frame")
@@ -102,100 +101,97 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """How one hint was understood, and what on the map explains it."""
+    """How one hint was understood, and which object of the map explains it."""
 
-    text: Annotated[str, Field(description="the words for the thing")]
+    text: Annotated[str, Field(description="the words for the object")]
     span: Annotated[
         tuple[int, int] | None,
-        Field(description="the characters of the description in which they stand, from the first to before the last"),
+        Field(description="the characters of the description that contain them: start and end (exclusive)"),
     ]
-    label: Annotated[str | None, Field(description="the map's class that fits them best")]
+    label: Annotated[str | None, Field(description="the best matching class of the map")]
     colour: str | None
     relation: Annotated[
         str,
         Field(
-            description="where the speaker is, seen from the thing; near: no direction was said. Of places also "
-            "what was said: at, across, left, ahead right, corner ..."
+            description="direction from the object to the speaker; near if the text gives none. For named places also "
+            "other relations: at, across, left, ahead right, corner ..."
         ),
     ]
-    distance_m: Annotated[float | None, Field(description="as it was said")]
-    absent: Annotated[bool, Field(description="the text says that there is none")]
-    explained: Annotated[float, Field(description="probability that something on the map explains the hint")]
-    instance: Annotated[str | None, Field(description="class of what explains it at the estimate")] = None
+    distance_m: Annotated[float | None, Field(description="the distance in the text")]
+    absent: Annotated[bool, Field(description="the text says that there is no such object")]
+    explained: Annotated[float, Field(description="probability that an object of the map explains the hint")]
+    instance: Annotated[str | None, Field(description="class of the object that explains it at the estimate")] = None
     name: str | None = None
     source_id: str | None = None
-    away_m: Annotated[float | None, Field(description="from its closest point to the estimate")] = None
-    at: Annotated[tuple[float, float] | None, Field(description="that point: x, y in metres, map frame")] = None
+    away_m: Annotated[float | None, Field(description="distance from the estimate to its closest point, metres")] = None
+    at: Annotated[tuple[float, float] | None, Field(description="its closest point: x, y in metres, map frame")] = None
     bearing_deg: Annotated[
-        float | None, Field(description="of places: from the estimate to it, clockwise from north")
+        float | None, Field(description="named places only: direction from the estimate, clockwise from north")
     ] = None
     exact: Annotated[
         bool | None,
         Field(
-            description="of places: whether this is a name of it on the map, or another of its chain; null for what is "
-            "near"
+            description="named places only: whether the text has a name of it, rather than of another branch of its "
+            "chain; null for nearby objects"
         ),
     ] = None
 
 
 @dataclass(frozen=True, slots=True)
 class HeatMap:
-    """The distribution behind an answer."""
+    """The probability distribution of the position."""
 
     spacing_m: Annotated[
         float,
-        Field(description="edge of the square round each point; as fine as a few that hold the distribution can be"),
+        Field(description="edge of the square around each point, metres"),
     ]
     points: Annotated[
-        tuple[tuple[float, float, float], ...], Field(description="x, y, probability, likeliest first, map frame")
+        tuple[tuple[float, float, float], ...], Field(description="x, y, probability; likeliest first; map frame")
     ]
 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """An answer that a question can be given."""
+    """A reply that a question offers."""
 
-    value: Annotated[str, Field(description="what to send back")]
-    text: Annotated[str, Field(description="what to show")]
+    value: Annotated[str, Field(description="the value to send back")]
+    text: Annotated[str, Field(description="the text to show")]
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """The one thing whose answer would narrow most where the speaker is."""
+    """The follow-up question that narrows the position most."""
 
-    id: Annotated[str, Field(description="what to send back; it says all that the service needs to know")]
+    id: Annotated[str, Field(description="the id to send back; the service keeps no other state")]
     text: Annotated[str, Field(description="the question, in English")]
     choices: Annotated[
         tuple[Choice, ...],
-        Field(description='the last is "unknown": the question is not asked again, and nothing else changes'),
+        Field(description='the last one is "unknown": the question is not asked again and the answer does not change'),
     ]
     is_open: Annotated[
         bool,
-        Field(
-            description="a name that is not listed may be sent as choice as well; it is compared without case and "
-            "accents"
-        ),
+        Field(description="names that are not listed may be sent as well; case and accents do not matter"),
     ] = False
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What the localizer found for one query.
+    """The answer to one query.
 
     Attributes:
-        status: "ok"; "ambiguous" when what is said and replied fits several places; "no_match" when `within` holds no
-            cell, or nothing that is said is on the map and no reply tells anything.
-        model: what answered.
+        status: "ok"; "ambiguous" if text and replies fit several places; "no_match" if `within` contains no cell, or if
+            nothing in the text is on the map and no reply helps.
+        model: the model behind the answer.
         estimate: None only with "no_match".
         candidates: best first.
-        other_probability: mass of all cells that are not listed.
-        warnings: what the caller should know, in sentences.
-        timings_ms: "encode", "search", "estimate"; what a batch shares counts for each of it.
-        evidence: one a hint; the posterior alone says.
-        heat_map: if it was asked for; the posterior alone has one.
-        question: what to ask; None unless something would narrow the answer. With "ambiguous"; with "no_match" on a map
-            with names, of a text in English: its replies are an answer also where the text tells nothing; with "ok"
-            once something was replied, until half of the probability is within 10 m. The posterior alone has one.
+        other_probability: probability of all cells that are not listed.
+        warnings: sentences for the caller.
+        timings_ms: "encode", "search", "estimate"; shared work of a batch counts for each of its queries.
+        evidence: one entry per hint; only with the posterior.
+        heat_map: if requested; only with the posterior.
+        question: the follow-up question, if one would narrow the answer; only with the posterior. Given with
+            "ambiguous"; with "no_match" for English texts on a map with names; with "ok" after a reply, until half of
+            the probability is within 10 m.
     """
 
     status: Status
@@ -212,7 +208,7 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class CellInstance:
-    """One instance of a cell; metres, map frame."""
+    """An instance in a cell; metres, map frame."""
 
     label: str
     name: str | None
@@ -221,12 +217,12 @@ class CellInstance:
     points: int
     center: tuple[float, float, float]
     size: tuple[float, float, float]
-    closest: Annotated[tuple[float, float, float], Field(description="its point nearest to the cell's centre")]
+    closest: Annotated[tuple[float, float, float], Field(description="its closest point to the cell's centre")]
 
 
 @dataclass(frozen=True, slots=True)
 class CellDetail:
-    """A cell and what is in it; metres, map frame."""
+    """A cell and its instances; metres, map frame."""
 
     cell_id: str
     scene: str
@@ -245,31 +241,32 @@ class CellSummary:
     center: tuple[float, float, float]
     bbox: Annotated[tuple[float, float, float, float], Field(description="west, south, east, north")]
     wgs84: LatLon | None
-    instances: Annotated[int, Field(description="how many are in it; GET /cells/{cell_id} has them")]
+    instances: Annotated[int, Field(description="number of instances; GET /cells/{cell_id} lists them")]
 
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """A sentence that is true at a position, and what on the map it tells of."""
+    """A true sentence about a position, and the object it is about."""
 
     text: Annotated[str, Field(description="the sentence")]
-    instance: Annotated[str, Field(description="class of what it tells of")]
-    name: Annotated[str | None, Field(description="null where it has none")]
+    instance: Annotated[str, Field(description="class of the object")]
+    name: Annotated[str | None, Field(description="null if it has none")]
     source_id: str | None
     at: Annotated[
-        tuple[float, float], Field(description="its point nearest to the position: x, y in metres, map frame")
+        tuple[float, float], Field(description="its closest point to the position: x, y in metres, map frame")
     ]
-    away_m: Annotated[float, Field(description="from the position to that point")]
+    away_m: Annotated[float, Field(description="distance from the position to that point, metres")]
     bearing_deg: Annotated[
-        float | None, Field(description="from the position to that point, clockwise from north; null where it is there")
+        float | None,
+        Field(description="direction from the position to that point, clockwise from north; null at distance 0"),
     ]
 
 
 @dataclass(frozen=True, slots=True)
 class Described:
-    """What the map says at a position; metres, map frame."""
+    """A description of a position; metres, map frame."""
 
-    description: Annotated[str, Field(description="the sentences of `hints`; POST /localize finds the position by it")]
+    description: Annotated[str, Field(description="the sentences of `hints`, which POST /localize can localize")]
     hints: tuple[Fact, ...]
     place: Annotated[str | None, Field(description="the position in words; null on a map without names")]
     position: Annotated[tuple[float, float], Field(description="x, y in metres, map frame")]
@@ -279,17 +276,17 @@ class Described:
 
 @dataclass(frozen=True, slots=True)
 class IndexFacts:
-    """What an index says of itself.
+    """Facts about an index.
 
     Attributes:
-        version: the index directory that is served.
+        version: the served version.
         created: when it was built, ISO 8601.
-        map_name: the map.
-        attribution: what the map data's licence asks to show.
-        model: what made its vectors.
+        map_name: name of the map.
+        attribution: text that the licence of the map data requires to be shown.
+        model: the model of its vectors.
         num_cells, num_instances: of the map.
-        dim: width of the vectors.
-        scenery_parts: in how many parts what the map looks like is kept.
+        dim: dimension of the vectors.
+        scenery_parts: number of files of the drawing of the map.
     """
 
     version: str

@@ -1,8 +1,8 @@
-"""What a map says at a position, in words by which the position is found again.
+"""Description of a position, in words from which the position can be found again.
 
-On a map with names a description is the street, what has a name and can be seen from there, then what is near, by class
-and colour, and where these are few, what has a name farther away; on any other map what is near alone. Each sentence
-tells of another thing; what is rare comes first, so that few sentences single a place out.
+On a map with names, a description has the street, visible named objects, then nearby objects by class and colour, and
+if these are few, named objects farther away. On other maps it has nearby objects only. Each sentence is about another
+object. Rare objects come first, so that few sentences identify the place.
 """
 
 import re
@@ -17,7 +17,14 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from index.answering.answers import Described, Fact, LatLon
-from index.answering.place_text import AT_CORNER_M, nearest_street, place_text, street_text, ways_from, wind_of
+from index.answering.place_text import (
+    CORNER_REACH_M,
+    closest_points_from,
+    compass_direction,
+    nearest_street,
+    place_text,
+    street_text,
+)
 from index.answering.result import pair
 from models.citymap.colours import Palette
 from models.citymap.frame import Frame
@@ -30,17 +37,17 @@ from models.citymap.templates import OPPOSITE
 from models.citymap.types import DIRECTIONS, Floats, Hint
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
-MOST_FACTS: Final = 6
-MOST_NAMED: Final = 3
-SEEN_M: Final = 40.0  # what has a name and is farther away may be behind a house
-OPEN_M: Final = 150.0  # as far where little else can be told, as in a park or between railway tracks
-ON_STREET_M: Final = 15.0  # from the middle of a street; who is farther away is beside it
-CROSSING_M: Final = 150.0  # down a street one sees the next corner
-AT_M: Final = 1.0  # nearer than this there is no wind to tell
-NEAR_M: Final = 4.0  # added to distances: what is nearer is no more telling
-RARE_M: Final = 5.0  # as much nearer counts what is rarer by a factor of e
-# Kinds that nobody sees from a street: upstairs, underground, or a mere point of a track.
-UNSEEN: Final = (
+MAX_FACTS: Final = 6
+MAX_NAMED_FACTS: Final = 3
+VISIBLE_M: Final = 40.0  # farther named objects may be hidden by a house
+FAR_VISIBLE_M: Final = 150.0  # reach where there is little else, as in a park
+STREET_HALF_WIDTH_M: Final = 15.0  # farther from its line, the speaker is beside the street
+CROSSING_REACH_M: Final = 150.0  # people see the next corner of their street
+SAME_PLACE_M: Final = 1.0  # closer objects have no direction
+DISTANCE_OFFSET_M: Final = 4.0  # added to distances: very close objects tell no more
+RARITY_BONUS_M: Final = 5.0  # an object rarer by a factor of e counts as this much closer
+# Kinds that are invisible from a street: upstairs, underground, or a point on a track.
+INVISIBLE_KINDS: Final = (
     ADDRESS_KIND,
     "amenity/parking/underground",
     "entrance",
@@ -48,18 +55,18 @@ UNSEEN: Final = (
     "public_transport/platform/subway",
     "public_transport/stop_position",
 )
-PLURALS: Final = frozenset(("bushes", "steps", "trees"))
-WITHOUT_ARTICLE: Final = PLURALS | {"grass", "terrain", "vegetation", "water"}
+PLURAL_LABELS: Final = frozenset(("bushes", "steps", "trees"))
+LABELS_WITHOUT_ARTICLE: Final = PLURAL_LABELS | {"grass", "terrain", "vegetation", "water"}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sight:
-    """Something that can be seen from a position.
+class VisibleObject:
+    """An object that is visible from a position.
 
     Attributes:
         instance: its class.
-        name, source_id: None where it has none.
-        way_m: [2] from the position to the point of it that is nearest.
+        name, source_id: None if it has none.
+        way_m: [2] offset from the position to its closest point.
     """
 
     instance: str
@@ -69,26 +76,26 @@ class Sight:
 
     @property
     def metres(self) -> float:
-        """How far away it is."""
+        """Return its distance."""
         return float(np.hypot(*self.way_m))
 
     def fact(self, text: str, position: Floats) -> Fact:
-        """What a sentence tells of it, at a position [2]."""
+        """Return the fact that a sentence states about it, at a position [2]."""
         away_m = round(self.metres, 1)
         bearing = round(float(np.degrees(np.arctan2(*self.way_m))), 1) % 360 if away_m else None
-        at = pair(np.round(position + self.way_m, 2))
-        return Fact(text, self.instance, self.name, self.source_id, at, away_m, bearing)
+        closest_m = pair(np.round(position + self.way_m, 2))
+        return Fact(text, self.instance, self.name, self.source_id, closest_m, away_m, bearing)
 
 
 class Describer:
-    """Says what is at the positions of one map. Only reads, so that several threads may share it.
+    """Describes the positions of one map. It only reads, so threads may share it.
 
     Args:
         gallery: the cells, with labels and names.
         palette: the map's colour words.
         frame: of the map.
         surroundings: of the gallery.
-        gazetteer: of the map; empty where nothing has a name.
+        gazetteer: of the map; empty if nothing has a name.
     """
 
     def __init__(
@@ -96,20 +103,20 @@ class Describer:
     ) -> None:
         self._frame, self._gazetteer, self._ids = frame, gazetteer, gallery.cells.ids
         self._cells = cKDTree(gallery.cells.center_m[:, :2])
-        self._named, self._near = NamedSights(gazetteer), NearSights(gallery, palette, surroundings)
+        self._named, self._near = NamedFacts(gazetteer), NearFacts(gallery, palette, surroundings)
 
     def describe(self, position: Floats) -> Described | None:
-        """What is at a position [2], metres, map frame; None off the map, and where nothing is near."""
+        """Describe a position [2], metres, map frame; None off the map and where nothing is near."""
         metres, cell = self._cells.query(position)
         if metres > BEST_CELL_REACH_M:
             return None
-        named = self._named.facts(position, SEEN_M)[:MOST_NAMED]
-        # where little has a name, crossing streets tell how far along its street the position is
-        facts = street_facts(self._gazetteer, position, MOST_NAMED - len(named))
+        named = self._named.facts(position, VISIBLE_M)[:MAX_NAMED_FACTS]
+        # where few objects have names, crossing streets tell how far along the street the position is
+        facts = street_facts(self._gazetteer, position, MAX_NAMED_FACTS - len(named))
         facts += sorted(named, key=lambda fact: fact.away_m)
-        facts += self._near.facts(position, int(cell), _told(facts), MOST_FACTS - len(facts))
-        if len(facts) < MOST_FACTS:
-            facts += self._far_facts(position, _told(facts))[: MOST_FACTS - len(facts)]
+        facts += self._near.facts(position, int(cell), _mentioned(facts), MAX_FACTS - len(facts))
+        if len(facts) < MAX_FACTS:
+            facts += self._far_facts(position, _mentioned(facts))[: MAX_FACTS - len(facts)]
         if not facts:
             return None
         return Described(
@@ -117,54 +124,56 @@ class Describer:
             hints=tuple(facts),
             place=place_text(self._gazetteer, position),
             position=pair(position),
-            wgs84=LatLon.of(position, self._frame),
+            wgs84=LatLon.from_position(position, self._frame),
             cell_id=self._ids[int(cell)],
         )
 
-    def _far_facts(self, position: Floats, told: Set[str]) -> list[Fact]:
-        """What else has a name around a position [2], from one side after the other: two ways that cross tell most."""
-        far = [fact for fact in self._named.facts(position, OPEN_M) if not {fact.name, fact.source_id} & told]
+    def _far_facts(self, position: Floats, mentioned: Set[str]) -> list[Fact]:
+        """Return facts about farther named objects, alternating between sides because crossing directions tell most."""
+        far = [
+            fact for fact in self._named.facts(position, FAR_VISIBLE_M) if not {fact.name, fact.source_id} & mentioned
+        ]
         ways_m = np.array([fact.at for fact in far]).reshape(-1, 2) - position
         return [far[n] for n in round_robin(direction_index(ways_m)).tolist()]
 
 
-def _told(facts: Sequence[Fact]) -> set[str]:
-    """Names and sources of what sentences tell of."""
+def _mentioned(facts: Sequence[Fact]) -> set[str]:
+    """Return the names and source ids in facts."""
     return {word for fact in facts for word in (fact.name, fact.source_id) if word is not None}
 
 
 def street_facts(gazetteer: Gazetteer, position: Floats, most_crossing: int) -> list[Fact]:
-    """The street at a position [2], with its corners or with so many crossing streets; none where there is none."""
-    found = nearest_street(gazetteer, position)
-    if found is None:
+    """Return facts about the street at a position [2], with its corners or with crossing streets; empty without one."""
+    nearest = nearest_street(gazetteer, position)
+    if nearest is None:
         return []
-    street, way_m = found
+    street, way_m = nearest
     words = gazetteer.objects[street]
-    name, sight = words.names[0], Sight(STREET_KIND, words.names[0], words.source_id, way_m)
-    crossing = list(islice(_crossing(gazetteer, street, position), most_crossing))
-    if sight.metres > ON_STREET_M:
+    name, sight = words.names[0], VisibleObject(STREET_KIND, words.names[0], words.source_id, way_m)
+    crossing = list(islice(_crossing_streets(gazetteer, street, position), most_crossing))
+    if sight.metres > STREET_HALF_WIDTH_M:
         text = named_text(name, way_m)
     else:
         text = f"I am on {name}." if crossing else f"I am {street_text(gazetteer, street, position)}."
     return [sight.fact(text, position), *crossing]
 
 
-def _crossing(gazetteer: Gazetteer, street: int, position: Floats) -> Iterator[Fact]:
-    """The streets that meet a street, nearest first, seen from a position [2] that is at no corner."""
+def _crossing_streets(gazetteer: Gazetteer, street: int, position: Floats) -> Iterator[Fact]:
+    """Yield facts about the streets that cross a street, nearest first; none if the position [2] is at a corner."""
     pairs = gazetteer.corner_streets
     meeting = pairs[(pairs == street).any(axis=1)]
     others = np.unique(meeting[meeting != street])
-    ways = ways_from(gazetteer, others, position, CROSSING_M)
-    if len(ways.target) and ways.distance_m.min() <= AT_CORNER_M:
+    ways = closest_points_from(gazetteer, others, position, CROSSING_REACH_M)
+    if len(ways.target) and ways.distance_m.min() <= CORNER_REACH_M:
         return
     for row in np.argsort(ways.distance_m, kind="stable").tolist():
         words, way_m = gazetteer.objects[int(others[ways.target[row]])], ways.offset_m[row]
         name = words.names[0]
-        yield Sight(STREET_KIND, name, words.source_id, way_m).fact(named_text(name, way_m), position)
+        yield VisibleObject(STREET_KIND, name, words.source_id, way_m).fact(named_text(name, way_m), position)
 
 
-class NamedSights:
-    """What has a name on a map, is no street, and can be seen from one.
+class NamedFacts:
+    """Facts about named objects, other than streets, that are visible from a street.
 
     Args:
         gazetteer: of the map.
@@ -173,41 +182,41 @@ class NamedSights:
     def __init__(self, gazetteer: Gazetteer) -> None:
         self._gazetteer, words = gazetteer, gazetteer.objects
         streets = [name.casefold() for row in gazetteer.by_kind.get(STREET_KIND, ()) for name in words[row].names]
-        # "Broadway & West 25th Street", a bus stop, would be read as the corner
+        # a bus stop "Broadway & West 25th Street" would be parsed as the corner
         of_streets = re.compile(rf"\b(?:{'|'.join(map(re.escape, streets))})\b") if streets else None
-        seen = [
+        visible = [
             row
             for row in gazetteer.named.tolist()
-            if not words[row].kinds[0].startswith(UNSEEN)
+            if not words[row].kinds[0].startswith(INVISIBLE_KINDS)
             and not (of_streets and of_streets.search(words[row].names[0].casefold()))
         ]
-        names = [words[row].names[0].casefold() for row in seen]
+        names = [words[row].names[0].casefold() for row in visible]
         count = Counter(names)
-        self._objects = np.array(seen, dtype=np.int64)
+        self._objects = np.array(visible, dtype=np.int64)
         self._namesakes = np.array([count[name] for name in names], dtype=np.int64)
 
     def facts(self, position: Floats, reach_m: float) -> list[Fact]:
-        """A sentence for each name within reach of a position [2], the most telling first."""
+        """Return a fact for each name within reach of a position [2], the most telling first."""
         gazetteer, objects = self._gazetteer, self._objects
         apart = np.hypot(*(gazetteer.middles_m[objects] - position).T) - gazetteer.reach_m[objects]
         near = np.flatnonzero(apart <= reach_m)
-        ways = ways_from(gazetteer, objects[near], position, reach_m)
+        ways = closest_points_from(gazetteer, objects[near], position, reach_m)
         rows = near[ways.target]
-        # who is somewhere in a large park knows little more
-        size_m = np.where(ways.distance_m < AT_M, gazetteer.reach_m[objects[rows]], 0.0)
-        cost = (ways.distance_m + NEAR_M + size_m) * np.sqrt(self._namesakes[rows])
-        found: dict[str, Fact] = {}
+        # being inside a large park tells little
+        size_m = np.where(ways.distance_m < SAME_PLACE_M, gazetteer.reach_m[objects[rows]], 0.0)
+        cost = (ways.distance_m + DISTANCE_OFFSET_M + size_m) * np.sqrt(self._namesakes[rows])
+        fact_by_name: dict[str, Fact] = {}
         for n in np.argsort(cost, kind="stable").tolist():
             words, way_m = gazetteer.objects[int(objects[rows[n]])], ways.offset_m[n]
             name = words.names[0]
-            if name.casefold() not in found:
-                sight = Sight(words.kinds[0], name, words.source_id, way_m)
-                found[name.casefold()] = sight.fact(named_text(name, way_m), position)
-        return list(found.values())
+            if name.casefold() not in fact_by_name:
+                sight = VisibleObject(words.kinds[0], name, words.source_id, way_m)
+                fact_by_name[name.casefold()] = sight.fact(named_text(name, way_m), position)
+        return list(fact_by_name.values())
 
 
-class NearSights:
-    """What is around the nodes of a map, by class and colour.
+class NearFacts:
+    """Facts about the objects around the nodes of a map, by class and colour.
 
     Args:
         gallery: the cells.
@@ -217,49 +226,51 @@ class NearSights:
 
     def __init__(self, gallery: Gallery, palette: Palette, surroundings: NeighbourIndex) -> None:
         self._gallery, self._words, self._surroundings = gallery, palette.words, surroundings
-        things = surroundings.things
-        self._colour = palette.word_index(things.rgb)
-        label = things.labels(gallery)[1]
+        objects = surroundings.things
+        self._colour = palette.word_index(objects.rgb)
+        label = objects.labels(gallery)[1]
         self._kind = label * (len(palette.words) + 1) + self._colour + 1  # a class in a colour
-        count = np.bincount(self._kind, things.parts, int(self._kind.max(initial=0)) + 1)
-        self._log_share = np.log(np.maximum(count, 1) / max(1, things.parts.sum()))
+        count = np.bincount(self._kind, objects.parts, int(self._kind.max(initial=0)) + 1)
+        self._log_share = np.log(np.maximum(count, 1) / max(1, objects.parts.sum()))
 
-    def facts(self, position: Floats, cell: int, told: Set[str], most: int) -> list[Fact]:
-        """Sentences about what is near a position [2].
+    def facts(self, position: Floats, cell: int, mentioned: Set[str], most: int) -> list[Fact]:
+        """Return facts about objects near a position [2].
 
         Args:
-            position: where, metres, map frame.
-            cell: whose centre is nearest.
-            told: names and sources of what has been told of.
-            most: sentences.
+            position: metres, map frame.
+            cell: the cell with the nearest centre.
+            mentioned: names and source ids in earlier facts.
+            most: maximum number of facts.
         """
-        found: list[Fact] = []
-        for hint, is_ground, sight in self._sights(position, cell, told):
-            if len(found) == most:
+        facts: list[Fact] = []
+        for hint, is_ground, sight in self._visible_objects(position, cell, mentioned):
+            if len(facts) == most:
                 break
-            found.append(sight.fact(hint_text(hint, sight.metres, is_ground=is_ground, turn=len(found)), position))
-        return found
+            facts.append(sight.fact(hint_text(hint, sight.metres, is_ground=is_ground, turn=len(facts)), position))
+        return facts
 
-    def _sights(self, position: Floats, cell: int, told: Set[str]) -> Iterator[tuple[Hint, bool, Sight]]:
-        """What can be told of, from one side after the other, each thing and each hint once."""
+    def _visible_objects(
+        self, position: Floats, cell: int, mentioned: Set[str]
+    ) -> Iterator[tuple[Hint, bool, VisibleObject]]:
+        """Yield objects to mention, alternating between sides, each object and each hint once."""
         part, offset_m, whole = self._around(position, cell)
-        direction, gallery, things = direction_index(offset_m), self._gallery, self._surroundings.things
-        cost = np.hypot(*offset_m.T) + RARE_M * self._log_share[self._kind[part]]
+        direction, gallery, objects = direction_index(offset_m), self._gallery, self._surroundings.things
+        cost = np.hypot(*offset_m.T) + RARITY_BONUS_M * self._log_share[self._kind[part]]
         order = np.lexsort((cost, ~whole))
-        said = set[tuple[int, int] | int]()
+        used = set[tuple[int, int] | int]()
         for n in order[round_robin(direction[order])].tolist():
             row, side = int(part[n]), int(direction[n])
-            instance = int(things.instance[row])
+            instance = int(objects.instance[row])
             name, source_id = gallery.names[instance], gallery.sources[instance]
-            if {name, source_id} & told or {instance, (int(self._kind[row]), side)} & said:
+            if {name, source_id} & mentioned or {instance, (int(self._kind[row]), side)} & used:
                 continue
-            said |= {instance, (int(self._kind[row]), side)}
+            used |= {instance, (int(self._kind[row]), side)}
             colour = self._words[self._colour[row]] if self._colour[row] >= 0 else None
             hint = Hint(DIRECTIONS[side], gallery.labels[instance], colour, instance)
-            yield hint, bool(things.is_flat[row]), Sight(hint.label, name, source_id, -offset_m[n])
+            yield hint, bool(objects.is_flat[row]), VisibleObject(hint.label, name, source_id, -offset_m[n])
 
     def _around(self, position: Floats, cell: int) -> tuple[Ints, Floats, npt.NDArray[np.bool_]]:
-        """Parts [K] around a position [2], the position minus the closest point of each [K, 2], and which are whole."""
+        """Return parts [K] around a position [2], offsets [K, 2] from their closest points, and which are whole."""
         s = self._surroundings
         first, last = int(s.cell_starts[cell]), int(s.cell_starts[cell + 1])
         if first == last:
@@ -271,16 +282,18 @@ class NearSights:
 
 
 def named_text(name: str, way_m: Floats) -> str:
-    """Where something with a name is: a way [2] from the speaker."""
+    """Return the sentence about a named object at an offset [2] from the speaker."""
     metres = float(np.hypot(*way_m))
-    return f"I am at {name}." if metres < AT_M else f"{name} is {metres:.0f} m to my {wind_of(way_m)}."
+    return (
+        f"I am at {name}." if metres < SAME_PLACE_M else f"{name} is {metres:.0f} m to my {compass_direction(way_m)}."
+    )
 
 
 def hint_text(hint: Hint, metres: float, *, is_ground: bool, turn: int) -> str:
-    """A hint in the words of one of two templates in turn, with the articles that people use, and how far it is."""
+    """Return the sentence of a hint: one of two templates in turn, with natural articles and the distance."""
     noun = f"{hint.colour} {hint.label}" if hint.colour else hint.label
-    article = "" if hint.label in WITHOUT_ARTICLE else "an " if noun[0] in "aeiou" else "a "
-    verb, wind = "are" if hint.label in PLURALS else "is", OPPOSITE[hint.direction]
+    article = "" if hint.label in LABELS_WITHOUT_ARTICLE else "an " if noun[0] in "aeiou" else "a "
+    verb, wind = "are" if hint.label in PLURAL_LABELS else "is", OPPOSITE[hint.direction]
     first = f"{article}{noun}"
     first = first[0].upper() + first[1:]
     if hint.direction == "on-top":

@@ -1,4 +1,4 @@
-"""What a query says of the place besides its description: where it must be, and where it is likely."""
+"""The filter and the prior of a query."""
 
 from collections.abc import Callable
 from typing import Final
@@ -14,16 +14,16 @@ from models.citymap.types import Floats
 from models.posterior.area_filter import Inside
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
-BEND_M: Final = 0.5  # by which an edge of a box in degrees may bend between points
-REACH_M: Final = BEST_CELL_REACH_M + BEND_M  # of a cell's nodes from its centre
-EDGE_POINTS: Final = 65  # of a box in degrees, between which its edges are straight
-MARGIN_DEG: Final = 1e-3
+EDGE_BEND_M: Final = 0.5  # curvature of a box edge in degrees between two points, at most
+CELL_REACH_M: Final = BEST_CELL_REACH_M + EDGE_BEND_M  # from a cell's centre to its nodes, at most
+POINTS_PER_EDGE: Final = 65  # of a box in degrees; edges are straight between them
+MARGIN_DEG: Final = 1e-3  # around the map, to which boxes in degrees are cut
 Mask = npt.NDArray[np.bool_]
-Roughly = Callable[[Floats, float], tuple[Mask, Mask]]
+BoundsTest = Callable[[Floats, float], tuple[Mask, Mask]]
 
 
-def inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
-    """[M] True where points [M, 2] of the map are inside `within`; everywhere without one."""
+def is_inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
+    """Return which points [M, 2] of the map are inside `within`; all of them without a filter."""
     within = query.within
     if isinstance(within, Circle):
         offset = points_m - frame.position_m(within.center, query.crs)
@@ -36,22 +36,22 @@ def inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
     return np.ones(len(points_m), dtype=bool)
 
 
-def where_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, frame: Frame) -> Inside | None:
-    """The nodes that are inside `within`, of cells with centres [N, 2]; None without one.
+def nodes_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, frame: Frame) -> Inside | None:
+    """Return the nodes inside `within`, of cells with centres [N, 2]; None without a filter.
 
-    Exact: of cells that its border may cross each node is looked at.
+    The result is exact: in cells that the border may cross, each node is tested.
     """
     if query.within is None:
         return None
-    roughly = _of_circle(query, frame) if isinstance(query.within, Circle) else _of_box(query, centers_m, frame)
+    bounds = _circle_bounds(query, frame) if isinstance(query.within, Circle) else _box_bounds(query, centers_m, frame)
 
     def holds(points_m: Floats) -> Mask:
-        near, sure = roughly(points_m, BEND_M)
+        near, sure = bounds(points_m, EDGE_BEND_M)
         unsure = np.flatnonzero(near & ~sure)
-        sure[unsure] = inside(query, points_m[unsure], frame)
+        sure[unsure] = is_inside(query, points_m[unsure], frame)
         return sure
 
-    near, sure = roughly(centers_m, REACH_M)
+    near, sure = bounds(centers_m, CELL_REACH_M)
     starts = surroundings.cell_starts
     border = np.flatnonzero(near & ~sure)
     nodes = ranges(starts[border], starts[border + 1])
@@ -60,60 +60,60 @@ def where_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, 
     return Inside(cells, holds)
 
 
-def _of_circle(query: Query, frame: Frame) -> Roughly:
-    """Which points [N, 2] may be less than some metres away from what is inside, and of which all so near is inside."""
+def _circle_bounds(query: Query, frame: Frame) -> BoundsTest:
+    """Return a test of points [N, 2]: which are within reach of the circle, and which are inside by the reach."""
     circle = query.within
     assert isinstance(circle, Circle)
     center_m = frame.position_m(circle.center, query.crs)
 
-    def roughly(points_m: Floats, reach_m: float) -> tuple[Mask, Mask]:
+    def bounds(points_m: Floats, reach_m: float) -> tuple[Mask, Mask]:
         most_m = circle.radius_m + reach_m
-        near, sure = _between(points_m, center_m - most_m, center_m + most_m), np.zeros(len(points_m), np.bool_)
-        some = np.flatnonzero(near)
-        away_m = np.hypot(*(points_m[some] - center_m).T)
-        near[some], sure[some] = away_m <= most_m, away_m <= circle.radius_m - reach_m
+        near, sure = _is_in_box(points_m, center_m - most_m, center_m + most_m), np.zeros(len(points_m), np.bool_)
+        rows = np.flatnonzero(near)
+        away_m = np.hypot(*(points_m[rows] - center_m).T)
+        near[rows], sure[rows] = away_m <= most_m, away_m <= circle.radius_m - reach_m
         return near, sure
 
-    return roughly
+    return bounds
 
 
-def _of_box(query: Query, centers_m: Floats, frame: Frame) -> Roughly:
-    """As `_of_circle`, of points of the map that has these centres [N, 2] of cells."""
+def _box_bounds(query: Query, centers_m: Floats, frame: Frame) -> BoundsTest:
+    """Return the same test for a box, on a map with cell centres [N, 2]."""
     box = query.within
     assert isinstance(box, Box)
     outer = inner = np.array([[box.west, box.south], [box.east, box.north]])
     if query.crs == "wgs84":
-        low = np.array([axis.min() for axis in centers_m.T]) - REACH_M
-        high = np.array([axis.max() for axis in centers_m.T]) + REACH_M
-        lat, lon = frame.to_wgs84(_edges(low, high).reshape(-1, 2))
-        # Of a box round half the world no more than is about the map: the rest may have no metres.
+        low = np.array([axis.min() for axis in centers_m.T]) - CELL_REACH_M
+        high = np.array([axis.max() for axis in centers_m.T]) + CELL_REACH_M
+        lat, lon = frame.to_wgs84(_box_edges(low, high).reshape(-1, 2))
+        # Cut large boxes to the surroundings of the map: positions far away may have no coordinates in its frame.
         west, south = max(box.west, lon.min() - MARGIN_DEG), max(box.south, lat.min() - MARGIN_DEG)
         east, north = min(box.east, lon.max() + MARGIN_DEG), min(box.north, lat.max() + MARGIN_DEG)
         if west > east or south > north:
             return lambda points_m, _: (np.zeros(len(points_m), np.bool_), np.zeros(len(points_m), np.bool_))
-        at = _edges(np.array([west, south]), np.array([east, north]))
-        edges = frame.from_wgs84(at[..., 1], at[..., 0])  # [4, E, 2] of west, east, south and north
+        corners = _box_edges(np.array([west, south]), np.array([east, north]))
+        edges = frame.from_wgs84(corners[..., 1], corners[..., 0])  # [4, E, 2] of west, east, south and north
         outer = np.array([edges.reshape(-1, 2).min(axis=0), edges.reshape(-1, 2).max(axis=0)])
         inner = np.array([[edges[0, :, 0].max(), edges[2, :, 1].max()], [edges[1, :, 0].min(), edges[3, :, 1].min()]])
 
-    def roughly(points_m: Floats, reach_m: float) -> tuple[Mask, Mask]:
-        near, sure = _between(points_m, outer[0] - reach_m, outer[1] + reach_m), np.zeros(len(points_m), np.bool_)
-        some = np.flatnonzero(near)
-        sure[some] = _between(points_m[some], inner[0] + reach_m, inner[1] - reach_m)
+    def bounds(points_m: Floats, reach_m: float) -> tuple[Mask, Mask]:
+        near, sure = _is_in_box(points_m, outer[0] - reach_m, outer[1] + reach_m), np.zeros(len(points_m), np.bool_)
+        rows = np.flatnonzero(near)
+        sure[rows] = _is_in_box(points_m[rows], inner[0] + reach_m, inner[1] - reach_m)
         return near, sure
 
-    return roughly
+    return bounds
 
 
-def _between(points_m: Floats, low: Floats, high: Floats) -> Mask:
-    """[n] whether points [n, 2] lie in a box; axis by axis, which takes a tenth of the time."""
+def _is_in_box(points_m: Floats, low: Floats, high: Floats) -> Mask:
+    """Return which points [n, 2] lie in a box; testing axis by axis takes a tenth of the time."""
     x, y = points_m.T
     return np.asarray((x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1]))
 
 
-def _edges(low: Floats, high: Floats) -> Floats:
-    """[4, E, 2] points on the west, east, south and north edge of a box."""
-    along = np.linspace(0.0, 1.0, EDGE_POINTS)
+def _box_edges(low: Floats, high: Floats) -> Floats:
+    """Return points [4, E, 2] on the west, east, south and north edges of a box."""
+    along = np.linspace(0.0, 1.0, POINTS_PER_EDGE)
     x, y = (low[axis] + along * (high[axis] - low[axis]) for axis in (0, 1))
     sides = [(np.full_like(y, low[0]), y), (np.full_like(y, high[0]), y)]
     sides += [(x, np.full_like(x, low[1])), (x, np.full_like(x, high[1]))]
@@ -121,7 +121,7 @@ def _edges(low: Floats, high: Floats) -> Floats:
 
 
 def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:
-    """[M] logarithm of the prior's density at points [M, 2], up to a constant; 0 without one."""
+    """Return the prior's log density at points [M, 2], up to a constant; 0 without a prior."""
     if query.prior is None:
         return np.zeros(len(points_m))
     offset = points_m - frame.position_m(query.prior.position, query.crs)

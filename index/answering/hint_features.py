@@ -1,4 +1,4 @@
-"""What a retriever makes of every template hint about a map: a small closed set, encoded once, when it is indexed."""
+"""The retriever's vectors of every template hint about a map: a small closed set, encoded while indexing."""
 
 import json
 from pathlib import Path
@@ -19,14 +19,16 @@ FILE = "hints.safetensors"
 
 
 def template_hints(gallery: Gallery, things: MapObjects, palette: Palette) -> tuple[str, ...]:
-    """Every hint about the classes of what cells show, in each colour that they have and in none, by the template."""
+    """Return every template hint about the map's visible classes, in each of their colours and without colour."""
     labels, number = things.labels(gallery)
     shown, words = things.parts > 0, [*palette.words, None]
-    seen = np.unique(number[shown] * len(words) + palette.word_index(things.rgb[shown]) % len(words))  # -1 is the last
-    said = {(str(labels[row // len(words)]), words[row % len(words)]) for row in seen.tolist()}
-    said |= {(label, None) for label, _ in said}
-    pairs = sorted(said, key=lambda pair: (pair[0], pair[1] or ""))
-    return tuple(render_hint(Hint(direction, *pair)) for pair in pairs for direction in DIRECTIONS)
+    shown_pairs = np.unique(
+        number[shown] * len(words) + palette.word_index(things.rgb[shown]) % len(words)
+    )  # -1 is the last
+    pairs = {(str(labels[row // len(words)]), words[row % len(words)]) for row in shown_pairs.tolist()}
+    pairs |= {(label, None) for label, _ in pairs}
+    ordered = sorted(pairs, key=lambda pair: (pair[0], pair[1] or ""))
+    return tuple(render_hint(Hint(direction, *pair)) for pair in ordered for direction in DIRECTIONS)
 
 
 def save_hint_features(directory: Path, retriever: Retriever, sentences: tuple[str, ...]) -> None:
@@ -36,13 +38,13 @@ def save_hint_features(directory: Path, retriever: Retriever, sentences: tuple[s
 
 
 def load_hint_features(directory: Path, retriever: Retriever) -> frozenset[str]:
-    """Let a retriever remember what `save_hint_features` wrote.
+    """Load the hints of an index version into the retriever's cache.
 
     Returns:
-        The sentences.
+        The sentences of the hints.
 
     Raises:
-        IndexBroken: the file is not one of these.
+        IndexBroken: the file cannot be read.
     """
     try:
         with safe_open(directory / FILE, framework="numpy") as file:

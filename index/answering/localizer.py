@@ -1,4 +1,4 @@
-"""An index, opened: from descriptions to answers, and what is in its cells."""
+"""An open index: it answers queries and lists its cells."""
 
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
@@ -53,16 +53,16 @@ from models.posterior.statements import Statements
 
 
 class Localizer:
-    """Answers queries about one map. `localize` is not thread-safe: one thread owns it. The rest only reads.
+    """Answers queries about one map. Only one thread may call `localize`; all else only reads.
 
-    What only some queries need (posterior, fine stage, levels) is read when the first of them comes.
+    The posterior, the fine stage and the levels are loaded by the first query that needs them.
 
     Args:
-        directory: a version of an index, checked.
-        manifest: what it says of itself.
-        retriever: the model that made its vectors.
-        load_refiner: reads the fine stage of a method.
-        load_model: reads the hint posterior.
+        directory: a checked index version.
+        manifest: its manifest.
+        retriever: the model of its vectors.
+        load_refiner: loads the fine stage of a method.
+        load_model: loads the hint posterior.
     """
 
     def __init__(
@@ -76,18 +76,18 @@ class Localizer:
         self.manifest, self.retriever = manifest, retriever
         self._directory, self._load_refiner, self._load_model = directory, load_refiner, load_model
         self._refined: dict[str, VectorLocalizer] = {}
-        self.gallery = Gallery.load(directory, self._cut)
+        self.gallery = Gallery.load(directory, self._cut_parts)
         store = open_store(directory, manifest, self.gallery.cells.center_m)
         self.ranker = Ranker.load(retriever.global_only(), directory, store)
         self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
-        said = {"dim": manifest.dim, "cells": manifest.cells, "instances": manifest.instances}
-        held = {
+        expected = {"dim": manifest.dim, "cells": manifest.cells, "instances": manifest.instances}
+        actual = {
             "dim": self.ranker.store.dim,
             "cells": len(self.ranker.store),
             "instances": len(self.gallery.labels),
         }
-        if said != held or len(self.gallery.cells) != manifest.cells:
-            raise IndexBroken(f"{directory}: the manifest says {said}, its files hold {held}; {ADVICE}")
+        if expected != actual or len(self.gallery.cells) != manifest.cells:
+            raise IndexBroken(f"{directory}: the manifest says {expected}, the files contain {actual}; {ADVICE}")
         self._known_hints = load_hint_features(directory, retriever)
 
     @classmethod
@@ -99,20 +99,20 @@ class Localizer:
         posterior_weights_dir: Path | None = None,
         with_sums: bool = True,
     ) -> "Localizer":
-        """Open an index directory (what its alias "default" names) or one version of it.
+        """Open an index directory (the version of its alias "default") or one of its versions.
 
         Args:
-            index_dir: as it says.
-            weights_dir: the retriever's; None for those that ship with the package.
-            fine_weights_dir: the same of a fine stage, see `load_refiner`; read when the first query asks for it.
-            posterior_weights_dir: the same of the hint posterior.
-            with_sums: read all files first and compare their sums; the service does so later, beside queries.
+            index_dir: an index directory or a version.
+            weights_dir: the retriever's weights; None for the weights in the package.
+            fine_weights_dir: weights of a fine stage, as `load_refiner`; loaded when first needed.
+            posterior_weights_dir: weights of the hint posterior.
+            with_sums: check the sums of all files first; the service does so in the background.
 
         Raises:
             IndexBroken: the index is missing, incomplete or changed.
             IndexMismatch: another model built it.
             WeightsError: the model cannot be loaded.
-            StoreUnavailable: its vectors are in Milvus, and nothing says where that is.
+            StoreUnavailable: the vectors are in Milvus, and HEREABOUTS_MILVUS_URI is not set.
         """
         directory, manifest = (open_version if with_sums else find_version)(index_dir)
         retriever = load_retriever(weights_dir)
@@ -122,43 +122,46 @@ class Localizer:
 
     @property
     def facts(self) -> IndexFacts:
-        """What the index says of itself."""
-        said = self.manifest
+        """Return facts about the index."""
+        manifest = self.manifest
         return IndexFacts(
-            version=said.version,
-            created=said.created,
-            map_name=said.map_name,
-            attribution=said.attribution,
-            model=ModelName(self.retriever.name, said.model_fingerprint),
-            num_cells=said.cells,
-            num_instances=said.instances,
-            dim=said.dim,
-            scenery_parts=sum(is_scenery(name) for name in said.files),
+            version=manifest.version,
+            created=manifest.created,
+            map_name=manifest.map_name,
+            attribution=manifest.attribution,
+            model=ModelName(self.retriever.name, manifest.model_fingerprint),
+            num_cells=manifest.cells,
+            num_instances=manifest.instances,
+            dim=manifest.dim,
+            scenery_parts=sum(is_scenery(name) for name in manifest.files),
         )
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
-        """Answer queries, in order; those of one kind go through their model together.
+        """Answer queries, in order; queries with the same `refine` form a batch.
 
         Raises:
-            WeightsError: a query asks for a model that cannot be loaded.
-            IndexBroken: what it needs of the index cannot be read.
-            StoreUnavailable: the index's vectors are in Milvus, which does not answer.
+            WeightsError: a query needs a model that cannot be loaded.
+            IndexBroken: files of the index cannot be read.
+            StoreUnavailable: the vectors are in Milvus, which does not answer.
         """
         answers: dict[int, Answer] = {}
         for refine in {query.refine for query in queries}:
-            localizer = self.of(refine)
+            localizer = self.localizer_for(refine)
             rows = [n for n, query in enumerate(queries) if query.refine == refine]
-            found = localizer.find([queries[n] for n in rows])
-            for n, finding in zip(rows, found, strict=True):
-                answers[n] = to_answer(queries[n], finding, localizer, self.gallery.cells, self.frame)
+            results = localizer.find([queries[n] for n in rows])
+            for n, result in zip(rows, results, strict=True):
+                answers[n] = to_answer(queries[n], result, localizer, self.gallery.cells, self.frame)
         return [answers[n] for n in range(len(queries))]
 
     def warm(self) -> None:
-        """Read what usual queries need, so that the first does not wait and workers that are forked share it.
+        """Load the data of usual queries, so that the first is fast and forked workers share the memory.
 
-        A vector stands in for the store: what connects to a server must not do so before the fork.
+        A single vector replaces the store meanwhile, because a store must not connect to a server before the fork.
         """
-        store, self.ranker.store = self.ranker.store, FaissStore.of(np.zeros((1, self.manifest.dim), np.float32))
+        store, self.ranker.store = (
+            self.ranker.store,
+            FaissStore.from_vectors(np.zeros((1, self.manifest.dim), np.float32)),
+        )
         try:
             words = self._gazetteer.objects
             streets = np.flatnonzero(words.is_street & words.has_name)
@@ -168,22 +171,22 @@ class Localizer:
             self.ranker.store = store
         load_text_encoder().quantize_now()
 
-    def of(self, refine: Refine) -> CellLocalizer:
-        """What answers queries of one kind."""
-        return self.posterior if refine == "posterior" else self.by_vectors(refine)
+    def localizer_for(self, refine: Refine) -> CellLocalizer:
+        """Return the localizer for a `refine`."""
+        return self.posterior if refine == "posterior" else self.vector_localizer(refine)
 
-    def by_vectors(self, refine: Refine) -> VectorLocalizer:
-        """Vector search, with the fine stage if it is asked for."""
+    def vector_localizer(self, refine: Refine) -> VectorLocalizer:
+        """Return vector search, with the fine stage that `refine` names."""
         if refine == "none" or refine == "posterior":  # noqa: PLR1714, which mypy does not see through
             return self._vectors
         if refine not in self._refined:
-            given = self._vectors.ranker, self.gallery, self.frame, self.manifest.grid_m
-            self._refined[refine] = VectorLocalizer(*given, self._load_refiner(refine), self.sentences)
+            common = self._vectors.ranker, self.gallery, self.frame, self.manifest.grid_m
+            self._refined[refine] = VectorLocalizer(*common, self._load_refiner(refine), self.sentences)
         return self._refined[refine]
 
     @cached_property
     def posterior(self) -> PosteriorLocalizer:
-        """The hint posterior on this gallery."""
+        """Load the hint posterior for this gallery."""
         model = self._load_model()
         meanings = Meanings.load(self._directory, load_text_encoder().embed)
         return PosteriorLocalizer(
@@ -201,13 +204,13 @@ class Localizer:
             Landmarks.load(self._directory),
         )
 
-    def _cut(self, cells: Ints) -> PartTable:
-        """The parts of some cells, of a map of pieces."""
+    def _cut_parts(self, cells: Ints) -> PartTable:
+        """Cut the parts of some cells from a map of pieces."""
         surroundings = self._surroundings
         assert isinstance(surroundings, PieceNeighbourIndex)
         return surroundings.cut(self.gallery.cells.center_m[cells])
 
-    # The next three are read by `describe` too, on any thread: what two threads read at once is the same.
+    # `describe` also loads the next three, on any thread; if two threads load one at once, the results are equal.
     @cached_property
     def _surroundings(self) -> NeighbourIndex:
         return load_neighbour_index(self._directory, self.gallery.cells)
@@ -222,16 +225,16 @@ class Localizer:
 
     @cached_property
     def _vectors(self) -> VectorLocalizer:
-        """Vector search on this gallery, by all levels that the index has."""
+        """Load vector search, with all levels of the index."""
         has_levels = STARTS_FILE in self.manifest.files
         ranker = Ranker.load(self.retriever, self._directory, self.ranker.store) if has_levels else self.ranker
         return VectorLocalizer(ranker, self.gallery, self.frame, self.manifest.grid_m, sentences=self.sentences)
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
-        """Descriptions as the retriever knows them.
+        """Split descriptions into sentences for the retriever.
 
-        Template hints about this map stay as they are; of other descriptions, what was read of them is put in template
-        hints; of what cannot be read, the sentences.
+        Template hints about this map stay as they are. Other descriptions are parsed and rendered as template hints, or
+        stay as they are if no hint is found.
         """
         raw = raw_sentences(descriptions)
         free = [n for n, sentences in enumerate(raw) if not self._known_hints.issuperset(sentences)]
@@ -239,7 +242,7 @@ class Localizer:
         return [read.get(n) or sentences for n, sentences in enumerate(raw)]
 
     def map_data(self) -> MapData:
-        """The map of the index, as the evaluation takes it."""
+        """Return the map of the index for an evaluation."""
         return MapData(
             name=self.manifest.map_name,
             split="index",
@@ -251,26 +254,26 @@ class Localizer:
         )
 
     def scenery(self, number: int) -> SceneryPart | None:
-        """A part of what the map looks like; None if there is no such part."""
+        """Return a file of the drawing of the map; None if there is no such file."""
         name = file_name(number)
         record = self.manifest.files.get(name)
         return SceneryPart(self._directory / name, record.sha256) if record else None
 
     def describe(self, position_m: tuple[float, float]) -> Described | None:
-        """What the map says at a position (x, y), metres, map frame; None off the map, and where nothing is near."""
+        """Describe a position (x, y), metres, map frame; None off the map, and where nothing is near."""
         return self._describer.describe(np.array(position_m, dtype=np.float64))
 
     def close(self) -> None:
-        """Let go of it; what it holds goes with its process."""
+        """Do nothing; the memory is freed with the process."""
 
     def cells(self, first: int, count: int) -> list[CellSummary]:
-        """Cells of the map in their order, from row `first` (0 is the first), at most `count`."""
+        """Return at most `count` cells from row `first`, counted from 0."""
         rows = range(first, min(first + count, len(self.gallery.cells.ids)))
         count_of = np.diff(self.gallery.cells.take(np.array(rows, np.int64)).parts.starts).tolist()
-        return [CellSummary(**self._place(row), instances=n) for row, n in zip(rows, count_of, strict=True)]
+        return [CellSummary(**self._cell_fields(row), instances=n) for row, n in zip(rows, count_of, strict=True)]
 
     def cell(self, cell_id: str) -> CellDetail | None:
-        """A cell and what is in it; None if there is no such cell."""
+        """Return a cell with its instances; None if there is no such cell."""
         gallery = self.gallery
         try:
             row = gallery.cells.ids.index(cell_id)
@@ -278,7 +281,7 @@ class Localizer:
             return None
         parts = gallery.cells.take(np.array([row])).parts
         return CellDetail(
-            **self._place(row),
+            **self._cell_fields(row),
             instances=tuple(
                 CellInstance(
                     label=gallery.labels[parts.instance[r]],
@@ -294,8 +297,8 @@ class Localizer:
             ),
         )
 
-    def _place(self, row: int) -> dict[str, Any]:
-        """Where a cell is, as answers say it."""
+    def _cell_fields(self, row: int) -> dict[str, Any]:
+        """Return the fields that all cell answers share."""
         cells, half_m = self.gallery.cells, self.gallery.cells.size_m / 2
         x, y = (float(v) for v in cells.center_m[row, :2])
         return {
@@ -303,7 +306,7 @@ class Localizer:
             "scene": cells.scenes[row],
             "center": _triple(cells.center_m[row]),
             "bbox": (x - half_m, y - half_m, x + half_m, y + half_m),
-            "wgs84": LatLon.of(cells.center_m[row], self.frame),
+            "wgs84": LatLon.from_position(cells.center_m[row], self.frame),
         }
 
 

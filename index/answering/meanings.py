@@ -1,4 +1,4 @@
-"""A map's names and nouns by what they mean: "the makeup shop" is one for cosmetics, "the defence ministry" a name."""
+"""Search of a map's names and nouns by meaning: "makeup shop" for cosmetics, "defence ministry" for a name."""
 
 import json
 from collections.abc import Callable, Sequence
@@ -16,66 +16,66 @@ from models.language.mentions.lookup import EMPTY
 from models.language.mentions.names import plain_words
 from models.processes import map_forked
 
-LIKE: Final = 0.85  # cosine from which on words mean the same
+MIN_COSINE: Final = 0.85  # phrases at least this similar mean the same
 VECTORS_FILE, PHRASES_FILE = "meanings.faiss", "meanings.json"
-KEPT: Final = 4096  # what was said lately
-TASK: Final = 256  # phrases, of like length
-STORED_BITS: Final = 16  # of a number: of 3,000 phrases no cosine changed by more than a ten-thousandth
+CACHED_PHRASES: Final = 4096
+PHRASES_PER_TASK: Final = 256  # of similar length, to save padding
+STORED_BITS: Final = 16  # per number; measured: no cosine of 3,000 phrases changed by more than 0.0001
 Embed = Callable[[Sequence[str]], Tensor]
 
 
-def meanings_of(phrases: Sequence[str], embed: Embed) -> tuple[list[str], Floats]:
-    """Phrases in another order, and unit vectors [P, W] of what they mean; some hundreds a second on each CPU."""
+def embed_phrases(phrases: Sequence[str], embed: Embed) -> tuple[list[str], Floats]:
+    """Return phrases in the order of their vectors, and their unit vectors [P, W]; some hundreds per second and CPU."""
     ordered = sorted(phrases, key=len)
-    parts = [ordered[start : start + TASK] for start in range(0, len(ordered), TASK)]
-    vectors = map_forked(lambda some: embed(some).numpy(), parts)
+    parts = [ordered[start : start + PHRASES_PER_TASK] for start in range(0, len(ordered), PHRASES_PER_TASK)]
+    vectors = map_forked(lambda phrases: embed(phrases).numpy(), parts)
     return ordered, np.concatenate([embed(["a"]).numpy()[:0], *vectors])
 
 
 class Meanings:
-    """Names and nouns of two words or more of a map, found by the cosine of the frozen text encoder's vectors.
+    """Names and nouns of two or more words, searched by the cosine of the text encoder's vectors.
 
     Args:
-        phrases: P of them, in plain words.
-        store: their unit vectors [P, W].
-        embed: gives unit vectors [S, W] of S phrases.
+        phrases: P phrases in plain words.
+        store: unit vectors [P, W] of the phrases.
+        embed: returns unit vectors [S, W] of S phrases.
     """
 
     def __init__(self, phrases: Sequence[str], store: FaissStore, embed: Embed) -> None:
         self._phrases, self._store, self._embed = phrases, store, embed
-        self._lately: LRUCache[str, int] = LRUCache(KEPT)
+        self._cache: LRUCache[str, int] = LRUCache(CACHED_PHRASES)
 
     @classmethod
-    def of(cls, phrases: Sequence[str], vectors: Floats, embed: Embed) -> "Meanings":
-        """Those of what `meanings_of` gave."""
-        return cls(phrases, FaissStore.of(vectors, bits=STORED_BITS), embed)
+    def from_vectors(cls, phrases: Sequence[str], vectors: Floats, embed: Embed) -> "Meanings":
+        """Build from the result of `embed_phrases`."""
+        return cls(phrases, FaissStore.from_vectors(vectors, bits=STORED_BITS), embed)
 
-    def like(self, said: str) -> tuple[str, ...] | None:
-        """The plain words of the name or noun that means what was said; None for single words, and if there is none."""
-        words = [word for word in plain_words(said) if word not in EMPTY]
+    def like(self, phrase: str) -> tuple[str, ...] | None:
+        """Return the plain words of the name or noun that means the same; None for single words and without match."""
+        words = [word for word in plain_words(phrase) if word not in EMPTY]
         if len(words) < 2 or not self._phrases:
             return None
         row = self._nearest(" ".join(words))
         return None if row < 0 else tuple(self._phrases[row].split())
 
-    @cachedmethod(lambda meanings: meanings._lately)
-    def _nearest(self, said: str) -> int:
-        """The phrase that means what was said; -1 if none does."""
-        cosine, row = self._store.search(self._embed([said]).numpy(), 1)
-        return int(row[0, 0]) if cosine[0, 0] >= LIKE else -1
+    @cachedmethod(lambda meanings: meanings._cache)
+    def _nearest(self, phrase: str) -> int:
+        """Return the row of the nearest phrase; -1 if none is near enough."""
+        cosine, row = self._store.search(self._embed([phrase]).numpy(), 1)
+        return int(row[0, 0]) if cosine[0, 0] >= MIN_COSINE else -1
 
     def save(self, directory: Path) -> None:
-        """Write two files."""
+        """Write the files that `load` reads."""
         self._store.save(directory / VECTORS_FILE)
         text = json.dumps(self._phrases, ensure_ascii=False, separators=(",", ":"))
         (directory / PHRASES_FILE).write_text(text, encoding="utf-8")
 
     @classmethod
     def load(cls, directory: Path, embed: Embed) -> "Meanings":
-        """Read what `save` wrote.
+        """Read the files that `save` wrote.
 
         Raises:
-            IndexBroken: the files do not hold it.
+            IndexBroken: the files cannot be read.
         """
         store = FaissStore.load(directory / VECTORS_FILE)
         try:
@@ -85,5 +85,5 @@ class Meanings:
                 f"{directory / PHRASES_FILE} cannot be read; rebuild it with 'hereabouts index'"
             ) from error
         if len(store) != len(phrases):
-            raise IndexBroken(f"the meanings in {directory} do not belong together; rebuild it with 'hereabouts index'")
+            raise IndexBroken(f"the files of meanings in {directory} do not match; rebuild it with 'hereabouts index'")
         return cls(phrases, store, embed)

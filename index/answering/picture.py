@@ -1,4 +1,4 @@
-"""An answer as a picture, in the look of the page: the map, the estimate and how sure it is."""
+"""An answer as a picture in the style of the page: the map, the estimate and its uncertainty."""
 
 import textwrap
 from collections.abc import Iterator, Sequence
@@ -19,94 +19,94 @@ from models.citymap.scenery.reading import AREA, LINE, POINT, DecodedScenery, Ou
 
 SIZE_IN: Final = (11.0, 6.2)
 DPI: Final = 130
-LEAST_REACH_M, REACH_RADII = 70.0, 1.6  # of what is shown round the estimate, as on the page
-NAMED = 60  # names that are tried, those of long streets first
-APART: Final = (0.16, 0.035)  # of the picture's sides: names nearer than this would overlap
+MIN_REACH_M, REACH_RADII = 70.0, 1.6  # of the left map around the estimate, as on the page
+MAX_NAMES = 60  # candidates to draw, long streets first
+MIN_NAME_DISTANCE: Final = (0.16, 0.035)  # as shares of the sides; closer names would overlap
 
 
 def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> None:
-    """Write a PNG of an answer: the surroundings of the estimate at the left, the whole map at the right.
+    """Write a PNG of an answer: the estimate with its surroundings on the left, the whole map on the right.
 
     Args:
-        localizer: what answered; its index holds what is drawn.
+        localizer: that answered; its index contains the drawing of the map.
         text: the description.
         answer: with an estimate.
-        path: file to write.
+        path: the PNG file.
     """
     if answer.estimate is None:
         raise ValueError("an answer without an estimate cannot be drawn")
-    found = localizer.scenery(0)
-    if found is None:
-        raise ValueError("the index has no scenery; build it again")
-    drawn, colours = read_scenery(found.path), load_look()["light"]
+    scenery_part = localizer.scenery(0)
+    if scenery_part is None:
+        raise ValueError("the index has no drawing of the map; rebuild it")
+    scenery, colours = read_scenery(scenery_part.path), load_look()["light"]
     figure = Figure(figsize=SIZE_IN, dpi=DPI, facecolor="white")
     near = figure.add_axes((0.01, 0.05, 0.64, 0.8))
     whole = figure.add_axes((0.665, 0.05, 0.325, 0.8))
     x, y = answer.estimate.position
     aspect = 0.64 * SIZE_IN[0] / (0.8 * SIZE_IN[1])
-    west, south, east, north = _box(localizer)
-    map_m = max(y - south, north - y, (x - west) / aspect, (east - x) / aspect)  # all of the map is seen, and no more
-    reach = max(LEAST_REACH_M, min(REACH_RADII * answer.estimate.radius_m.p90, map_m))
+    west, south, east, north = _map_box(localizer)
+    map_m = max(y - south, north - y, (x - west) / aspect, (east - x) / aspect)  # show no more than the whole map
+    reach = max(MIN_REACH_M, min(REACH_RADII * answer.estimate.radius_m.p90, map_m))
     wide = reach * aspect
-    _draw_map(near, drawn, (x - wide, y - reach, x + wide, y + reach), colours)
-    _draw_names(near, drawn, colours)
+    _draw_map(near, scenery, (x - wide, y - reach, x + wide, y + reach), colours)
+    _draw_names(near, scenery, colours)
     _draw_estimate(near, answer.estimate, colours)
-    _draw_map(whole, drawn, (west, south, east, north), colours)
+    _draw_map(whole, scenery, (west, south, east, north), colours)
     whole.add_patch(
         Rectangle((x - wide, y - reach), 2 * wide, 2 * reach, fill=False, lw=1.5, ec=colours["accent"], zorder=8)
     )
     whole.plot(x, y, "o", ms=6, color=colours["accent"], mec="white", mew=1.2, zorder=8)
-    _tell(figure, localizer, text, answer)
+    _draw_captions(figure, localizer, text, answer)
     FigureCanvasAgg(figure).print_png(path)
 
 
-def _tell(figure: Figure, localizer: Localizer, text: str, answer: Answer) -> None:
-    """What was said, and the answer in words."""
+def _draw_captions(figure: Figure, localizer: Localizer, text: str, answer: Answer) -> None:
+    """Draw the description and the answer in words."""
     assert answer.estimate is not None
-    said = textwrap.shorten(text, 150, placeholder=" …")
+    quoted = textwrap.shorten(text, 150, placeholder=" …")
     place = answer.estimate.place or "here"
-    sure = f"within {answer.estimate.radius_m.p90:.0f} m, nine times out of ten"
-    told = sure if answer.status == "ok" else f"several places fit; the likeliest is shown, {sure}"
+    radius = f"within {answer.estimate.radius_m.p90:.0f} m, nine times out of ten"
+    radius_text = radius if answer.status == "ok" else f"several places fit; the likeliest is shown, {radius}"
     quiet: dict[str, Any] = {"color": "#625c52", "parse_math": False}
     dark: dict[str, Any] = {"color": "#23211d", "parse_math": False}
-    figure.text(0.01, 0.955, f"“{said}”", fontsize=9, style="italic", **quiet)
+    figure.text(0.01, 0.955, f"“{quoted}”", fontsize=9, style="italic", **quiet)
     figure.text(0.01, 0.905, place[0].upper() + place[1:], fontsize=13, weight="bold", **dark)
-    figure.text(0.01, 0.868, told, fontsize=9, **dark)
+    figure.text(0.01, 0.868, radius_text, fontsize=9, **dark)
     figure.text(0.99, 0.015, localizer.facts.attribution, fontsize=6, ha="right", **quiet)
 
 
-def _box(localizer: Localizer) -> tuple[float, float, float, float]:
-    """West, south, east, north of the map."""
+def _map_box(localizer: Localizer) -> tuple[float, float, float, float]:
+    """Return west, south, east and north of the map."""
     centers, half = localizer.gallery.cells.center_m[:, :2], localizer.gallery.cells.size_m / 2
     (west, south), (east, north) = centers.min(axis=0) - half, centers.max(axis=0) + half
     return float(west), float(south), float(east), float(north)
 
 
 def _draw_map(
-    axes: Axes, drawn: DecodedScenery, box: tuple[float, float, float, float], colours: dict[str, Any]
+    axes: Axes, scenery: DecodedScenery, box: tuple[float, float, float, float], colours: dict[str, Any]
 ) -> None:
     west, south, east, north = box
     axes.set(xlim=(west, east), ylim=(south, north), xticks=[], yticks=[], facecolor=colours["ground"])
     axes.set_aspect("equal")
     for spine in axes.spines.values():
         spine.set_visible(False)
-    if len(drawn.xyz_m):
-        axes.scatter(drawn.xyz_m[:, 0], drawn.xyz_m[:, 1], s=0.6, c=drawn.rgb / 255, linewidths=0)
+    if len(scenery.xyz_m):
+        axes.scatter(scenery.xyz_m[:, 0], scenery.xyz_m[:, 1], s=0.6, c=scenery.rgb / 255, linewidths=0)
     points_a_metre = 72 * axes.get_position().height * SIZE_IN[1] / (north - south)
     order = {"ground": 0, "walls": 1, "rising": 2}
     for kind, level in order.items():
         paints = load_look()[kind]
-        for outline in reversed(drawn.outlines):
-            if outline.label in paints and _is_seen(outline, box):
+        for outline in reversed(scenery.outlines):
+            if outline.label in paints and _is_visible(outline, box):
                 edge = colours["rail"] if kind == "rising" else "none"
                 _draw_outline(axes, outline, colours[paints[outline.label]], edge, points_a_metre, level)
-    trees = [outline.paths[0][0] for outline in drawn.outlines if outline.form == POINT and outline.label == "tree"]
+    trees = [outline.paths[0][0] for outline in scenery.outlines if outline.form == POINT and outline.label == "tree"]
     if trees:
         x, y = np.array(trees).T
         axes.scatter(x, y, s=max(2.0, (4 * points_a_metre) ** 2), c=colours["tree"], lw=0, zorder=3)
 
 
-def _is_seen(outline: Outline, box: tuple[float, float, float, float]) -> bool:
+def _is_visible(outline: Outline, box: tuple[float, float, float, float]) -> bool:
     low, high = (
         np.min([p.min(axis=0) for p in outline.paths], axis=0),
         np.max([p.max(axis=0) for p in outline.paths], axis=0),
@@ -125,34 +125,38 @@ def _draw_outline(axes: Axes, outline: Outline, colour: str, edge: str, points_a
 
 
 def _draw_estimate(axes: Axes, estimate: Estimate, colours: dict[str, Any]) -> None:
-    accent, at = colours["accent"], estimate.position
-    axes.add_patch(Circle(at, estimate.radius_m.p50, fc=accent, alpha=0.25, zorder=6))
-    axes.add_patch(Circle(at, estimate.radius_m.p90, fill=False, ec=accent, lw=1.6, zorder=6))
-    axes.plot(*at, "o", ms=10, color=accent, mec="white", mew=2, zorder=7)
+    accent, position_m = colours["accent"], estimate.position
+    axes.add_patch(Circle(position_m, estimate.radius_m.p50, fc=accent, alpha=0.25, zorder=6))
+    axes.add_patch(Circle(position_m, estimate.radius_m.p90, fill=False, ec=accent, lw=1.6, zorder=6))
+    axes.plot(*position_m, "o", ms=10, color=accent, mec="white", mew=2, zorder=7)
 
 
-def _draw_names(axes: Axes, drawn: DecodedScenery, colours: dict[str, Any]) -> None:
-    """Streets along their lines and places at their points, as many as have room."""
+def _draw_names(axes: Axes, scenery: DecodedScenery, colours: dict[str, Any]) -> None:
+    """Draw as many street and place names as fit."""
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
-    taken: list[tuple[float, float]] = []
+    used: list[tuple[float, float]] = []
     effects = [withStroke(linewidth=2.5, foreground=colours["halo"])]
     style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7.5, "color": colours["name"], "zorder": 5}
     style |= {"path_effects": effects, "clip_on": True, "parse_math": False}
-    for name, x, y, angle in list(_names(drawn, (west, south, east, north)))[:NAMED]:
-        at = ((x - west) / (east - west), (y - south) / (north - south))
-        if not (0.08 < at[0] < 0.92 and 0.03 < at[1] < 0.97):
+    for name, x, y, angle in list(_names(scenery, (west, south, east, north)))[:MAX_NAMES]:
+        share_xy = ((x - west) / (east - west), (y - south) / (north - south))
+        if not (0.08 < share_xy[0] < 0.92 and 0.03 < share_xy[1] < 0.97):
             continue
-        if any(abs(at[0] - a) < APART[0] and abs(at[1] - b) < APART[1] for a, b in taken):
+        if any(
+            abs(share_xy[0] - a) < MIN_NAME_DISTANCE[0] and abs(share_xy[1] - b) < MIN_NAME_DISTANCE[1] for a, b in used
+        ):
             continue
-        taken.append(at)
+        used.append(share_xy)
         axes.text(x, y, name, rotation=angle, **style)
 
 
-def _names(drawn: DecodedScenery, box: tuple[float, float, float, float]) -> Iterator[tuple[str, float, float, float]]:
-    """Names with where they go and how they are turned, degrees; streets first, each once."""
+def _names(
+    scenery: DecodedScenery, box: tuple[float, float, float, float]
+) -> Iterator[tuple[str, float, float, float]]:
+    """Yield names with position and rotation in degrees; streets first, each once."""
     west, south, east, north = box
     lines: dict[str, np.ndarray[Any, Any]] = {}
-    for outline in drawn.outlines:
+    for outline in scenery.outlines:
         if outline.form != LINE or not outline.name:
             continue
         for path in outline.paths:
@@ -163,7 +167,7 @@ def _names(drawn: DecodedScenery, box: tuple[float, float, float, float]) -> Ite
         middle = path[len(path) // 2 - 1 : len(path) // 2 + 1]
         (dx, dy), (x, y) = middle[1] - middle[0], middle.mean(axis=0)
         yield name, float(x), float(y), float((np.degrees(np.arctan2(dy, dx)) + 90) % 180 - 90)
-    for place in {place.name: place for place in drawn.places if _is_in(place.position_m, box)}.values():
+    for place in {place.name: place for place in scenery.places if _is_in(place.position_m, box)}.values():
         yield place.name, *place.position_m, 0.0
 
 

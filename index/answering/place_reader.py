@@ -1,4 +1,4 @@
-"""Places that a description names, on one map: what is read, what it tells of positions, and what explains it."""
+"""Named places in a description: mentions, their evidence about positions, and what explains them."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -29,28 +29,28 @@ from models.posterior.places.explanations import MentionExplanation
 from models.posterior.places.field import PlaceEvidence, PlaceField
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 
-KEPT_BYTES: Final = 2**24  # of what was read of texts lately: who answers a question sends the text again
-TRUSTED: Final = 0.5  # of a hint's class, from which on it is no place but what is near
-HEADING_NODES: Final = 128  # that the heading is told from: the likeliest
-SPREAD: Final = 60.0  # degrees; a heading that is less sure is none
-_EGO: Final = ((22.5, "ahead"), (67.5, "ahead {}"), (112.5, "{}"), (157.5, "behind {}"), (181.0, "behind"))
-NEAR_WINDS: Final = frozenset(
+CACHE_BYTES: Final = 2**24  # of mentions: replies to questions send the same text again
+MIN_CLASS_TRUST: Final = 0.5  # probability of a hint's class from which it describes a nearby object
+HEADING_NODES: Final = 128  # the likeliest nodes decide the heading
+MAX_HEADING_SPREAD_DEG: Final = 60.0  # a less certain heading is not reported
+_SIDE_WORDS: Final = ((22.5, "ahead"), (67.5, "ahead {}"), (112.5, "{}"), (157.5, "behind {}"), (181.0, "behind"))
+NEAR_RELATIONS: Final = frozenset(
     ("seen", "wind", "near", "beside", "on", "inside")
-)  # relations that hints about what is near have too
+)  # relations that hints can also express
 
 
 class PlaceReader:
-    """The names and kinds of one map. Not thread-safe.
+    """Finds and explains the named places of one map. Not thread-safe.
 
     Args:
-        kernels: fitted.
-        cues: trained.
+        kernels: fitted kernels.
+        cues: trained cue reader.
         gazetteer: of the map, not empty.
-        text_encoder: says which words are everyday ones.
+        text_encoder: knows which words are common.
         centers_m: [N, 2] of the gallery's cells.
-        grid_m: spacing of these.
-        meanings: of the map; None to understand names and nouns of it alone.
-        names: of the map; None to make them.
+        grid_m: spacing of the centres.
+        meanings: of the map; None to go without paraphrases.
+        names: of the map; None to build them.
     """
 
     def __init__(
@@ -67,59 +67,63 @@ class PlaceReader:
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
         self.meanings, self._cues = meanings, cues
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
-        self._kept: LRUCache[tuple[str, str, tuple[tuple[int, int], ...]], list[Mention]] = LRUCache(
-            KEPT_BYTES, _bytes_of
+        self._cache: LRUCache[tuple[str, str, tuple[tuple[int, int], ...]], list[Mention]] = LRUCache(
+            CACHE_BYTES, _memory_bytes
         )
 
     def read(
         self, description: str, language: str, nouns: Sequence[tuple[int, int]] = (), *, to_listener: bool
     ) -> list[Mention]:
-        """What a description names.
+        """Return the mentions of a description.
 
         Args:
             description: any text.
             language: of the text.
-            nouns: characters start..end of the nouns that the reader of hints found in it.
-            to_listener: whether it is said to somebody whose place is known; else the text tells whether it is of a
-                place to meet at.
+            nouns: start and end of the nouns that the hint reader found.
+            to_listener: whether the position of the listener is known; else the text decides whether it is about a
+                meeting point.
         """
         mentions = self._mentions(description, language, tuple(nouns))
         if language == ENGLISH and (to_listener or is_meeting(description)):
             mentions = mark_goal(mentions)
         return mentions
 
-    @cachedmethod(lambda reader: reader._kept)
+    @cachedmethod(lambda reader: reader._cache)
     def _mentions(self, description: str, language: str, nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
         """As `find_mentions`; of the latest texts it is remembered."""
         like = None if self.meanings is None else self.meanings.like
         return find_mentions(description, self._lookup, self._cues, language, nouns, like)
 
-    def told(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> PlaceEvidence | None:
-        """What mentions tell of positions; None if they tell nothing."""
+    def place_evidence(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> PlaceEvidence | None:
+        """Return the evidence of mentions about positions; None if there is none."""
         wind = None if listener_m is None else listener_wind(description)
         meets = listener_m is not None or is_meeting(description)
         if not mentions and wind is None:
-            return None  # without looking at every cell
-        told = self.field.told(mentions, listener_m, wind, is_meeting=meets)
-        return told if told.places.mentions or wind is not None else None
+            return None  # saves the pass over every cell
+        place_evidence = self.field.told(mentions, listener_m, wind, is_meeting=meets)
+        return place_evidence if place_evidence.places.mentions or wind is not None else None
 
     @torch.inference_mode()
     def evidence(
-        self, mentions: Sequence[Mention], told: PlaceEvidence | None, position: Floats
+        self, mentions: Sequence[Mention], place_evidence: PlaceEvidence | None, position: Floats
     ) -> tuple[Evidence, ...]:
-        """How each mention was understood, and what explains it at a position [2]."""
-        known = told.places.mentions if told is not None else ()
-        explained = self.field.explain(told.places, position[None]) if told is not None else []
-        found = []
+        """Return the evidence of each mention at a position [2]."""
+        known = place_evidence.places.mentions if place_evidence is not None else ()
+        explained = self.field.explain(place_evidence.places, position[None]) if place_evidence is not None else []
+        rows_of_evidence = []
         for mention in mentions:
             row = next((n for n, other in enumerate(known) if other is mention), None)
-            found.append(_unexplained(mention) if row is None else self._explained(mention, explained[row], position))
-        return tuple(found)
+            rows_of_evidence.append(
+                _unexplained_evidence(mention)
+                if row is None
+                else self._mention_evidence(mention, explained[row], position)
+            )
+        return tuple(rows_of_evidence)
 
-    def _explained(self, mention: Mention, by: MentionExplanation, position: Floats) -> Evidence:
-        found = _unexplained(mention)
+    def _mention_evidence(self, mention: Mention, by: MentionExplanation, position: Floats) -> Evidence:
+        evidence = _unexplained_evidence(mention)
         if by.item < 0:
-            return found
+            return evidence
         shown: dict[str, Any] = {"away_m": round(float(np.hypot(*by.way_m)), 1)}
         shown["at"] = pair(np.round(position + by.way_m, 2))
         shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*by.way_m))) % 360, 1)
@@ -128,19 +132,21 @@ class PlaceReader:
             kind = words.kinds[0] if words.kinds else None
             shown |= {"instance": kind, "name": words.names[0] if words.names else None, "source_id": words.source_id}
         label = mention.kinds[0] if mention.kinds else shown.get("instance")
-        return replace(found, label=label or mention.form, explained=by.probability, **shown)
+        return replace(evidence, label=label or mention.form, explained=by.probability, **shown)
 
     @torch.inference_mode()
-    def heading(self, told: PlaceEvidence | None, located: Located) -> Heading | None:
-        """Where the speaker looks, from the likeliest nodes; None where the text tells none."""
-        if told is None or not any(mention.cue.angle is not None for mention in told.places.mentions):
+    def heading(self, place_evidence: PlaceEvidence | None, located: Located) -> Heading | None:
+        """Return the heading from the likeliest nodes; None if the text does not tell."""
+        if place_evidence is None or not any(
+            mention.cue.angle is not None for mention in place_evidence.places.mentions
+        ):
             return None
         near = np.hypot(*(located.points_m - located.positions[0]).T) <= located.radii_m(0.5)[0] + 3.0
         rows = np.flatnonzero(near)
         rows = rows[np.argsort(-located.weight[rows], kind="stable")[:HEADING_NODES]]
         if not len(rows):
             return None
-        by = self.field.by_heading(told.places, located.points_m[rows], np.zeros(len(rows), np.int64))
+        by = self.field.by_heading(place_evidence.places, located.points_m[rows], np.zeros(len(rows), np.int64))
         weight = torch.softmax(by, dim=1) * torch.from_numpy(located.weight[rows]).float()[:, None]
         share = (weight.sum(dim=0) / weight.sum().clamp(min=1e-12)).double().numpy()
         angle = np.arange(HEADINGS) * 2 * np.pi / HEADINGS
@@ -148,42 +154,46 @@ class PlaceReader:
         length = min(max(abs(mean), 1e-9), 1.0)
         spread = float(np.degrees(np.sqrt(-2 * np.log(length))))
         return (
-            Heading(round(float(np.degrees(np.angle(mean))) % 360, 1), round(spread, 1)) if spread <= SPREAD else None
+            Heading(round(float(np.degrees(np.angle(mean))) % 360, 1), round(spread, 1))
+            if spread <= MAX_HEADING_SPREAD_DEG
+            else None
         )
 
 
-def may_be_near(hints: Sequence[ParsedHint], mentions: Sequence[Mention]) -> list[ParsedHint]:
-    """The hints that `near_hints` may keep: what a name, a street or the speaker's heading tells of is none of them."""
+def possibly_near_hints(hints: Sequence[ParsedHint], mentions: Sequence[Mention]) -> list[ParsedHint]:
+    """Return the hints that `near_hints` may keep."""
     return [
         hint
         for hint in hints
-        if all(_may_be_near(mention) for mention in mentions if mention.start < hint.end and hint.start < mention.end)
+        if all(
+            _is_possibly_near(mention) for mention in mentions if mention.start < hint.end and hint.start < mention.end
+        )
     ]
 
 
 def near_hints(
     hints: Sequence[ParsedHint], trust: Sequence[float], mentions: Sequence[Mention]
 ) -> tuple[list[int], list[Mention]]:
-    """Which hints tell of what is near, and which mentions of places; what is both is one of them.
+    """Divide overlapping hints and mentions: return the rows of the hints, and the mentions.
 
-    A class of the map that is said with a wind or none is a hint; whatever has a name, a street, or a place that only
-    the speaker's heading tells, is a mention.
+    A class with at most a compass direction is a hint. Names, streets, and places relative to the speaker's heading are
+    mentions.
 
     Args:
-        hints: as they were read.
-        trust: of each one's class.
+        hints: of a text.
+        trust: probability of each hint's class.
         mentions: of the same text.
     """
-    kept: list[int] = []
+    near_rows: list[int] = []
     places = list(mentions)
     for n, hint in enumerate(hints):
         over = [m for m in places if m.start < hint.end and hint.start < m.end]
-        if over and all(_may_be_near(m) for m in over) and trust[n] >= TRUSTED:
+        if over and all(_is_possibly_near(m) for m in over) and trust[n] >= MIN_CLASS_TRUST:
             places = [m for m in places if not any(m is other for other in over)]
-            kept.append(n)
-        elif (not over and _tells(hint, trust[n])) or (hint.absent >= TRUSTED and not over):
-            kept.append(n)
-    return kept, places
+            near_rows.append(n)
+        elif (not over and _is_informative(hint, trust[n])) or (hint.absent >= MIN_CLASS_TRUST and not over):
+            near_rows.append(n)
+    return near_rows, places
 
 
 def with_one_owner(
@@ -194,7 +204,7 @@ def with_one_owner(
     for m, mention in enumerate(mentions):
         measure = mention.cue.measure
         for n, hint in enumerate(hints):
-            if measure is None or hint.measure is None or not _overlap(measure, hint.measure):
+            if measure is None or hint.measure is None or not _is_overlapping(measure, hint.measure):
                 continue
             if distance_in_text(text, hint.measure, hint) < distance_in_text(text, measure, mention):
                 mentions[m] = replace(mention, cue=replace(mention.cue, measure=None))
@@ -203,35 +213,37 @@ def with_one_owner(
     return hints, mentions
 
 
-def _overlap(one: Measure, other: Measure) -> bool:
+def _is_overlapping(one: Measure, other: Measure) -> bool:
     return one.start < other.end and other.start < one.end
 
 
-def _bytes_of(mentions: Sequence[Mention]) -> int:
-    """About what they take in memory."""
+def _memory_bytes(mentions: Sequence[Mention]) -> int:
+    """Return the approximate memory of mentions, bytes."""
     return 2000 + sum(1000 + m.objects.nbytes + m.weights.nbytes + m.lines_m.nbytes for m in mentions)
 
 
-def _may_be_near(mention: Mention) -> bool:
-    """Whether no more is said than a class and a wind; the gazetteer may lack it: driveways are near or nowhere."""
+def _is_possibly_near(mention: Mention) -> bool:
+    """Return whether a mention is only a class with a direction, which may describe a nearby object."""
     cue = mention.cue
-    loose = cue.angle is not None or cue.relation not in NEAR_WINDS or (cue.distance_m or 0.0) > 15.0
+    loose = cue.angle is not None or cue.relation not in NEAR_RELATIONS or (cue.distance_m or 0.0) > 15.0
     is_kind = mention.form in ("thing", "unknown") and bool(mention.kinds) and not mention.is_exact
     return is_kind and mention.trust == 1.0 and not loose
 
 
-def _tells(hint: ParsedHint, trust: float) -> bool:
+def _is_informative(hint: ParsedHint, trust: float) -> bool:
     words = hint.noun.lower().split()
-    return trust >= TRUSTED and not (words and words[-1] in PASSED | STOP and float(hint.relation[-1]) > TRUSTED)
+    return trust >= MIN_CLASS_TRUST and not (
+        words and words[-1] in PASSED | STOP and float(hint.relation[-1]) > MIN_CLASS_TRUST
+    )
 
 
-def _unexplained(mention: Mention) -> Evidence:
+def _unexplained_evidence(mention: Mention) -> Evidence:
     return Evidence(
         text=mention.text,
         span=(mention.start, mention.end),
         label=mention.kinds[0] if mention.kinds else None,
         colour=None,
-        relation=_relation(mention),
+        relation=_relation_word(mention),
         distance_m=mention.cue.distance_m,
         absent=False,
         explained=0.0,
@@ -239,13 +251,13 @@ def _unexplained(mention: Mention) -> Evidence:
     )
 
 
-def _relation(mention: Mention) -> str:
+def _relation_word(mention: Mention) -> str:
     cue = mention.cue
     if cue.wind is not None:
         return compass_name(cue.wind + 180)
     if cue.angle is not None:
         side = "left" if cue.angle < 0 else "right"
-        return next(words.format(side) for most, words in _EGO if abs(cue.angle) <= most)
+        return next(words.format(side) for most, words in _SIDE_WORDS if abs(cue.angle) <= most)
     if mention.form in ("corner", "span", "address"):
         return mention.form
     return "near" if cue.relation == "seen" else cue.relation

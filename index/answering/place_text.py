@@ -11,24 +11,24 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.measures import compass_name
 
-ON_STREET_M: Final = 30.0
-AT_CORNER_M: Final = 18.0
-NAMED_M: Final = 60.0
-LONGEST_BLOCK_M: Final = 400.0
-SLACK_M: Final = 0.1  # more than single precision is off by in a city
+STREET_REACH_M: Final = 30.0  # from a street's line; half of a wide street with its pavements
+CORNER_REACH_M: Final = 18.0
+NAMED_REACH_M: Final = 60.0
+MAX_BLOCK_M: Final = 400.0
+ROUNDING_SLACK_M: Final = 0.1  # above the error of single precision in a city
 
 
 def place_text(gazetteer: Gazetteer, position: Floats) -> str | None:
-    """What is at a position [2], in words; None where nothing has a name."""
-    found = nearest_street(gazetteer, position)
-    street = found and street_text(gazetteer, found[0], position)
-    return ", ".join(part for part in (street, _beside(gazetteer, position)) if part) or None
+    """Return the words for a position [2]; None where nothing has a name."""
+    nearest = nearest_street(gazetteer, position)
+    street = nearest and street_text(gazetteer, nearest[0], position)
+    return ", ".join(part for part in (street, _nearest_named(gazetteer, position)) if part) or None
 
 
 def nearest_street(gazetteer: Gazetteer, position: Floats) -> tuple[int, Floats] | None:
-    """The street that a position [2] is on, and the way [2] to its line; None where there is none."""
-    streets = gazetteer.streets[_may_be_near(*gazetteer.street_extents, position, ON_STREET_M)]
-    ways = ways_from(gazetteer, streets, position, ON_STREET_M)
+    """Return the street at a position [2] and the offset [2] to its line; None if there is none."""
+    streets = gazetteer.streets[_is_possibly_near(*gazetteer.street_extents, position, STREET_REACH_M)]
+    ways = closest_points_from(gazetteer, streets, position, STREET_REACH_M)
     if not len(ways.target):
         return None
     best = int(ways.distance_m.argmin())
@@ -36,59 +36,59 @@ def nearest_street(gazetteer: Gazetteer, position: Floats) -> tuple[int, Floats]
 
 
 def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
-    """Where on a street a position [2] is: at which corner, or between which."""
+    """Return where on a street a position [2] is: at a corner, or between two."""
     name = gazetteer.objects[street].names[0]
     meeting = gazetteer.corner_streets
     rows = np.flatnonzero((meeting[:, 0] == street) | (meeting[:, 1] == street))
     away = gazetteer.corners_m[rows].astype(np.float64) - position
-    metres = np.hypot(*away.T)
-    if len(rows) and metres.min() <= AT_CORNER_M:
-        return f"at the corner of {name} and {_other(gazetteer, int(rows[metres.argmin()]), street)}"
-    near = np.flatnonzero(metres <= LONGEST_BLOCK_M)
+    distance_m = np.hypot(*away.T)
+    if len(rows) and distance_m.min() <= CORNER_REACH_M:
+        return f"at the corner of {name} and {_other_street(gazetteer, int(rows[distance_m.argmin()]), street)}"
+    near = np.flatnonzero(distance_m <= MAX_BLOCK_M)
     if len(near):
-        first = near[metres[near].argmin()]
+        first = near[distance_m[near].argmin()]
         # the next corner the other way along the street
-        behind = near[(away[near] @ away[first]) < -0.5 * metres[near] * metres[first]]
-        one = _other(gazetteer, int(rows[first]), street)
+        behind = near[(away[near] @ away[first]) < -0.5 * distance_m[near] * distance_m[first]]
+        one = _other_street(gazetteer, int(rows[first]), street)
         if len(behind):
-            two = _other(gazetteer, int(rows[behind[metres[behind].argmin()]]), street)
+            two = _other_street(gazetteer, int(rows[behind[distance_m[behind].argmin()]]), street)
             if one != two:
                 return f"on {name}, between {one} and {two}"
-        return f"on {name}, {metres[first]:.0f} m from {one}"
+        return f"on {name}, {distance_m[first]:.0f} m from {one}"
     return f"on {name}"
 
 
-def _beside(gazetteer: Gazetteer, position: Floats) -> str | None:
-    near = gazetteer.named[_may_be_near(*gazetteer.named_extents, position, NAMED_M)]
-    ways = ways_from(gazetteer, near, position, NAMED_M)
+def _nearest_named(gazetteer: Gazetteer, position: Floats) -> str | None:
+    near = gazetteer.named[_is_possibly_near(*gazetteer.named_extents, position, NAMED_REACH_M)]
+    ways = closest_points_from(gazetteer, near, position, NAMED_REACH_M)
     if not len(ways.target):
         return None
     best = int(ways.distance_m.argmin())
-    name, metres = gazetteer.objects[int(near[ways.target[best]])].names[0], float(ways.distance_m[best])
-    if metres < 1.0:
+    name, distance_m = gazetteer.objects[int(near[ways.target[best]])].names[0], float(ways.distance_m[best])
+    if distance_m < 1.0:
         return f"at {name}"
-    return f"{metres:.0f} m {wind_of(-ways.offset_m[best])} of {name}"
+    return f"{distance_m:.0f} m {compass_direction(-ways.offset_m[best])} of {name}"
 
 
-def _may_be_near(middles_m: Floats, reach_m: Floats, position: Floats, apart_m: float) -> npt.NDArray[np.bool_]:
-    """[n] whether something of a reach [n] round a middle [2, n] may be so near to a position [2]."""
+def _is_possibly_near(middles_m: Floats, reach_m: Floats, position: Floats, apart_m: float) -> npt.NDArray[np.bool_]:
+    """Return which objects [n] with given middles [2, n] and reach [n] may be within a distance of a position [2]."""
     east, north = middles_m - position[:, None].astype(np.float32)
-    return np.asarray(east * east + north * north <= (reach_m + np.float32(apart_m + SLACK_M)) ** 2)
+    return np.asarray(east * east + north * north <= (reach_m + np.float32(apart_m + ROUNDING_SLACK_M)) ** 2)
 
 
-def wind_of(way_m: Floats) -> str:
-    """The wind in which a way [2] (east, north) leads."""
+def compass_direction(way_m: Floats) -> str:
+    """Return the compass direction of an offset [2] (east, north)."""
     east, north = way_m
     return compass_name(float(np.degrees(np.arctan2(east, north))))
 
 
-def ways_from(gazetteer: Gazetteer, objects: Ints, position: Floats, reach_m: float) -> ClosestPoints:
-    """The ways from a position [2] to some objects of a gazetteer."""
+def closest_points_from(gazetteer: Gazetteer, objects: Ints, position: Floats, reach_m: float) -> ClosestPoints:
+    """Return the closest points of some objects of a gazetteer to a position [2]."""
     return find_closest_points(
         PointGroups.from_groups(position[None], np.zeros(1, np.int64)), *select_objects(gazetteer, objects), reach_m
     )
 
 
-def _other(gazetteer: Gazetteer, corner: int, street: int) -> str:
+def _other_street(gazetteer: Gazetteer, corner: int, street: int) -> str:
     one, two = gazetteer.corner_streets[corner]
     return gazetteer.objects[int(two if one == street else one)].names[0]

@@ -1,4 +1,4 @@
-"""The hint posterior on one gallery: a description read, candidates from the vector index and the inverted list."""
+"""The hint posterior in one gallery: parse a description, find candidates, locate, explain."""
 
 import time
 from collections.abc import Sequence
@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 
 from index.answering.answers import Evidence, Method, ModelName, Question
-from index.answering.filters import log_prior, where_inside
+from index.answering.filters import log_prior, nodes_inside
 from index.answering.meanings import Meanings
-from index.answering.place_reader import PlaceReader, may_be_near, near_hints, with_one_owner
+from index.answering.place_reader import PlaceReader, near_hints, possibly_near_hints, with_one_owner
 from index.answering.place_text import place_text
 from index.answering.query import Query
 from index.answering.ranking import Ranker
-from index.answering.result import Finding, is_ambiguous, pair
-from index.answering.text_chunks import Texts, as_read, in_the_text
-from index.asking.known_facts import Heard
+from index.answering.result import LocalizerResult, is_ambiguous, pair
+from index.answering.text_chunks import ChunkReader, reader_text, with_description_spans
+from index.asking.known_facts import KnownFacts
 from index.asking.questions import Questions
 from models.citymap.colours import Palette
 from models.citymap.frame import Frame
@@ -45,34 +45,34 @@ from models.posterior.posterior import CANDIDATES, HintExplanation, HintPosterio
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
 
-KEPT_VECTORS = 256  # of descriptions, the latest
-PLACE_CANDIDATES = 128  # cells whose nodes are looked at for texts that name places
-REPLY_CANDIDATES = 1024  # where replies are all that is known: they may name a street of some kilometres
-EXPLAINED = 0.5  # a hint counts as explained from this probability on
-NOTHING_SAID = (
-    "nothing in the description says what is around the speaker; name things and directions, for example "
+CACHED_DESCRIPTIONS = 256  # retriever vectors of the latest descriptions
+PLACE_CANDIDATE_CELLS = 128  # examined cells for texts that name places
+REPLY_CANDIDATE_CELLS = 1024  # without hints: a reply may name a street of some kilometres
+EXPLAINED_PROBABILITY = 0.5  # from here on a hint counts as explained
+NO_HINTS = (
+    "the description does not say what is around the speaker; mention objects and directions, for example "
     "'I am north of a gray building.'"
 )
-NOWHERE = "no position of the map lies inside 'within'; move it onto the map or leave it out"
-NOTHING_FITS = "nothing that is said was found on the map; is it the right map?"
-OF_REPLIES = "the answer is of the replies: nothing that the description says was found there"
-GOOD_M = 10.0  # who has begun to reply is asked until half of the probability is this near
+OUTSIDE_MAP = "'within' contains no position of the map; move it onto the map or leave it out"
+NO_MATCH = "nothing in the description was found on the map; check that this is the right map"
+REPLIES_ONLY = "the answer follows from the replies alone: nothing in the description was found there"
+WELL_LOCATED_M = 10.0  # after a reply, questions go on until the 50 % radius is this small
 
 
 class PosteriorLocalizer:
-    """Answers descriptions of one gallery by the hint posterior. Not thread-safe.
+    """Localizes descriptions by the hint posterior. Not thread-safe.
 
     Args:
-        model: trained.
+        model: the hint posterior.
         gallery: the cells, with labels and names.
         palette: the map's colour words.
         frame: of the map.
         surroundings: of the gallery.
-        ranker: of the gallery: gives candidates beside the inverted list's.
-        gazetteer: of the map; empty where nothing has a name.
+        ranker: of the gallery; adds candidates to those of the inverted list.
+        gazetteer: of the map; empty if nothing has a name.
         grid_m: spacing of the cells.
-        meanings: of the gazetteer; None to understand its names and nouns alone.
-        statements, names, landmarks: of the gallery and its gazetteer; None to make them.
+        meanings: of the gazetteer; None to go without paraphrases.
+        statements, names, landmarks: of the gallery and its gazetteer; None to build them.
     """
 
     method: Method = "posterior"
@@ -105,123 +105,128 @@ class PosteriorLocalizer:
             of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings, names
             self.places = PlaceReader(model.places, model.cues, *of_map)
         self.questions = Questions(self.nodes.sights, list(self.labels), palette, gazetteer, gallery.cells, landmarks)
-        self.texts = Texts(model.reader)
-        self._encoded = lru_cache(maxsize=KEPT_VECTORS)(self._encode)
+        self.chunk_reader = ChunkReader(model.reader)
+        self._encoded = lru_cache(maxsize=CACHED_DESCRIPTIONS)(self._encode)
 
-    def find(self, queries: Sequence[Query]) -> list[Finding]:
-        """See CellLocalizer."""
+    def find(self, queries: Sequence[Query]) -> list[LocalizerResult]:
+        """Implement CellLocalizer."""
         start = time.perf_counter()
-        parsed = self.texts.parse([query.description for query in queries])
-        encode_ms = _since(start)
+        parsed = self.chunk_reader.parse([query.description for query in queries])
+        encode_ms = _elapsed_ms(start)
         return [self._find(*each, encode_ms) for each in zip(queries, parsed, strict=True)]
 
-    def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> Finding:
+    def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> LocalizerResult:
         start = time.perf_counter()
         answered = self.questions.answered(query.replies)
         language = detect_language(query.description)
         hints = hints if language == ENGLISH else []
-        warnings = _of_language(language)
-        hints, reading, mentions, told = self._places(query, language, hints)
-        timings = {"encode": encode_ms + _since(start)}
-        warnings += (*_not_found(mentions), *contradictions(mentions))
-        heard = Heard.of(reading, mentions, list(self.labels), self._gazetteer)
-        if not hints and told is None and answered is None:
-            said, question = NOTHING_FITS if mentions else NOTHING_SAID, self._rescue(query, language, heard)
-            return Finding(None, said, timings_ms=timings, warnings=warnings, question=question)
+        warnings = _language_warnings(language)
+        hints, reading, mentions, place_evidence = self._read(query, language, hints)
+        timings = {"encode": encode_ms + _elapsed_ms(start)}
+        warnings += (*_unknown_name_warnings(mentions), *contradictions(mentions))
+        known_facts = KnownFacts.from_text(reading, mentions, list(self.labels), self._gazetteer)
+        if not hints and place_evidence is None and answered is None:
+            refusal, question = (
+                NO_MATCH if mentions else NO_HINTS,
+                self._question_for_refused(query, language, known_facts),
+            )
+            return LocalizerResult(None, refusal, timings_ms=timings, warnings=warnings, question=question)
         start = time.perf_counter()
-        located = self._located(query, hints, reading, told, answered)
-        timings["search"] = _since(start)
+        located = self._locate(query, hints, reading, place_evidence, answered)
+        timings["search"] = _elapsed_ms(start)
         if located is None:
-            return Finding(None, NOWHERE, timings_ms=timings, warnings=warnings)
+            return LocalizerResult(None, OUTSIDE_MAP, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
-        finding = self._told_of(located, hints, reading, mentions, told)
-        finding = replace(finding, evidence=in_the_text(query.description, finding.evidence))
-        fits = any(hint.explained >= EXPLAINED for hint in finding.evidence)
+        result = self._explain(located, hints, reading, mentions, place_evidence)
+        result = replace(result, evidence=with_description_spans(query.description, result.evidence))
+        fits = any(hint.explained >= EXPLAINED_PROBABILITY for hint in result.evidence)
         if not fits and answered is not None:
-            warnings += (OF_REPLIES,)
-        if not fits and answered is None and finding.evidence:
-            finding = replace(finding, refusal=NOTHING_FITS, question=self._rescue(query, language, heard))
-        elif self._is_wide(located, answered) and not _is_elsewhere(query):
-            finding = replace(finding, question=self.questions.ask(located, heard, query.replies))
-        timings["estimate"] = _since(start)
-        return replace(finding, timings_ms=timings, warnings=warnings)
+            warnings += (REPLIES_ONLY,)
+        if not fits and answered is None and result.evidence:
+            result = replace(
+                result, refusal=NO_MATCH, question=self._question_for_refused(query, language, known_facts)
+            )
+        elif self._is_uncertain(located, answered) and not _is_about_another_place(query):
+            result = replace(result, question=self.questions.ask(located, known_facts, query.replies))
+        timings["estimate"] = _elapsed_ms(start)
+        return replace(result, timings_ms=timings, warnings=warnings)
 
-    def _is_wide(self, located: Located, answered: Answered | None) -> bool:
-        """Whether more should be known of a place."""
+    def _is_uncertain(self, located: Located, answered: Answered | None) -> bool:
+        """Return whether a follow-up question makes sense."""
         p50 = located.radii_m(0.5)[0]
-        return is_ambiguous(p50, self.gallery.cells) or (answered is not None and p50 > GOOD_M)
+        return is_ambiguous(p50, self.gallery.cells) or (answered is not None and p50 > WELL_LOCATED_M)
 
-    def _rescue(self, query: Query, language: str, heard: Heard) -> Question | None:
-        """What to ask about a refused text; nothing on a map without names, and of a text that is not in English."""
-        if not self.questions.has_names or language != ENGLISH or _is_elsewhere(query):
+    def _question_for_refused(self, query: Query, language: str, known_facts: KnownFacts) -> Question | None:
+        """Return the question for a refused text; None on a map without names and for texts that are not English."""
+        if not self.questions.has_names or language != ENGLISH or _is_about_another_place(query):
             return None
         log_p, inside = log_prior(query, self.gallery.cells.center_m[:, :2], self.frame), self._inside(query)
         log_p = log_p if inside is None else np.where(inside.cells, log_p, -np.inf)
-        return self.questions.ask_anywhere(log_p, heard, query.replies)
+        return self.questions.ask_anywhere(log_p, known_facts, query.replies)
 
-    def _told_of(
+    def _explain(
         self,
         located: Located,
         hints: Sequence[ParsedHint],
         reading: Reading | None,
         mentions: Sequence[Mention],
-        told: PlaceEvidence | None,
-    ) -> Finding:
-        """What was found, with what explains each hint and mention there, and the place in words."""
+        place_evidence: PlaceEvidence | None,
+    ) -> LocalizerResult:
+        """Return the result with the evidence of each hint and mention, the place in words and the heading."""
         evidence = self._evidence(hints, reading, located) if reading is not None else ()
         if self.places is None:
-            return Finding(located, evidence=evidence)
-        at = located.positions[0]
-        evidence += self.places.evidence(mentions, told, at)
-        place, heading = place_text(self._gazetteer, at), self.places.heading(told, located)
-        return Finding(located, evidence=evidence, place=place, heading=heading)
+            return LocalizerResult(located, evidence=evidence)
+        position = located.positions[0]
+        evidence += self.places.evidence(mentions, place_evidence, position)
+        place, heading = place_text(self._gazetteer, position), self.places.heading(place_evidence, located)
+        return LocalizerResult(located, evidence=evidence, place=place, heading=heading)
 
-    def _places(
+    def _read(
         self, query: Query, language: str, hints: Sequence[ParsedHint]
     ) -> tuple[Sequence[ParsedHint], Reading | None, list[Mention], PlaceEvidence | None]:
-        """The hints that tell of what is near, what they say, what the text names besides, and what that tells."""
+        """Return the hints about nearby objects, their reading, the mentions of places, and their evidence."""
         if self.places is None:
             return hints, self.binding.reading(hints) if hints else None, [], None
         listener_m = None if query.prior is None else self.frame.position_m(query.prior.position, query.crs)
-        text = as_read(query.description)
+        text = reader_text(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
         mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)
-        hints = [] if mentions and _is_elsewhere(query) else may_be_near(hints, mentions)
+        hints = [] if mentions and _is_about_another_place(query) else possibly_near_hints(hints, mentions)
         reading = self.binding.reading(hints) if hints else None
         trust = [] if reading is None else reading.label.amax(dim=1).tolist()
         near, mentions = near_hints(hints, trust, mentions)
         hints, mentions = with_one_owner(text, [hints[n] for n in near], mentions)
-        told = self.places.told(mentions, query.description, listener_m)
-        return hints, self.binding.reading(hints) if hints else None, mentions, told
+        place_evidence = self.places.place_evidence(mentions, query.description, listener_m)
+        return hints, self.binding.reading(hints) if hints else None, mentions, place_evidence
 
-    def _located(
+    def _locate(
         self,
         query: Query,
         hints: Sequence[ParsedHint],
         reading: Reading | None,
-        told: PlaceEvidence | None,
+        place_evidence: PlaceEvidence | None,
         answered: Answered | None,
     ) -> Located | None:
-        count = REPLY_CANDIDATES if reading is None else CANDIDATES
+        count = REPLY_CANDIDATE_CELLS if reading is None else CANDIDATES
         located = locate(
             self.nodes,
             reading,
             None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
             self._inside(query),
-            PLACE_CANDIDATES if told is not None else count,
+            PLACE_CANDIDATE_CELLS if place_evidence is not None else count,
             further=None if reading is None else self.search(hints, reading),
-            told=told,
+            told=place_evidence,
             answered=answered,
         )
-        return located and self._honest(located, query, told)
+        return located and self._calibrate_radii(located, query, place_evidence)
 
     def _inside(self, query: Query) -> Inside | None:
-        return where_inside(query, self.surroundings, self.gallery.cells.center_m[:, :2], self.frame)
+        return nodes_inside(query, self.surroundings, self.gallery.cells.center_m[:, :2], self.frame)
 
-    def _honest(self, located: Located, query: Query, told: PlaceEvidence | None) -> Located:
-        """With radii that hold what they say, as on validation data."""
+    def _calibrate_radii(self, located: Located, query: Query, place_evidence: PlaceEvidence | None) -> Located:
+        """Return the distribution with radii calibrated on validation data."""
         config: PosteriorConfig = self.weights.config
-        if told is None:
+        if place_evidence is None:
             return replace(located, held=config.radius_held)
         is_told_to = query.prior is not None or is_meeting(query.description)
         return replace(located, radius_scale=config.meeting_scale if is_told_to else config.place_scale)
@@ -238,33 +243,33 @@ class PosteriorLocalizer:
         return self.ranker.retriever.encode_description(sentences)
 
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
-        """Descriptions in the retriever's words, as far as they were read: template sentences of the map's classes."""
+        """Return descriptions as template sentences with the map's classes, as far as they were parsed."""
         return [
             self.binding.sentences(hints, self.binding.reading(hints)) if hints else ()
-            for hints in self.texts.parse(descriptions)
+            for hints in self.chunk_reader.parse(descriptions)
         ]
 
     def _evidence(self, hints: Sequence[ParsedHint], reading: Reading, located: Located) -> tuple[Evidence, ...]:
-        """How each hint was understood, and what explains it at the best position."""
+        """Return the evidence of each hint at the best position."""
         node = int(located.points[((located.points_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
-        found = self.nodes.explain(reading, node)
-        return tuple(self._explained(node, *row) for row in zip(hints, reading.label, found, strict=True))
+        explanations = self.nodes.explain(reading, node)
+        return tuple(self._hint_evidence(node, *row) for row in zip(hints, reading.label, explanations, strict=True))
 
-    def _explained(self, node: int, hint: ParsedHint, label: Any, found: HintExplanation) -> Evidence:
-        explained = found.probability
+    def _hint_evidence(self, node: int, hint: ParsedHint, label: Any, explanation: HintExplanation) -> Evidence:
+        probability = explanation.probability
         colour = int(hint.colour.argmax())
         shown: dict[str, Any] = {}
-        if found.part >= 0 and explained >= EXPLAINED and hint.absent < EXPLAINED:
+        if explanation.part >= 0 and probability >= EXPLAINED_PROBABILITY and hint.absent < EXPLAINED_PROBABILITY:
             gallery = self.gallery
-            instance = int(self.surroundings.things.instance[found.part])
+            instance = int(self.surroundings.things.instance[explanation.part])
             shown = {
-                "at": pair(self.surroundings.positions_m(np.array([node]))[0] - found.way_m),
+                "at": pair(self.surroundings.positions_m(np.array([node]))[0] - explanation.way_m),
                 "instance": gallery.labels[instance],
                 "name": gallery.names[instance],
                 "source_id": gallery.sources[instance],
-                "away_m": float(np.hypot(*found.way_m)),
+                "away_m": float(np.hypot(*explanation.way_m)),
             }
-        fits = float(label.max()) >= EXPLAINED / 2
+        fits = float(label.max()) >= EXPLAINED_PROBABILITY / 2
         return Evidence(
             text=hint.noun,
             span=(hint.start, hint.end),
@@ -272,28 +277,28 @@ class PosteriorLocalizer:
             colour=COLOURS[colour] if colour < len(COLOURS) else None,
             relation=RELATIONS[int(hint.relation.argmax())],
             distance_m=hint.distance_m,
-            absent=hint.absent >= EXPLAINED,
-            explained=explained,
+            absent=hint.absent >= EXPLAINED_PROBABILITY,
+            explained=probability,
             **shown,
         )
 
 
-def _is_elsewhere(query: Query) -> bool:
-    """Whether a text surely tells of a place that the speaker does not stand at: what it names need not be near."""
+def _is_about_another_place(query: Query) -> bool:
+    """Return whether a text is about a place away from the speaker, so its objects need not be near the speaker."""
     is_told = query.prior is not None and listener_wind(query.description) is not None
     return is_told or is_meeting(query.description)
 
 
-def _of_language(language: str) -> tuple[str, ...]:
+def _language_warnings(language: str) -> tuple[str, ...]:
     if language == ENGLISH:
         return ()
     name = LANGUAGE_NAMES.get(language, f"'{language}'")
-    return (f"the text seems to be in {name}: only names and nouns were understood; English is read whole",)
+    return (f"the text seems to be in {name}: only names and nouns were used; English texts are understood completely",)
 
 
-def _not_found(mentions: Sequence[Mention]) -> tuple[str, ...]:
+def _unknown_name_warnings(mentions: Sequence[Mention]) -> tuple[str, ...]:
     return tuple(f"'{mention.text}' was not found on the map" for mention in mentions if mention.form == "unknown")
 
 
-def _since(start: float) -> float:
+def _elapsed_ms(start: float) -> float:
     return (time.perf_counter() - start) * 1000

@@ -1,4 +1,4 @@
-"""What a localizer is asked."""
+"""Queries to a localizer."""
 
 from dataclasses import dataclass
 from typing import Final, Literal
@@ -7,12 +7,12 @@ Crs = Literal["map", "wgs84"]
 Refine = Literal["none", "matching", "regressor", "posterior"]
 DEFAULT_REFINE: Final[Refine] = "posterior"
 DEFAULT_TOP_K: Final = 5
-MOST_REPLIES: Final = 8  # of a query; who has given so many is asked nothing more
+MAX_REPLIES: Final = 8  # per query; after that no further question is asked
 
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A filter: nothing outside is answered. `west, south, east, north`: map metres, or degrees of lon/lat."""
+    """A filter: positions outside are excluded. `west, south, east, north`: map metres, or degrees of lon/lat."""
 
     west: float
     south: float
@@ -22,7 +22,7 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """A filter: nothing outside is answered. `center`: (x, y) map metres, or (lon, lat) degrees."""
+    """A filter: positions outside are excluded. `center`: (x, y) map metres, or (lon, lat) degrees."""
 
     center: tuple[float, float]
     radius_m: float
@@ -38,7 +38,7 @@ class Prior:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """What a person answered to a question: its id, and the value of one of its choices or, if it is open, a name."""
+    """A reply to a question: its id, and the value of a choice or, for an open question, a name."""
 
     question: str
     choice: str
@@ -49,15 +49,15 @@ class Query:
     """One description to localize.
 
     Attributes:
-        description: any text with a word in it.
-        top_k: candidates to list.
+        description: any text with at least one word.
+        top_k: number of candidates to list.
         within: filter, or None.
         prior: bias, or None.
-        crs: what the coordinates of `within` and `prior` mean.
-        refine: what finds positions inside the candidates; "none" leaves them at the centres; "posterior" ranks the
-            candidates too, by the hint posterior.
-        heat_map: whether the answer shall have the distribution behind it.
-        replies: answers to questions of earlier answers; the posterior alone heeds them.
+        crs: coordinate system of `within` and `prior`.
+        refine: how positions inside the candidates are found; "none" keeps the centres; "posterior" also ranks the
+            candidates by the hint posterior.
+        heat_map: whether to include the distribution in the answer.
+        replies: replies to questions of earlier answers; only the posterior uses them.
     """
 
     description: str

@@ -1,4 +1,4 @@
-"""Cells in order for a description: vector search by the global level, then all levels on the best of them."""
+"""Ranking of cells for a description: vector search by the global level, then re-ranking by all levels."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,68 +15,70 @@ from models.paper.level_table import EMPTY_LEVEL_TABLE, LevelTable, encode_galle
 from models.paper.levels import Levels
 from models.paper.retriever import Retriever
 
-RERANKED = 100  # cells whose other levels are looked at
+RERANKED_CELLS = 100  # cells re-ranked by the other levels
 
 
 class Ranker:
-    """Scores of a gallery's cells, by as many levels as there are.
+    """Ranks the cells of a gallery by all available levels.
 
     Args:
-        retriever: the model that made store and table.
+        retriever: the model that encoded store and table.
         store: the gallery's vectors, global level.
-        table: its other levels; empty if the retriever has none, or they are not needed.
-        depth: cells whose other levels are looked at: 0 is the global level alone, the size of the gallery MNCL's
-            released code.
+        table: the other levels; empty if the retriever has none, or they are not needed.
+        depth: number of cells re-ranked by the other levels; 0 uses the global level alone, the size of the gallery is
+            what MNCL's released code does.
     """
 
-    def __init__(self, retriever: Retriever, store: VectorStore, table: LevelTable, depth: int = RERANKED) -> None:
+    def __init__(
+        self, retriever: Retriever, store: VectorStore, table: LevelTable, depth: int = RERANKED_CELLS
+    ) -> None:
         self.retriever, self.store, self.table, self.depth = retriever, store, table, depth
 
     @classmethod
-    def of(
+    def from_cells(
         cls,
         retriever: Retriever,
         cells: CellTable,
         labels: Sequence[str],
-        depth: int = RERANKED,
+        depth: int = RERANKED_CELLS,
     ) -> "Ranker":
         """Encode a gallery.
 
         Args:
             retriever: the model.
             cells: the gallery.
-            labels: of each instance that its parts name.
-            depth: see Ranker.
+            labels: of each instance.
+            depth: as in the class.
         """
         features = retriever.with_point_features(CellFeatures.from_cells(cells, np.array(labels)))
         vectors, table = encode_gallery(retriever, features)
-        return cls(retriever, FaissStore.of(vectors), table, depth)
+        return cls(retriever, FaissStore.from_vectors(vectors), table, depth)
 
     @classmethod
     def load(cls, retriever: Retriever, directory: Path, store: VectorStore) -> "Ranker":
-        """Read the levels other than the global one, if there are any; the store keeps that.
+        """Read the levels other than the global one, which is in the store.
 
         Args:
-            retriever: the model that made it; its levels are read.
-            directory: where it is.
+            retriever: the model of the index; its levels are read.
+            directory: of the index version.
             store: the vectors of the global level.
 
         Raises:
-            IndexBroken: it is not an index of this model.
+            IndexBroken: the levels cannot be read.
         """
         table = EMPTY_LEVEL_TABLE if retriever.levels == ("global",) else LevelTable.load(directory, retriever.levels)
         return cls(retriever, store, table)
 
     def search(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
-        """The k best cells of each description by the global level alone; arguments and return as `rank`."""
+        """Return the k best cells by the global level alone; arguments and return as `rank`."""
         return self.store.search(np.concatenate([text.global_vectors.cpu().numpy() for text in texts]), k)
 
     def rank(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
-        """The k best cells of each description.
+        """Return the k best cells of each description.
 
         Args:
             texts: Q descriptions (`Retriever.encode_description`).
-            k: how many; cut to the size of the gallery.
+            k: number of cells; cut to the size of the gallery.
 
         Returns:
             scores [Q, k] and rows [Q, k], best first, equal scores by row.
@@ -89,7 +91,7 @@ class Ranker:
         return scores[:, :k], rows[:, :k]
 
     def score(self, text: Levels, rows: npt.NDArray[np.int64]) -> Floats:
-        """[len(rows)] scores of some cells, comparable with those of `rank`."""
+        """Return the scores of some cells, comparable with those of `rank`."""
         whole = self.store.score(text.global_vectors[0].cpu().numpy(), rows)
         if self._is_global or not len(rows):
             return whole
@@ -99,16 +101,16 @@ class Ranker:
         return scores
 
     def temperature(self, num_hints: int) -> float:
-        """See `Retriever.temperature`."""
+        """Return the temperature of the probabilities, as `Retriever.temperature`."""
         return self.retriever.temperature(num_hints, self._is_global)
 
     @property
     def _is_global(self) -> bool:
-        """Whether no other level is looked at."""
+        """Return whether only the global level is used."""
         return self.table.is_empty or not self.depth
 
     def _refine(self, text: Levels, rows: npt.NDArray[np.integer[Any]], whole: Floats) -> Floats:
-        """[C] scores of cells in order of the global level; those beyond the depth count as no better at the others."""
+        """Return scores [C] of cells in global order; cells beyond the depth cannot rise above the others."""
         first = rows[: self.depth]
         by_level = {**self.table.scores([text], first), "global": whole[None, : len(first)]}
         refined = self.retriever.combine(by_level)[0]

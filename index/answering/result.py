@@ -1,4 +1,4 @@
-"""What a localizer finds for a query, and the one function that makes an answer of it."""
+"""The result of a localizer, and the one function that turns it into an answer."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -25,22 +25,22 @@ from models.citymap.frame import Frame
 from models.citymap.types import Floats
 from models.posterior.distribution import Located
 
-HEAT_POINTS, HEAT_HELD = 500, 0.95  # squares of a heat map, and what they hold of the distribution at least
+MAX_HEAT_POINTS, HEAT_MASS = 500, 0.95  # points of a heat map, and the mass they hold at least
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Finding:
-    """What was found for one query.
+class LocalizerResult:
+    """The result of one query.
 
     Attributes:
-        located: the distribution; None if there is nothing to tell it from, or nowhere to look.
-        refusal: why there is no match, and what to do; None if there is one.
-        evidence: one a hint, where the localizer knows.
+        located: the position distribution; None without usable text or without cells to search.
+        refusal: why there is no match, and what to do about it; None if there is one.
+        evidence: one entry per hint, if the localizer gives any.
         timings_ms: "encode", "search", "estimate".
         place: the position in words.
         heading: where the speaker looks.
-        warnings: what the caller should know.
-        question: what to ask if that is ambiguous, or refused.
+        warnings: sentences for the caller.
+        question: the follow-up question of an ambiguous or refused text.
     """
 
     located: Located | None
@@ -54,42 +54,44 @@ class Finding:
 
 
 class CellLocalizer(Protocol):
-    """One way to localize on one gallery."""
+    """A way to localize in one gallery."""
 
     @property
     def method(self) -> Method:
-        """How positions are found."""
+        """Return the method that finds positions."""
         ...
 
     @property
     def model(self) -> ModelName:
-        """The model that positions come from."""
+        """Return the model behind the positions."""
         ...
 
-    def find(self, queries: Sequence[Query]) -> list[Finding]:
-        """One finding a query, in order; several texts go through a model together."""
+    def find(self, queries: Sequence[Query]) -> list[LocalizerResult]:
+        """Return one result per query, in order; texts are encoded in batches."""
         ...
 
 
-def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: CellTable, frame: Frame) -> Answer:
-    """The answer to a query.
+def to_answer(
+    query: Query, result: LocalizerResult, localizer: CellLocalizer, cells: CellTable, frame: Frame
+) -> Answer:
+    """Turn a localizer's result into an answer.
 
     Args:
-        query: what was asked.
-        finding: what was found.
-        localizer: what found it.
+        query: the query.
+        result: of the localizer.
+        localizer: that found it.
         cells: the gallery.
         frame: of the map.
     """
-    located = finding.located
-    if located is None or finding.refusal is not None:
+    located = result.located
+    if located is None or result.refusal is not None:
         return Answer(
             "no_match",
             localizer.model,
-            warnings=(*((finding.refusal,) if finding.refusal else ()), *finding.warnings),
-            timings_ms=finding.timings_ms,
-            evidence=finding.evidence,
-            question=finding.question,
+            warnings=(*((result.refusal,) if result.refusal else ()), *result.warnings),
+            timings_ms=result.timings_ms,
+            evidence=result.evidence,
+            question=result.question,
         )
     p50, p90 = located.radii_m(0.5, 0.9)
     covariance = located.covariance_m2()
@@ -99,9 +101,9 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
         covariance=(pair(covariance[0]), pair(covariance[1])),
         radius_m=Radius(p50, p90),
         probability=float(located.probability[0]),
-        wgs84=LatLon.of(located.positions[0], frame),
-        place=finding.place,
-        heading=finding.heading,
+        wgs84=LatLon.from_position(located.positions[0], frame),
+        place=result.place,
+        heading=result.heading,
     )
     listed = range(min(query.top_k, len(located.rows)))
     candidates = tuple(_candidate(located, n, cells, frame) for n in listed)
@@ -111,16 +113,16 @@ def to_answer(query: Query, finding: Finding, localizer: CellLocalizer, cells: C
         estimate=estimate,
         candidates=candidates,
         other_probability=max(0.0, 1.0 - sum(candidate.probability for candidate in candidates)),
-        warnings=finding.warnings,
-        timings_ms=finding.timings_ms,
-        evidence=finding.evidence,
+        warnings=result.warnings,
+        timings_ms=result.timings_ms,
+        evidence=result.evidence,
         heat_map=_heat_map(located) if query.heat_map else None,
-        question=finding.question,
+        question=result.question,
     )
 
 
 def is_ambiguous(p50: float, cells: CellTable) -> bool:
-    """Whether a text with this radius of 50 %, metres, fits several places."""
+    """Return whether a 50 % radius, metres, covers several places."""
     return p50 > cells.size_m
 
 
@@ -136,23 +138,23 @@ def _candidate(located: Located, n: int, cells: CellTable, frame: Frame) -> Cand
         center=(x, y),
         bbox=(x - half, y - half, x + half, y + half),
         position=pair(located.positions[n]),
-        wgs84=LatLon.of(located.positions[n], frame),
+        wgs84=LatLon.from_position(located.positions[n], frame),
     )
 
 
 def _heat_map(located: Located) -> HeatMap:
-    """Squares as fine as they can be for a few of them to hold what is known of the distribution."""
+    """Return the finest squares of which a few hold most of the distribution."""
     spacing_m, points_m, weight = located.spacing_m, located.points_m, located.weight
-    order = np.argsort(-weight, kind="stable")[:HEAT_POINTS]
-    while weight[order].sum() < HEAT_HELD * weight.sum():
+    order = np.argsort(-weight, kind="stable")[:MAX_HEAT_POINTS]
+    while weight[order].sum() < HEAT_MASS * weight.sum():
         spacing_m *= 2
         squares, square = np.unique(np.floor(located.points_m / spacing_m), axis=0, return_inverse=True)
         points_m, weight = (squares + 0.5) * spacing_m, np.bincount(square.ravel(), located.weight).astype(np.float64)
-        order = np.argsort(-weight, kind="stable")[:HEAT_POINTS]
+        order = np.argsort(-weight, kind="stable")[:MAX_HEAT_POINTS]
     rows = np.column_stack([points_m[order], weight[order]])
     return HeatMap(spacing_m, tuple((round(x, 2), round(y, 2), p) for x, y, p in rows.tolist()))
 
 
 def pair(values: Floats) -> tuple[float, float]:
-    """The first two numbers."""
+    """Return the first two numbers."""
     return float(values[0]), float(values[1])

@@ -1,4 +1,4 @@
-"""Descriptions through the reader, in pieces that it can take, and back to the places in them."""
+"""Parsing of descriptions in chunks that the hint reader accepts, and character spans in the original text."""
 
 from collections import OrderedDict
 from collections.abc import Iterator, Mapping, Sequence
@@ -9,56 +9,56 @@ from models.language.parsed_hint import ParsedHint
 from models.language.reader import Reader
 from models.language.sentences import locate_spans, split_for_reader
 
-LONGEST = 800  # characters that are read at once; longer descriptions are read in pieces
-KEPT_TEXTS = 2000
-READ_AT_ONCE = 16
+MAX_CHUNK_CHARS = 800  # bounds the reader's memory
+CACHED_CHUNKS = 2000
+CHUNKS_PER_BATCH = 16
 
 
-class Texts:
-    """Reads descriptions. Not thread-safe.
+class ChunkReader:
+    """Parses descriptions chunk by chunk. Not thread-safe.
 
     Args:
-        reader: trained.
+        reader: the trained hint reader.
     """
 
     def __init__(self, reader: Reader) -> None:
         self._reader = reader
-        self._kept: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
+        self._cache: OrderedDict[str, tuple[ParsedHint, ...]] = OrderedDict()
 
     def parse(self, descriptions: Sequence[str]) -> list[tuple[ParsedHint, ...]]:
-        """What each description names; several go through the reader together, the latest are remembered.
+        """Return the hints of each description; chunks form batches, and the latest are cached.
 
-        Characters are those of `split_for_reader`, joined by blanks.
+        Spans refer to the chunks of `split_for_reader`, joined by blanks.
         """
-        pieces = [split_for_reader(description, LONGEST) for description in descriptions]
-        texts = [text for some in pieces for text in some]
-        kept = self._kept
-        new = sorted({text for text in texts if text not in kept}, key=len)  # those of like length together
-        for start in range(0, len(new), READ_AT_ONCE):
-            some = new[start : start + READ_AT_ONCE]
-            kept.update((text, tuple(found)) for text, found in zip(some, self._reader.read(some), strict=True))
+        chunked = [split_for_reader(description, MAX_CHUNK_CHARS) for description in descriptions]
+        texts = [text for chunks in chunked for text in chunks]
+        cache = self._cache
+        new = sorted({text for text in texts if text not in cache}, key=len)  # similar lengths form a batch
+        for start in range(0, len(new), CHUNKS_PER_BATCH):
+            chunks = new[start : start + CHUNKS_PER_BATCH]
+            cache.update((text, tuple(hints)) for text, hints in zip(chunks, self._reader.read(chunks), strict=True))
         for text in texts:
-            kept.move_to_end(text)
-        parsed = [tuple(_shifted(some, kept)) for some in pieces]
-        while len(kept) > KEPT_TEXTS:
-            kept.popitem(last=False)
+            cache.move_to_end(text)
+        parsed = [tuple(_shift_hints(chunks, cache)) for chunks in chunked]
+        while len(cache) > CACHED_CHUNKS:
+            cache.popitem(last=False)
         return parsed
 
 
-def as_read(description: str) -> str:
-    """The text that the places of hints and mentions are of."""
-    return " ".join(split_for_reader(description, LONGEST)) or description
+def reader_text(description: str) -> str:
+    """Return the text that the spans of hints and mentions refer to."""
+    return " ".join(split_for_reader(description, MAX_CHUNK_CHARS)) or description
 
 
-def in_the_text(description: str, evidence: Sequence[Evidence]) -> tuple[Evidence, ...]:
-    """Evidence with its places in the description, not in what was made of it for the reader."""
-    spans = locate_spans(description, as_read(description), [hint.span or (0, 0) for hint in evidence])
+def with_description_spans(description: str, evidence: Sequence[Evidence]) -> tuple[Evidence, ...]:
+    """Return evidence with spans in the original description."""
+    spans = locate_spans(description, reader_text(description), [hint.span or (0, 0) for hint in evidence])
     return tuple(replace(hint, span=span) for hint, span in zip(evidence, spans, strict=True))
 
 
-def _shifted(pieces: Sequence[str], read: Mapping[str, Sequence[ParsedHint]]) -> Iterator[ParsedHint]:
-    """The hints of the pieces of a text, with their places in the whole."""
+def _shift_hints(chunks: Sequence[str], read: Mapping[str, Sequence[ParsedHint]]) -> Iterator[ParsedHint]:
+    """Yield the hints of the chunks of a text, with spans in the whole text."""
     before = 0
-    for piece in pieces:
-        yield from (hint.shifted(before) for hint in read[piece])
-        before += len(piece) + 1
+    for chunk in chunks:
+        yield from (hint.shifted(before) for hint in read[chunk])
+        before += len(chunk) + 1

@@ -1,4 +1,4 @@
-"""Vector search on one gallery, with or without a fine stage."""
+"""Vector search in one gallery, with or without a fine stage."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -7,10 +7,10 @@ import numpy as np
 from scipy.special import logsumexp
 
 from index.answering.answers import Method, ModelName
-from index.answering.filters import inside, log_prior
+from index.answering.filters import is_inside, log_prior
 from index.answering.query import Query
 from index.answering.ranking import Ranker
-from index.answering.result import Finding
+from index.answering.result import LocalizerResult
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery
 from models.citymap.points import Ints
@@ -21,27 +21,27 @@ from models.paper.instance_encoder import CellFeatures
 from models.paper.levels import Levels
 from models.posterior.distribution import Located
 
-DEPTH = 2000  # cells that a probability looks at; what is beyond is bounded, see `_probability`
-NO_CELL = "no cell's centre lies inside 'within'; widen it, move it onto the map or leave it out"
-Sentences = Callable[[Sequence[str]], Sequence[tuple[str, ...]]]
+RANKED_CELLS = 2000  # cells in the softmax; `_probability` bounds the rest
+NO_CELL_WITHIN = "'within' contains no cell centre; widen it, move it onto the map or leave it out"
+SplitTexts = Callable[[Sequence[str]], Sequence[tuple[str, ...]]]
 
 
 def raw_sentences(descriptions: Sequence[str]) -> list[tuple[str, ...]]:
-    """The sentences of each description, as they are: what the paper's retrievers encode."""
+    """Split each description into sentences, as the paper's retrievers encode them."""
     return [split_hints(description) for description in descriptions]
 
 
 class VectorLocalizer:
-    """Answers descriptions of one gallery by the cells' vectors.
+    """Localizes descriptions by the vectors of the cells.
 
     Args:
-        ranker: the model, with its vectors of the gallery.
+        ranker: of the gallery.
         gallery: the cells.
         frame: of the map.
         grid_m: spacing of the cells.
-        refiner: finds positions in the cells that are listed; None leaves them at the centres.
-        sentences: from descriptions to what the models encode.
-        depth: cells that probabilities look at.
+        refiner: finds positions inside the listed cells; None keeps the centres.
+        sentences: turns descriptions into the sentences that the models encode.
+        depth: number of cells in the softmax.
     """
 
     def __init__(
@@ -51,13 +51,13 @@ class VectorLocalizer:
         frame: Frame,
         grid_m: float,
         refiner: FineModel | None = None,
-        sentences: Sentences = raw_sentences,
-        depth: int = DEPTH,
+        sentences: SplitTexts = raw_sentences,
+        depth: int = RANKED_CELLS,
     ) -> None:
         self.ranker, self.gallery, self.frame, self.refiner = ranker, gallery, frame, refiner
         self.grid_m, self.sentences, self.depth = grid_m, sentences, depth
         model = refiner or ranker.retriever
-        self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
+        self.model = ModelName(model.name, model.fingerprint)  # computed once, because it reads all weights
         self._centers, self._extent_m = gallery.cells.center_m[:, :2].astype(np.float64), gallery.cells.extent_m
         self._features = (
             refiner.with_point_features(CellFeatures.from_cells(gallery.cells, np.array(gallery.labels)))
@@ -67,11 +67,11 @@ class VectorLocalizer:
 
     @property
     def method(self) -> Method:
-        """See CellLocalizer."""
+        """Implement CellLocalizer."""
         return self.refiner.method if self.refiner else "cell_center"
 
-    def find(self, queries: Sequence[Query]) -> list[Finding]:
-        """See CellLocalizer."""
+    def find(self, queries: Sequence[Query]) -> list[LocalizerResult]:
+        """Implement CellLocalizer."""
         start = time.perf_counter()
         sentences = self.sentences([query.description for query in queries])
         texts = self.ranker.retriever.encode_texts(sentences)
@@ -82,36 +82,39 @@ class VectorLocalizer:
         start = time.perf_counter()
         ordered = [self._order(*each) for each in zip(queries, texts, ranked, strict=True)]
         positions = self._positions(queries, sentences, [rows for rows, *_ in ordered])
-        found = [self._located(*each) for each in zip(ordered, positions, strict=True)]
+        distributions = [self._distribution(*each) for each in zip(ordered, positions, strict=True)]
         timings = {"encode": encode_ms, "search": search_ms, "estimate": _since(start)}
-        return [Finding(located, None if located else NO_CELL, timings_ms=timings) for located in found]
+        return [
+            LocalizerResult(located, None if located else NO_CELL_WITHIN, timings_ms=timings)
+            for located in distributions
+        ]
 
     def _rank(self, queries: Sequence[Query], texts: Sequence[Levels]) -> list[tuple[Ints, Floats]]:
-        """Rows of the cells to consider for each query, and their scores."""
+        """Return the rows of the cells to consider for each query, and their scores."""
         plain = [n for n, query in enumerate(queries) if query.within is None and query.prior is None]
-        found: dict[int, tuple[Ints, Floats]] = {}
+        ranked: dict[int, tuple[Ints, Floats]] = {}
         if plain:
             scores, rows = self.ranker.rank([texts[n] for n in plain], self.depth)
-            found = {n: (rows[k], scores[k]) for k, n in enumerate(plain)}
+            ranked = {n: (rows[k], scores[k]) for k, n in enumerate(plain)}
         for n, (query, text) in enumerate(zip(queries, texts, strict=True)):
-            if n not in found:
-                # A filter or a prior: the vectors' order is not the answer's, so score all that may be in it.
-                some = np.flatnonzero(inside(query, self._centers, self.frame))
-                found[n] = some, self.ranker.score(text, some)
-        return [found[n] for n in range(len(queries))]
+            if n not in ranked:
+                # A filter or a prior changes the order of the cells, so score all cells inside.
+                cell_rows = np.flatnonzero(is_inside(query, self._centers, self.frame))
+                ranked[n] = cell_rows, self.ranker.score(text, cell_rows)
+        return [ranked[n] for n in range(len(queries))]
 
     def _order(self, query: Query, text: Levels, ranked: tuple[Ints, Floats]) -> tuple[Ints, Floats, Floats]:
-        """Rows, scores and probabilities of cells, likeliest first."""
+        """Return rows, scores and probabilities of cells, likeliest first."""
         rows, scores = ranked
         probability = self._probability(query, int(text.mask.sum()), rows, scores)
         order = np.lexsort((rows, -probability))
         return rows[order], scores[order], probability[order]
 
     def _probability(self, query: Query, hints: int, rows: Ints, scores: Floats) -> Floats:
-        """[len(rows)] probability that each cell is the right one.
+        """Return the probability [R] that each cell is the right one.
 
         softmax(score / T) over the gallery, with T fitted on validation queries (`Retriever.temperature`). Cells
-        that were left out count as if each scored like the last one seen, so doubt is never understated.
+        beyond the depth count as if they scored like the last one, so the uncertainty is never understated.
         """
         if not len(rows):
             return np.zeros(0)
@@ -126,24 +129,24 @@ class VectorLocalizer:
     def _positions(
         self, queries: Sequence[Query], sentences: Sequence[tuple[str, ...]], rows: Sequence[Ints]
     ) -> list[Floats]:
-        """[C, 2] for each query the best position in each cell: what is listed may be refined, the rest are centres."""
-        positions: list[Floats] = [self._centers[some] for some in rows]
+        """Return the position [C, 2] in each cell, for each query; only listed cells are refined."""
+        positions: list[Floats] = [self._centers[cell_rows] for cell_rows in rows]
         if self.refiner is not None and self._features is not None:
             listed = np.full((len(queries), max(query.top_k for query in queries)), -1)
-            for n, (query, some) in enumerate(zip(queries, rows, strict=True)):
-                listed[n, : len(some[: query.top_k])] = some[: query.top_k]
+            for n, (query, cell_rows) in enumerate(zip(queries, rows, strict=True)):
+                listed[n, : len(cell_rows[: query.top_k])] = cell_rows[: query.top_k]
             offset = self.refiner.predict(sentences, self._features, listed)
             cells = self.gallery.cells
-            for n, some in enumerate(rows):
+            for n, cell_rows in enumerate(rows):
                 count = int((listed[n] >= 0).sum())
-                positions[n][:count] = cells.center_m[some[:count], :2] + (offset[n, :count] - 0.5) * cells.size_m
+                positions[n][:count] = cells.center_m[cell_rows[:count], :2] + (offset[n, :count] - 0.5) * cells.size_m
         return positions
 
-    def _located(self, ordered: tuple[Ints, Floats, Floats], positions: Floats) -> Located | None:
+    def _distribution(self, ordered: tuple[Ints, Floats, Floats], positions: Floats) -> Located | None:
         rows, scores, probability = ordered
         if not len(rows):
             return None
-        # In its cell the position is in the square nearest to the centre, or in one as wide as the fine stage errs.
+        # The position lies in the grid square around the centre, or in one as wide as the error of the fine stage.
         error_m = self.refiner.error_m if self.refiner else None
         return Located(
             rows=rows,

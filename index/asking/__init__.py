@@ -1,1 +1,1 @@
-"""The next question for a person whose answer is ambiguous, and what replies change."""
+"""The follow-up question for an ambiguous answer, and the likelihood of its replies."""

@@ -1,10 +1,10 @@
-"""What a text and replies have told already."""
+"""The facts that a text and its replies have already stated."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from index.answering.query import Reply
-from index.asking.question_spec import OPEN, UNKNOWN, Asked
+from index.asking.question_spec import OPEN_QUESTIONS, UNKNOWN, QuestionSpec
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.language.mentions.mentions import Mention
 from models.posterior.binding import LIKELY, TRUSTED
@@ -12,18 +12,18 @@ from models.posterior.likelihood import Reading
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
-    """What is known of a place already, and need not be asked.
+class KnownFacts:
+    """Facts about the speaker's position that need no question.
 
     Attributes:
-        labels: classes that the text names.
-        winds: of these, those with a wind.
-        colours: of these, those with a colour.
-        is_on_street: whether a street is named.
-        is_at_corner: whether two streets are named that meet.
-        is_at_name: whether a place is named.
-        is_at_house: whether a house number is.
-        has_winds: whether the speaker knows where north is, as far as the text tells.
+        labels: classes that the text mentions.
+        winds: the mentioned classes with a compass direction.
+        colours: the mentioned classes with a colour.
+        is_on_street: whether the text names a street.
+        is_at_corner: whether the text names two streets that meet.
+        is_at_name: whether the text names a place.
+        is_at_house: whether the text has a house number.
+        has_winds: whether the speaker seems to know where north is.
     """
 
     labels: frozenset[str] = frozenset()
@@ -36,14 +36,14 @@ class Heard:
     has_winds: bool = True
 
     @classmethod
-    def of(
+    def from_text(
         cls, reading: Reading | None, mentions: Sequence[Mention], labels: Sequence[str], gazetteer: Gazetteer
-    ) -> "Heard":
-        """What a text says.
+    ) -> "KnownFacts":
+        """Collect the facts that a text states.
 
         Args:
-            reading: of what is near; None if it tells of nothing near.
-            mentions: of places.
+            reading: the hints bound to classes; None without hints.
+            mentions: of named places.
             labels: the map's classes.
             gazetteer: the map's names.
         """
@@ -68,8 +68,8 @@ class Heard:
             has_winds=not len(gazetteer) or bool(with_wind) or any(m.cue.wind is not None for m in mentions),
         )
 
-    def open(self, replies: Sequence[Reply]) -> list[Asked]:
-        """The open questions that neither the text nor replies have answered."""
+    def open_questions(self, replies: Sequence[Reply]) -> list[QuestionSpec]:
+        """Return the open questions that neither the text nor the replies have answered."""
         before = {reply.question: reply.choice for reply in replies}
         is_on_street = self.is_on_street or any(before.get(kind, UNKNOWN) != UNKNOWN for kind in ("street", "address"))
         left = {
@@ -78,4 +78,4 @@ class Heard:
             "corner": is_on_street and not self.is_at_corner,
             "address": not self.is_at_house,
         }
-        return [asked for asked in map(Asked, OPEN) if left[asked.kind] and asked.kind not in before]
+        return [spec for spec in map(QuestionSpec, OPEN_QUESTIONS) if left[spec.kind] and spec.kind not in before]

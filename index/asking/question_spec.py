@@ -1,4 +1,4 @@
-"""A question as its id says it, and in words."""
+"""Questions by their ids, and their texts."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,57 +8,59 @@ from index.answering.answers import Choice, Question
 from models.language.lexicon.question_classes import load_question_classes
 from models.posterior.nearby_objects import NEAR_M, QUARTERS
 
-Kind = Literal["near", "way", "colour", "street", "name", "corner", "address"]
-OPEN: Final[Mapping[Kind, str]] = {
+QuestionKind = Literal["near", "way", "colour", "street", "name", "corner", "address"]
+OPEN_QUESTIONS: Final[Mapping[QuestionKind, str]] = {
     "street": "Which street are you on?",
-    "name": "What is the name of a shop or another place that you see?",
-    "corner": "Which street crosses the street you are on nearest to you?",
-    "address": "What is the number of the house nearest to you, and its street?",
+    "name": "What is the name of a shop or another place that you can see?",
+    "corner": "What is the nearest cross street?",
+    "address": "What is the number and street of the house nearest to you?",
 }
 UNKNOWN: Final = "unknown"
 OTHER: Final = "other"
-LISTED: Final = 4  # colours to choose from, or names that are offered
-_WORDS: Final = {
-    "yes": "Yes", "no": "No", "none": "None is near", OTHER: "Another colour", UNKNOWN: "I don't know"
+MAX_CHOICES: Final = 4  # colours or names that a question offers
+_CHOICE_TEXTS: Final = {
+    "yes": "Yes", "no": "No", "none": "There is none nearby", OTHER: "Another colour", UNKNOWN: "I don't know"
 }  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
-    """A question.
+class QuestionSpec:
+    """A question: its kind and the names it is about.
 
     Attributes:
-        kind: whether a thing is near, which way the nearest is, its colour; or for which name is asked: of the street
-            one is on, of a place that one sees, of the nearest street that crosses, of the nearest house.
-        names: the class it is about, and for colours what there is to choose from; none where a name is asked for.
+        kind: near, way and colour ask whether an object is near, where the nearest lies, and its colour; the other
+            kinds ask for the name of a street, a visible place, a cross street or a house.
+        names: the class, followed by the offered colours; empty for open questions.
     """
 
-    kind: Kind
+    kind: QuestionKind
     names: tuple[str, ...] = ()
 
     @classmethod
-    def parse(cls, text: str) -> "Asked | None":
-        """The question of an id; None if it is of none. Whether the map has what it names is not looked at."""
+    def parse(cls, text: str) -> "QuestionSpec | None":
+        """Parse an id; None if it is invalid. Names are not looked up on the map."""
         kind, colon, rest = text.partition(":")
-        if kind not in get_args(Kind) or bool(colon) == (kind in OPEN):
+        if kind not in get_args(QuestionKind) or bool(colon) == (kind in OPEN_QUESTIONS):
             return None
         names = tuple(rest.split("|")) if kind == "colour" else (rest,) if colon else ()
-        is_whole = all(names) and len(set(names)) == len(names) and (kind != "colour" or 1 < len(names) <= LISTED + 1)
-        return cls(cast("Kind", kind), names) if is_whole else None
+        is_whole = (
+            all(names) and len(set(names)) == len(names) and (kind != "colour" or 1 < len(names) <= MAX_CHOICES + 1)
+        )
+        return cls(cast("QuestionKind", kind), names) if is_whole else None
 
     @property
     def is_open(self) -> bool:
-        """Whether any name of the map can be answered."""
-        return self.kind in OPEN
+        """Return whether any name of the map is a valid reply."""
+        return self.kind in OPEN_QUESTIONS
 
     @property
     def id(self) -> str:
-        """As clients send it back."""
+        """Return the id that clients send back."""
         return ":".join([self.kind, "|".join(self.names)] if self.names else [self.kind])
 
     @property
     def values(self) -> tuple[str, ...]:
-        """[K] what can be answered, but for "unknown" and names."""
+        """Return the valid replies [K], without "unknown" and names."""
         if self.is_open:
             return ()
         if self.kind == "way":
@@ -66,21 +68,21 @@ class Asked:
         return ("yes", "no") if self.kind == "near" else (*self.names[1:], OTHER)
 
     def question(self, listed: Sequence[str] = ()) -> Question:
-        """In words.
+        """Return the question with its text and choices.
 
         Args:
-            listed: the names that an open question offers.
+            listed: names that an open question offers.
         """
-        closed = tuple(Choice(value, _WORDS.get(value, value.capitalize())) for value in (*self.values, UNKNOWN))
+        closed = tuple(Choice(value, _CHOICE_TEXTS.get(value, value.capitalize())) for value in (*self.values, UNKNOWN))
         return Question(self.id, self._text(), (*(Choice(name, name) for name in listed), *closed), self.is_open)
 
     def _text(self) -> str:
         if self.is_open:
-            return OPEN[self.kind]
+            return OPEN_QUESTIONS[self.kind]
         noun = load_question_classes().things[self.names[0]]
         if self.kind == "near":
             article = "an" if noun[0] in "aeio" else "a"
             return f"Is there {article} {noun} within about {NEAR_M:.0f} metres of you?"
         if self.kind == "way":
-            return f"Where is the nearest {noun}, seen from you?"
+            return f"In which direction is the nearest {noun}?"
         return f"What colour is the nearest {noun}?"

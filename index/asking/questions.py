@@ -1,4 +1,4 @@
-"""The one question whose answer would narrow most where somebody is, and what the answers to such questions tell."""
+"""The choice of the follow-up question by expected entropy, and the likelihood of replies."""
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -7,10 +7,10 @@ from typing import Final
 import numpy as np
 
 from index.answering.answers import Question
-from index.answering.query import MOST_REPLIES, Reply
-from index.asking.known_facts import Heard
+from index.answering.query import MAX_REPLIES, Reply
+from index.asking.known_facts import KnownFacts
 from index.asking.open_questions import OpenQuestions
-from index.asking.question_spec import LISTED, UNKNOWN, Asked
+from index.asking.question_spec import MAX_CHOICES, UNKNOWN, QuestionSpec
 from models.citymap.cells import CellTable
 from models.citymap.colours import Palette
 from models.citymap.gazetteer.gazetteer import Gazetteer
@@ -24,15 +24,15 @@ from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors
 
-LEAST_GAIN: Final = 0.1  # bits; what narrows no more is not worth asking
-EFFORT: Final = {"address": 1.0}  # bits that it must narrow more than what a word answers, to be asked instead
-PLACES: Final = 256  # cells that a question about things is chosen by
-NAMED_PLACES: Final = 4096  # and one for a name, which may leave few of a city's
-FAINT: Final = 0.03  # of the mass; what so little, or all but so little of it has is not asked about
+MIN_GAIN_BITS: Final = 0.1  # a question that narrows less is not asked
+EFFORT_BITS: Final = {"address": 1.0}  # extra gain that an address must bring, because it takes longer to find out
+MAX_NODES_OF_OBJECTS: Final = 256  # bounds the time to choose a question about objects
+MAX_NODES_OF_NAMES: Final = 4096  # names may split a whole city, so more nodes count
+MIN_SHARE: Final = 0.03  # of the mass; facts true for less, or for all but so little, are not asked about
 
 
-def landmarks_of(gazetteer: Gazetteer, cells: CellTable) -> Landmarks:
-    """What people around some cells can say when they are asked."""
+def build_landmarks(gazetteer: Gazetteer, cells: CellTable) -> Landmarks:
+    """Return the names that people around each cell can read off signs."""
     return Landmarks.build(gazetteer, cells.center_m[:, :2].astype(np.float64), load_question_classes().kinds)
 
 
@@ -40,12 +40,12 @@ class Questions:
     """The questions about one map.
 
     Args:
-        sights: the things around its nodes.
-        labels: their classes.
+        sights: the objects around its nodes.
+        labels: the classes of the objects.
         palette: the map's colour words.
-        gazetteer: its names; empty where nothing has one.
+        gazetteer: of the map; empty if nothing has a name.
         cells: the gallery.
-        landmarks: of the gallery; None to make them when they are needed.
+        landmarks: of the gallery; None to build them on demand.
     """
 
     def __init__(
@@ -57,154 +57,162 @@ class Questions:
         cells: CellTable,
         landmarks: Landmarks | None = None,
     ) -> None:
-        asked = load_question_classes()
+        question_classes = load_question_classes()
         self._sights, self._words = sights, tuple(colour_words(palette))
         self._gazetteer, self._cells, self._landmarks = gazetteer, cells, landmarks
-        self._things = {label: n for n, label in enumerate(labels) if label in asked.things}
+        self._object_classes = {label: n for n, label in enumerate(labels) if label in question_classes.things}
         self._owning = np.flatnonzero(np.diff(sights.surroundings.cell_starts))  # cells that have nodes
 
     @cached_property
     def _names(self) -> OpenQuestions:
-        return OpenQuestions(self._landmarks or landmarks_of(self._gazetteer, self._cells))
+        return OpenQuestions(self._landmarks or build_landmarks(self._gazetteer, self._cells))
 
     @cached_property
-    def _middle(self) -> Ints:
-        """A node in the middle of each cell that has any."""
+    def _middle_nodes(self) -> Ints:
+        """Return a node in the middle of each cell that has nodes."""
         return self._sights.surroundings.middles(self._cells.center_m[:, :2].astype(np.float64))
 
     def answered(self, replies: Sequence[Reply]) -> Answered | None:
-        """What answers tell of positions; None if they tell nothing.
+        """Return the likelihood of the replies; None if they add nothing.
 
         Raises:
-            ReplyError: an answer is not to a question about this map.
+            ReplyError: a reply does not answer a question about this map.
         """
         if not replies:
             return None
         read = [self._read(number, reply) for number, reply in enumerate(replies)]
-        told = [(asked, column) for asked, column in read if column >= 0]
-        of_names = self._names.answered(replies)
-        if not told and of_names is None:
+        closed = [(spec, column) for spec, column in read if column >= 0]
+        name_log_p = self._names.answered(replies)
+        if not closed and name_log_p is None:
             return None
 
-        classes = sorted({self._things[asked.names[0]] for asked, _ in told})
+        classes = sorted({self._object_classes[spec.names[0]] for spec, _ in closed})
 
-        def at(nodes: Ints) -> Floats:
-            seen = self._sights.seen(nodes, classes)
-            chances = [with_errors(self._true(asked, seen))[:, column] for asked, column in told]
-            total = np.zeros(len(nodes)) if of_names is None else of_names[self._owner(nodes)]
+        def log_likelihood(nodes: Ints) -> Floats:
+            objects_seen = self._sights.seen(nodes, classes)
+            chances = [with_errors(self._truth(spec, objects_seen))[:, column] for spec, column in closed]
+            total = np.zeros(len(nodes)) if name_log_p is None else name_log_p[self._owner(nodes)]
             for chance in chances:
                 total = total + np.log(chance)
             return total
 
         cells = np.zeros(len(self._sights.surroundings.cell_starts) - 1)
-        cells[self._owning] = at(self._middle)
-        return Answered(cells, at)
+        cells[self._owning] = log_likelihood(self._middle_nodes)
+        return Answered(cells, log_likelihood)
 
     def _owner(self, nodes: Ints) -> Ints:
         return self._sights.surroundings.owner(nodes)
 
     @property
     def has_names(self) -> bool:
-        """Whether the map has streets or places whose names can be asked for."""
+        """Return whether the map has streets or places with names."""
         return self._names.has("street") or self._names.has("name")
 
-    def ask(self, located: Located, heard: Heard, replies: Sequence[Reply]) -> Question | None:
-        """The question whose answer narrows the cells most, by expected entropy; None if none is worth it."""
-        return self._ask(*self._places(located), heard, replies)
+    def ask(self, located: Located, known_facts: KnownFacts, replies: Sequence[Reply]) -> Question | None:
+        """Return the question that narrows the distribution most; None if none is worth asking."""
+        return self._ask(*self._likely_nodes(located), known_facts, replies)
 
-    def ask_anywhere(self, log_prior: Floats, heard: Heard, replies: Sequence[Reply]) -> Question | None:
-        """The same of a text that tells nothing.
+    def ask_anywhere(self, log_prior: Floats, known_facts: KnownFacts, replies: Sequence[Reply]) -> Question | None:
+        """Return the best question for a text that says nothing useful.
 
         Args:
-            log_prior: [N] of the cells, any constant; -inf where it cannot be.
-            heard: what the text says nonetheless.
-            replies: none of which tells anything.
+            log_prior: [N] of the cells, up to a constant; -inf outside the area.
+            known_facts: of the text.
+            replies: without information so far.
         """
         log_p = log_prior[self._owning]
         if not (log_p > -np.inf).any():
             return None
         chance = np.exp(log_p - log_p.max())
-        return self._ask(*_sampled(self._middle, chance / chance.sum(), NAMED_PLACES), heard, replies)
+        return self._ask(
+            *_sample_by_mass(self._middle_nodes, chance / chance.sum(), MAX_NODES_OF_NAMES), known_facts, replies
+        )
 
-    def _ask(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> Question | None:
-        """The best question about where one of some nodes [C], each in a cell of its own, may be; their mass is 1."""
-        if len(replies) >= MOST_REPLIES:
+    def _ask(self, nodes: Ints, mass: Floats, known_facts: KnownFacts, replies: Sequence[Reply]) -> Question | None:
+        """Return the best question for nodes [C], each in a cell of its own, with masses [C] that sum to 1."""
+        if len(replies) >= MAX_REPLIES:
             return None
-        gain = self._gain_of_things(*_sampled(nodes, mass, PLACES), heard, replies)
-        named = [asked for asked in heard.open(replies) if self._names.has(asked.kind)]
-        rows = {asked: self._names.rows(asked, self._owner(nodes), replies) for asked in named}
+        gain = self._object_question_gains(*_sample_by_mass(nodes, mass, MAX_NODES_OF_OBJECTS), known_facts, replies)
+        named = [spec for spec in known_facts.open_questions(replies) if self._names.has(spec.kind)]
+        rows = {spec: self._names.rows(spec, self._owner(nodes), replies) for spec in named}
         before = entropy(mass)
-        gain |= {asked: before - expected_entropy_of_names(mass, true, names) for asked, (true, names) in rows.items()}
-        best = max(gain, key=lambda asked: gain[asked] - EFFORT.get(asked.kind, 0.0), default=None)
-        if best is None or gain[best] < LEAST_GAIN:
+        gain |= {spec: before - expected_entropy_of_names(mass, true, names) for spec, (true, names) in rows.items()}
+        best = max(gain, key=lambda spec: gain[spec] - EFFORT_BITS.get(spec.kind, 0.0), default=None)
+        if best is None or gain[best] < MIN_GAIN_BITS:
             return None
-        return best.question(self._names.likeliest(best, mass @ rows[best][0]) if best.is_open else ())
+        return best.question(self._names.likeliest_names(best, mass @ rows[best][0]) if best.is_open else ())
 
-    def _places(self, located: Located) -> tuple[Ints, Floats]:
-        """[C] the heaviest node of each cell that is listed, and their probabilities, made to add up to 1."""
+    def _likely_nodes(self, located: Located) -> tuple[Ints, Floats]:
+        """Return the heaviest node [C] of each cell of the distribution, and the cells' normalized masses."""
         cell, weight = self._owner(located.points), located.weight
         best = heaviest(cell, weight)
         mass = np.add.reduceat(weight, np.flatnonzero(np.diff(cell, prepend=-1)))
         return located.points[best], mass / max(mass.sum(), 1e-300)
 
-    def _gain_of_things(self, nodes: Ints, mass: Floats, heard: Heard, replies: Sequence[Reply]) -> dict[Asked, float]:
-        """Bits that each closed question is expected to take away."""
-        seen = self._sights.seen(nodes, sorted(self._things.values()))
-        before = [asked for reply in replies if (asked := Asked.parse(reply.question)) is not None]
-        closed = [asked for asked in self._of_things(mass, seen, heard) if asked not in before]
-        chance = np.zeros((len(closed), len(nodes), LISTED + 1))
-        for n, asked in enumerate(closed):
-            found = with_errors(self._true(asked, seen))
-            chance[n, :, : found.shape[1]] = found
+    def _object_question_gains(
+        self, nodes: Ints, mass: Floats, known_facts: KnownFacts, replies: Sequence[Reply]
+    ) -> dict[QuestionSpec, float]:
+        """Return the expected gain in bits of each closed question."""
+        objects_seen = self._sights.seen(nodes, sorted(self._object_classes.values()))
+        before = [spec for reply in replies if (spec := QuestionSpec.parse(reply.question)) is not None]
+        specs = [spec for spec in self._object_questions(mass, objects_seen, known_facts) if spec not in before]
+        chance = np.zeros((len(specs), len(nodes), MAX_CHOICES + 1))
+        for n, spec in enumerate(specs):
+            true = with_errors(self._truth(spec, objects_seen))
+            chance[n, :, : true.shape[1]] = true
         gain = entropy(mass) - expected_entropy(mass, chance)
-        return dict(zip(closed, gain.tolist(), strict=True))
+        return dict(zip(specs, gain.tolist(), strict=True))
 
-    def _of_things(self, mass: Floats, seen: Seen, heard: Heard) -> list[Asked]:
-        """Classes that some of the likely places have around them."""
-        found = []
-        for label, number in self._things.items():
-            has = seen.share(number, mass)
-            if has < FAINT:
+    def _object_questions(self, mass: Floats, objects_seen: Seen, known_facts: KnownFacts) -> list[QuestionSpec]:
+        """Return the closed questions about classes near some of the likely nodes."""
+        specs = []
+        for label, number in self._object_classes.items():
+            has = objects_seen.share(number, mass)
+            if has < MIN_SHARE:
                 continue
-            if label not in heard.labels:
-                found.append(Asked("near", (label,)))
-            if label not in heard.winds and heard.has_winds:
-                found.append(Asked("way", (label,)))
-            if label not in heard.colours and has > 1 - FAINT:
-                share = seen.colours(number, mass)
-                colours = [self._words[n] for n in np.argsort(-share, kind="stable")[:LISTED] if share[n] >= FAINT]
+            if label not in known_facts.labels:
+                specs.append(QuestionSpec("near", (label,)))
+            if label not in known_facts.winds and known_facts.has_winds:
+                specs.append(QuestionSpec("way", (label,)))
+            if label not in known_facts.colours and has > 1 - MIN_SHARE:
+                share = objects_seen.colours(number, mass)
+                colours = [
+                    self._words[n] for n in np.argsort(-share, kind="stable")[:MAX_CHOICES] if share[n] >= MIN_SHARE
+                ]
                 if len(colours) > 1:
-                    found.append(Asked("colour", (label, *colours)))
-        return found
+                    specs.append(QuestionSpec("colour", (label, *colours)))
+        return specs
 
-    def _true(self, asked: Asked, seen: Seen) -> Floats:
-        """[M, K] chance that each answer of a closed question is the right one at what was seen from some nodes."""
-        number = self._things[asked.names[0]]
-        if asked.kind == "near":
-            return seen.is_near(number)
-        if asked.kind == "way":
-            return seen.quarter(number)
-        return seen.colour(number, np.array([self._words.index(word) for word in asked.names[1:]]))
+    def _truth(self, spec: QuestionSpec, objects_seen: Seen) -> Floats:
+        """Return the chance [M, K] that each reply to a closed question is true at the observed nodes [M]."""
+        number = self._object_classes[spec.names[0]]
+        if spec.kind == "near":
+            return objects_seen.is_near(number)
+        if spec.kind == "way":
+            return objects_seen.quarter(number)
+        return objects_seen.colour(number, np.array([self._words.index(word) for word in spec.names[1:]]))
 
-    def _read(self, number: int, reply: Reply) -> tuple[Asked, int]:
-        """The question of an answer, and which of its values was chosen; -1 for unknown, and for names."""
-        asked = Asked.parse(reply.question)
-        if asked is None or not self._knows(asked):
-            raise ReplyError(number, "question", "is no question about this map; send back the id of an answer's")
-        if asked.is_open or reply.choice == UNKNOWN:
-            return asked, -1
-        if reply.choice not in asked.values:
-            raise ReplyError(number, "choice", "is no choice of this question; send the value of one of its choices")
-        return asked, asked.values.index(reply.choice)
+    def _read(self, number: int, reply: Reply) -> tuple[QuestionSpec, int]:
+        """Return the question of a reply and the column of its choice; -1 for unknown and for names."""
+        spec = QuestionSpec.parse(reply.question)
+        if spec is None or not self._knows(spec):
+            raise ReplyError(
+                number, "question", "is not a question about this map; send back the id from the last answer"
+            )
+        if spec.is_open or reply.choice == UNKNOWN:
+            return spec, -1
+        if reply.choice not in spec.values:
+            raise ReplyError(number, "choice", "is not a choice of this question; send the value of one of its choices")
+        return spec, spec.values.index(reply.choice)
 
-    def _knows(self, asked: Asked) -> bool:
-        if asked.is_open:
-            return self._names.has(asked.kind)
-        return asked.names[0] in self._things and set(asked.names[1:]) <= set(self._words)
+    def _knows(self, spec: QuestionSpec) -> bool:
+        if spec.is_open:
+            return self._names.has(spec.kind)
+        return spec.names[0] in self._object_classes and set(spec.names[1:]) <= set(self._words)
 
 
-def _sampled(nodes: Ints, mass: Floats, count: int) -> tuple[Ints, Floats]:
-    """At most so many of some nodes [C], each for the same share of the mass but where it is all of them."""
+def _sample_by_mass(nodes: Ints, mass: Floats, count: int) -> tuple[Ints, Floats]:
+    """Reduce nodes [C] to at most `count`, each with the same share of the mass."""
     if len(nodes) <= count:
         return nodes, mass
     share = (np.arange(count) + 0.5) / count

@@ -11,8 +11,8 @@ from index.build.artifact import check_store, open_version
 from index.build.manifest import StoreName, check_model, fingerprint
 from index.build.publish import Publisher, save_names
 from index.build.shard import Shard
-from index.build.shard_data import Part, writing
-from index.build.shard_store import Origin, Parts
+from index.build.shard_data import ShardData, explain_write_errors
+from index.build.shard_store import Origin, ShardStore
 from models.citymap.cells import CELLS_PER_BLOCK
 from models.citymap.types import Progress
 from models.errors import IndexUnusable
@@ -39,17 +39,17 @@ def build_index(
     store: StoreName = "faiss",
     within: Region | None = None,
 ) -> Path:
-    """Build an index version of a map and let the alias "default" name it; as `IndexJob.build`."""
+    """Build an index version of a map and point the alias "default" to it; as `IndexJob.build`."""
     job = IndexJob(map_path, out_dir, weights_dir, split, keep_current, levels, store, within)
-    return job.build(progress or silent)
+    return job.build(progress or no_progress)
 
 
-def silent(_stage: str, _done: int, _total: int) -> None:
-    """Progress of which nobody wants to know."""
+def no_progress(_stage: str, _done: int, _total: int) -> None:
+    """Ignore a progress report."""
 
 
-class _Ready(NamedTuple):
-    """What every piece of the work begins with."""
+class _LoadedModels(NamedTuple):
+    """The models and the map's fingerprint, needed by every step."""
 
     retriever: Retriever
     posterior: PosteriorModel
@@ -58,19 +58,19 @@ class _Ready(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class IndexJob:
-    """A map that is to be indexed: at once (`build`), or in shards (`make_part` of each, anywhere, then `merge`).
+    """The indexing of one map: in one process (`build`), or in shards (`make_shard` for each, then `merge`).
 
-    Both ways give the same bytes, on processors of one kind.
+    Both ways give the same bytes on the same kind of processor.
 
     Attributes:
         map_path: as `models.sources.source.open_sources`.
-        out_dir: index directory; older versions in it are kept.
-        weights_dir: the retriever's weights; None for those that ship with the package.
+        out_dir: the index directory; older versions in it are kept.
+        weights_dir: the retriever's weights; None for the weights in the package.
         split: as `models.sources.source.open_sources`.
-        keep_current: build nothing if the default version is of this map and this model.
-        levels: keep the retriever's other levels too: any `refine` but the default ranks by them.
-        store: where the vectors go: a file of the version, or the Milvus that HEREABOUTS_MILVUS_URI names.
-        within: the part of an OpenStreetMap file that is wanted; None for all of it.
+        keep_current: build nothing if the default version was built from this map by this model.
+        levels: also store the retriever's other levels, which every `refine` but the default ranks by.
+        store: where the vectors go: a file, or the Milvus server that HEREABOUTS_MILVUS_URI names.
+        within: the region of an OpenStreetMap file to index; None for all of it.
     """
 
     map_path: Path
@@ -82,7 +82,7 @@ class IndexJob:
     store: StoreName = "faiss"
     within: Region | None = None
 
-    def build(self, report: Progress = silent) -> Path:
+    def build(self, report: Progress = no_progress) -> Path:
         """Build a version in this process.
 
         Args:
@@ -92,134 +92,134 @@ class IndexJob:
             The version's directory.
 
         Raises:
-            MapError, DataError: the map cannot be read or cut, or the index cannot be written; what is there stays.
+            MapError, DataError: the map cannot be read or cut, or the index cannot be written; older versions stay.
             WeightsError: a model cannot be loaded.
-            StoreUnavailable: Milvus does not take the vectors; nothing is left there.
+            StoreUnavailable: Milvus does not accept the vectors; nothing is left there.
         """
-        ready = self._ready(report)
-        if current := self._current(ready):
+        models = self._load_models(report)
+        if current := self._current_version(models):
             return current
         with (
-            self._room(),
-            scratch() as named,
-            self._map(report) as path,
-            forked(partial(save_names, path, named)) as names,
+            self._working_directory(),
+            scratch() as names_directory,
+            self._map_file(report) as path,
+            forked(partial(save_names, path, names_directory)) as names,
         ):
             source = open_source(path, self.split, report)
             surroundings = build_neighbour_index(source.geometry(), source.data.cells, report)
             rows = range(len(source.data.cells))
-            encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source, surroundings, rows, report)
-            return self._publisher(ready).publish(source, [part], surroundings, names, report)
+            encoder, likelihood = self._encoder(models), models.posterior.likelihood
+            shard_data = ShardData.build(encoder, likelihood, source, surroundings, rows, report)
+            return self._publisher(models).publish(source, [shard_data], surroundings, names, report)
 
-    def make_part(self, shard: Shard, report: Progress = silent) -> Path:
-        """Make the part of a shard, if it is not there; arguments and errors as `build`.
+    def make_shard(self, shard: Shard, report: Progress = no_progress) -> Path:
+        """Make the data of a shard unless it exists; arguments and errors as `build`.
 
         Returns:
-            Its directory.
+            The directory of its data.
         """
-        ready = self._ready(report)
-        parts = self._parts(ready)
-        if parts.fault(shard) is None:
-            return parts.path(shard)
-        with writing(self.out_dir):
-            parts.claim()
-        with self._room(), self._map(report) as path:
+        models = self._load_models(report)
+        shards = self._shard_store(models)
+        if shards.fault(shard) is None:
+            return shards.path(shard)
+        with explain_write_errors(self.out_dir):
+            shards.check_writable()
+        with self._working_directory(), self._map_file(report) as path:
             source = open_source(path, self.split, report)
             count = len(source.data.cells)
             rows = shard.rows(count, CELLS_PER_BLOCK)
             surroundings = build_neighbour_index(source.geometry(), source.data.cells, report, rows)
-            encoder, likelihood = self._encoder(ready), ready.posterior.likelihood
-            part = Part.of(encoder, likelihood, source, surroundings, rows, report)
+            encoder, likelihood = self._encoder(models), models.posterior.likelihood
+            shard_data = ShardData.build(encoder, likelihood, source, surroundings, rows, report)
             report("write part", 0, 0)
-            with writing(self.out_dir):
-                parts.write(shard, part, rows, count)
-        return parts.path(shard)
+            with explain_write_errors(self.out_dir):
+                shards.write(shard, shard_data, rows, count)
+        return shards.path(shard)
 
-    def merge(self, count: int, report: Progress = silent) -> Path:
-        """Build a version of the parts of so many shards, and remove these; arguments and errors as `build`.
+    def merge(self, count: int, report: Progress = no_progress) -> Path:
+        """Build a version from the data of `count` shards, and remove that data; arguments and errors as `build`.
 
         Raises:
-            IndexBroken: parts are missing, damaged, or of another map or model; nothing is removed.
+            IndexBroken: data of shards is missing, damaged, or of another map or model; nothing is removed.
         """
-        ready = self._ready(report)
-        parts = self._parts(ready)
-        version = self._current(ready)
+        models = self._load_models(report)
+        shards = self._shard_store(models)
+        version = self._current_version(models)
         if version is None:
             report("check parts", 0, 0)
-            parts.check(count)
-            with self._room(), scratch() as named, self._map(report) as path:
+            shards.check(count)
+            with self._working_directory(), scratch() as names_directory, self._map_file(report) as path:
                 source = open_source(path, self.split, report)
-                made = parts.read(count, self._encoder(ready).levels, source.data.cells)
-                scanned = [part.scanned for part in made if part.scanned is not None]
+                shards_data = shards.read(count, self._encoder(models).levels, source.data.cells)
+                scanned = [shard_data.scanned for shard_data in shards_data if shard_data.scanned is not None]
                 surroundings = (
                     ScanNeighbourIndex.joined(scanned)
                     if scanned
                     else build_neighbour_index(source.geometry(), source.data.cells)
                 )
-                names = partial(save_names, path, named)
-                version = self._publisher(ready).publish(source, made, surroundings, names, report)
-        parts.remove()
+                names = partial(save_names, path, names_directory)
+                version = self._publisher(models).publish(source, shards_data, surroundings, names, report)
+        shards.remove()
         return version
 
-    def current(self) -> Path | None:
-        """The default version's directory if nothing has to be built; None also unless `keep_current`."""
-        return self._current(self._ready(silent)) if self.keep_current else None
+    def current_version(self) -> Path | None:
+        """Return the default version's directory if it is up to date; None without `keep_current`."""
+        return self._current_version(self._load_models(no_progress)) if self.keep_current else None
 
-    def _ready(self, report: Progress) -> _Ready:
+    def _load_models(self, report: Progress) -> _LoadedModels:
         report("load model", 0, 0)
         region = None if self.within is None else self.within.shape.wkt
-        return _Ready(
+        return _LoadedModels(
             load_retriever(self.weights_dir), load_posterior(), fingerprint(self.map_path, self.split, region)
         )
 
-    def _encoder(self, ready: _Ready) -> Retriever:
-        """The model that makes the levels that are wanted."""
-        return ready.retriever if self.levels else ready.retriever.global_only()
+    def _encoder(self, models: _LoadedModels) -> Retriever:
+        """Return the retriever, reduced to its global level unless all levels are wanted."""
+        return models.retriever if self.levels else models.retriever.global_only()
 
-    def _parts(self, ready: _Ready) -> Parts:
+    def _shard_store(self, models: _LoadedModels) -> ShardStore:
         origin = Origin(
-            map_sha256=ready.map_sha256,
-            model_fingerprint=ready.retriever.fingerprint,
-            posterior_fingerprint=ready.posterior.fingerprint,
-            levels=self._encoder(ready).levels != ("global",),
+            map_sha256=models.map_sha256,
+            model_fingerprint=models.retriever.fingerprint,
+            posterior_fingerprint=models.posterior.fingerprint,
+            levels=self._encoder(models).levels != ("global",),
         )
-        return Parts(self.out_dir, origin)
+        return ShardStore(self.out_dir, origin)
 
-    def _publisher(self, ready: _Ready) -> Publisher:
-        of_models = ready.retriever, ready.posterior.fingerprint
-        return Publisher(self.out_dir, *of_models, ready.map_sha256, self.store)
+    def _publisher(self, models: _LoadedModels) -> Publisher:
+        models_used = models.retriever, models.posterior.fingerprint
+        return Publisher(self.out_dir, *models_used, models.map_sha256, self.store)
 
     @contextmanager
-    def _room(self) -> Iterator[None]:
-        """The index directory, where what is made meanwhile lies; if nothing comes of it, it is not there either."""
-        with writing(self.out_dir):
+    def _working_directory(self) -> Iterator[None]:
+        """Create the index directory for temporary files; remove it again if it stays empty."""
+        with explain_write_errors(self.out_dir):
             self.out_dir.mkdir(parents=True, exist_ok=True)
         try:
             with spooling_in(self.out_dir):
                 yield
         finally:
-            with suppress(OSError):  # there is something in it
+            with suppress(OSError):  # it is not empty
                 self.out_dir.rmdir()
 
     @contextmanager
-    def _map(self, report: Progress) -> Iterator[Path]:
-        """The map's file, of the region that is wanted, until the block ends."""
+    def _map_file(self, report: Progress) -> Iterator[Path]:
+        """Yield the path of the map, cut to the region if one is given."""
         if self.within is not None:
             report("take the region", 0, 0)
         with extracted_file(self.map_path, self.within) as path:
             yield path
 
-    def _current(self, ready: _Ready) -> Path | None:
-        """The default version's directory if it is kept, whole, of this map, model and store, with levels if wanted."""
+    def _current_version(self, models: _LoadedModels) -> Path | None:
+        """Return the default version's directory if it has this map, model, store and levels; else None."""
         if not self.keep_current:
             return None
         try:
             directory, manifest = open_version(self.out_dir)
-            check_model(manifest, ready.retriever.fingerprint)
+            check_model(manifest, models.retriever.fingerprint)
             check_store(manifest)
         except IndexUnusable:
             return None
-        is_rich = STARTS_FILE in manifest.files or ready.retriever.levels == ("global",) or not self.levels
-        is_same = manifest.store == self.store and manifest.map_sha256 == ready.map_sha256
+        is_rich = STARTS_FILE in manifest.files or models.retriever.levels == ("global",) or not self.levels
+        is_same = manifest.store == self.store and manifest.map_sha256 == models.map_sha256
         return directory if is_rich and is_same else None

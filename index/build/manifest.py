@@ -1,4 +1,4 @@
-"""What an index version says of itself, and whether it is true: its manifest, written last."""
+"""The manifest of an index version, written last, and the checks against it."""
 
 import hashlib
 from datetime import UTC, datetime
@@ -25,18 +25,18 @@ from models.sources.store.layout import MANIFEST as STORE_MANIFEST
 MANIFEST: Final = "manifest.json"
 FORMAT: Final = 10
 ADVICE: Final = "build it with 'hereabouts index --map MAP --out DIR'"
-NEEDED: Final = frozenset(
+REQUIRED_FILES: Final = frozenset(
     {"vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "gazetteer.safetensors"}
 )
 
-NAME: Final = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,127}$"  # of an alias, version or file
-Name = Annotated[str, StringConstraints(pattern=NAME)]
+NAME_PATTERN: Final = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,127}$"  # of aliases, versions and files
+Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN)]
 StoreName = Literal["faiss", "milvus"]
 Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
 
 
 class FrameRecord(BaseModel):
-    """The map's frame; see models.citymap.frame.Frame."""
+    """The map's frame, as models.citymap.frame.Frame."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -47,19 +47,19 @@ class FrameRecord(BaseModel):
 
 
 class Manifest(BaseModel):
-    """What an index version holds and what made it.
+    """The content and origin of an index version.
 
     Attributes:
         format: of the directory.
-        version: name of the directory.
+        version: the name of the directory.
         created: UTC, ISO 8601.
-        software: version of hereabouts.
-        map_name, map_sha256, attribution: of the source; the sha256 is of the map's file.
+        software: the version of hereabouts.
+        map_name, map_sha256, attribution: of the source; the sha256 is its `fingerprint`.
         frame, palette, cell_size_m, grid_m: of the city map and its cells.
-        model: what the retriever's text encoder is and how wide its vectors are.
-        model_fingerprint: sha256 of all its weights.
+        model: the retriever's name, with its text encoder and width.
+        model_fingerprint: sha256 of all weights of the retriever.
         dim, metric, cells, instances: of the vectors.
-        store, collection: where the vectors are: in a file, or in Milvus, in this collection.
+        store, collection: where the vectors are: in a file, or in this collection of Milvus.
         files: every other file.
     """
 
@@ -89,28 +89,28 @@ class Manifest(BaseModel):
     @model_validator(mode="after")
     def _store_is_named(self) -> Self:
         if (self.store == "milvus") != (self.collection is not None):
-            raise ValueError("collection belongs to store milvus, and to no other")
+            raise ValueError("collection must be given with store milvus, and with no other store")
         return self
 
 
 class FormatOnly(BaseModel):
-    """What is read of a manifest first, whatever else is in it."""
+    """The format number, read before the rest of a manifest."""
 
     format: int
 
 
 def fingerprint(data: Path, split: str | None = None, region: str | None = None) -> str:
-    """sha256 of what a map is read from; of a part of it, with what says which.
+    """Return the sha256 of a map's files, its split and its region.
 
     Raises:
-        DataError: there is nothing to read.
+        DataError: the path does not exist.
     """
     if not data.exists():
         raise DataError(f"{data}: no such file or directory; give the path of a map")
     if data.is_file():
         files = [data]
     elif (data / STORE_MANIFEST).is_file():
-        files = [data / STORE_MANIFEST]  # has the sums of all others
+        files = [data / STORE_MANIFEST]  # contains the sums of all other files
     else:
         files = [data / "cells" / f"{s}.pkl" for s in select_scenes(list_scenes(data), split, data / "cells")]
     parts = [f"{split}", *([region] if region else []), *(f"{path.name} {sha256(path)}" for path in files)]
@@ -118,7 +118,7 @@ def fingerprint(data: Path, split: str | None = None, region: str | None = None)
 
 
 def new_version(map_sha256: str, model_fingerprint: str) -> dict[str, str]:
-    """The manifest's fields that name a version and its origin."""
+    """Return the manifest's fields that name a new version and its origin."""
     now = datetime.now(UTC)
     digest = hashlib.sha256((map_sha256 + model_fingerprint).encode()).hexdigest()
     return {
@@ -143,7 +143,7 @@ def read_manifest(directory: Path, expected: str | None = None) -> Manifest:
         expected: the manifest's sha256, if the version is registered.
 
     Raises:
-        IndexBroken: it is missing, not what was registered, or says what no manifest says.
+        IndexBroken: the manifest is missing, invalid, or not the registered one.
     """
     path = directory / MANIFEST
     try:
@@ -164,15 +164,15 @@ def read_manifest(directory: Path, expected: str | None = None) -> Manifest:
         field = ".".join(map(str, wrong["loc"])) or "manifest"
         raise IndexBroken(f"{path} is broken: {field}: {wrong['msg']}; {ADVICE}") from error
     if manifest.version != directory.name:
-        raise IndexBroken(f"{path} is of version {manifest.version}; give its directory that name, or {ADVICE}")
-    needed = NEEDED - {"vectors.faiss"} if manifest.store == "milvus" else NEEDED
+        raise IndexBroken(f"{path} belongs to version {manifest.version}; rename its directory to that, or {ADVICE}")
+    needed = REQUIRED_FILES - {"vectors.faiss"} if manifest.store == "milvus" else REQUIRED_FILES
     if missing := needed - set(manifest.files):
         raise IndexBroken(f"{path} names no {', '.join(sorted(missing))}; {ADVICE}")
     return manifest
 
 
 def check_files(directory: Path, manifest: Manifest) -> None:
-    """Look whether a version's files are there, as long as its manifest says; takes no time.
+    """Check that a version's files exist and have the recorded sizes; takes no time.
 
     Raises:
         IndexBroken: one is missing or incomplete.
@@ -184,26 +184,26 @@ def check_files(directory: Path, manifest: Manifest) -> None:
 
 
 def check_sums(directory: Path, manifest: Manifest) -> None:
-    """Read a version's files, which are there, and compare their sums with its manifest; takes a second a gigabyte.
+    """Compare the sha256 of a version's files with its manifest; takes about a second per gigabyte.
 
     Raises:
-        IndexBroken: one was changed, or the disk does not give it.
+        IndexBroken: a file was changed or cannot be read.
     """
     for name, record in manifest.files.items():
         file = directory / name
         try:
             is_whole = sha256(file) == record.sha256
         except OSError as error:
-            raise IndexBroken(f"{file} cannot be read ({error.strerror}); see to its disk, or {ADVICE}") from error
+            raise IndexBroken(f"{file} cannot be read ({error.strerror}); check its disk, or {ADVICE}") from error
         if not is_whole:
             raise IndexBroken(f"{file} was changed after it was written; {ADVICE}")
 
 
 def check_model(manifest: Manifest, fingerprint: str) -> None:
-    """Refuse an index that another model built.
+    """Check that an index was built by the given model.
 
     Raises:
-        IndexMismatch: the weights differ, however alike the models are.
+        IndexMismatch: the weights differ.
     """
     if manifest.model_fingerprint != fingerprint:
         raise IndexMismatch(

@@ -1,4 +1,4 @@
-"""The last step of the offline job: parts, and what is cheap beside them, become a version that the alias names."""
+"""The last step of the offline job: write a version directory and point the alias to it."""
 
 import shutil
 from collections.abc import Callable, Iterator, Sequence
@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from index.answering.hint_features import save_hint_features, template_hints
-from index.answering.meanings import Meanings, meanings_of
-from index.asking.questions import landmarks_of
+from index.answering.meanings import Meanings, embed_phrases
+from index.asking.questions import build_landmarks
 from index.build.artifact import set_alias
 from index.build.manifest import FrameRecord, Manifest, StoreName, new_version, write_manifest
-from index.build.shard_data import Part, writing
+from index.build.shard_data import ShardData, explain_write_errors
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_store import MilvusStore
 from index.stores.opening import VECTORS_FILE
@@ -37,12 +37,12 @@ from models.spool import forget, spooled
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Publisher:
-    """Makes versions.
+    """Writes index versions.
 
     Attributes:
         out_dir: the index directory.
-        retriever: that made the parts.
-        posterior_fingerprint: of the model that made their statements.
+        retriever: the model that made the vectors.
+        posterior_fingerprint: of the model that made the statements.
         map_sha256: of the map.
         store: where the vectors go.
     """
@@ -56,57 +56,59 @@ class Publisher:
     def publish(
         self,
         source: Source,
-        parts: Sequence[Part],
+        parts: Sequence[ShardData],
         surroundings: NeighbourIndex,
         names: Callable[[], Path],
         report: Progress,
     ) -> Path:
-        """Write a version and let the alias "default" name it.
+        """Write a version and point the alias "default" to it.
 
         Args:
             source: the map.
-            parts: of all its cells, in order.
-            surroundings: of all its cells.
-            names: waits for `save_names` of the map.
+            parts: the data of all cells, in order.
+            surroundings: of all cells.
+            names: waits for `save_names` and returns its directory.
             report: called as the work goes on.
 
         Returns:
             The version's directory.
 
         Raises:
-            DataError: it cannot be written; what is there stays.
-            StoreUnavailable: Milvus does not take the vectors; nothing is left there.
+            DataError: the version cannot be written; older versions stay.
+            StoreUnavailable: Milvus does not accept the vectors; nothing is left there.
         """
         data, origin = source.data, new_version(self.map_sha256, self.retriever.fingerprint)
         report("read names", 0, 0)
-        with writing(self.out_dir):
-            named = names()
+        with explain_write_errors(self.out_dir):
+            names_directory = names()
         report("write index", 0, 0)
         give_back()
-        some = ({"vectors": part.vectors} for part in parts)
-        vectors = parts[0].vectors if len(parts) == 1 else spooled(some)["vectors"]
+        columns = ({"vectors": part.vectors} for part in parts)
+        vectors = parts[0].vectors if len(parts) == 1 else spooled(columns)["vectors"]
         with (
-            writing(self.out_dir),
-            _in_milvus(origin["version"], vectors, data) if self.store == "milvus" else nullcontext() as collection,
+            explain_write_errors(self.out_dir),
+            _milvus_collection(origin["version"], vectors, data)
+            if self.store == "milvus"
+            else nullcontext() as collection,
             new_directory(self.out_dir / origin["version"]) as directory,
         ):
             if collection is None:
-                FaissStore.of(vectors).save(directory / VECTORS_FILE)
+                FaissStore.from_vectors(vectors).save(directory / VECTORS_FILE)
             forget([vectors])
             self._save_parts(directory, parts, data, surroundings)
             give_back()
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)
             surroundings.forget()
-            for file in named.iterdir():
+            for file in names_directory.iterdir():
                 shutil.move(file, directory)
             gazetteer = Gazetteer.load(directory)
-            landmarks_of(gazetteer, data.cells).save(directory)
+            build_landmarks(gazetteer, data.cells).save(directory)
             give_back()
             save_scenery(directory, source.scenery(gazetteer))
             manifest = Manifest(
                 **origin,
-                **_describe(data),
+                **_map_fields(data),
                 model=self.retriever.name,
                 dim=vectors.shape[1],
                 store=self.store,
@@ -114,12 +116,14 @@ class Publisher:
                 files=file_records(directory),
             )
             write_manifest(directory, manifest)
-        with writing(self.out_dir):
+        with explain_write_errors(self.out_dir):
             set_alias(self.out_dir, "default", manifest.version)
         return self.out_dir / manifest.version
 
-    def _save_parts(self, directory: Path, parts: Sequence[Part], data: MapData, surroundings: NeighbourIndex) -> None:
-        """Write what the parts are joined to, but for the vectors, and what is said of them."""
+    def _save_parts(
+        self, directory: Path, parts: Sequence[ShardData], data: MapData, surroundings: NeighbourIndex
+    ) -> None:
+        """Write the levels, hint features and statements of all shards."""
         levels = LevelTable.concatenate([part.levels for part in parts])
         if not levels.is_empty:
             levels.save(directory)
@@ -132,27 +136,27 @@ class Publisher:
 
 
 def save_names(path: Path, directory: Path) -> Path:
-    """Write what a map names, what that is found by, and what it means, into a directory, which is returned."""
+    """Write the gazetteer of a map, its name table and the vectors of its phrases, and return the directory."""
     open_gazetteer(path).save(directory)
     give_back()
     gazetteer, vocabulary, encoder = Gazetteer.load(directory), load_vocabulary(), load_text_encoder()
     table = NameTable.from_gazetteer(gazetteer, vocabulary, encoder.is_everyday)
     table.save(directory)
     phrases = Lookup(gazetteer, vocabulary, encoder.is_everyday, table).phrases()
-    Meanings.of(*meanings_of(phrases, encoder.embed), encoder.embed).save(directory)
+    Meanings.from_vectors(*embed_phrases(phrases, encoder.embed), encoder.embed).save(directory)
     return directory
 
 
 @contextmanager
-def _in_milvus(version: str, vectors: Floats, data: MapData) -> Iterator[str]:
-    """The collection of a version, which stays if the block ends well."""
+def _milvus_collection(version: str, vectors: Floats, data: MapData) -> Iterator[str]:
+    """Write a Milvus collection and yield its name; the collection is dropped if the block raises."""
     centers_m = data.cells.center_m[:, :2]
-    with MilvusStore.written(version, vectors, centers_m, data.cells.scenes) as written, closing(written):
+    with MilvusStore.create(version, vectors, centers_m, data.cells.scenes) as written, closing(written):
         yield written.collection
 
 
-def _describe(data: MapData) -> dict[str, object]:
-    """The manifest's fields that say what was indexed."""
+def _map_fields(data: MapData) -> dict[str, object]:
+    """Return the manifest's fields that describe the map."""
     return {
         "map_name": data.name,
         "attribution": data.attribution,

@@ -1,30 +1,30 @@
-"""The shards of an index as tasks of a Ray cluster, an extra: pip install 'hereabouts[ray]'."""
+"""The shards of an index as tasks of a Ray cluster; needs the extra: pip install 'hereabouts[ray]'."""
 
 import socket
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from index.build.build import IndexJob, silent
+from index.build.build import IndexJob, no_progress
 from index.build.shard import Shard
 from models.citymap.types import Progress
 from models.errors import ClusterUnavailable, DataError, HereaboutsError
 from models.processes import one_process
 
-KNOCK_S: Final = 5.0
-AGAIN: Final = "give the same command again: what shards have done is kept"
+CONNECT_TIMEOUT_S: Final = 5.0
+RETRY_ADVICE: Final = "repeat the command: finished shards are kept"
 
 
-def build_on_ray(job: IndexJob, count: int | None, address: str | None, report: Progress = silent) -> Path:
-    """Build an index whose shards are made in a cluster; the last step is made here.
+def build_on_ray(job: IndexJob, count: int | None, address: str | None, report: Progress = no_progress) -> Path:
+    """Build an index whose shards are made in a Ray cluster; the merge runs on this machine.
 
-    Every machine of the cluster has this version of hereabouts, the map and the weights under the same paths, and the
-    same index directory (NFS, CephFS). A shard takes a CPU.
+    Every machine needs this version of hereabouts, the map and the weights under the same paths, and the shared index
+    directory (NFS, CephFS). A shard uses one CPU.
 
     Args:
-        job: the map, and how.
-        count: how many shards; None for as many as the cluster has CPUs.
-        address: of the cluster; None for the one that this machine belongs to.
+        job: the map and its options.
+        count: number of shards; None for the number of CPUs in the cluster.
+        address: of the cluster; None for the cluster of this machine.
         report: called as the work goes on.
 
     Returns:
@@ -37,40 +37,40 @@ def build_on_ray(job: IndexJob, count: int | None, address: str | None, report: 
     try:
         import ray  # noqa: PLC0415  # an extra, which few have
     except ImportError as error:
-        raise ClusterUnavailable("--engine ray takes Ray: pip install 'hereabouts[ray]'") from error
-    if current := job.current():
+        raise ClusterUnavailable("--engine ray needs Ray: pip install 'hereabouts[ray]'") from error
+    if current := job.current_version():
         return current
     weights_dir = job.weights_dir and job.weights_dir.resolve()
     job = replace(job, map_path=job.map_path.resolve(), out_dir=job.out_dir.resolve(), weights_dir=weights_dir)
     report("find the cluster", 0, 0)
     try:
-        _knock(address)
+        _check_reachable(address)
         ray.init(address=address or "auto", log_to_driver=False)
     except (ray.exceptions.RayError, OSError, ValueError, RuntimeError, ImportError) as error:
-        where = f"at {address}" if address else "that this machine belongs to"
+        where = f"at {address}" if address else "on this machine"
         raise ClusterUnavailable(f"no Ray cluster {where} ({error}); start one with: ray start --head") from error
     try:
         count = count or max(1, int(ray.cluster_resources().get("CPU", 1)))
-        _make_parts(ray, job, count, report)
+        _make_shards(ray, job, count, report)
     finally:
         ray.shutdown()
     return job.merge(count, report)
 
 
-def _knock(address: str | None) -> None:
-    """Fail within seconds where nothing listens, of which Ray itself makes minutes and ends the process.
+def _check_reachable(address: str | None) -> None:
+    """Fail within seconds if nothing listens at the address; Ray itself would wait for minutes.
 
     Raises:
-        OSError: nothing does.
+        OSError: nothing listens.
     """
     host, colon, port = (address or "").removeprefix("ray://").partition(":")
     if colon and port.isdigit():
-        socket.create_connection((host, int(port)), KNOCK_S).close()
+        socket.create_connection((host, int(port)), CONNECT_TIMEOUT_S).close()
 
 
-def _make_parts(ray: Any, job: IndexJob, count: int, report: Progress) -> None:
-    """Have all parts made; those of other shards stay if one cannot be."""
-    make = ray.remote(_make_part).options(num_cpus=1)
+def _make_shards(ray: Any, job: IndexJob, count: int, report: Progress) -> None:
+    """Make the data of all shards; if one fails, the data of the others stays."""
+    make = ray.remote(_make_shard).options(num_cpus=1)
     waiting = [make.remote(job, shard) for shard in Shard.all(count)]
     try:
         while waiting:
@@ -78,16 +78,16 @@ def _make_parts(ray: Any, job: IndexJob, count: int, report: Progress) -> None:
             [done], waiting = ray.wait(waiting)
             path = ray.get(done)
             if not path.exists():
-                raise DataError(f"{path} was made and is not here: all machines must have {job.out_dir} in common")
+                raise DataError(f"{path} was made but is not visible here: all machines must share {job.out_dir}")
     except ray.exceptions.RayTaskError as error:
         if isinstance(error.cause, HereaboutsError):
             raise error.cause from None
         raise
     except ray.exceptions.RayError as error:
-        raise ClusterUnavailable(f"Ray lost a shard ({error}); {AGAIN}") from error
+        raise ClusterUnavailable(f"Ray lost a shard ({error}); {RETRY_ADVICE}") from error
 
 
-def _make_part(job: IndexJob, shard: Shard) -> Path:
-    """What a worker does."""
+def _make_shard(job: IndexJob, shard: Shard) -> Path:
+    """Make the data of one shard in a worker."""
     with one_process():
-        return job.make_part(shard)
+        return job.make_shard(shard)

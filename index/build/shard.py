@@ -1,11 +1,11 @@
-"""One of the shards into which the cells of a map are shared out, so that several machines make an index."""
+"""The shards of a map's cells, which several machines can index in parallel."""
 
 import re
 from dataclasses import dataclass
 from typing import Final
 
-FORM: Final = re.compile(r"([1-9]\d{0,4})/([1-9]\d{0,4})", re.ASCII)
-MOST_SHARDS: Final = 99_999
+SHARD_PATTERN: Final = re.compile(r"([1-9]\d{0,4})/([1-9]\d{0,4})", re.ASCII)
+MAX_SHARDS: Final = 99_999
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,8 +13,8 @@ class Shard:
     """A shard of a map's cells.
 
     Attributes:
-        number: which, from 1.
-        count: of how many.
+        number: from 1.
+        count: the number of shards.
     """
 
     number: int
@@ -22,32 +22,32 @@ class Shard:
 
     @classmethod
     def parse(cls, text: str) -> "Shard":
-        """A shard from "2/8".
+        """Parse "2/8".
 
         Raises:
-            ValueError: there is no such shard.
+            ValueError: the text is not a shard.
         """
-        found = FORM.fullmatch(text)
-        if not found or int(found[1]) > int(found[2]):
-            raise ValueError(f"'{text[:40]}' is no shard: give which, from 1, and of how many, as 1/8 or 8/8")
-        return cls(int(found[1]), int(found[2]))
+        match = SHARD_PATTERN.fullmatch(text)
+        if not match or int(match[1]) > int(match[2]):
+            raise ValueError(f"'{text[:40]}' is not a shard; expected I/N with I from 1 to N, such as 1/8")
+        return cls(int(match[1]), int(match[2]))
 
     @classmethod
     def all(cls, count: int) -> list["Shard"]:
-        """All of so many."""
+        """Return all shards of a count."""
         return [cls(number, count) for number in range(1, count + 1)]
 
     @property
     def name(self) -> str:
-        """As a directory is called."""
+        """Return the name of the shard's directory."""
         return f"{self.number}-of-{self.count}"
 
     def rows(self, cells: int, block: int) -> range:
-        """Its cells, some whole blocks of so many cells; none where there are more shards than blocks.
+        """Return the rows of the shard's cells: whole blocks, or none if there are more shards than blocks.
 
         Args:
-            cells: of the map.
-            block: cells of a block; the last may have fewer.
+            cells: number of cells of the map.
+            block: cells per block; the last block may have fewer.
         """
         blocks = -(-cells // block)
         ends = (blocks * n // self.count * block for n in (self.number - 1, self.number))

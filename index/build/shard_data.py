@@ -1,4 +1,4 @@
-"""What is heavy to make of some cells of a map: a whole index is made of one part or of several, to the same bytes."""
+"""The expensive data of some cells of a map; an index built from one shard or from many has the same bytes."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -34,18 +34,18 @@ from models.spool import forget, spooled
 
 FILE: Final = "part.safetensors"
 COLUMNS: Final = ("starts", "statement", "holds", "vectors")
-AT_ONCE: Final = 32 * CELLS_PER_BLOCK  # cells
+CELLS_PER_SPAN: Final = 32 * CELLS_PER_BLOCK  # bounds the memory of the features
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Part:
-    """C cells of a map, one after the other.
+class ShardData:
+    """The data of C consecutive cells of a map.
 
     Attributes:
         vectors: [C, D] float32, the global level.
-        levels: the others, if there are any.
-        rows: of `statement_rows`.
-        scanned: what lies around them, of a scan; None of a map of pieces, which finds that when it is asked for.
+        levels: the other levels, possibly empty.
+        rows: the result of `statement_rows`.
+        scanned: the neighbour index of a scan; None for a map of pieces, which computes neighbours on demand.
     """
 
     vectors: Floats
@@ -54,7 +54,7 @@ class Part:
     scanned: ScanNeighbourIndex | None
 
     @classmethod
-    def of(
+    def build(
         cls,
         retriever: Retriever,
         likelihood: Likelihood,
@@ -62,36 +62,36 @@ class Part:
         surroundings: NeighbourIndex,
         rows: range,
         report: Progress,
-    ) -> "Part":
-        """Make the part of some cells; what no index is made of, and what surroundings can cut again, is let go of.
+    ) -> "ShardData":
+        """Compute the data of some cells, and free the map data that later steps do not need.
 
         Args:
-            retriever: makes the vectors, of all its levels.
-            likelihood: makes the statements.
+            retriever: encodes the vectors, at all its levels.
+            likelihood: tabulates the statements.
             source: the whole map.
             surroundings: of these cells.
-            rows: which they are.
+            rows: of these cells.
             report: called as the work goes on.
         """
         if isinstance(source, MapSource):
             source.lighten()
             give_back()
         surroundings.forget()
-        vectors, levels = _encoded(retriever, source.data, rows, report)
+        vectors, levels = _encode_cells(retriever, source.data, rows, report)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceNeighbourIndex):
             source.defer_parts(surroundings.cut)
             give_back()
         report("tabulate statements", 0, 0)
-        data, things = source.data, surroundings.things
-        label, rgb = torch.from_numpy(things.labels(data.gallery)[1]), torch.from_numpy(things.rgb.astype(np.float32))
+        data, objects = source.data, surroundings.things
+        label, rgb = torch.from_numpy(objects.labels(data.gallery)[1]), torch.from_numpy(objects.rgb.astype(np.float32))
         with torch.inference_mode():
             words = likelihood.words(rgb, data.palette)
-        told = statement_rows(likelihood, surroundings, label, rgb, words)
+        rows_of_statements = statement_rows(likelihood, surroundings, label, rgb, words)
         scanned = surroundings if isinstance(surroundings, ScanNeighbourIndex) else None
-        return cls(vectors, levels, told, scanned)
+        return cls(vectors, levels, rows_of_statements, scanned)
 
     def save(self, directory: Path) -> None:
-        """Write some files, which `load` reads."""
+        """Write the files that `load` reads."""
         columns: dict[str, npt.NDArray[Any]] = {
             "vectors": self.vectors,
             "holds": self.rows.holds,
@@ -105,27 +105,27 @@ class Part:
             self.scanned.save(directory)
 
     def forget(self) -> None:
-        """Have what lies on disk take no memory until it is looked at."""
+        """Drop pages of memory-mapped arrays; they are read again when needed."""
         forget([self.vectors, *self.levels.vectors.values(), self.rows.statement, self.rows.holds])
 
     @classmethod
-    def load(cls, directory: Path, levels: Sequence[Level], cells: CellTable) -> "Part":
-        """Read what `save` wrote.
+    def load(cls, directory: Path, levels: Sequence[Level], cells: CellTable) -> "ShardData":
+        """Read the files that `save` wrote.
 
         Args:
-            directory: where.
-            levels: of the retriever that made it.
+            directory: the shard's directory.
+            levels: of the retriever.
             cells: all cells of the map.
 
         Raises:
-            IndexBroken: the files do not hold a part of it.
+            IndexBroken: the files are damaged.
         """
         try:
             columns, facts = map_arrays(directory / FILE)
             starts, statement, holds, vectors = (columns[name] for name in COLUMNS)
             rows = StatementRows(starts, statement, holds, int(facts["statements"]))
             if (len(rows.starts) - 1, rows.starts[-1]) != (len(vectors), len(rows.holds)):
-                raise ValueError("its columns are of different lengths")
+                raise ValueError("its columns have different lengths")
         except (OSError, SafetensorError, KeyError, TypeError, ValueError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; make this shard again") from error
         table = EMPTY_LEVEL_TABLE if tuple(levels) == ("global",) else LevelTable.load(directory, levels)
@@ -135,16 +135,18 @@ class Part:
 
 
 @contextmanager
-def writing(out_dir: Path) -> Iterator[None]:
-    """Say so where an index cannot be written."""
+def explain_write_errors(out_dir: Path) -> Iterator[None]:
+    """Turn write errors into a DataError that names the index directory."""
     try:
         yield
     except (OSError, SafetensorError) as error:
-        raise DataError(f"{out_dir} cannot be written: {error}; make room, or give another directory") from error
+        raise DataError(
+            f"{out_dir} cannot be written: {error}; free some space, or choose another directory"
+        ) from error
 
 
-def _encoded(retriever: Retriever, data: MapData, rows: range, report: Progress) -> tuple[Floats, LevelTable]:
-    """Encode some cells, a span at a time: vectors [C, D] and the other levels."""
+def _encode_cells(retriever: Retriever, data: MapData, rows: range, report: Progress) -> tuple[Floats, LevelTable]:
+    """Encode cells span by span: vectors [C, D] and the other levels."""
     labels = np.array(data.gallery.labels)
     levels = [level for level in retriever.levels if level != "global"]
     names = ["vectors", *levels]
@@ -153,15 +155,20 @@ def _encoded(retriever: Retriever, data: MapData, rows: range, report: Progress)
         none = np.empty((0, retriever.config.width), np.float32)
         yield {"sizes": np.empty(0, np.int64)} | dict.fromkeys(names, none)
         report("encode cells", 0, len(rows))
-        spans = [range(first, min(first + AT_ONCE, rows.stop)) for first in range(rows.start, rows.stop, AT_ONCE)]
+        spans = [
+            range(first, min(first + CELLS_PER_SPAN, rows.stop))
+            for first in range(rows.start, rows.stop, CELLS_PER_SPAN)
+        ]
         for span, features in zip(spans, CellFeatures.iterate_spans(data.cells, labels, spans), strict=True):
-            seen = retriever.with_point_features(features)
+            with_points = retriever.with_point_features(features)
             data.cells.parts.forget()
-            vectors, table = encode_gallery(retriever, seen, map_forked)
+            vectors, table = encode_gallery(retriever, with_points, map_forked)
             made = [vectors, *(table.vectors[level] for level in levels)]
             yield {"sizes": np.diff(table.starts)} | dict(zip(names, made, strict=True))
             report("encode cells", span.stop - rows.start, len(rows))
 
-    found = spooled(columns())
-    table = LevelTable(np.concatenate([[0], np.cumsum(found["sizes"])]), {level: found[level] for level in levels})
-    return found["vectors"], table if levels else EMPTY_LEVEL_TABLE
+    columns_read = spooled(columns())
+    table = LevelTable(
+        np.concatenate([[0], np.cumsum(columns_read["sizes"])]), {level: columns_read[level] for level in levels}
+    )
+    return columns_read["vectors"], table if levels else EMPTY_LEVEL_TABLE

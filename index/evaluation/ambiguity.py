@@ -1,4 +1,4 @@
-"""How far hints tell the cells of a map apart, whatever the model: exact matching of their symbols."""
+"""Ambiguity of hints, independent of any model: exact matching of their statements."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -12,30 +12,30 @@ from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS, Hint
 from models.training.metrics import RETRIEVAL_KS
 
-QUERIES_AT_ONCE = 1024
+QUERIES_PER_BLOCK = 1024
 
 
 def ambiguity(data: MapData, queries: Queries, hints: Sequence[tuple[Hint, ...]]) -> dict[str, Any]:
-    """Recall of exact matching.
+    """Compute the recall of exact matching.
 
-    A cell fits a hint if the same statement (direction, colour, label) is true at its centre. Cells are ranked by
-    the number of hints that fit; ties count as drawn at random.
+    A cell matches a hint if the same statement (direction, colour, label) is true at its centre. Cells are ranked by
+    the number of matching hints; ties are in random order.
 
     Args:
         data: the gallery.
         queries: with known best cells.
-        hints: what each says.
+        hints: of each query.
 
     Returns:
         "median_cells_that_fit_as_well" and "exact_matching" {k: recall}.
     """
-    symbols, cells = _symbols_of_cells(data)
-    asked = _symbols_of_queries(symbols, hints)
+    symbols, cells = _cell_statements(data)
+    asked_statements = _query_statements(symbols, hints)
     truth = queries.truth
     better, equal = np.zeros(len(truth)), np.ones(len(truth))
-    for start in range(0, len(truth), QUERIES_AT_ONCE):
-        rows = slice(start, start + QUERIES_AT_ONCE)
-        fits = (asked[rows] @ cells.T).toarray()
+    for start in range(0, len(truth), QUERIES_PER_BLOCK):
+        rows = slice(start, start + QUERIES_PER_BLOCK)
+        fits = (asked_statements[rows] @ cells.T).toarray()
         own = fits[np.arange(len(fits)), truth[rows]][:, None]
         better[rows], equal[rows] = (fits > own).sum(axis=1), (fits == own).sum(axis=1)
     return {
@@ -44,27 +44,31 @@ def ambiguity(data: MapData, queries: Queries, hints: Sequence[tuple[Hint, ...]]
     }
 
 
-def _symbols_of_cells(data: MapData) -> tuple[dict[tuple[str, str | None, int], int], csr_array]:
-    """A number for each statement that is true at some centre, and [N, S] which are true where."""
+def _cell_statements(data: MapData) -> tuple[dict[tuple[str, str | None, int], int], csr_array]:
+    """Return a number for each statement true at some centre, and which statements hold in which cells [N, S]."""
     table = build_hint_table(data.palette, data.cells.parts, data.cells.center_m)
     number: dict[tuple[str, str | None, int], int] = {}
     words = (*data.palette.words, None)  # the last, for colour -1
-    said = [
+    columns = [
         number.setdefault((data.gallery.labels[i], words[c], int(d)), len(number))
         for i, c, d in zip(table.instance, table.colour, table.direction, strict=True)
     ]
-    holds = csr_array((np.ones(len(said), np.float32), said, table.starts), shape=(len(data.cells), len(number)))
+    holds = csr_array((np.ones(len(columns), np.float32), columns, table.starts), shape=(len(data.cells), len(number)))
     holds.sum_duplicates()
     holds.data[:] = 1
     return number, holds
 
 
-def _symbols_of_queries(number: dict[tuple[str, str | None, int], int], hints: Sequence[tuple[Hint, ...]]) -> csr_array:
-    """[Q, S] how often each query makes each statement."""
-    asked = [[number.get((h.label, h.colour, DIRECTIONS.index(h.direction)), -1) for h in said] for said in hints]
-    query = np.repeat(np.arange(len(asked)), [len(a) for a in asked])
-    symbol = np.concatenate([np.array(a, dtype=np.intp) for a in asked])
+def _query_statements(number: dict[tuple[str, str | None, int], int], hints: Sequence[tuple[Hint, ...]]) -> csr_array:
+    """Return how often each query makes each statement [Q, S]."""
+    asked_statements = [
+        [number.get((h.label, h.colour, DIRECTIONS.index(h.direction)), -1) for h in query_hints]
+        for query_hints in hints
+    ]
+    query = np.repeat(np.arange(len(asked_statements)), [len(a) for a in asked_statements])
+    symbol = np.concatenate([np.array(a, dtype=np.intp) for a in asked_statements])
     known = symbol >= 0
     return csr_array(
-        (np.ones(int(known.sum()), np.float32), (query[known], symbol[known])), shape=(len(asked), len(number))
+        (np.ones(int(known.sum()), np.float32), (query[known], symbol[known])),
+        shape=(len(asked_statements), len(number)),
     )

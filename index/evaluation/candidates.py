@@ -1,4 +1,4 @@
-"""Which cells the hint posterior looks at: those of the vector index, of the inverted list over statements, of both."""
+"""Recall of the posterior's candidates: from the vector index, from the inverted list, and from both."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -10,12 +10,12 @@ from index.answering.vector_localizer import raw_sentences
 from index.evaluation.report import Table
 from models.citymap.queries import Queries
 
-SIZES = (10, 20, 50, 100, 200, 500)  # of the candidate set
+CANDIDATE_COUNTS = (10, 20, 50, 100, 200, 500)  # sizes of the candidate set
 SOURCES = ("vector index, raw text", "vector index, read and rendered", "inverted list", "both, so many of each")
 
 
 def candidate_recall(queries: Queries, posterior: PosteriorLocalizer) -> list[dict[str, Any]]:
-    """Share of the queries whose best cell is among the first N of each source.
+    """Return the share of queries whose best cell is among the first N candidates of each source.
 
     Args:
         queries: with known cells.
@@ -24,25 +24,25 @@ def candidate_recall(queries: Queries, posterior: PosteriorLocalizer) -> list[di
     Returns:
         For each of SOURCES "source" and "recall" {N: share}.
     """
-    deepest = min(SIZES[-1], len(posterior.gallery.cells))
-    place = np.full((len(SOURCES), len(queries)), SIZES[-1])
+    deepest = min(CANDIDATE_COUNTS[-1], len(posterior.gallery.cells))
+    rank_of_truth = np.full((len(SOURCES), len(queries)), CANDIDATE_COUNTS[-1])
     retriever = posterior.ranker.retriever
-    descriptions = ["\n".join(said) for said in queries.sentences]
+    descriptions = ["\n".join(sentences) for sentences in queries.sentences]
     rendered = posterior.sentences(descriptions)
-    for q, (raw, said) in enumerate(zip(raw_sentences(descriptions), rendered, strict=True)):
-        texts = retriever.encode_texts([raw, said or raw])
-        hints = posterior.texts.parse(descriptions[q : q + 1])[0]
+    for q, (raw, sentences) in enumerate(zip(raw_sentences(descriptions), rendered, strict=True)):
+        texts = retriever.encode_texts([raw, sentences or raw])
+        hints = posterior.chunk_reader.parse(descriptions[q : q + 1])[0]
         by_list = posterior.nodes.cell_scores(posterior.binding.reading(hints)) if hints else np.zeros(deepest)
         orders = [*posterior.ranker.search(texts, deepest)[1], np.argsort(-by_list, kind="stable")[:deepest]]
         for n, order in enumerate(orders):
-            found = np.flatnonzero(order == queries.truth[q])
-            place[n, q] = found[0] if len(found) else SIZES[-1]
-        place[-1, q] = place[1:-1, q].min()
-    shares = [{str(size): float((row < size).mean()) for size in SIZES} for row in place]
+            position = np.flatnonzero(order == queries.truth[q])
+            rank_of_truth[n, q] = position[0] if len(position) else CANDIDATE_COUNTS[-1]
+        rank_of_truth[-1, q] = rank_of_truth[1:-1, q].min()
+    shares = [{str(size): float((row < size).mean()) for size in CANDIDATE_COUNTS} for row in rank_of_truth]
     return [{"source": name, "recall": share} for name, share in zip(SOURCES, shares, strict=True)]
 
 
 def candidate_table(rows: Sequence[dict[str, Any]], text: str) -> Table:
-    """Recall of the candidate set by its size, for one kind of text."""
-    head = (f"{text}: best cell among the first", *(f"{size}" for size in SIZES))
-    return head, [(row["source"], *(f"{row['recall'][str(size)]:.3f}" for size in SIZES)) for row in rows]
+    """Return the table of candidate recall for one kind of text."""
+    head = (f"{text}: best cell among the first", *(f"{size}" for size in CANDIDATE_COUNTS))
+    return head, [(row["source"], *(f"{row['recall'][str(size)]:.3f}" for size in CANDIDATE_COUNTS)) for row in rows]

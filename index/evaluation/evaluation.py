@@ -1,4 +1,4 @@
-"""Evaluation: predictions of a model for queries with known positions, saved, then scored and drawn."""
+"""Evaluation: predictions for queries with known positions are saved, then scored and drawn."""
 
 import json
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from index.answering.query import Query
 from index.answering.result import CellLocalizer
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.localizers import on_some_cells
-from index.evaluation.predictions import FILE, Predictions
+from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
 from models.citymap.gallery import MapData
@@ -22,9 +22,9 @@ from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 
-LISTED = 25  # cells kept of each ranking; recall curves end here
-PREDICTED = max(*RETRIEVAL_KS, *LOCALIZATION_KS)
-CHUNK = 64  # queries asked at once
+RANKED_CELLS_KEPT = 25  # per query; the recall curve ends here
+POSITIONS_KEPT = max(*RETRIEVAL_KS, *LOCALIZATION_KS)
+QUERIES_PER_BATCH = 64
 
 
 def evaluate(
@@ -35,14 +35,14 @@ def evaluate(
     grow_m: Sequence[float] = (),
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Ask a localizer, save what it says, score it.
+    """Localize queries, save the predictions and score them.
 
     Args:
         data: the gallery.
-        queries: what is asked.
+        queries: with known positions.
         localizer: of the gallery.
-        report_dir: where predictions.npz, report.json, report.md and the plots go; None to write nothing.
-        grow_m: radii of a growing gallery (`grow`); predictions for each are saved beside the others.
+        report_dir: directory for predictions.npz, report.json, report.md and the plots; None to write nothing.
+        grow_m: radii of a growing gallery (`grow_gallery`), with predictions for each.
         progress: called as the work goes on.
 
     Returns:
@@ -55,7 +55,7 @@ def evaluate(
         predictions.facts["ambiguity"] = ambiguity(data, queries, queries.hints)
     grown = [
         (radius, predict(*part, on_some_cells(localizer, part[0], rows), report))
-        for radius, part, rows in grow(data, queries, grow_m)
+        for radius, part, rows in grow_gallery(data, queries, grow_m)
     ]
     if report_dir:
         save_run(report_dir, predictions, grown)
@@ -64,23 +64,26 @@ def evaluate(
 
 
 def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress: Progress) -> Predictions:
-    """Localize each query.
+    """Predict cells and positions for each query.
 
     Args:
         data: the gallery.
-        queries: what is asked.
+        queries: with known positions.
         localizer: of the gallery.
         progress: called as the work goes on.
     """
-    total, listed = len(queries), min(LISTED, len(data.cells))
+    total, listed = len(queries), min(RANKED_CELLS_KEPT, len(data.cells))
     ranked, scores = np.full((total, listed), -1, np.int32), np.full((total, listed), -np.inf, np.float32)
-    positions = np.zeros((total, min(PREDICTED, listed), 2))
+    positions = np.zeros((total, min(POSITIONS_KEPT, listed), 2))
     probability, radius_m = np.zeros(total), np.full((total, 2), data.cells.extent_m)
-    for start in range(0, total, CHUNK):
+    for start in range(0, total, QUERIES_PER_BATCH):
         progress("ask", start, total)
-        asked = [Query("\n".join(said), top_k=PREDICTED) for said in queries.sentences[start : start + CHUNK]]
-        for q, finding in enumerate(localizer.find(asked), start):
-            if (located := finding.located) is None:
+        batch = [
+            Query("\n".join(sentences), top_k=POSITIONS_KEPT)
+            for sentences in queries.sentences[start : start + QUERIES_PER_BATCH]
+        ]
+        for q, result in enumerate(localizer.find(batch), start):
+            if (located := result.located) is None:
                 continue
             count = min(listed, len(located.rows))
             ranked[q, :count], scores[q, :count] = located.rows[:count], located.score[:count]
@@ -113,70 +116,72 @@ def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress:
     )
 
 
-def grow(
+def grow_gallery(
     data: MapData, queries: Queries, radii_m: Sequence[float]
 ) -> list[tuple[float, tuple[MapData, Queries], npt.NDArray[np.intp]]]:
-    """The scalability protocol (MNCL, figure 5): the same queries, a gallery that grows around them.
+    """Build galleries that grow around the same queries (the scalability protocol of MNCL, figure 5).
 
-    The gallery is every cell within each radius of the middle of its scene's queries; the queries are those whose best
-    cell lies within the least.
+    The gallery has every cell within a radius of the middle of its scene's queries. The queries are those whose best
+    cell lies within the smallest radius.
 
     Returns:
-        For each radius, in ascending order: the radius, gallery and queries, and the gallery's rows in `data`.
+        For each radius in ascending order: the radius, gallery and queries, and the gallery's rows in `data`.
 
     Raises:
-        DataError: a radius is not positive, or holds nothing to ask about.
+        DataError: a radius is not positive, or contains no query.
     """
     if not radii_m:
         return []
     radii = sorted(set(radii_m))
     if radii[0] <= 0:
-        raise DataError(f"grow: {radii[0]:g} m is no radius; give metres above 0, such as 200,300,400,500")
+        raise DataError(f"grow: {radii[0]:g} m is not a valid radius; give metres above 0, such as 200,300,400,500")
     cells, known = data.cells, np.flatnonzero(queries.truth >= 0)
     away = np.full(len(cells), np.inf)
     for scene in sorted(set(queries.scenes)):
         of_scene = known[np.array(queries.scenes)[known] == scene]
         here = np.array(cells.scenes) == scene
         if len(of_scene):
-            away[here] = np.linalg.norm(cells.center_m[here, :2] - _middle(queries.positions_m[of_scene]), axis=1)
-    asked = known[away[queries.truth[known]] <= radii[0]]
-    if not len(asked):
-        raise DataError(f"grow: no query has its cell within {radii[0]:g} m; begin with a larger radius")
+            away[here] = np.linalg.norm(
+                cells.center_m[here, :2] - _central_position(queries.positions_m[of_scene]), axis=1
+            )
+    chosen = known[away[queries.truth[known]] <= radii[0]]
+    if not len(chosen):
+        raise DataError(f"grow: no query has its cell within {radii[0]:g} m; start with a larger radius")
     steps = []
     for radius in radii:
         rows = np.flatnonzero(away <= radius)
         position = np.full(len(cells), -1)
         position[rows] = np.arange(len(rows))
         gallery = replace(data.gallery, cells=cells.take(rows))
-        asked_here = queries.take(asked)
+        asked_here = queries.take(chosen)
         part = replace(asked_here, truth=position[asked_here.truth], hints=None)
         steps.append((radius, (replace(data, gallery=gallery), part), rows))
     return steps
 
 
-def _middle(positions_m: Floats) -> Floats:
-    """[2] the position that is nearest to the mean of some."""
+def _central_position(positions_m: Floats) -> Floats:
+    """Return the position [2] nearest to the mean."""
     middle: Floats = positions_m[np.linalg.norm(positions_m - positions_m.mean(axis=0), axis=1).argmin()]
     return middle
 
 
 def save_run(report_dir: Path, predictions: Predictions, grown: Sequence[tuple[float, Predictions]] = ()) -> None:
-    """Save predictions into a report's directory, in place of an older run's."""
+    """Save predictions into a report's directory, and remove those of an older run."""
     report_dir.mkdir(parents=True, exist_ok=True)
     for old in report_dir.glob("grow-*.npz"):
         old.unlink()
-    predictions.save(report_dir / FILE)
+    predictions.save(report_dir / PREDICTIONS_FILE)
     for radius, part in grown:
         part.save(report_dir / f"grow-{radius:g}.npz")
 
 
 def rescore(report_dir: Path) -> dict[str, Any]:
-    """Score a saved run again; writes its report.json, report.md and plots.
+    """Score a saved run again and write its report.json, report.md and plots.
 
     Raises:
-        DataError: there are no predictions.
+        DataError: there are no saved predictions.
     """
-    predictions = Predictions.load(report_dir / FILE)
+    predictions = Predictions.load(report_dir / PREDICTIONS_FILE)
     radii = sorted(float(path.stem.removeprefix("grow-")) for path in report_dir.glob("grow-*.npz"))
     grown = [(radius, Predictions.load(report_dir / f"grow-{radius:g}.npz")) for radius in radii]
     report = _report(predictions, grown)
@@ -190,5 +195,5 @@ def _report(predictions: Predictions, grown: Sequence[tuple[float, Predictions]]
         names = ("cells", "queries", "retrieval", "localization", "intervals")
         parts = [(radius, score(part)) for radius, part in grown]
         report["growth"] = [{"radius_m": radius} | {name: part[name] for name in names} for radius, part in parts]
-    # As it will be read: a report that was written and one that was returned are the same.
+    # Through JSON, so that the returned report equals the written one.
     return dict(json.loads(json.dumps(report)))

@@ -59,5 +59,5 @@ def on_some_cells(localizer: CellLocalizer, data: MapData, rows: Ints) -> CellLo
 
 def ranker_on_some_cells(ranker: Ranker, rows: Ints) -> Ranker:
     """Return a ranker of some of the cells of a gallery."""
-    vectors = FaissStore.of(ranker.store.vectors(rows))
+    vectors = FaissStore.from_vectors(ranker.store.vectors(rows))
     return Ranker(ranker.retriever, vectors, ranker.table.take(rows), ranker.depth)

@@ -33,14 +33,14 @@ _EARTH = Geod(ellps="WGS84")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PlaceEvidence:
-    """What was answered to Q texts.
+class TextEvaluation:
+    """The answers to Q texts.
 
     Attributes:
-        error_m: [Q] great-circle distance of estimate and goal; inf without an estimate.
+        error_m: [Q] great-circle distance between estimate and goal; inf without an estimate.
         radius_m: [Q, 2] p50 and p90.
-        probability: [Q] that the best cell is the right one.
-        hit: [Q] whether it is.
+        probability: [Q] probability of the best cell.
+        hit: [Q] whether the best cell is the right one.
     """
 
     error_m: Floats
@@ -49,15 +49,15 @@ class PlaceEvidence:
     hit: npt.NDArray[np.bool_]
 
 
-def evaluate_told(
+def evaluate_texts(
     localizer: Localizer, texts: Sequence[PlaceText], report_dir: Path | None, progress: Progress
 ) -> dict[str, Any]:
-    """Ask an index texts with known goals; those with a start get a prior of 800 m round it.
+    """Localize texts with known positions; texts with a start get a prior of 800 m around it.
 
     Args:
         localizer: of an index with a georeference.
-        texts: with their places.
-        report_dir: where told.json and told.md go; None to write nothing.
+        texts: texts with their positions.
+        report_dir: directory for told.json and told.md; None to write nothing.
         progress: called as the work goes on.
 
     Returns:
@@ -65,32 +65,32 @@ def evaluate_told(
         and "by_construction" (the same of the texts that have it).
 
     Raises:
-        DataError: the map is nowhere on Earth.
+        DataError: the map has no georeference.
     """
     if not localizer.frame.is_georeferenced:
         raise DataError(
-            "the index has no georeference, so goals in degrees are nowhere on it; index an OpenStreetMap file"
+            "the index has no georeference, so positions in degrees are not on it; index an OpenStreetMap file"
         )
     report: dict[str, Any] = {"data": localizer.manifest.map_name, "texts": len(texts)}
-    told = ask(localizer, texts, progress)
-    report |= _figures(told, np.ones(len(texts), np.bool_))
+    evaluation = ask(localizer, texts, progress)
+    report |= _summarize(evaluation, np.ones(len(texts), np.bool_))
     places = localizer.posterior.places
     report["by_construction"] = {}
     if places is not None:
         constructions = [_constructions(places, text) for text in texts]
         for name in CONSTRUCTIONS:
-            rows = np.array([name in found for found in constructions])
+            rows = np.array([name in names for names in constructions])
             if rows.any():
-                report["by_construction"][name] = _figures(told, rows)
+                report["by_construction"][name] = _summarize(evaluation, rows)
     if report_dir:
         report_dir.mkdir(parents=True, exist_ok=True)
         (report_dir / "told.json").write_text(json.dumps(report, indent=1) + "\n")
-        (report_dir / "told.md").write_text("\n\n".join(as_markdown(table) for table in told_tables(report)) + "\n")
+        (report_dir / "told.md").write_text("\n\n".join(as_markdown(table) for table in text_tables(report)) + "\n")
     return report
 
 
-def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) -> PlaceEvidence:
-    """The answers to texts; arguments as `evaluate_told`."""
+def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) -> TextEvaluation:
+    """Localize texts; arguments as `evaluate_texts`."""
     rows = []
     for n, text in enumerate(texts):
         progress("ask", n, len(texts))
@@ -99,7 +99,7 @@ def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) ->
         rows.append(_row(localizer, text, answer))
     progress("ask", len(texts), len(texts))
     error, p50, p90, probability, hit = np.array(rows, dtype=np.float64).T
-    return PlaceEvidence(error, np.stack([p50, p90], axis=1), probability, hit > 0)
+    return TextEvaluation(error, np.stack([p50, p90], axis=1), probability, hit > 0)
 
 
 def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, float, float, float, bool]:
@@ -118,33 +118,33 @@ def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, 
 def _constructions(places: PlaceReader, text: PlaceText) -> set[str]:
     """Return which of `CONSTRUCTIONS` a text has."""
     mentions = places.read(text.text, detect_language(text.text), to_listener=text.start is not None)
-    found = {name for mention in mentions for name in constructions_of(mention)}
-    return found | ({"listener"} if text.start is not None and listener_wind(text.text) is not None else set())
+    names = {name for mention in mentions for name in constructions_of(mention)}
+    return names | ({"listener"} if text.start is not None and listener_wind(text.text) is not None else set())
 
 
 def constructions_of(mention: Mention) -> set[str]:
     """Return which of `CONSTRUCTIONS` a mention has."""
-    cue, found = mention.cue, set[str]()
+    cue, names = mention.cue, set[str]()
     if mention.form in ("corner", "span"):
-        found.add("corner")
+        names.add("corner")
     elif mention.form == "thing":
-        found.add("kind" if mention.kinds and not mention.is_exact and mention.trust == 1.0 else "name")
+        names.add("kind" if mention.kinds and not mention.is_exact and mention.trust == 1.0 else "name")
     elif mention.form in ("street", "address"):
-        found.add(mention.form)
+        names.add(mention.form)
     if cue.relation in ("across", "block"):
-        found.add(cue.relation)
+        names.add(cue.relation)
     optional = {
         "left, right, ahead, behind": cue.angle,
         "wind": cue.wind,
         "distance": cue.distance_m,
         "side": mention.side,
     }
-    return found | {name for name, value in optional.items() if value is not None}
+    return names | {name for name, value in optional.items() if value is not None}
 
 
-def _figures(told: PlaceEvidence, rows: npt.NDArray[np.bool_]) -> dict[str, Any]:
-    error, radius, count = told.error_m[rows], told.radius_m[rows], int(rows.sum())
-    held = {name: int((error <= radius[:, n]).sum()) for n, name in enumerate(("p50", "p90"))}
+def _summarize(evaluation: TextEvaluation, rows: npt.NDArray[np.bool_]) -> dict[str, Any]:
+    error, radius, count = evaluation.error_m[rows], evaluation.radius_m[rows], int(rows.sum())
+    inside_count = {name: int((error <= radius[:, n]).sum()) for n, name in enumerate(("p50", "p90"))}
     median = float(np.median(error))
     return {
         "texts": count,
@@ -156,21 +156,21 @@ def _figures(told: PlaceEvidence, rows: npt.NDArray[np.bool_]) -> dict[str, Any]
                 "interval": [round(v, 4) for v in binomtest(inside, count).proportion_ci(0.95, "wilson")],
                 "median_m": round(float(np.median(radius[:, n])), 2),
             }
-            for n, (name, inside) in enumerate(held.items())
+            for n, (name, inside) in enumerate(inside_count.items())
         },
-        "calibration": calibration(told.probability[rows], told.hit[rows]),
+        "calibration": calibration(evaluation.probability[rows], evaluation.hit[rows]),
     }
 
 
-def told_tables(report: dict[str, Any]) -> list[Table]:
+def text_tables(report: dict[str, Any]) -> list[Table]:
     """Return the report as tables: all texts, then the texts with each construction."""
     head = ("", "texts", "within 10/30/100/250 m", "median", "90 % radius holds", "its median", "ECE")
-    rows = [("all", *_cells(report))]
-    rows += [(name, *_cells(figures)) for name, figures in report["by_construction"].items()]
+    rows = [("all", *_row_cells(report))]
+    rows += [(name, *_row_cells(figures)) for name, figures in report["by_construction"].items()]
     return [(head, rows)]
 
 
-def _cells(figures: dict[str, Any]) -> tuple[str, ...]:
+def _row_cells(figures: dict[str, Any]) -> tuple[str, ...]:
     p90 = figures["coverage"]["p90"]
     low, high = p90["interval"]
     median = figures["median_m"]

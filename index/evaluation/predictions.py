@@ -1,4 +1,4 @@
-"""What a model answered to queries with known positions: saved first, scored afterwards, as often as one likes."""
+"""Predictions for queries with known positions: saved first, scored afterwards."""
 
 import json
 from dataclasses import dataclass, fields
@@ -12,18 +12,18 @@ from models.citymap.types import Floats
 from models.errors import DataError
 from models.files import open_atomic
 
-FILE = "predictions.npz"
-FACTS = "facts"
+PREDICTIONS_FILE = "predictions.npz"
+FACTS_FIELD = "facts"
 Ints = npt.NDArray[np.integer[Any]]
 Words = npt.NDArray[np.str_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Predictions:
-    """Answers to Q queries about a gallery of N cells.
+    """Predictions for Q queries in a gallery of N cells.
 
     Attributes:
-        facts: data, split, model and whatever else the report repeats.
+        facts: data, split, model and other facts for the report.
         cell_ids, cell_scenes: [N].
         cell_centers_m: [N, 2] float64.
         queried_cells: [Q] row of the true best cell, -1 if the gallery has none.
@@ -32,9 +32,8 @@ class Predictions:
         ranked: [Q, K] rows of cells, best first; -1 where the gallery ends.
         scores: [Q, K] float32 of them.
         predicted_m: [Q, J] position predicted in each of the first J, [Q, J, 2] float64.
-        probability: [Q] of the first cell to be the true one.
-        radius_m: [Q, 2] circles round the first prediction that are to hold the truth with probability .5 and .9; NaN
-            where none were given.
+        probability: [Q] that the first cell is the true one.
+        radius_m: [Q, 2] radii around the first prediction for probability 0.5 and 0.9; NaN if unknown.
     """
 
     facts: dict[str, Any]
@@ -52,33 +51,33 @@ class Predictions:
     radius_m: Floats
 
     def save(self, path: Path) -> None:
-        """Write one .npz file, whole or not at all."""
-        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != FACTS}
+        """Write one .npz file, completely or not at all."""
+        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != FACTS_FIELD}
         with open_atomic(path) as file:
             np.savez_compressed(file, facts=np.array(json.dumps(self.facts)), **arrays)
 
     @classmethod
     def load(cls, path: Path) -> "Predictions":
-        """Read what `save` wrote.
+        """Read the file that `save` wrote.
 
         Raises:
-            DataError: there is no such file, or it holds something else.
+            DataError: the file is missing or invalid.
         """
         try:
             with np.load(path, allow_pickle=False) as file:
                 arrays = {f.name: file[f.name] for f in fields(cls)}
-            predictions = cls(**arrays | {FACTS: json.loads(str(arrays[FACTS]))})
+            predictions = cls(**arrays | {FACTS_FIELD: json.loads(str(arrays[FACTS_FIELD]))})
         except FileNotFoundError:
             raise DataError(
                 f"{path}: no such file; make it with 'hereabouts evaluate --data ... --report DIR'"
             ) from None
-        except Exception as error:  # zip, numpy and JSON each have their own
-            raise DataError(f"{path}: holds no predictions ({error}); evaluate again") from error
+        except Exception as error:  # zip, numpy and JSON raise different errors
+            raise DataError(f"{path}: contains no predictions ({error}); evaluate again") from error
         predictions._check(path)
         return predictions
 
     def _check(self, path: Path) -> None:
-        """Raise DataError if the arrays do not belong together."""
+        """Check that the arrays fit together."""
         cells, queries = len(self.cell_ids), len(self.queried_cells)
         lengths = {
             "cell_scenes": (self.cell_scenes, cells),
@@ -106,16 +105,16 @@ class Predictions:
                 raise DataError(f"{path}: field '{name}' points outside the gallery; evaluate again")
 
     def errors_m(self) -> Floats:
-        """[Q, J] metres in the plane from each predicted position to the truth; infinite in another scene."""
+        """Return the errors [Q, J] of the predicted positions in the plane; infinite in another scene."""
         return np.where(self._same_scene(self.ranked[:, : self.predicted_m.shape[1]]), self.distances_m(), np.inf)
 
     def distances_m(self) -> Floats:
-        """[Q, J] the same in another scene too, where the frame puts it: what a circle on the map holds."""
+        """Return the distances [Q, J] to the truth in the common frame, also in another scene."""
         distance: Floats = np.linalg.norm(self.predicted_m - self.positions_m[:, None], axis=2)
         return distance
 
     def center_errors_m(self, rows: Ints) -> Floats:
-        """[Q, J] metres in the plane from the centres of some cells [Q, J] to the truth; infinite in another scene."""
+        """Return the distances [Q, J] from cell centres to the truth in the plane; infinite in another scene."""
         distance: Floats = np.linalg.norm(self.cell_centers_m[rows] - self.positions_m[:, None], axis=2)
         return np.where(self._same_scene(rows), distance, np.inf)
 

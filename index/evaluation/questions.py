@@ -1,4 +1,4 @@
-"""Measuring questions: people who say little and answer what they are asked, made up from what the map has there."""
+"""Evaluation of follow-up questions with simulated people, who say little and answer from the map."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -10,26 +10,26 @@ from index.answering.answers import Answer
 from index.answering.localizer import Localizer
 from index.answering.query import Query
 from index.evaluation.report import Table
-from index.evaluation.simulated_person import Person, Truth
+from index.evaluation.simulated_person import MapTruth, SimulatedPerson
 from models.citymap.queries import Queries
 from models.citymap.templates import render_hint
 from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.sources.source import Source
 
-QUESTIONS: Final = 3  # the most that are asked
-HINTS: Final = 2
+MAX_QUESTIONS: Final = 3
+HINTS_PER_TEXT: Final = 2
 WITHIN_M: Final = 10.0
 
 
 @dataclass(slots=True)
-class Talk:
-    """What was found for one text after each question; what was found last stands where none was asked.
+class Dialogue:
+    """The answers to one text after each question; the last answer counts if no question follows.
 
     Attributes:
-        error_m: of the estimate, infinite in another scene or without one.
+        error_m: of the estimate; infinite in another scene and without estimate.
         probability: of the best cell.
-        hit: whether it is the right one.
+        is_ok: whether the status is "ok".
         kinds: of the questions.
     """
 
@@ -39,20 +39,20 @@ class Talk:
     kinds: list[str] = field(default_factory=list)
 
 
-def talk(localizer: Localizer, text: str, person: Person, scene: str) -> Talk:
-    """Ask about a text as long as the service has a question, at most QUESTIONS."""
-    query, found = Query(text), Talk()
+def hold_dialogue(localizer: Localizer, text: str, person: SimulatedPerson, scene: str) -> Dialogue:
+    """Localize a text and answer up to MAX_QUESTIONS questions."""
+    query, dialogue = Query(text), Dialogue()
     scenes = dict(zip(localizer.gallery.cells.ids, localizer.gallery.cells.scenes, strict=True))
     while True:
         [answer] = localizer.localize([query])
         error = _error(answer, person.position_m)
         is_there = bool(answer.candidates) and scenes[answer.candidates[0].cell_id] == scene
-        found.error_m.append(error if is_there else np.inf)
-        found.probability.append(answer.estimate.probability if answer.estimate else 0.0)
-        found.is_ok.append(answer.status == "ok")
-        if answer.question is None or len(query.replies) == QUESTIONS:
-            return found
-        found.kinds.append(answer.question.id.split(":")[0])
+        dialogue.error_m.append(error if is_there else np.inf)
+        dialogue.probability.append(answer.estimate.probability if answer.estimate else 0.0)
+        dialogue.is_ok.append(answer.status == "ok")
+        if answer.question is None or len(query.replies) == MAX_QUESTIONS:
+            return dialogue
+        dialogue.kinds.append(answer.question.id.split(":")[0])
         query = replace(query, replies=(*query.replies, person.reply(answer.question)))
 
 
@@ -61,77 +61,77 @@ def _error(answer: Answer, position_m: Floats) -> float:
 
 
 def vague_texts(queries: Queries, rows: Sequence[int], rng: np.random.Generator, *, is_plain: bool) -> list[str]:
-    """Texts of two hints of some queries: in template words, or in plain ones without wind and colour."""
+    """Return texts of two hints of some queries, in template words or in plain ones without direction and colour."""
     assert queries.hints is not None
     texts = []
     for row in rows:
         hints = queries.hints[row]
-        some = [hints[n] for n in rng.permutation(len(hints))[:HINTS]]
+        chosen = [hints[n] for n in rng.permutation(len(hints))[:HINTS_PER_TEXT]]
         if is_plain:
-            texts.append(f"There is a {some[0].label} near me, and a {some[-1].label}.")
+            texts.append(f"There is a {chosen[0].label} near me, and a {chosen[-1].label}.")
         else:
-            texts.append(" ".join(render_hint(hint) for hint in some))
+            texts.append(" ".join(render_hint(hint) for hint in chosen))
     return texts
 
 
 def evaluate_questions(
     localizer: Localizer, source: Source, texts: int, seed: int, progress: Progress, *, is_plain: bool = False
 ) -> dict[str, Any]:
-    """Say two hints of random positions and answer what is asked.
+    """Describe random positions by two hints and answer the questions.
 
     Args:
         localizer: of an index of the data.
-        source: the data, which tells what is true.
-        texts: how many.
-        seed: of positions, hints and answers.
+        source: the data, for the true replies.
+        texts: number of texts.
+        seed: of positions, hints and replies.
         progress: called as the work goes on.
-        is_plain: whether the hints name classes alone, without winds and colours.
+        is_plain: whether the hints have classes only, without directions and colours.
 
     Returns:
         "data", "texts", "seed", "after" (of 0 to QUESTIONS questions: "asked", "within_10_m", "median_m",
         "probability", "ok") and "kinds" (how many of each were asked).
 
     Raises:
-        DataError: the index is not of the data.
+        DataError: the index was built from other data.
     """
     if localizer.gallery.cells.ids != source.data.cells.ids:
-        raise DataError("the index has other cells than the data; index it with the same --split")
+        raise DataError("the index has other cells than the data; build the index with the same --split")
     rng, gazetteer = np.random.default_rng(seed), source.gazetteer()
     queries = source.queries(seed)
     rows = rng.permutation(len(queries))[:texts]
-    said = vague_texts(queries, rows.tolist(), rng, is_plain=is_plain)
-    truth = Truth(source.geometry(), source.data.gallery, source.data.palette, gazetteer)
+    descriptions = vague_texts(queries, rows.tolist(), rng, is_plain=is_plain)
+    truth = MapTruth(source.geometry(), source.data.gallery, source.data.palette, gazetteer)
     scenes = {scene: n for n, scene in enumerate(sorted(set(source.data.cells.scenes)))}
-    talks = []
-    for n, (row, text) in enumerate(zip(rows.tolist(), said, strict=True)):
+    dialogues = []
+    for n, (row, text) in enumerate(zip(rows.tolist(), descriptions, strict=True)):
         progress("ask", n, len(rows))
         scene = queries.scenes[row]
-        person = Person(truth, scenes[scene], queries.positions_m[row], rng)
-        talks.append(talk(localizer, text, person, scene))
+        person = SimulatedPerson(truth, scenes[scene], queries.positions_m[row], rng)
+        dialogues.append(hold_dialogue(localizer, text, person, scene))
     progress("ask", len(rows), len(rows))
-    return {"data": source.data.name, "texts": len(talks), "seed": seed, **_figures(talks)}
+    return {"data": source.data.name, "texts": len(dialogues), "seed": seed, **_summarize(dialogues)}
 
 
-def _figures(talks: Sequence[Talk]) -> dict[str, Any]:
+def _summarize(dialogues: Sequence[Dialogue]) -> dict[str, Any]:
     after = []
-    for count in range(QUESTIONS + 1):
-        last = [min(count, len(one.error_m) - 1) for one in talks]
-        error = np.array([one.error_m[n] for one, n in zip(talks, last, strict=True)])
+    for count in range(MAX_QUESTIONS + 1):
+        last = [min(count, len(one.error_m) - 1) for one in dialogues]
+        error = np.array([one.error_m[n] for one, n in zip(dialogues, last, strict=True)])
         median = float(np.median(error))
         after.append({
             "questions": count,
-            "asked": sum(len(one.kinds) >= count for one in talks) if count else 0,
+            "asked": sum(len(one.kinds) >= count for one in dialogues) if count else 0,
             "within_10_m": float((error <= WITHIN_M).mean()),
             "median_m": median if np.isfinite(median) else None,
-            "probability": float(np.mean([one.probability[n] for one, n in zip(talks, last, strict=True)])),
-            "ok": float(np.mean([one.is_ok[n] for one, n in zip(talks, last, strict=True)])),
+            "probability": float(np.mean([one.probability[n] for one, n in zip(dialogues, last, strict=True)])),
+            "ok": float(np.mean([one.is_ok[n] for one, n in zip(dialogues, last, strict=True)])),
         })  # fmt: skip
-    kinds = [kind for one in talks for kind in one.kinds]
+    kinds = [kind for one in dialogues for kind in one.kinds]
     return {"after": after, "kinds": {kind: kinds.count(kind) for kind in sorted(set(kinds))}}
 
 
 def questions_table(report: dict[str, Any]) -> Table:
-    """The report as a table."""
+    """Return the report as a table."""
     head: tuple[str, ...] = ("questions", "asked", "within 10 m", "median", "probability", "ok")
     rows: list[tuple[str, ...]] = [
         (

@@ -1,4 +1,4 @@
-"""A report for people: tables in Markdown, and plots."""
+"""Reports for people: tables in Markdown, and plots."""
 
 import json
 from collections.abc import Callable
@@ -16,9 +16,9 @@ from models.citymap.types import Floats
 from models.training.metrics import LOCALIZATION_RADII_M
 
 DPI = 130
-LONGEST_M = 100.0  # where the curve of errors ends
-MOST_SCENES = 9  # panels of the map of errors
-BANDS = (
+MAX_ERROR_M = 100.0  # end of the error curve
+MAX_SCENES = 9  # panels of the error map
+ERROR_BANDS = (
     (15.0, np.inf, "#e63946", "over 15 m"),
     (5.0, 15.0, "#e0a84f", "5 to 15 m"),
     (-1.0, 5.0, "#2a9d8f", "within 5 m"),
@@ -27,7 +27,7 @@ Table = tuple[tuple[str, ...], list[tuple[str, ...]]]  # head, rows
 
 
 def write_report(directory: Path, predictions: Predictions, report: dict[str, Any]) -> None:
-    """Write report.json, report.md, and PNGs: recall, errors, calibration, map, and growth if the gallery grew."""
+    """Write report.json, report.md and PNGs: recall, errors, calibration, map, and growth if the gallery grew."""
     (directory / "report.json").write_text(json.dumps(report, indent=2, ensure_ascii=False) + "\n")
     (directory / "report.md").write_text(markdown(report))
     curve = _recall_curve(predictions)
@@ -41,7 +41,7 @@ def write_report(directory: Path, predictions: Predictions, report: dict[str, An
 
 
 def main_table(report: dict[str, Any]) -> Table:
-    """Recalls of the model beside those of cell centres, chance and exact matching."""
+    """Return the recalls of the model, cell centres, chance and exact matching."""
     rows = {
         "model": report,
         "retrieved cell's centre": {"localization": report["cell_center"]},
@@ -55,13 +55,13 @@ def main_table(report: dict[str, Any]) -> Table:
 
 
 def group_table(title: str, groups: dict[str, Any]) -> Table:
-    """Recalls of groups of queries."""
+    """Return the recalls of groups of queries."""
     head = (title, "queries", "R@1", "R@3", "R@5", "k=1: 5/10/15 m", "k=5", "k=10")
     return head, [(name, f"{row['queries']}", *_cells(row)) for name, row in groups.items()]
 
 
 def growth_table(growth: list[dict[str, Any]]) -> Table:
-    """Recalls by size of the gallery, and what of the first recall@1 is lost."""
+    """Return the recalls by size of the gallery, and the relative change of recall@1."""
     head = ("radius", "cells", "queries", "R@1", "R@3", "R@5", "R@1 against the first")
     first = growth[0]["retrieval"]["1"] or 1.0
     return head, [
@@ -72,7 +72,7 @@ def growth_table(growth: list[dict[str, Any]]) -> Table:
 
 
 def markdown(report: dict[str, Any]) -> str:
-    """The report as a page."""
+    """Return the report as a page."""
     intervals = report["intervals"]["retrieval"]
     lines = [
         f"# {report['data']}, {report['split']}",
@@ -81,7 +81,7 @@ def markdown(report: dict[str, Any]) -> str:
         "95 % intervals (bootstrap over queries): "
         + ", ".join(f"R@{k} {low:.3f}-{high:.3f}" for k, (low, high) in intervals.items())
         + f". Calibration error of the probability: {report['calibration']['expected_calibration_error']:.3f}."
-        + _coverage_said(report),
+        + _coverage_text(report),
     ]
     for title, key in (("scene", "by_scene"), ("strategy", "by_strategy")):
         if report[key]:
@@ -93,29 +93,29 @@ def markdown(report: dict[str, Any]) -> str:
     return "\n\n".join(lines) + "\n"
 
 
-def _coverage_said(report: dict[str, Any]) -> str:
-    """What the radii hold, if the model gives any."""
+def _coverage_text(report: dict[str, Any]) -> str:
+    """Return a sentence about the radii, if the model has any."""
     return "".join(
-        f" Its {name[1:]} % radius holds {row['true']:.1%} of the queries (median {row['median_m']:.1f} m)."
+        f" Its {name[1:]} % radius contains {row['true']:.1%} of the queries (median {row['median_m']:.1f} m)."
         for name, row in report.get("coverage", {}).items()
     )
 
 
 def as_markdown(table: Table) -> str:
-    """A table in Markdown."""
+    """Return a table in Markdown."""
     head, rows = table
     return "\n".join("| " + " | ".join(row) + " |" for row in (head, ("---",) * len(head), *rows))
 
 
 def _cells(row: dict[str, Any]) -> list[str]:
-    """Six cells: recall@1, 3, 5, and localization recall for k = 1, 5, 10."""
+    """Return six cells: recall@1, 3, 5, and localization recall for k = 1, 5, 10."""
     recall = [f"{value:.3f}" for value in row.get("retrieval", {}).values()] or ["-"] * 3
     within = ["/".join(f"{v:.3f}" for v in by.values()) for by in row.get("localization", {}).values()] or ["-"] * 3
     return recall + within
 
 
 def _recall_curve(p: Predictions) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Recall@1, @2, ..."""
+    """Return recall@1, @2, ..."""
     hits = (p.ranked == p.queried_cells[:, None]) & (p.queried_cells[:, None] >= 0)
     curve: np.ndarray[tuple[int], np.dtype[np.float64]] = np.cumsum(hits.mean(axis=0))
     return curve
@@ -148,21 +148,21 @@ def _draw_errors(axes: Axes, p: Predictions) -> None:
         "oracle cell's centre": p.center_errors_m(p.queried_cells[:, None])[:, 0],
     }
     for (name, errors), style in zip(rows.items(), ("-", "--", ":"), strict=True):
-        steps = ecdf(np.minimum(errors, 10 * LONGEST_M)).cdf  # another scene is further than any error
+        steps = ecdf(np.minimum(errors, 10 * MAX_ERROR_M)).cdf  # another scene is further than any error
         axes.plot([0, *steps.quantiles], [0, *steps.probabilities], style, drawstyle="steps-post", label=name)
     for radius in LOCALIZATION_RADII_M:
         axes.axvline(radius, color="#c5cad3", lw=0.8, zorder=0)
-    axes.set(xlabel="error in the plane (m)", ylabel="share of queries", xlim=(0, LONGEST_M), ylim=(0, 1.01))
+    axes.set(xlabel="error in the plane (m)", ylabel="share of queries", xlim=(0, MAX_ERROR_M), ylim=(0, 1.01))
     axes.legend(frameon=False, loc="lower right")
     axes.grid(alpha=0.3)
 
 
 def _draw_calibration(axes: Axes, report: dict[str, Any]) -> None:
-    """How often the first cell is the best one, by the probability claimed; a dot's area is its share of queries."""
+    """Draw how often the first cell is right by its probability; a dot's area is its share of queries."""
     bins = report["calibration"]["bins"]
     claimed, true = ([b[name] for b in bins] for name in ("claimed", "true"))
     area = [20 + 600 * b["queries"] / report["queries"] for b in bins]
-    axes.plot([0, 1], [0, 1], ":", color="#8d99ae", label="honest")
+    axes.plot([0, 1], [0, 1], ":", color="#8d99ae", label="calibrated")
     axes.plot(claimed, true, color="#1d3557", lw=1)
     axes.scatter(claimed, true, s=area, color="#1d3557", alpha=0.7, label="model")
     error = report["calibration"]["expected_calibration_error"]
@@ -173,8 +173,8 @@ def _draw_calibration(axes: Axes, report: dict[str, Any]) -> None:
 
 
 def _draw_maps(path: Path, p: Predictions, report: dict[str, Any]) -> None:
-    """Where the first prediction is right, near, or far; a panel a scene, the same scale in all."""
-    scenes = np.unique(p.scenes).tolist()[:MOST_SCENES]
+    """Draw where the first prediction is right, near or far; one panel per scene, at the same scale."""
+    scenes = np.unique(p.scenes).tolist()[:MAX_SCENES]
     columns = min(3, len(scenes))
     rows = -(-len(scenes) // columns)
     figure = Figure(figsize=(1.5 + 5 * columns, 0.6 + 5 * rows), layout="constrained", dpi=DPI)
@@ -184,7 +184,7 @@ def _draw_maps(path: Path, p: Predictions, report: dict[str, Any]) -> None:
         _draw_map(axes, p, scene, errors)
     for axes in panels[len(scenes) :]:
         axes.set_axis_off()
-    names = [f"{name}: {_between(errors, low, high).mean():.0%}" for low, high, _, name in BANDS]
+    names = [f"{name}: {_between(errors, low, high).mean():.0%}" for low, high, _, name in ERROR_BANDS]
     figure.legend(panels[0].collections[1:], names, loc="outside upper right", frameon=False, fontsize=8, markerscale=3)
     figure.suptitle(
         f"{report['data']}, {report['split']}: error of the first prediction", fontsize=10, x=0.02, ha="left"
@@ -197,7 +197,7 @@ def _draw_map(axes: Axes, p: Predictions, scene: str, errors_m: Floats) -> None:
     of_scene = p.scenes == scene
     x, y = p.cell_centers_m[p.cell_scenes == scene].T
     axes.scatter(x, y, s=2, color="#e3e6eb", linewidths=0)
-    for low, high, colour, _ in BANDS:
+    for low, high, colour, _ in ERROR_BANDS:
         x, y = p.positions_m[of_scene & _between(errors_m, low, high)].T
         axes.scatter(x, y, s=5, color=colour, linewidths=0)
     axes.set_aspect("equal")

@@ -1,4 +1,4 @@
-"""How answers hold when descriptions are short, wrong, misspelt or worded freely, and when the map is out of date."""
+"""Robustness: short, wrong, misspelt or free descriptions, and outdated maps."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
@@ -16,7 +16,7 @@ from index.evaluation.evaluation import predict
 from index.evaluation.localizers import posterior_of_map, vectors_of_map
 from index.evaluation.report import Table
 from index.evaluation.scoring import score
-from index.evaluation.trials import CANDIDATES_OF, Trial, all_trials
+from index.evaluation.trials import CANDIDATE_TRIALS, Trial, all_trials
 from models.citymap.cells import CellTable, PartTable
 from models.citymap.gallery import Gallery, MapData
 from models.citymap.hints import direction_index
@@ -28,18 +28,18 @@ from models.errors import DataError
 from models.posterior.neighbours.map_objects import MapObjects
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
-MOST_QUERIES = 300
+MAX_QUERIES = 300
 SEED = 0
 
 
 def robustness(
     data: MapData, queries: Queries, vectors: VectorLocalizer, posterior: PosteriorLocalizer, progress: Progress
 ) -> dict[str, Any]:
-    """Recall of retriever and posterior under every trial, the same queries in all, and where candidates come from.
+    """Evaluate retriever and posterior under every trial with the same queries, and the candidates' recall.
 
     Args:
         data: the gallery.
-        queries: with their hints; of many, some are taken.
+        queries: with their hints; at most MAX_QUERIES are used.
         vectors: the retriever alone.
         posterior: of the same gallery.
         progress: called as the work goes on.
@@ -50,64 +50,74 @@ def robustness(
         "candidates" {text: `candidate_recall`} for some of them.
 
     Raises:
-        DataError: the queries are text alone.
+        DataError: the queries have no hints.
     """
     if queries.hints is None:
-        raise DataError("robustness needs to know what the hints mean; give a data set or a map with --data")
-    some = some_of(queries)
+        raise DataError("robustness needs the hints behind the texts; give a data set or a map with --data")
+    sampled = sample_queries(queries)
     rows, candidates = [], {}
     trials = all_trials(data)
     for n, trial in enumerate(trials):
         progress("trials", n, len(trials))
         rng = np.random.default_rng(SEED)
         facts = (
-            some.hints
+            sampled.hints
             if trial.hints is None
-            else nearest_hints(data, some.positions_m, some.truth, posterior.surroundings, trial.hints)
+            else nearest_hints(data, sampled.positions_m, sampled.truth, posterior.surroundings, trial.hints)
         )
         assert facts is not None
-        said = replace(some, sentences=[trial.say(hints, rng) for hints in facts], hints=None)
-        if trial.name in CANDIDATES_OF:
-            candidates[trial.name] = candidate_recall(said, posterior)
-        damage = _damage(data, trial, np.random.default_rng(SEED))
-        both = _localizers(damage, vectors, posterior) if damage else (vectors, posterior)
-        here = damage.data if damage else data
+        described = replace(sampled, sentences=[trial.say(hints, rng) for hints in facts], hints=None)
+        if trial.name in CANDIDATE_TRIALS:
+            candidates[trial.name] = candidate_recall(described, posterior)
+        damage = _damage_map(data, trial, np.random.default_rng(SEED))
+        localizers = _damaged_localizers(damage, vectors, posterior) if damage else (vectors, posterior)
+        trial_data = damage.data if damage else data
         rows.append(
-            {"name": trial.name, "retriever": _ask(here, said, both[0]), "posterior": _ask(here, said, both[1])}
+            {
+                "name": trial.name,
+                "retriever": _evaluate(trial_data, described, localizers[0]),
+                "posterior": _evaluate(trial_data, described, localizers[1]),
+            }
         )
     progress("trials", len(trials), len(trials))
     return {"trials": rows, "candidates": candidates}
 
 
-def _ask(data: MapData, queries: Queries, localizer: CellLocalizer) -> dict[str, Any]:
+def _evaluate(data: MapData, queries: Queries, localizer: CellLocalizer) -> dict[str, Any]:
     report = score(predict(data, queries, localizer, lambda *_: None))
     return {key: report[key] for key in ("retrieval", "localization", "coverage", "calibration")}
 
 
-def robustness_tables(found: dict[str, Any]) -> list[Table]:
-    """The trials, and the candidates of each kind of text, as `robustness` gives them."""
-    return [_trials(found["trials"]), *(candidate_table(rows, text) for text, rows in found["candidates"].items())]
+def robustness_tables(results: dict[str, Any]) -> list[Table]:
+    """Return the tables of trials and of candidates."""
+    return [
+        _trials_table(results["trials"]),
+        *(candidate_table(rows, text) for text, rows in results["candidates"].items()),
+    ]
 
 
-def _trials(rows: Sequence[dict[str, Any]]) -> Table:
-    """Recall@1, and recall within 5, 10 and 15 m at k = 1, of both; how honest the posterior is."""
+def _trials_table(rows: Sequence[dict[str, Any]]) -> Table:
+    """Return the table of recall@1, recall within 5, 10 and 15 m at k = 1, and the calibration of the posterior."""
     recall_head = ("retriever R@1", "posterior R@1", "retriever k=1: 5/10/15 m", "posterior k=1: 5/10/15 m")
     head = ("", *recall_head, "its 90 % radius holds", "ECE")
-    found = []
+    table_rows = []
     for row in rows:
         recalls = [f"{row[name]['retrieval']['1']:.3f}" for name in ("retriever", "posterior")]
         within = [
             "/".join(f"{v:.3f}" for v in row[name]["localization"]["1"].values()) for name in ("retriever", "posterior")
         ]
-        asked = row["posterior"]
-        honest = asked["coverage"]["p90"]["true"], asked["calibration"]["expected_calibration_error"]
-        found.append((row["name"], *recalls, *within, *(f"{value:.3f}" for value in honest)))
-    return head, found
+        posterior_scores = row["posterior"]
+        honest = (
+            posterior_scores["coverage"]["p90"]["true"],
+            posterior_scores["calibration"]["expected_calibration_error"],
+        )
+        table_rows.append((row["name"], *recalls, *within, *(f"{value:.3f}" for value in honest)))
+    return head, table_rows
 
 
-def some_of(queries: Queries) -> Queries:
-    """Not more than MOST_QUERIES of them, drawn."""
-    rows = np.random.default_rng(SEED).permutation(len(queries))[:MOST_QUERIES]
+def sample_queries(queries: Queries) -> Queries:
+    """Return at most MAX_QUERIES of the queries, drawn at random."""
+    rows = np.random.default_rng(SEED).permutation(len(queries))[:MAX_QUERIES]
     rows.sort()
     return queries.take(rows)
 
@@ -115,28 +125,28 @@ def some_of(queries: Queries) -> Queries:
 def nearest_hints(
     data: MapData, positions_m: Floats, rows: Ints, around: NeighbourIndex, count: int
 ) -> list[tuple[Hint, ...]]:
-    """Hints about the nearest things round some positions.
+    """Return hints about the nearest objects around positions.
 
     Args:
         data: the map.
         positions_m: [Q, 2] map frame.
-        rows: [Q] cell of each; of -1 nothing is said.
-        around: surroundings of the map's cells.
-        count: hints each; fewer where there are fewer things.
+        rows: [Q] cell of each; -1 gives no hints.
+        around: neighbour index of the map's cells.
+        count: maximum number of hints each.
     """
-    found: list[tuple[Hint, ...]] = []
+    hints: list[tuple[Hint, ...]] = []
     for position, cell in zip(positions_m, rows.tolist(), strict=True):
         nodes = np.arange(around.cell_starts[cell], around.cell_starts[cell + 1]) if cell >= 0 else np.empty(0, int)
         if not len(nodes):
-            found.append(())
+            hints.append(())
             continue
         nodes_m = around.positions_m(nodes)
         nearest = np.hypot(*(nodes_m - position).T).argmin()
         here = around.around(nodes[[nearest]])
         offset = position - (nodes_m[nearest] - here.way_m)
         nearest = np.argsort(np.hypot(*offset.T), kind="stable")[:count]
-        found.append(tuple(_hint(data, around.things, int(here.part[k]), offset[k]) for k in nearest))
-    return found
+        hints.append(tuple(_hint(data, around.things, int(here.part[k]), offset[k]) for k in nearest))
+    return hints
 
 
 def _hint(data: MapData, things: MapObjects, part: int, offset_m: Floats) -> Hint:
@@ -147,25 +157,25 @@ def _hint(data: MapData, things: MapObjects, part: int, offset_m: Floats) -> Hin
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Damage:
-    """A map that is out of date.
+class DamagedMap:
+    """An outdated map.
 
     Attributes:
         data: the map.
-        kept: [R] which parts of the map as it was are still there.
+        is_kept: [R] which of the original parts remain.
     """
 
     data: MapData
-    kept: npt.NDArray[np.bool_]
+    is_kept: npt.NDArray[np.bool_]
 
 
-def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | None:
-    """The map with some instances gone, or with others' labels; None if it stays as it is."""
+def _damage_map(data: MapData, trial: Trial, rng: np.random.Generator) -> DamagedMap | None:
+    """Return the map with instances removed or relabelled; None if it stays as it is."""
     if not trial.dropped and not trial.relabelled:
         return None
     gallery, parts = data.gallery, data.gallery.cells.parts
-    # In a data set each part is an instance; its source names what it is a part of.
-    keys = [f"{scene} {source}" for scene, source in zip(_scene_of(gallery), gallery.sources, strict=True)]
+    # In a data set each part is an instance; its source names the whole object.
+    keys = [f"{scene} {source}" for scene, source in zip(_instance_scenes(gallery), gallery.sources, strict=True)]
     number = np.unique(np.array(keys), return_inverse=True)[1]
     hit = rng.random(number.max() + 1) < max(trial.dropped, trial.relabelled)
     if trial.relabelled:
@@ -173,38 +183,40 @@ def _damage(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage | N
         names = np.unique(labels)
         changed = np.where(hit[number], names[rng.integers(len(names), size=len(hit))][number], labels)
         relabelled = replace(gallery, labels=tuple(changed.tolist()))
-        return Damage(replace(data, gallery=relabelled), np.ones(len(parts.instance), np.bool_))
-    kept = ~hit[number][parts.instance]
-    kept[parts.starts[:-1]] = True  # a cell keeps one part at least
-    count = np.concatenate([[0], np.cumsum(kept)])
-    columns = {f.name: getattr(parts, f.name)[kept] for f in fields(parts) if f.name != "starts"}
+        return DamagedMap(replace(data, gallery=relabelled), np.ones(len(parts.instance), np.bool_))
+    is_kept = ~hit[number][parts.instance]
+    is_kept[parts.starts[:-1]] = True  # a cell keeps at least one part
+    count = np.concatenate([[0], np.cumsum(is_kept)])
+    columns = {f.name: getattr(parts, f.name)[is_kept] for f in fields(parts) if f.name != "starts"}
     cells = replace(
-        gallery.cells, content=PartTable(starts=count[parts.starts], **columns), sample=_sampler_of(gallery.cells, kept)
+        gallery.cells,
+        content=PartTable(starts=count[parts.starts], **columns),
+        sample=_kept_sampler(gallery.cells, is_kept),
     )
-    return Damage(replace(data, gallery=replace(gallery, cells=cells)), kept)
+    return DamagedMap(replace(data, gallery=replace(gallery, cells=cells)), is_kept)
 
 
-def _sampler_of(cells: CellTable, kept: npt.NDArray[np.bool_]) -> Sampler | None:
-    """Points of the parts that are left."""
+def _kept_sampler(cells: CellTable, is_kept: npt.NDArray[np.bool_]) -> Sampler | None:
+    """Return a sampler for the remaining parts."""
     sample, starts = cells.sample, cells.parts.starts
-    return sample and (lambda chosen: sample(chosen)[kept[ranges(starts[chosen], starts[chosen + 1])]])
+    return sample and (lambda chosen: sample(chosen)[is_kept[ranges(starts[chosen], starts[chosen + 1])]])
 
 
-def _scene_of(gallery: Gallery) -> list[str]:
-    """Scene of each instance."""
+def _instance_scenes(gallery: Gallery) -> list[str]:
+    """Return the scene of each instance."""
     scenes = np.full(len(gallery.labels), "", dtype=object)
     scenes[gallery.cells.parts.instance] = np.array(gallery.cells.scenes, dtype=object)[gallery.cells.parts.cube]
-    found: list[str] = scenes.tolist()
-    return found
+    names: list[str] = scenes.tolist()
+    return names
 
 
-def _localizers(
-    damage: Damage, vectors: VectorLocalizer, posterior: PosteriorLocalizer
+def _damaged_localizers(
+    damage: DamagedMap, vectors: VectorLocalizer, posterior: PosteriorLocalizer
 ) -> tuple[VectorLocalizer, PosteriorLocalizer]:
-    """Retriever and posterior of a map that differs from theirs."""
+    """Build retriever and posterior for a damaged map."""
     data, ranker = damage.data, vectors.ranker
     around = posterior.surroundings
-    parts = around.things.parts_among(posterior.gallery.cells.parts, damage.kept)
+    parts = around.things.parts_among(posterior.gallery.cells.parts, damage.is_kept)
     surroundings = around.take(np.arange(len(data.cells)), parts)
-    encoded = Ranker.of(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
+    encoded = Ranker.from_cells(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
     return vectors_of_map(data, encoded), posterior_of_map(posterior.weights, data, encoded, surroundings)

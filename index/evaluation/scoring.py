@@ -1,4 +1,4 @@
-"""From saved predictions to the report: recall by the protocol of docs/formats.md, with intervals and breakdowns."""
+"""From saved predictions to a report: recall by the protocol of docs/formats.md, intervals and breakdowns."""
 
 from typing import Any
 
@@ -19,19 +19,19 @@ from models.training.metrics import (
 
 RESAMPLES = 1000
 RESAMPLE_SEED = 0
-LEVEL = (2.5, 97.5)  # percentiles of a 95 % interval
-BINS = 10
-DIGITS = 6  # of what depends on the last bits of a model's output, which differ with the number of threads
+INTERVAL_PERCENTILES = (2.5, 97.5)  # percentiles of a 95 % interval
+CALIBRATION_BINS = 10
+DIGITS = 6  # the last bits of a model's output depend on the number of threads
 
 
 def score(predictions: Predictions) -> dict[str, Any]:
-    """The report of some predictions.
+    """Score predictions.
 
     Returns:
-        What `Predictions.facts` says, then "cells", "queries", "retrieval" {k: recall}, "localization" {k: {metres:
-        recall}}; the same of the centre of the retrieved cell, of the true best cell ("oracle") and of "chance"; 95 %
-        intervals (bootstrap over queries), breakdowns, error quantiles and calibration; and "places": where each query
-        was said ("truth") and put ("estimate", null if nowhere in its scene). Keys are strings, as in JSON.
+        `Predictions.facts`, "cells", "queries", "retrieval" {k: recall}, "localization" {k: {metres: recall}}; the same
+        for the retrieved cell's centre, the true best cell's centre ("oracle") and "chance"; intervals, breakdowns,
+        error quantiles and calibration; and "places" with each query's position ("truth") and "estimate", null in
+        another scene. Keys are strings, as in JSON.
     """
     p = predictions
     errors, centers = p.errors_m(), p.center_errors_m(p.ranked[:, : p.predicted_m.shape[1]])
@@ -48,15 +48,15 @@ def score(predictions: Predictions) -> dict[str, Any]:
         "oracle": localization_recall(oracle),
         "chance": _chance(p),
         "error_m": _quantiles(errors[:, 0]),
-        "by_scene": _by(p.scenes, p, errors),
-        "by_strategy": _by(p.strategies, p, errors),
+        "by_scene": _group_recalls(p.scenes, p, errors),
+        "by_strategy": _group_recalls(p.strategies, p, errors),
         "calibration": calibration(p.probability, retrieval_hits(p.ranked, p.queried_cells)[1]),
     }
     report["places"] = {
         "truth": p.positions_m[:, :2].round(2).tolist(),
         "estimate": [
-            at if np.isfinite(error) else None
-            for at, error in zip(p.predicted_m[:, 0].round(2).tolist(), errors[:, 0], strict=True)
+            position if np.isfinite(error) else None
+            for position, error in zip(p.predicted_m[:, 0].round(2).tolist(), errors[:, 0], strict=True)
         ],
     }
     if not np.isnan(p.radius_m).any():
@@ -65,7 +65,7 @@ def score(predictions: Predictions) -> dict[str, Any]:
 
 
 def _coverage(radius_m: Floats, error_m: Floats) -> dict[str, Any]:
-    """Share of the queries inside the circles that are to hold .5 and .9 of them, and the circles' median radius."""
+    """Return the share of queries inside the 50 % and 90 % radii, and the median radii."""
     return {
         name: {
             "true": float((error_m <= radius_m[:, n]).mean()),
@@ -76,25 +76,25 @@ def _coverage(radius_m: Floats, error_m: Floats) -> dict[str, Any]:
 
 
 def calibration(probability: Floats, hit: npt.NDArray[np.bool_]) -> dict[str, Any]:
-    """Expected calibration error of a probability, over ten equal bins.
+    """Return the expected calibration error of a probability, over ten equal bins.
 
     Args:
-        probability: [Q] what was claimed.
-        hit: [Q] what was true.
+        probability: [Q] predicted.
+        hit: [Q] whether the prediction is true.
 
     Returns:
         "mean_probability", "expected_calibration_error", and "bins": lower edge, queries, mean claimed, share true.
     """
-    of = np.minimum((probability * BINS).astype(int), BINS - 1)
+    bin_of = np.minimum((probability * CALIBRATION_BINS).astype(int), CALIBRATION_BINS - 1)
     bins = [
         {
-            "from": b / BINS,
-            "queries": int((of == b).sum()),
-            "claimed": round(float(probability[of == b].mean()), DIGITS),
-            "true": float(hit[of == b].mean()),
+            "from": b / CALIBRATION_BINS,
+            "queries": int((bin_of == b).sum()),
+            "claimed": round(float(probability[bin_of == b].mean()), DIGITS),
+            "true": float(hit[bin_of == b].mean()),
         }
-        for b in range(BINS)
-        if (of == b).any()
+        for b in range(CALIBRATION_BINS)
+        if (bin_of == b).any()
     ]
     error = sum(abs(b["claimed"] - b["true"]) * b["queries"] for b in bins) / len(hit)
     mean = round(float(probability.mean()), DIGITS)
@@ -102,13 +102,13 @@ def calibration(probability: Floats, hit: npt.NDArray[np.bool_]) -> dict[str, An
 
 
 def _intervals(p: Predictions, errors_m: Floats) -> dict[str, Any]:
-    """95 % intervals of the recalls: percentiles over resampled sets of queries."""
+    """Return 95 % intervals of the recalls by bootstrap over queries."""
     retrieval, localization = retrieval_hits(p.ranked, p.queried_cells), localization_hits(errors_m)
     hits = np.column_stack([*retrieval.values(), *(hit for by in localization.values() for hit in by.values())])
     total = len(hits)
     rng = np.random.default_rng(RESAMPLE_SEED)
     drawn = [rng.multinomial(total, np.full(total, 1 / total)) @ hits for _ in range(RESAMPLES)]
-    low, high = np.percentile(np.array(drawn) / total, LEVEL, axis=0).round(6)
+    low, high = np.percentile(np.array(drawn) / total, INTERVAL_PERCENTILES, axis=0).round(6)
     ranges = iter(zip(low.tolist(), high.tolist(), strict=True))
     return {
         "level": 0.95,
@@ -117,24 +117,24 @@ def _intervals(p: Predictions, errors_m: Floats) -> dict[str, Any]:
     }
 
 
-def _by(groups: npt.NDArray[np.str_], p: Predictions, errors_m: Floats) -> dict[str, Any]:
-    """Recalls of each group of queries, in the same gallery; nothing if there is one group alone, without a name."""
+def _group_recalls(groups: npt.NDArray[np.str_], p: Predictions, errors_m: Floats) -> dict[str, Any]:
+    """Return the recalls of each group of queries; nothing for a single group without name."""
     names = np.unique(groups).tolist()
     if names == [""]:
         return {}
-    found = {}
+    recalls = {}
     for name in names:
         rows = groups == name
-        found[name] = {
+        recalls[name] = {
             "queries": int(rows.sum()),
             "retrieval": retrieval_recall(p.ranked[rows], p.queried_cells[rows]),
             "localization": localization_recall(errors_m[rows]),
         }
-    return found
+    return recalls
 
 
 def _quantiles(errors_m: Floats) -> dict[str, float | None]:
-    """Quantiles of the first prediction's error, metres; None where it is in another scene."""
+    """Return quantiles of the first prediction's error, metres; None where it is in another scene."""
     quantiles = np.quantile(errors_m, [0.25, 0.5, 0.75, 0.9], method="higher")
     return {
         f"p{share}": round(float(q), DIGITS) if np.isfinite(q) else None
@@ -143,7 +143,7 @@ def _quantiles(errors_m: Floats) -> dict[str, float | None]:
 
 
 def _chance(p: Predictions) -> dict[str, Any]:
-    """Expected recall of cells drawn at random without looking at the text."""
+    """Return the expected recall of random cells."""
     total = len(p.cell_ids)
     near = np.zeros((len(p.queried_cells), len(LOCALIZATION_RADII_M)))
     for row, position in enumerate(p.positions_m):
@@ -161,7 +161,7 @@ def _chance(p: Predictions) -> dict[str, Any]:
 
 
 def _with_text_keys(value: Any) -> Any:
-    """The value as JSON would give it back: keys are strings, tuples lists."""
+    """Return a value as JSON would give it back: keys are strings, tuples lists."""
     if isinstance(value, dict):
         return {str(key): _with_text_keys(item) for key, item in value.items()}
     return [_with_text_keys(item) for item in value] if isinstance(value, (list, tuple)) else value

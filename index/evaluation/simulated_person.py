@@ -1,4 +1,4 @@
-"""Made-up people who answer questions, by what a map has where they stand."""
+"""Simulated people who answer questions from the map around them."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 
 from index.answering.answers import Question
 from index.answering.query import Reply
-from index.asking.question_spec import OTHER, UNKNOWN, Asked
+from index.asking.question_spec import OTHER, UNKNOWN, QuestionSpec
 from models.citymap.colours import Palette
 from models.citymap.gallery import Gallery, NearestFinder, PointClouds
 from models.citymap.gazetteer.closest_points import ClosestPoints, PointGroups, find_closest_points, select_objects
@@ -20,24 +20,25 @@ from models.citymap.types import Floats
 from models.language.lexicon.question_classes import load_question_classes
 from models.posterior.nearby_objects import QUARTERS
 
-WRONG, DO_NOT_KNOW = 0.1, 0.2  # of the answers; of those that are known, so many are wrong
-TEN_M, REACH_M, SIGN_M = 10.0, 15.0, 30.0  # what people take for near, for the nearest one, and read a sign at
-IDEAS: Final = 0.25  # how far people's ideas of these differ: log-normal
-TURN: Final = 10.0  # degrees that they are off by: normal
-STREET_M: Final = 40.0
-ALIKE_M: Final = 3.0  # as near as the nearest
-SIGHT_M: Final = 5.0  # a sign this near is said half as often as one at the door
-NEARBY_M: Final = 150.0  # from where wrong names are taken
+# Assumed errors of people; docs/results.md has the figures that they lead to.
+UNKNOWN_SHARE, WRONG_SHARE = 0.2, 0.1  # of all replies "I don't know"; of the others wrong
+NEAR_M, NEAREST_REACH_M, SIGN_REACH_M = 10.0, 15.0, 30.0  # perceived as near, as the nearest one, as a readable sign
+DISTANCE_LOG_SIGMA: Final = 0.25  # log-normal error of these distances
+BEARING_SIGMA_DEG: Final = 10.0  # normal error of directions
+STREET_REACH_M: Final = 40.0
+TIE_M: Final = 3.0  # objects within this of the nearest count as equally near
+SIGN_HALF_WEIGHT_M: Final = 5.0  # a sign this far is mentioned half as often as one at the door
+WRONG_NAME_REACH_M: Final = 150.0  # nearby wrong names come from within
 
 
-class Truth:
-    """What a map has at a position, by its geometry: of all its instances, and of its names.
+class MapTruth:
+    """The true answers of a map at a position, from its geometry and names.
 
     Args:
-        bodies: what stands in the map.
-        gallery: its cells, for the classes and colours of these.
-        palette: its colour words.
-        gazetteer: its names.
+        bodies: geometry of the map.
+        gallery: cells, for classes and colours.
+        palette: colour words.
+        gazetteer: names.
     """
 
     def __init__(
@@ -59,7 +60,7 @@ class Truth:
         self._owners, self._finders = owners, dict[tuple[int, str], NearestFinder]()
 
     def nearest(self, scene: int, position: Floats, label: str) -> tuple[float, float, int] | None:
-        """Metres, degrees clockwise from north, and instance of the nearest of a class; None if the scene has none."""
+        """Return distance, bearing in degrees and instance of the nearest object of a class; None without one."""
         key = scene, label
         if key not in self._owners:
             return None
@@ -69,46 +70,46 @@ class Truth:
         return float(np.hypot(east, north)), float(np.degrees(np.arctan2(east, north))), instance
 
     def colour(self, instance: int) -> str | None:
-        """The word for an instance's colour; None if the map does not know it."""
+        """Return the word for an instance's colour; None if unknown."""
         return self._palette.word(self._rgb[instance])
 
     @property
     def street_names(self) -> Sequence[str]:
-        """Of all streets."""
+        """Return the names of all streets."""
         return [self._name(n) for n in self._streets.tolist()]
 
     @property
     def place_names(self) -> Sequence[str]:
-        """Of all places that people know by their names."""
+        """Return the names of all places that people know by name."""
         return [self._name(n) for n in self._places.tolist()]
 
     @property
     def house_names(self) -> Sequence[str]:
-        """Numbers and streets of all houses."""
+        """Return number and street of all houses."""
         return [self._address(n) for n in self._houses.tolist()]
 
     def houses(self, position: Floats, reach_m: float) -> list[tuple[float, str]]:
-        """Metres to the houses near a position that have a number, and number and street, nearest first."""
+        """Return distances and addresses of the houses near a position, nearest first."""
         return self._near(position, self._houses, reach_m, self._address)
 
     def streets(self, position: Floats, reach_m: float) -> list[tuple[float, str]]:
-        """Metres and names of the streets near a position, nearest first."""
+        """Return distances and names of the streets near a position, nearest first."""
         return self._near(position, self._streets, reach_m)
 
     def places(self, position: Floats, reach_m: float) -> list[tuple[float, str]]:
-        """Metres and names of the places near a position that people know by their names, nearest first."""
+        """Return distances and names of the well-known places near a position, nearest first."""
         return self._near(position, self._places, reach_m)
 
     def crossing(self, position: Floats, street: str) -> list[tuple[float, str]]:
-        """Metres from where a position is on a street to the streets that cross it, and their names, nearest first."""
+        """Return distances along a street to its cross streets, and their names, nearest first."""
         one = np.array([n for n in self._streets if self._gazetteer.objects[n].names[0] == street], np.int64)
-        foot = position + self._ways(position, one, STREET_M).offset_m[0]
-        found = []
-        for pair, at in zip(self._gazetteer.corner_streets, self._gazetteer.corners_m, strict=True):
+        foot = position + self._ways(position, one, STREET_REACH_M).offset_m[0]
+        crossings = []
+        for pair, corner_m in zip(self._gazetteer.corner_streets, self._gazetteer.corners_m, strict=True):
             if one[0] in pair:
                 other = int(pair[0] if pair[1] == one[0] else pair[1])
-                found.append((float(np.hypot(*(at - foot))), self._gazetteer.objects[other].names[0]))
-        return sorted(found)
+                crossings.append((float(np.hypot(*(corner_m - foot))), self._gazetteer.objects[other].names[0]))
+        return sorted(crossings)
 
     def _near(
         self, position: Floats, objects: Ints, reach_m: float, called: Callable[[int], str] | None = None
@@ -133,86 +134,87 @@ class Truth:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Person:
-    """Somebody at a position.
+class SimulatedPerson:
+    """A simulated person at a position.
 
     Attributes:
-        truth: of the map.
+        truth: true answers of the map.
         scene: number of the scene.
         position_m: [2].
-        rng: draws errors.
+        rng: source of errors.
     """
 
-    truth: Truth
+    truth: MapTruth
     scene: int
     position_m: Floats
     rng: np.random.Generator
 
     def reply(self, question: Question) -> Reply:
-        """What they answer."""
-        asked = Asked.parse(question.id)
-        assert asked is not None
-        right = self._right(asked)
-        if self.rng.random() < DO_NOT_KNOW or right is None:
+        """Reply to a question."""
+        spec = QuestionSpec.parse(question.id)
+        assert spec is not None
+        right = self._right(spec)
+        if self.rng.random() < UNKNOWN_SHARE or right is None:
             return Reply(question.id, UNKNOWN)
-        if self.rng.random() < WRONG:
-            right = self._wrong(asked, right)
-        return Reply(question.id, right if asked.is_open or right in asked.values else OTHER)
+        if self.rng.random() < WRONG_SHARE:
+            right = self._wrong(spec, right)
+        return Reply(question.id, right if spec.is_open or right in spec.values else OTHER)
 
-    def _right(self, asked: Asked) -> str | None:
-        """What is true, as they see it; None if the map does not say."""
-        if asked.is_open:
+    def _right(self, spec: QuestionSpec) -> str | None:
+        """Return the true reply as the person perceives it; None if the map does not tell."""
+        if spec.is_open:
             open_ones = {"street": self._street, "name": self._place, "corner": self._corner, "address": self._house}
-            return open_ones[asked.kind]()
-        found = self.truth.nearest(self.scene, self.position_m, asked.names[0])
-        if asked.kind == "near":
-            return "no" if found is None or found[0] > TEN_M * self._idea() else "yes"
-        if asked.kind == "colour":
-            return None if found is None else self.truth.colour(found[2])
-        if found is None or found[0] > REACH_M * self._idea():
+            return open_ones[spec.kind]()
+        nearest = self.truth.nearest(self.scene, self.position_m, spec.names[0])
+        if spec.kind == "near":
+            return "no" if nearest is None or nearest[0] > NEAR_M * self._idea() else "yes"
+        if spec.kind == "colour":
+            return None if nearest is None else self.truth.colour(nearest[2])
+        if nearest is None or nearest[0] > NEAREST_REACH_M * self._idea():
             return "none"
-        return QUARTERS[round((found[1] + self.rng.normal(0, TURN)) / 90) % 4]
+        return QUARTERS[round((nearest[1] + self.rng.normal(0, BEARING_SIGMA_DEG)) / 90) % 4]
 
-    def _wrong(self, asked: Asked, right: str) -> str:
-        """Another answer; half of the wrong names are of somewhere near, the others of anywhere."""
-        values: Sequence[str] = asked.values
-        if asked.is_open:
+    def _wrong(self, spec: QuestionSpec, right: str) -> str:
+        """Return a wrong reply; half of the wrong names are from nearby, the others from anywhere."""
+        values: Sequence[str] = spec.values
+        if spec.is_open:
             near, values = self.truth.streets, self.truth.street_names
-            if asked.kind == "name":
+            if spec.kind == "name":
                 near, values = self.truth.places, self.truth.place_names
-            elif asked.kind == "address":
+            elif spec.kind == "address":
                 near, values = self.truth.houses, self.truth.house_names
-            some = [name for _, name in near(self.position_m, NEARBY_M) if name != right]
-            values = some if some and self.rng.random() < 0.5 else values
+            nearby = [name for _, name in near(self.position_m, WRONG_NAME_REACH_M) if name != right]
+            values = nearby if nearby and self.rng.random() < 0.5 else values
         others = [value for value in values if value != right]
         return str(self.rng.choice(others)) if others else right
 
     def _street(self) -> str | None:
-        return self._one_of_alike(self.truth.streets(self.position_m, STREET_M))
+        return self._one_of_alike(self.truth.streets(self.position_m, STREET_REACH_M))
 
     def _place(self) -> str | None:
-        """A name that they read, of what is near rather than of what is farther."""
-        seen = self.truth.places(self.position_m, SIGN_M * self._idea())
-        if not seen:
+        """Return a name that the person can read, preferring near signs."""
+        visible = self.truth.places(self.position_m, SIGN_REACH_M * self._idea())
+        if not visible:
             return None
-        weight = np.array([1 / (metres + SIGHT_M) for metres, _ in seen])
-        return seen[int(self.rng.choice(len(seen), p=weight / weight.sum()))][1]
+        weight = np.array([1 / (metres + SIGN_HALF_WEIGHT_M) for metres, _ in visible])
+        return visible[int(self.rng.choice(len(visible), p=weight / weight.sum()))][1]
 
     def _house(self) -> str | None:
-        """The one that seems nearest, as far as numbers are read."""
-        seen = [
-            (metres * self._idea(), name) for metres, name in self.truth.houses(self.position_m, SIGN_M * self._idea())
+        """Return the house that seems nearest among readable numbers."""
+        visible = [
+            (metres * self._idea(), name)
+            for metres, name in self.truth.houses(self.position_m, SIGN_REACH_M * self._idea())
         ]
-        return min(seen)[1] if seen else None
+        return min(visible)[1] if visible else None
 
     def _corner(self) -> str | None:
         street = self._street()
         return None if street is None else self._one_of_alike(self.truth.crossing(self.position_m, street))
 
     def _one_of_alike(self, near: Sequence[tuple[float, str]]) -> str | None:
-        """The nearest; of several that are as near, as at a corner, any is right."""
-        alike = [name for metres, name in near if metres <= near[0][0] + ALIKE_M]
+        """Return the nearest name; of several at the same distance, as at a corner, a random one."""
+        alike = [name for metres, name in near if metres <= near[0][0] + TIE_M]
         return alike[int(self.rng.integers(len(alike)))] if alike else None
 
     def _idea(self) -> float:
-        return float(np.exp(self.rng.normal(0, IDEAS)))
+        return float(np.exp(self.rng.normal(0, DISTANCE_LOG_SIGMA)))

@@ -1,4 +1,4 @@
-"""The ways in which descriptions and maps are made hard."""
+"""The trials of the robustness evaluation: harder descriptions and outdated maps."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -12,21 +12,21 @@ from models.language.grammar.labelled_text import Fact, LabelledText
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
 
-TEMPLATE, FREE = CANDIDATES_OF = ("template text", "free wording, unseen grammar")
-INVERSE = TEMPLATES.index("There is {a} {o} of me.")
+TEMPLATE_TEXT, FREE_WORDING = CANDIDATE_TRIALS = ("template text", "free wording, unseen grammar")
+INVERSE_TEMPLATE = TEMPLATES.index("There is {a} {o} of me.")
 Say = Callable[[tuple[Hint, ...], np.random.Generator], tuple[str, ...]]
 Change = Callable[[tuple[Hint, ...], np.random.Generator], tuple[Hint, ...]]
 
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """One way to make it hard.
+    """One trial.
 
     Attributes:
         name: for the table.
-        say: what is said of a query's hints.
-        hints: tell of so many things instead of the query's own hints, the nearest ones.
-        dropped, relabelled: shares of the map's instances that are gone, or have another's label.
+        say: turns a query's hints into sentences.
+        hints: number of nearest objects to describe instead of the query's own hints.
+        dropped, relabelled: shares of the map's instances that are missing, or have a wrong label.
     """
 
     name: str
@@ -37,82 +37,85 @@ class Trial:
 
 
 def all_trials(data: MapData) -> list[Trial]:
-    """Every trial."""
+    """Return all trials."""
     words = sorted(set(data.palette.words))
     free = Wording("test")
-    trials = [Trial(TEMPLATE, _template)]
-    trials += [Trial(f"{n} hints", _first(n)) for n in range(1, 6)]
+    trials = [Trial(TEMPLATE_TEXT, _say_template)]
+    trials += [Trial(f"{n} hints", _say_random_hints(n)) for n in range(1, 6)]
     trials += [
-        Trial("12 hints", _template, hints=12),
-        Trial("one hint of six wrong", _one_wrong(words)),
-        Trial("two colours of six wrong", _wrong_colours(words, 2)),
-        Trial("hints in another order", _shuffled),
-        Trial("inverse phrasing", lambda hints, _rng: tuple(render_hint(hint, INVERSE) for hint in hints)),
-        Trial(FREE, lambda hints, rng: _pieces(_write(free, hints, rng))),
-        Trial("free wording, three typos", lambda hints, rng: _pieces(typos(_write(free, hints, rng), 3, rng))),
+        Trial("12 hints", _say_template, hints=12),
+        Trial("one hint of six wrong", _say_one_wrong(words)),
+        Trial("two colours of six wrong", _say_wrong_colours(words, 2)),
+        Trial("hints in another order", _say_shuffled),
+        Trial("inverse phrasing", lambda hints, _rng: tuple(render_hint(hint, INVERSE_TEMPLATE) for hint in hints)),
+        Trial(FREE_WORDING, lambda hints, rng: _text_lines(_write(free, hints, rng))),
+        Trial("free wording, three typos", lambda hints, rng: _text_lines(typos(_write(free, hints, rng), 3, rng))),
     ]
-    trials += [Trial(f"free wording, {n} hints", _freely(free, _some(n))) for n in (2, 3, 4)]
+    trials += [Trial(f"free wording, {n} hints", _say_freely(free, _random_hints(n))) for n in (2, 3, 4)]
     trials += [
-        Trial("free wording, 3 hints, no colours", _freely(free, lambda hints, rng: _plain(_some(3)(hints, rng)))),
-        Trial("free wording, one hint of six wrong", _freely(free, _with_one_wrong(words))),
+        Trial(
+            "free wording, 3 hints, no colours",
+            _say_freely(free, lambda hints, rng: _without_colours(_random_hints(3)(hints, rng))),
+        ),
+        Trial("free wording, one hint of six wrong", _say_freely(free, _with_one_wrong(words))),
     ]
-    trials += [Trial(f"{share:.0%} of the instances gone", _template, dropped=share) for share in (0.1, 0.2)]
-    trials += [Trial(f"{share:.0%} of the labels wrong", _template, relabelled=share) for share in (0.1, 0.2)]
+    trials += [Trial(f"{share:.0%} of the instances gone", _say_template, dropped=share) for share in (0.1, 0.2)]
+    trials += [Trial(f"{share:.0%} of the labels wrong", _say_template, relabelled=share) for share in (0.1, 0.2)]
     return trials
 
 
-def _template(hints: tuple[Hint, ...], _rng: np.random.Generator) -> tuple[str, ...]:
+def _say_template(hints: tuple[Hint, ...], _rng: np.random.Generator) -> tuple[str, ...]:
     return tuple(render_hint(hint) for hint in hints)
 
 
-def _first(count: int) -> Say:
-    return lambda hints, rng: _template(_some(count)(hints, rng), rng)
+def _say_random_hints(count: int) -> Say:
+    return lambda hints, rng: _say_template(_random_hints(count)(hints, rng), rng)
 
 
-def _some(count: int) -> Change:
+def _random_hints(count: int) -> Change:
     return lambda hints, rng: tuple(hints[i] for i in rng.permutation(len(hints))[:count])
 
 
-def _plain(hints: tuple[Hint, ...]) -> tuple[Hint, ...]:
+def _without_colours(hints: tuple[Hint, ...]) -> tuple[Hint, ...]:
     return tuple(replace(hint, colour=None) for hint in hints)
 
 
-def _freely(wording: Wording, change: Change) -> Say:
-    return lambda hints, rng: _pieces(_write(wording, change(hints, rng), rng))
+def _say_freely(wording: Wording, change: Change) -> Say:
+    return lambda hints, rng: _text_lines(_write(wording, change(hints, rng), rng))
 
 
-def _shuffled(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
-    return _template(tuple(hints[i] for i in rng.permutation(len(hints))), rng)
+def _say_shuffled(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
+    return _say_template(tuple(hints[i] for i in rng.permutation(len(hints))), rng)
 
 
-def _one_wrong(words: Sequence[str]) -> Say:
-    return lambda hints, rng: _template(_with_one_wrong(words)(hints, rng), rng)
+def _say_one_wrong(words: Sequence[str]) -> Say:
+    return lambda hints, rng: _say_template(_with_one_wrong(words)(hints, rng), rng)
 
 
 def _with_one_wrong(words: Sequence[str]) -> Change:
-    """One hint says another direction and another colour than is true."""
+    """Return a change that gives one hint a wrong direction and colour."""
 
     def change(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[Hint, ...]:
-        at = int(rng.integers(len(hints)))
-        others: list[Direction] = [d for d in DIRECTIONS[:4] if d != hints[at].direction]
+        row = int(rng.integers(len(hints)))
+        others: list[Direction] = [d for d in DIRECTIONS[:4] if d != hints[row].direction]
         wrong = replace(
-            hints[at], direction=others[int(rng.integers(len(others)))], colour=_other(words, hints[at], rng)
+            hints[row], direction=others[int(rng.integers(len(others)))], colour=_other_colour(words, hints[row], rng)
         )
-        return (*hints[:at], wrong, *hints[at + 1 :])
+        return (*hints[:row], wrong, *hints[row + 1 :])
 
     return change
 
 
-def _wrong_colours(words: Sequence[str], count: int) -> Say:
+def _say_wrong_colours(words: Sequence[str], count: int) -> Say:
     def say(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
-        at = set(rng.permutation(len(hints))[:count].tolist())
-        wrong = (replace(h, colour=_other(words, h, rng)) if n in at else h for n, h in enumerate(hints))
-        return _template(tuple(wrong), rng)
+        rows = set(rng.permutation(len(hints))[:count].tolist())
+        wrong = (replace(h, colour=_other_colour(words, h, rng)) if n in rows else h for n, h in enumerate(hints))
+        return _say_template(tuple(wrong), rng)
 
     return say
 
 
-def _other(words: Sequence[str], hint: Hint, rng: np.random.Generator) -> str:
+def _other_colour(words: Sequence[str], hint: Hint, rng: np.random.Generator) -> str:
     others = [word for word in words if word != hint.colour]
     return others[int(rng.integers(len(others)))]
 
@@ -121,5 +124,5 @@ def _write(wording: Wording, hints: tuple[Hint, ...], rng: np.random.Generator) 
     return wording.write([Fact(hint.label, hint.direction, hint.colour) for hint in hints], rng)
 
 
-def _pieces(said: LabelledText) -> tuple[str, ...]:
-    return tuple(line for line in said.text.split("\n") if line.strip())
+def _text_lines(text: LabelledText) -> tuple[str, ...]:
+    return tuple(line for line in text.text.split("\n") if line.strip())

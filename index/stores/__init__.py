@@ -1,4 +1,4 @@
-"""Stores of cell vectors: `store` is the contract, `faiss_store` and `milvus_store` implement it.
+"""Stores of cell vectors: `store` is the interface, `faiss_store` and `milvus_store` implement it.
 
 Only this package imports faiss and pymilvus.
 """

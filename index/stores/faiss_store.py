@@ -1,4 +1,4 @@
-"""Vectors in a file of the index: FAISS."""
+"""A vector store in a FAISS file."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -14,26 +14,31 @@ from index.stores.store import Floats, Rows, best_first
 from models.errors import IndexBroken
 from models.spool import forget
 
-# From 20 queries on, FAISS multiplies matrices, whose rounding depends on the batch; below, each query is
-# scanned alone, so that it finds the same bits whatever stands beside it.
+# From 20 queries on, FAISS multiplies matrices, and rounding depends on the batch. Below that each query is scanned
+# alone, so its scores do not depend on the other queries.
 QUERIES_PER_CALL: Final = 16
-EXACT: Final = 20_000  # vectors; more of them are kept to 8 bits a number, a quarter of the size
-MANY: Final = 200_000  # vectors; more of them are put into lists of like ones, and only the nearest lists are searched
-LISTS, SEARCHED = 1024, 32  # of which are found .99 of the best 100 that all lists have, in a fiftieth of the time
-FEW: Final = 1000  # who wants more vectors gets those of all lists
-SAMPLED: Final = 64  # vectors a list that lists are made by
-AT_ONCE: Final = 2**16  # vectors that are looked at together; FAISS, too, puts so many into lists at a time
-QUANTIZED: Final = {8: faiss.ScalarQuantizer.QT_8bit, 16: faiss.ScalarQuantizer.QT_fp16}
+MAX_FLOAT_VECTORS: Final = 20_000  # larger stores have 8 bits per number, a quarter of the size
+MAX_FLAT_VECTORS: Final = (
+    200_000  # vectors; more of them are put into lists of like ones, and only the nearest lists are searched
+)
+IVF_LISTS, IVF_PROBES = (
+    1024,
+    32,
+)  # measured: finds .99 of the best 100 in a fiftieth of the time
+MAX_PROBED_K: Final = 1000  # searches for more vectors use all lists
+TRAINING_VECTORS_PER_LIST: Final = 64
+VECTORS_PER_BLOCK: Final = 2**16  # bounds memory; FAISS fills lists in blocks of the same size
+QUANTIZERS: Final = {8: faiss.ScalarQuantizer.QT_8bit, 16: faiss.ScalarQuantizer.QT_fp16}
 
 
 class FaissStore:
-    """Search of vectors: of all, or where there are many of those that are alike.
+    """Inner-product search: exact in small stores, quantized and in inverted lists in large ones.
 
     IndexFlatIP; from `EXACT` on IndexScalarQuantizer, from `MANY` on IndexIVFScalarQuantizer with the same 8 bits.
 
     Args:
-        index: FAISS's.
-        positions_m: [N, 2] where the cells are, map metres; None if nobody asks by `within`.
+        index: a FAISS index.
+        positions_m: [N, 2] centres of the cells, map metres; None if `within` is not used.
     """
 
     def __init__(self, index: Any, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> None:
@@ -42,33 +47,33 @@ class FaissStore:
         self._in_lists = isinstance(index, faiss.IndexIVFScalarQuantizer)
 
     @classmethod
-    def of(
+    def from_vectors(
         cls,
         vectors: Floats,
         positions_m: npt.NDArray[np.floating[Any]] | None = None,
         bits: int | None = None,
     ) -> "FaissStore":
-        """A store of vectors [N, D]; see the class.
+        """Build a store of vectors [N, D].
 
         Args:
             vectors: float32.
-            positions_m: see the class.
-            bits: of each number, 32, 16 or 8; None by how many vectors there are.
+            positions_m: as in the class.
+            bits: per number, 32, 16 or 8; None chooses by the number of vectors.
         """
-        dim, bits = vectors.shape[1], bits or (8 if len(vectors) > EXACT else 32)
+        dim, bits = vectors.shape[1], bits or (8 if len(vectors) > MAX_FLOAT_VECTORS else 32)
         index: Any = faiss.IndexFlatIP(dim)
-        if bits in QUANTIZED:
-            index = faiss.IndexScalarQuantizer(dim, QUANTIZED[bits], faiss.METRIC_INNER_PRODUCT)
-            index.train(np.stack(_reach(vectors)))  # the extremes alone set the steps
-        if bits == 8 and len(vectors) > MANY:
-            return cls(_listed(vectors, index), positions_m)
-        for some in _in_turn(vectors):
-            index.add(np.ascontiguousarray(some))
+        if bits in QUANTIZERS:
+            index = faiss.IndexScalarQuantizer(dim, QUANTIZERS[bits], faiss.METRIC_INNER_PRODUCT)
+            index.train(np.stack(_value_range(vectors)))  # only the extremes matter
+        if bits == 8 and len(vectors) > MAX_FLAT_VECTORS:
+            return cls(_build_lists(vectors, index), positions_m)
+        for block in _blocks(vectors):
+            index.add(np.ascontiguousarray(block))
         return cls(index, positions_m)
 
     @classmethod
     def load(cls, path: Path, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> "FaissStore":
-        """Open a store, whose vectors stay in the file until they are looked at.
+        """Open a store; its vectors stay in the file until they are used.
 
         Raises:
             IndexBroken: the file is not an index of this kind.
@@ -79,63 +84,65 @@ class FaissStore:
             raise IndexBroken(f"{path} cannot be read; rebuild it with 'hereabouts index'") from error
         if not isinstance(index, faiss.IndexFlatIP | faiss.IndexScalarQuantizer | faiss.IndexIVFScalarQuantizer):
             kind = type(index).__name__
-            raise IndexBroken(f"{path} holds a {kind}, which none of this kind is; rebuild it with 'hereabouts index'")
+            raise IndexBroken(f"{path} holds a {kind}, which is not supported; rebuild it with 'hereabouts index'")
         return cls(index, positions_m)
 
     def __len__(self) -> int:
         return int(self._index.ntotal)
 
     def search(self, queries: Floats, k: int, within: Box | None = None) -> tuple[Floats, Rows]:
-        """See VectorStore."""
+        """Implement VectorStore."""
         chosen = None if within is None else self._inside(within)
         k = min(k, len(self) if chosen is None else int(chosen.sum()))
         if not k:
             return np.empty((len(queries), 0), np.float32), np.empty((len(queries), 0), np.int64)
-        scores, rows = self._found(queries, k, self._params(chosen, SEARCHED if chosen is None and k <= FEW else LISTS))
-        if self._in_lists and (rows < 0).any():  # the nearest lists hold too few
-            scores, rows = self._found(queries, k, self._params(chosen, LISTS))
+        scores, rows = self._search(
+            queries, k, self._params(chosen, IVF_PROBES if chosen is None and k <= MAX_PROBED_K else IVF_LISTS)
+        )
+        if self._in_lists and (rows < 0).any():  # the nearest lists have too few
+            scores, rows = self._search(queries, k, self._params(chosen, IVF_LISTS))
         return best_first(scores, rows, k)
 
-    def _found(self, queries: Floats, k: int, params: Any) -> tuple[Floats, Rows]:
-        """(scores, rows) [Q, k] as FAISS gives them; a row is -1 where too few were looked at."""
+    def _search(self, queries: Floats, k: int, params: Any) -> tuple[Floats, Rows]:
+        """Return scores and rows [Q, k] as FAISS gives them; a row is -1 where too few vectors were searched."""
         starts = range(0, len(queries), QUERIES_PER_CALL)
-        found = [self._index.search(queries[i : i + QUERIES_PER_CALL], k, params=params) for i in starts]
-        return np.concatenate([scores for scores, _ in found]), np.concatenate([rows for _, rows in found])
+        results = [self._index.search(queries[i : i + QUERIES_PER_CALL], k, params=params) for i in starts]
+        return np.concatenate([scores for scores, _ in results]), np.concatenate([rows for _, rows in results])
 
     def _params(self, chosen: npt.NDArray[np.bool_] | None, lists: int) -> Any:
-        """FAISS's parameters of a search of some rows [N], None for all, in so many lists, if there are any."""
-        kinds: Any = faiss  # what these classes take is changed when it is imported
+        """Return FAISS's parameters for a search among chosen rows [N] (None for all) in a number of lists."""
+        kinds: Any = faiss  # the constructors are patched at import
         of_rows = {} if chosen is None else {"sel": kinds.IDSelectorBitmap(np.packbits(chosen, bitorder="little"))}
         if self._in_lists:
             return kinds.SearchParametersIVF(nprobe=lists, **of_rows)
         return kinds.SearchParameters(**of_rows) if of_rows else None
 
     def _inside(self, within: Box) -> npt.NDArray[np.bool_]:
-        """[N] which cells are in a box."""
-        assert self._positions_m is not None, "a store without positions cannot look within"
+        """Return which cells [N] are in a box."""
+        assert self._positions_m is not None, "a store without positions cannot search within a box"
         x, y = self._positions_m.T
         return np.asarray((x >= within.west) & (x <= within.east) & (y >= within.south) & (y <= within.north))
 
     def score(self, query: Floats, rows: Rows) -> Floats:
-        """See VectorStore."""
+        """Implement VectorStore."""
         scores: Floats = self.vectors(rows) @ query
         return scores
 
     def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
-        """See VectorStore."""
+        """Implement VectorStore."""
         vectors: Floats = self._index.reconstruct_batch(np.asarray(rows, np.int64))
         return vectors
 
     def save(self, path: Path) -> None:
-        """Write the vectors to a file, which `load` reads."""
+        """Write the file that `load` reads."""
         failed: OSError | None = None
         kinds: Any = faiss  # some of which have no types
 
-        def write(some: bytes) -> int:
+        def write(block: bytes) -> int:
             nonlocal failed
             try:
-                return file.write(some)
-            except OSError as error:  # of which FAISS would not say what it was
+                return file.write(block)
+            except OSError as error:  # FAISS would hide the cause
                 failed = error
                 raise
 
@@ -146,58 +153,66 @@ class FaissStore:
                 raise failed or error from error
 
 
-def _listed(vectors: Floats, flat: Any) -> Any:
-    """Vectors [N, D] in lists of like ones, with the 8 bits of a trained index.
+def _build_lists(vectors: Floats, flat: Any) -> Any:
+    """Put vectors [N, D] into lists of similar ones, quantized to 8 bits by a trained index.
 
-    Each list is made as long as it gets: one that grows takes up to twice that.
+    Lists get their final size at once, because a growing list takes up to twice the memory.
     """
     kinds: Any = faiss  # some of which have no types
-    index = _trained(vectors, flat)
+    index = _train_lists(vectors, flat)
     lists = kinds.downcast_InvertedLists(index.invlists)
-    of = np.concatenate([index.quantizer.search(some, 1)[1][:, 0].astype(np.int16) for some in _in_turn(vectors)])
-    for number, size in enumerate(np.bincount(of, minlength=LISTS).tolist()):
+    list_of = np.concatenate([index.quantizer.search(block, 1)[1][:, 0].astype(np.int16) for block in _blocks(vectors)])
+    for number, size in enumerate(np.bincount(list_of, minlength=IVF_LISTS).tolist()):
         lists.resize(number, size)
-    place, row = np.zeros(LISTS, np.int64), 0
-    for some in _in_turn(vectors):
-        here = of[row : row + len(some)]
-        order = np.argsort(here, kind="stable")
-        ids, codes, at = row + order, flat.sa_encode(some)[order], np.cumsum(np.bincount(here, minlength=LISTS))
-        for number, (first, last) in enumerate(pairwise([0, *at.tolist()])):
+    filled, row = np.zeros(IVF_LISTS, np.int64), 0
+    for block in _blocks(vectors):
+        block_lists = list_of[row : row + len(block)]
+        order = np.argsort(block_lists, kind="stable")
+        ids, codes, ends = (
+            row + order,
+            flat.sa_encode(block)[order],
+            np.cumsum(np.bincount(block_lists, minlength=IVF_LISTS)),
+        )
+        for number, (first, last) in enumerate(pairwise([0, *ends.tolist()])):
             of_list = kinds.swig_ptr(ids[first:last]), kinds.swig_ptr(codes[first:last])
-            lists.update_entries(number, int(place[number]), last - first, *of_list)
-        place, row = place + np.diff(at, prepend=0), row + len(some)
+            lists.update_entries(number, int(filled[number]), last - first, *of_list)
+        filled, row = filled + np.diff(ends, prepend=0), row + len(block)
     index.ntotal = len(vectors)
-    index.make_direct_map()  # of each row, where its vector is
+    index.make_direct_map()  # maps rows to vectors
     return index
 
 
-def _trained(vectors: Floats, flat: Any) -> Any:
-    """Empty lists for vectors [N, D] like these, of the 8 bits of a trained index."""
+def _train_lists(vectors: Floats, flat: Any) -> Any:
+    """Train empty lists for vectors [N, D], with the quantizer of a trained index."""
     dim = vectors.shape[1]
-    # Not of what is left of a vector beside its list's middle: so its bits are the same in any list, and without.
-    given = dim, LISTS, QUANTIZED[8], faiss.METRIC_INNER_PRODUCT, False
+    # by_residual is off, so a vector has the same bits in any list and in a store without lists.
+    given = dim, IVF_LISTS, QUANTIZERS[8], faiss.METRIC_INNER_PRODUCT, False
     index: Any = faiss.IndexIVFScalarQuantizer(faiss.IndexFlatIP(dim), *given)
-    index.cp.max_points_per_centroid = SAMPLED
-    sample = np.random.default_rng(0).choice(len(vectors), min(len(vectors), SAMPLED * LISTS), replace=False)
+    index.cp.max_points_per_centroid = TRAINING_VECTORS_PER_LIST
+    sample = np.random.default_rng(0).choice(
+        len(vectors), min(len(vectors), TRAINING_VECTORS_PER_LIST * IVF_LISTS), replace=False
+    )
     is_sampled = np.zeros(len(vectors), np.bool_)
     is_sampled[sample] = True
-    chosen = zip(_in_turn(vectors), np.split(is_sampled, range(AT_ONCE, len(vectors), AT_ONCE)), strict=True)
-    index.train(np.concatenate([some[kept] for some, kept in chosen]))
+    chosen = zip(
+        _blocks(vectors), np.split(is_sampled, range(VECTORS_PER_BLOCK, len(vectors), VECTORS_PER_BLOCK)), strict=True
+    )
+    index.train(np.concatenate([block[chosen_rows] for block, chosen_rows in chosen]))
     faiss.copy_array_to_vector(faiss.vector_to_array(flat.sq.trained), index.sq.trained)
     return index
 
 
-def _in_turn(vectors: Floats) -> Iterator[Floats]:
-    """Vectors [N, D], some after the other; of a file, what was looked at takes no memory any more."""
-    for first in range(0, len(vectors), AT_ONCE):
-        yield vectors[first : first + AT_ONCE]
+def _blocks(vectors: Floats) -> Iterator[Floats]:
+    """Yield blocks of vectors [N, D]; pages of a mapped file are dropped after use."""
+    for first in range(0, len(vectors), VECTORS_PER_BLOCK):
+        yield vectors[first : first + VECTORS_PER_BLOCK]
         forget([vectors])
 
 
-def _reach(vectors: Floats) -> tuple[Floats, Floats]:
-    """The lowest and the highest of each number [D] of vectors [N, D]; infinite if there are none."""
+def _value_range(vectors: Floats) -> tuple[Floats, Floats]:
+    """Return the lowest and the highest value [D] of vectors [N, D]; infinite if there are none."""
     dim = vectors.shape[1]
     low, high = np.full(dim, np.inf, np.float32), np.full(dim, -np.inf, np.float32)
-    for some in _in_turn(vectors):
-        low, high = np.minimum(low, some.min(axis=0)), np.maximum(high, some.max(axis=0))
+    for block in _blocks(vectors):
+        low, high = np.minimum(low, block.min(axis=0)), np.maximum(high, block.max(axis=0))
     return low, high

@@ -1,4 +1,4 @@
-"""A connection to Milvus: one a process, with a limit on each call and one kind of error."""
+"""A connection to Milvus: one per process, with a time limit per call and one kind of error."""
 
 import logging
 import os
@@ -12,56 +12,58 @@ if TYPE_CHECKING:
 
 URI: Final = "HEREABOUTS_MILVUS_URI"
 TOKEN: Final = "HEREABOUTS_MILVUS_TOKEN"
-CONNECT_S: Final = 2.0
-CALL_S: Final = 3.0  # pymilvus tries again until then where a server was lost or is busy, after longer and longer waits
+CONNECT_TIMEOUT_S: Final = 2.0
+CALL_TIMEOUT_S: Final = (
+    3.0  # pymilvus tries again until then where a server was lost or is busy, after longer and longer waits
+)
 
 
 class MilvusConnection:
-    """Calls to the Milvus that HEREABOUTS_MILVUS_URI names (http://host:port/database).
+    """Calls to the Milvus server that HEREABOUTS_MILVUS_URI names (http://host:port/database).
 
-    It connects at the first call: channels of gRPC do not outlive a fork, so a process that forks workers must not have
-    called. After a call that failed it connects anew, and so finds a server that was started again.
+    It connects at the first call. gRPC channels do not survive a fork, so a process must not
+    call before it forks workers. After a failed call it reconnects, and so finds a restarted server.
 
     Raises:
-        StoreUnavailable: pymilvus is not installed, or nothing says where Milvus is.
+        StoreUnavailable: pymilvus is not installed, or HEREABOUTS_MILVUS_URI is not set.
     """
 
     def __init__(self) -> None:
         if find_spec("pymilvus") is None:
-            raise StoreUnavailable("this index is in Milvus, which takes pymilvus: pip install 'hereabouts[milvus]'")
+            raise StoreUnavailable("this index is in Milvus, which needs pymilvus: pip install 'hereabouts[milvus]'")
         if not os.environ.get(URI):
-            raise StoreUnavailable(f"this index is in Milvus: say where with {URI}=http://HOST:19530/DATABASE")
+            raise StoreUnavailable(f"this index is in Milvus; set {URI}=http://HOST:19530/DATABASE")
         self._client: MilvusClient | None = None
         self._pid = 0
 
-    def call(self, method: str, *arguments: Any, timeout_s: float = CALL_S, **named: Any) -> Any:
-        """What a method of pymilvus's MilvusClient gives.
+    def call(self, method: str, *arguments: Any, timeout_s: float = CALL_TIMEOUT_S, **named: Any) -> Any:
+        """Call a method of pymilvus's MilvusClient.
 
         Raises:
-            StoreUnavailable: Milvus does not answer in time, or refuses.
+            StoreUnavailable: Milvus does not answer in time, or refuses the call.
         """
         from grpc import RpcError  # noqa: PLC0415  # an extra, which few have
         from pymilvus import MilvusException  # noqa: PLC0415
 
         try:
             return getattr(self._connected(), method)(*arguments, timeout=timeout_s, **named)
-        except (MilvusException, RpcError, ValueError) as error:  # ValueError is a channel that was closed
+        except (MilvusException, RpcError, ValueError) as error:  # ValueError: the channel was closed
             self.close()
-            said = str(error).replace(os.environ[URI], "the address")  # which may have a password
-            raise StoreUnavailable(f"Milvus cannot {method}: {said}; see to the server that {URI} names") from error
+            message = str(error).replace(os.environ[URI], "the address")  # may contain a password
+            raise StoreUnavailable(f"Milvus cannot {method}: {message}; check the server that {URI} names") from error
 
     def _connected(self) -> "MilvusClient":
         if self._client is None or self._pid != os.getpid():
             from pymilvus import MilvusClient  # noqa: PLC0415
 
-            logging.getLogger("pymilvus").setLevel(logging.CRITICAL)  # it logs each error that it raises, with a trace
+            logging.getLogger("pymilvus").setLevel(logging.CRITICAL)  # it logs every error that it raises
             uri, token = os.environ[URI], os.environ.get(TOKEN, "")
-            self._client = MilvusClient(uri, token=token, timeout=CONNECT_S, dedicated=True)
+            self._client = MilvusClient(uri, token=token, timeout=CONNECT_TIMEOUT_S, dedicated=True)
             self._pid = os.getpid()
         return self._client
 
     def close(self) -> None:
-        """Hang up; the next call connects again."""
+        """Close the connection; the next call connects again."""
         if self._client is not None and self._pid == os.getpid():
             self._client.close()
         self._client = None

@@ -1,4 +1,4 @@
-"""Vectors in a Milvus server: a collection an index version."""
+"""A vector store in Milvus: one collection per index version."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -13,31 +13,31 @@ from index.stores.milvus_connection import MilvusConnection
 from index.stores.store import Floats, Rows, best_first
 from models.errors import IndexBroken, StoreUnavailable
 
-BATCH: Final = 1000  # rows a message
-WRITE_S: Final = 300.0  # for Milvus to put a whole map on its disk, or into its memory
-MOST: Final = 16_384  # that Milvus gives of one search
-# A collection is written once and then only read, and `write` ends by counting its rows at STRONG: later searches need
-# not wait for changes, of which there are none. STRONG makes each wait for the server's next tick, 200 ms.
-STRONG: Final = "Strong"
-READ: Final = "Bounded"
-ALIAS: Final = "hereabouts_{}"
+ROWS_PER_MESSAGE: Final = 1000  # rows a message
+WRITE_TIMEOUT_S: Final = 300.0  # Milvus flushes and loads a whole map
+MAX_HITS_PER_SEARCH: Final = 16_384  # Milvus's limit
+# A collection is written once and then only read, and writing ends with a count at strong consistency. Later searches
+# need not wait for changes; with strong consistency each would wait for the server's next tick, 200 ms.
+COUNT_CONSISTENCY: Final = "Strong"
+READ_CONSISTENCY: Final = "Bounded"
+ALIAS_FORMAT: Final = "hereabouts_{}"
 
 
-def collection_of(version: str) -> str:
-    """The name of a version's collection; Milvus takes letters, digits and underscores."""
+def collection_name(version: str) -> str:
+    """Return the name of a version's collection; Milvus allows letters, digits and underscores."""
     return "hereabouts_" + re.sub(r"\W", "_", version, flags=re.ASCII)
 
 
 class MilvusStore:
-    """Exact search (FLAT) in a collection; nothing is asked of Milvus before the first search.
+    """Exact search (FLAT) in a collection; it connects at the first search.
 
     Args:
-        collection: its name.
-        dim: of the vectors.
-        rows: how many there are.
+        collection: name of the collection.
+        dim: dimension of the vectors.
+        rows: number of vectors.
 
     Raises:
-        StoreUnavailable: pymilvus is not installed, or nothing says where Milvus is.
+        StoreUnavailable: pymilvus is not installed, or HEREABOUTS_MILVUS_URI is not set.
     """
 
     def __init__(self, collection: str, dim: int, rows: int) -> None:
@@ -46,21 +46,21 @@ class MilvusStore:
 
     @classmethod
     @contextmanager
-    def written(
+    def create(
         cls, version: str, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]], regions: Sequence[str]
     ) -> Iterator["MilvusStore"]:
-        """Write a version's collection, which stays if the block ends well, and else is dropped.
+        """Write a version's collection; it is dropped again if the block raises.
 
         Args:
             version: of the index.
             vectors: [N, D].
-            positions_m: [N, 2] where the cells are, map metres.
-            regions: N names of what each cell is part of.
+            positions_m: [N, 2] centres of the cells, map metres.
+            regions: N names of the scenes of the cells.
 
         Raises:
             StoreUnavailable: Milvus does not answer, or refuses.
         """
-        store = cls(collection_of(version), vectors.shape[1], len(vectors))
+        store = cls(collection_name(version), vectors.shape[1], len(vectors))
         try:
             store._write(version, vectors, positions_m, regions)
             yield store
@@ -72,8 +72,8 @@ class MilvusStore:
     def _write(
         self, version: str, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]], regions: Sequence[str]
     ) -> None:
-        self._create()
-        for start in range(0, len(vectors), BATCH):
+        self._create_collection()
+        for start in range(0, len(vectors), ROWS_PER_MESSAGE):
             rows = [
                 {
                     "row": row,
@@ -83,14 +83,14 @@ class MilvusStore:
                     "region": regions[row],
                     "version": version,
                 }
-                for row in range(start, min(start + BATCH, len(vectors)))
+                for row in range(start, min(start + ROWS_PER_MESSAGE, len(vectors)))
             ]
-            self._milvus.call("upsert", self.collection, rows, timeout_s=WRITE_S)
-        self._milvus.call("flush", self.collection, timeout_s=WRITE_S)
-        self._milvus.call("load_collection", self.collection, timeout_s=WRITE_S)
+            self._milvus.call("upsert", self.collection, rows, timeout_s=WRITE_TIMEOUT_S)
+        self._milvus.call("flush", self.collection, timeout_s=WRITE_TIMEOUT_S)
+        self._milvus.call("load_collection", self.collection, timeout_s=WRITE_TIMEOUT_S)
         self.check()
 
-    def _create(self) -> None:
+    def _create_collection(self) -> None:
         from pymilvus import DataType, MilvusClient  # noqa: PLC0415  # an extra, which few have
 
         schema = MilvusClient.create_schema(auto_id=False, enable_dynamic_field=False)
@@ -107,74 +107,74 @@ class MilvusStore:
             self.collection,
             schema=schema,
             index_params=index,
-            consistency_level=READ,
-            timeout_s=WRITE_S,
+            consistency_level=READ_CONSISTENCY,
+            timeout_s=WRITE_TIMEOUT_S,
         )
 
     def __len__(self) -> int:
         return self._rows
 
     def search(self, queries: Floats, k: int, within: Box | None = None) -> tuple[Floats, Rows]:
-        """See VectorStore."""
+        """Implement VectorStore."""
         k = min(k, len(self))
-        # More than Milvus gives at once is asked for part by part.
-        starts = range(0, len(self), MOST) if k > MOST else [None]
+        # More hits than Milvus's limit are fetched block by block.
+        starts = range(0, len(self), MAX_HITS_PER_SEARCH) if k > MAX_HITS_PER_SEARCH else [None]
         rules = [_filter(within, start) for start in starts]
-        found = [[self._found(query, k, rule) for rule in rules] for query in queries]
-        scores = np.array([np.concatenate([part[0] for part in parts]) for parts in found], np.float32)
-        rows = np.array([np.concatenate([part[1] for part in parts]) for parts in found], np.int64)
+        results = [[self._search_one(query, k, rule) for rule in rules] for query in queries]
+        scores = np.array([np.concatenate([part[0] for part in parts]) for parts in results], np.float32)
+        rows = np.array([np.concatenate([part[1] for part in parts]) for parts in results], np.int64)
         if within is None and rows.shape[1] < k:
-            raise StoreUnavailable(f"Milvus has {rows.shape[1]} of {k} rows of {self.collection} at hand; ask again")
+            raise StoreUnavailable(f"Milvus has {rows.shape[1]} of {k} rows of {self.collection} loaded; try again")
         return best_first(scores, rows, k)
 
-    def _found(self, query: Floats, k: int, rule: str) -> tuple[list[float], list[int]]:
-        """Scores and rows of one query: several in a message would change each other's rounding."""
+    def _search_one(self, query: Floats, k: int, rule: str) -> tuple[list[float], list[int]]:
+        """Search for one query; queries in one message would change each other's rounding."""
         [hits] = self._milvus.call(
             "search",
             self.collection,
             data=[query],
-            limit=min(k, MOST),
+            limit=min(k, MAX_HITS_PER_SEARCH),
             filter=rule,
             output_fields=["row"],
             search_params={"metric_type": "IP"},
             anns_field="vector",
-            consistency_level=READ,
+            consistency_level=READ_CONSISTENCY,
         )
         return [hit["distance"] for hit in hits], [hit["entity"]["row"] for hit in hits]
 
     def score(self, query: Floats, rows: Rows) -> Floats:
-        """See VectorStore."""
+        """Implement VectorStore."""
         scores: Floats = self.vectors(rows) @ query
         return scores
 
     def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
-        """See VectorStore."""
+        """Implement VectorStore."""
         unique, back = np.unique(rows, return_inverse=True)
         vectors = np.empty((len(unique), self.dim), np.float32)
-        for start in range(0, len(unique), BATCH):
-            asked = unique[start : start + BATCH]
+        for start in range(0, len(unique), ROWS_PER_MESSAGE):
+            batch = unique[start : start + ROWS_PER_MESSAGE]
             fields = ["row", "vector"]
-            found = self._milvus.call(
-                "get", self.collection, ids=asked.tolist(), output_fields=fields, consistency_level=READ
+            records = self._milvus.call(
+                "get", self.collection, ids=batch.tolist(), output_fields=fields, consistency_level=READ_CONSISTENCY
             )
-            if len(found) < len(asked):
-                raise StoreUnavailable(f"Milvus has {len(found)} of {len(asked)} rows that were asked for; ask again")
-            at = np.searchsorted(unique, [each["row"] for each in found])
-            vectors[at] = [each["vector"] for each in found]
+            if len(records) < len(batch):
+                raise StoreUnavailable(f"Milvus has {len(records)} of {len(batch)} requested rows; try again")
+            positions = np.searchsorted(unique, [each["row"] for each in records])
+            vectors[positions] = [each["vector"] for each in records]
         return vectors[back]
 
     def check(self) -> None:
-        """Pass if the collection is there, with as many rows as it should have.
+        """Check that the collection exists and has the expected number of rows.
 
         Raises:
-            IndexBroken: it is not, or it has others.
+            IndexBroken: it does not.
             StoreUnavailable: Milvus does not answer.
         """
         if not self._milvus.call("has_collection", self.collection):
             raise IndexBroken(f"Milvus has no collection {self.collection}; build it again with 'hereabouts index'")
         count = ["count(*)"]
         [counted] = self._milvus.call(
-            "query", self.collection, filter="", output_fields=count, consistency_level=STRONG
+            "query", self.collection, filter="", output_fields=count, consistency_level=COUNT_CONSISTENCY
         )
         if counted["count(*)"] != self._rows:
             raise IndexBroken(
@@ -183,19 +183,19 @@ class MilvusStore:
             )
 
     def move_alias(self, alias: str) -> None:
-        """Let Milvus's alias of an index's alias name this collection, for those who look into Milvus itself.
+        """Point Milvus's alias to this collection, for people who look into Milvus itself.
 
         Raises:
             StoreUnavailable: Milvus does not answer, or refuses.
         """
-        name = ALIAS.format(alias)
+        name = ALIAS_FORMAT.format(alias)
         try:
             self._milvus.call("alter_alias", self.collection, name)
-        except StoreUnavailable:  # there is none yet, or no server
+        except StoreUnavailable:  # the alias does not exist yet, or the server is gone
             self._milvus.call("create_alias", self.collection, name)
 
     def drop(self) -> None:
-        """Delete the collection, if there is one.
+        """Drop the collection, if it exists.
 
         Raises:
             StoreUnavailable: Milvus does not answer, or refuses.
@@ -203,13 +203,13 @@ class MilvusStore:
         self._milvus.call("drop_collection", self.collection)
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the connection."""
         self._milvus.close()
 
 
 def _filter(within: Box | None, start: int | None) -> str:
-    """Milvus's expression for the cells in a box, and for the rows of a part that begins at `start`."""
-    rules = [] if start is None else [f"row >= {start}", f"row < {start + MOST}"]
+    """Return Milvus's expression for the cells in a box, and for a block of rows from `start`."""
+    rules = [] if start is None else [f"row >= {start}", f"row < {start + MAX_HITS_PER_SEARCH}"]
     if within is not None:
         rules += [f"x >= {within.west!r}", f"x <= {within.east!r}", f"y >= {within.south!r}", f"y <= {within.north!r}"]
     return " and ".join(rules)

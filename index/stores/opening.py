@@ -1,4 +1,4 @@
-"""The store of an index version."""
+"""Opening the vector store of an index version."""
 
 from pathlib import Path
 from typing import Final
@@ -13,7 +13,7 @@ VECTORS_FILE: Final = "vectors.faiss"
 
 
 def open_store(directory: Path, manifest: Manifest, center_m: Floats) -> VectorStore:
-    """The store that a version's manifest names; one in Milvus is not asked yet.
+    """Open the store that a version's manifest names, without connecting to Milvus.
 
     Args:
         directory: of the version.
@@ -21,8 +21,8 @@ def open_store(directory: Path, manifest: Manifest, center_m: Floats) -> VectorS
         center_m: [N, 2 or 3] centres of its cells, map metres.
 
     Raises:
-        IndexBroken: the file of vectors is not one.
-        StoreUnavailable: it is in Milvus, and nothing says where that is, or pymilvus is not installed.
+        IndexBroken: the vector file cannot be read.
+        StoreUnavailable: the vectors are in Milvus, and pymilvus is missing or HEREABOUTS_MILVUS_URI is not set.
     """
     if manifest.collection is not None:
         return MilvusStore(manifest.collection, manifest.dim, manifest.cells)

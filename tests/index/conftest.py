@@ -31,6 +31,6 @@ def deep_parts(deep_file, rich_dir, made_once):
 
     def make(out):
         for shard in Shard.all(2):
-            IndexJob(deep_file, out, rich_dir, levels=True).make_part(shard)
+            IndexJob(deep_file, out, rich_dir, levels=True).make_shard(shard)
 
     return made_once("deep-parts", make)

@@ -80,7 +80,7 @@ def full_disk(file_bytes):
 
 @pytest.mark.parametrize("lacking", [1, 100, 5000, 1 << 62])
 def test_vectors_are_written_to_the_last_byte_or_it_is_said(tmp_path, lacking) -> None:
-    store = FaissStore.of(np.ones((300, 16), dtype=np.float32))
+    store = FaissStore.from_vectors(np.ones((300, 16), dtype=np.float32))
     store.save(tmp_path / "whole")
     size = (tmp_path / "whole").stat().st_size
     with full_disk(max(0, size - lacking)), pytest.raises(OSError, match="File too large"):

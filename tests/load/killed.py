@@ -15,7 +15,7 @@ import httpx
 
 from app.jobs.evaluation import Evaluation
 from app.jobs.job import JobState
-from index.build.artifact import ALIASES, Aliases, open_version, read_aliases
+from index.build.artifact import ALIASES_FILE, Aliases, open_version, read_aliases
 from index.build.manifest import MANIFEST
 from models.files import TEMP_PREFIX, remove_abandoned, replace_file
 
@@ -94,7 +94,7 @@ class Place:
     def on_disk(self):
         """What would show that anything was done."""
         names = [*self.root.rglob("*"), *self.jobs.iterdir()]
-        return set(map(str, names)), (self.root / ALIASES).read_bytes()
+        return set(map(str, names)), (self.root / ALIASES_FILE).read_bytes()
 
     def add(self, version):
         """Put a version there as an operator would, without registering it."""
@@ -109,7 +109,7 @@ class Place:
         for version in sorted(self.versions() - set(known.aliases.values()))[:-VERSIONS]:
             known.versions.pop(version, None)
             shutil.rmtree(self.root / version)
-        replace_file(self.root / ALIASES, Aliases(**known.model_dump()).model_dump_json().encode())
+        replace_file(self.root / ALIASES_FILE, Aliases(**known.model_dump()).model_dump_json().encode())
 
 
 class Operation:

@@ -65,7 +65,7 @@ def _place(
     described: Described | None,
     localizer: LocalizerLike,
 ) -> Place:
-    wgs84 = LatLon.of(np.array(position), localizer.frame)
+    wgs84 = LatLon.from_position(np.array(position), localizer.frame)
     assert wgs84 is not None
     name = described.place if described and described.place else f"{wgs84.lat:.6f}, {wgs84.lon:.6f}"
     return {

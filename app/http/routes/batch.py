@@ -17,7 +17,7 @@ from app.http.routes.localize import check_reach, localize_for
 from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.limits import MAX_BATCH_ITEMS
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 from models.errors import HereaboutsError
 
 PATH = "/localize/batch"
@@ -60,7 +60,7 @@ async def batch(
     indexes: AllIndexes,
 ) -> BatchResponse:
     """Localize several descriptions; an item that cannot be answered gets an error instead."""
-    if indexes.is_draining or all(item.get("index", DEFAULT) == DEFAULT for item in body.items):
+    if indexes.is_draining or all(item.get("index", DEFAULT_ALIAS) == DEFAULT_ALIAS for item in body.items):
         indexes.check_accepting()
     slots = asyncio.Semaphore(CONCURRENT_ITEMS)
 

@@ -11,7 +11,7 @@ from app.http.formats.geojson import cell_collection, cells_collection
 from app.http.formats.negotiation import GEOJSON, etag, is_unchanged, negotiate, respond
 from app.http.openapi import geojson_content, problems
 from app.http.schemas.responses import CellResponse, CellsResponse, CrsOut, Provenance
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 
 MAX_OFFSET, MAX_PAGE_CELLS = 1_000_000_000, 1000  # in cells
 router = APIRouter(tags=["map"])
@@ -32,7 +32,7 @@ def cells(
     localizer: Localizer,
     offset: Annotated[int, Query(ge=0, le=MAX_OFFSET, description="the number of cells to skip")] = 0,
     limit: Annotated[int, Query(ge=1, le=MAX_PAGE_CELLS)] = 100,
-    index: IndexName = DEFAULT,
+    index: IndexName = DEFAULT_ALIAS,
 ) -> Response:
     """Return a page of the map's cells, as JSON, or as GeoJSON if the Accept header requests it."""
     media_type, facts = negotiate(request, localizer.frame), localizer.facts

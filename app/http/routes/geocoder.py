@@ -18,7 +18,7 @@ from app.http.openapi import geojson_content, problems
 from app.http.queue import UNAVAILABLE, InferenceQueue
 from app.http.routes.localize import check_reach, localize_for
 from app.http.schemas.requests import LocalizeRequest
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 from models.citymap.frame import Frame
 
 TWO_CORNERS: Final = "must be lon,lat,lon,lat: two corners, longitudes -180..180, latitudes -90..90"
@@ -48,7 +48,7 @@ async def search(
     limit: Annotated[int, Query(ge=1, le=limits.MAX_TOP_K)] = 10,
     viewbox: Annotated[str | None, Query(description="lon,lat,lon,lat: two corners of the preferred area")] = None,
     bounded: Annotated[bool, Query(description="search only inside viewbox")] = False,
-    index: IndexName = DEFAULT,
+    index: IndexName = DEFAULT_ALIAS,
 ) -> Response:
     """Localize the speaker of a description and answer like Nominatim; its other parameters are ignored."""
     async with indexes.lease(index) as queue:
@@ -72,7 +72,7 @@ async def reverse(
     lat: Annotated[float, Query(ge=-90, le=90, allow_inf_nan=False)],
     lon: Annotated[float, Query(ge=-180, le=180, allow_inf_nan=False)],
     form: Form = "jsonv2",
-    index: IndexName = DEFAULT,
+    index: IndexName = DEFAULT_ALIAS,
 ) -> Response:
     """Describe a position and answer like Nominatim; its other parameters are ignored."""
     async with indexes.lease(index) as queue:

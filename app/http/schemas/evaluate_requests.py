@@ -8,7 +8,7 @@ from app.http.schemas.fields import IndexName, Length, Point, field_error, one_o
 from app.http.schemas.requests import REFINE, Body, DescriptionFields
 from app.limits import MAX_EVALUATE_QUERIES
 from index.answering.query import Crs, Refine
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 
 EXAMPLE: JsonValue = {
     "queries": [
@@ -45,7 +45,7 @@ class EvaluateRequest(Body):
         None, description="radii in metres of a growing gallery, for example [200, 300, 400, 500]"
     )
     refine: Refine = REFINE
-    index: IndexName = DEFAULT
+    index: IndexName = DEFAULT_ALIAS
 
     @model_validator(mode="after")
     def _is_one_source(self) -> Self:

@@ -8,7 +8,7 @@ from pydantic import Field, JsonValue, Strict, StringConstraints
 from pydantic_core import PydanticCustomError
 
 from index.answering.query import Crs
-from index.build.manifest import NAME
+from index.build.manifest import NAME_PATTERN
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # Unicode's category Cc except tabs and line ends
 # Larger than the Earth and finer than any map; their squares do not overflow.
@@ -19,7 +19,10 @@ Coordinate = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=-MAX_METRE
 Length = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=MIN_METRES, le=MAX_METRES)]
 Point = tuple[Coordinate, Coordinate]
 IndexName = Annotated[
-    str, Strict(), StringConstraints(pattern=NAME), Field(description="an index that GET /info lists")
+    str,
+    Strict(),
+    StringConstraints(pattern=NAME_PATTERN),
+    Field(description="an index that GET /info lists"),
 ]
 
 

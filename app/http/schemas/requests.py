@@ -36,7 +36,7 @@ from app.limits import (
 from index.answering.query import (
     DEFAULT_REFINE,
     DEFAULT_TOP_K,
-    MOST_REPLIES,
+    MAX_REPLIES,
     Box,
     Circle,
     Crs,
@@ -45,7 +45,7 @@ from index.answering.query import (
     Refine,
     Reply,
 )
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 from models.errors import DescriptionError
 from models.language.sentences import split_hints
 
@@ -194,11 +194,11 @@ class LocalizeRequest(DescriptionFields):
     refine: Refine = REFINE
     heat_map: Annotated[bool, Strict()] = Field(False, description="whether to add the position distribution")
     ros: Annotated[bool, Strict()] = Field(False, description="whether to add the estimate as a ROS pose")
-    answers: Annotated[list[GivenAnswer], Field(max_length=MOST_REPLIES)] = Field(
+    answers: Annotated[list[GivenAnswer], Field(max_length=MAX_REPLIES)] = Field(
         [], description="replies to the questions of all earlier answers: the service keeps no conversation"
     )
     deadline_ms: DeadlineMs = DEFAULT_DEADLINE_MS
-    index: IndexName = DEFAULT
+    index: IndexName = DEFAULT_ALIAS
 
     @model_validator(mode="after")
     def _is_on_earth(self) -> Self:
@@ -249,7 +249,7 @@ class DescribeRequest(Body):
     position: Point = Field(description="[x, y] in metres, or [lon, lat] with crs wgs84")
     crs: Crs = Field("map", description="the reference system of position")
     deadline_ms: DeadlineMs = DEFAULT_DEADLINE_MS
-    index: IndexName = DEFAULT
+    index: IndexName = DEFAULT_ALIAS
 
     @model_validator(mode="after")
     def _is_on_earth(self) -> Self:

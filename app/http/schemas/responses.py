@@ -25,7 +25,7 @@ from index.answering.answers import (
     Question,
     Status,
 )
-from index.build.artifact import DEFAULT
+from index.build.artifact import DEFAULT_ALIAS
 from models.citymap.frame import Frame
 
 
@@ -62,7 +62,7 @@ class Provenance(_Out):
     attribution: str
 
     @classmethod
-    def build(cls, localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT) -> "Provenance":
+    def build(cls, localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT_ALIAS) -> "Provenance":
         """Return the provenance of an answer.
 
         Args:
@@ -113,7 +113,7 @@ class LocalizeResponse(_Out):
         localizer: LocalizerLike,
         request_id: str,
         timings_ms: dict[str, float],
-        index: str = DEFAULT,
+        index: str = DEFAULT_ALIAS,
     ) -> "LocalizeResponse":
         """Build the response from a localizer's answer.
 
@@ -153,7 +153,7 @@ class DescribeResponse(_Out):
         localizer: LocalizerLike,
         request_id: str,
         timings_ms: dict[str, float],
-        index: str = DEFAULT,
+        index: str = DEFAULT_ALIAS,
     ) -> "DescribeResponse":
         """Build the response from a described position; the other arguments are those of `LocalizeResponse.build`."""
         values = {f.name: getattr(described, f.name) for f in fields(described)}

@@ -1,5 +1,5 @@
-"""The papers' tables and figures.
+"""Reproduction of the papers' tables and figures.
 
-`reproduce` trains and measures what is missing, a process for each of `jobs`; `report`, `plots` and `figure_3` write
-what was found. May import index, its evaluation and all of models; nothing that answers imports it.
+`reproduce` trains and measures what is missing, one process per job of `jobs`; `report`, `plots` and `figure_3` write
+the results. The serving code does not import this package.
 """

@@ -1,4 +1,4 @@
-"""Figure 3 of MNCL (AAAI 2025): queries, the cells that were retrieved for them, and how far off each position is."""
+"""Figure 3 of MNCL (AAAI 2025): queries, their retrieved cells, and the position errors."""
 
 import textwrap
 from pathlib import Path
@@ -14,40 +14,40 @@ from index.evaluation.report import DPI
 from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
 
-SHOWN, LISTED = 4, 3  # queries, and retrieved cells of each
-SEED = 0  # which queries are shown is drawn, not picked
+QUERIES_SHOWN, CELLS_SHOWN = 4, 3  # queries, and retrieved cells of each
+SEED = 0  # queries are chosen at random
 UNKNOWN_COLOUR = 0.7
-RIGHT, WRONG = "#2a9d4b", "#d1495b"
-LABELLED_M = 3.0  # instances at least this large are named
+RIGHT_COLOUR, WRONG_COLOUR = "#2a9d4b", "#d1495b"
+MIN_LABELLED_M = 3.0  # smaller instances get no name
 
 
 def draw_figure_3(data: MapData, queries: Queries, localizer: VectorLocalizer, path: Path) -> None:
-    """Write a PNG: a row a query, the true cell at the left, then those retrieved, best first.
+    """Write a PNG: one row per query, the true cell on the left, then the retrieved cells, best first.
 
-    A retrieved cell is framed in green if it is the true one; the star is the position found in it, the cross the true
-    one where the cell holds it; above it how far they are apart ("other scene" where they are in different ones).
+    The true cell has a green frame. The star is the predicted position, the cross the true one if the cell contains it.
+    The title has the error, or "other scene".
 
     Args:
         data: the gallery.
-        queries: of which some are drawn.
+        queries: some of them are drawn.
         localizer: of the gallery.
-        path: file to write.
+        path: the PNG file.
     """
-    rows = np.random.default_rng(SEED).choice(len(queries), min(SHOWN, len(queries)), replace=False)
-    given = [Query(description=" ".join(queries.sentences[q]), top_k=LISTED) for q in rows]
-    figure = Figure(figsize=(2.6 * (LISTED + 1), 3.1 * len(rows)), layout="constrained", dpi=DPI)
+    rows = np.random.default_rng(SEED).choice(len(queries), min(QUERIES_SHOWN, len(queries)), replace=False)
+    asked_queries = [Query(description=" ".join(queries.sentences[q]), top_k=CELLS_SHOWN) for q in rows]
+    figure = Figure(figsize=(2.6 * (CELLS_SHOWN + 1), 3.1 * len(rows)), layout="constrained", dpi=DPI)
     parts = figure.subfigures(len(rows), 1, squeeze=False)[:, 0]
-    for q, part, query, found in zip(rows, parts, given, localizer.find(given), strict=True):
+    for q, part, query, result in zip(rows, parts, asked_queries, localizer.find(asked_queries), strict=True):
         part.suptitle(textwrap.fill(query.description, 130), fontsize=8, x=0.01, ha="left", style="italic")
-        axes, truth = part.subplots(1, LISTED + 1), int(queries.truth[q])
+        axes, truth = part.subplots(1, CELLS_SHOWN + 1), int(queries.truth[q])
         _draw_cell(axes[0], data, truth)
         _mark_truth(axes[0], queries.positions_m[q])
         axes[0].set_title("true cell", fontsize=8)
-        assert found.located is not None  # nothing was left out of the gallery
-        for rank, (ax, cell) in enumerate(zip(axes[1:], found.located.rows[:LISTED].tolist(), strict=False)):
-            colour = RIGHT if cell == truth else WRONG
+        assert result.located is not None  # there is no filter
+        for rank, (ax, cell) in enumerate(zip(axes[1:], result.located.rows[:CELLS_SHOWN].tolist(), strict=False)):
+            colour = RIGHT_COLOUR if cell == truth else WRONG_COLOUR
             _draw_cell(ax, data, cell, colour)
-            position = found.located.positions[rank]
+            position = result.located.positions[rank]
             ax.plot(*position, marker="*", ms=12, color="#e63946", mec="white")
             _mark_truth(ax, queries.positions_m[q])
             same = data.cells.scenes[cell] == queries.scenes[q]
@@ -57,18 +57,18 @@ def draw_figure_3(data: MapData, queries: Queries, localizer: VectorLocalizer, p
 
 
 def _draw_cell(axes: Axes, data: MapData, cell: int, frame: str = "black") -> None:
-    """Points of a cell's instances from above, large instances with their names."""
+    """Draw the points of a cell's instances from above, with names of large instances."""
     cells = data.cells
     parts, half = cells.parts, cells.size_m / 2
     assert cells.sample is not None  # a data set has its points
     samples = cells.sample(np.array([cell]))
     for row, points in zip(range(parts.starts[cell], parts.starts[cell + 1]), samples, strict=True):
         low, high = parts.low_m[row, :2], parts.high_m[row, :2]
-        reach = np.abs(points[:, :2]).max(axis=0)  # samples are in a scale of their own
+        reach = np.abs(points[:, :2]).max(axis=0)  # samples have their own scale
         place = (low + high) / 2 + points[:, :2] * (high - low) / 2 / np.maximum(reach, 1e-6)
         colour = np.where(points[:, 3:] < 0, UNKNOWN_COLOUR, points[:, 3:])
         axes.scatter(place[:, 0], place[:, 1], s=1.5, c=colour, linewidths=0)
-        if max(high - low) >= LABELLED_M:
+        if max(high - low) >= MIN_LABELLED_M:
             east, north = np.clip((low + high) / 2, *(cells.center_m[cell, :2] + side * half for side in (-0.9, 0.9)))
             axes.text(east, north, data.gallery.labels[parts.instance[row]], fontsize=5, ha="center", clip_on=True)
     east, north = cells.center_m[cell, :2]
@@ -80,7 +80,7 @@ def _draw_cell(axes: Axes, data: MapData, cell: int, frame: str = "black") -> No
 
 
 def _mark_truth(axes: Axes, position_m: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> None:
-    """A cross at the true position, if the cell holds it."""
+    """Draw a cross at the true position, if the cell contains it."""
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
     if west <= position_m[0] <= east and south <= position_m[1] <= north:
         axes.plot(*position_m, marker="x", ms=9, mew=2, color="black")

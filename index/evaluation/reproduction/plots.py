@@ -1,4 +1,4 @@
-"""The curves of `reproduce`: figures 4 and 5."""
+"""Figures 4 and 5 of `reproduce`."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,7 +15,7 @@ Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
 def draw_figure_4(path: Path, titles: Sequence[str], curves: Sequence[Sequence[Numbers]]) -> None:
-    """Write a PNG of one curve a title; each point is [seeds, metrics] recall, of which the first seed is drawn."""
+    """Write a PNG with one plot per title; each point is [seeds, metrics] recall, of which the first seed is drawn."""
     figure = Figure(figsize=(4.5 * len(titles), 3.8), layout="constrained", dpi=DPI)
     for axes, title, points in zip(figure.subplots(1, len(titles), squeeze=False)[0], titles, curves, strict=True):
         for n, k in enumerate(RETRIEVAL_KS):

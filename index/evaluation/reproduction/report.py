@@ -1,4 +1,4 @@
-"""The report of `reproduce`: our figures beside the published ones, in Markdown, with plots."""
+"""The report of `reproduce`: own and published figures in Markdown, with plots."""
 
 import json
 from collections.abc import Sequence
@@ -13,126 +13,124 @@ from models.training.experiments import VARIANTS, Experiment, TableRow, apply_va
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 from models.training.paper_tables import EXPERIMENTS, GROWTH, MNCL
 
-RECALLS = tuple(f"R@{k}" for k in RETRIEVAL_KS)
+RECALL_NAMES = tuple(f"R@{k}" for k in RETRIEVAL_KS)
 PUBLISHED, VALIDATED = " (paper)", ", validation"
 COSTS = ("best_step", "steps"), ("seconds_to_best", "seconds")
 ORDERS = (
     "By recall@1, or the share of first positions within 5 m, on the test scenes. Of table 2 the paper's order is that "
     "of its validation split, where it has RET."
 )
-FIGURES_4 = ("4a", "4b")
-Found = dict[str, Any]
+FIGURE_4_KEYS = ("4a", "4b")
+Results = dict[str, Any]
 Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
-def write_reproduction(directory: Path, found: Found, name: str, figure_3: Path | None = None) -> None:
-    """Write results.json, report.md, and the figures.
+def write_reproduction(directory: Path, results: Results, name: str, figure_3: Path | None = None) -> None:
+    """Write results.json, report.md and the figures.
 
     Args:
-        directory: made if it is missing.
-        found: what `index.evaluation.reproduction.reproduce.reproduce` gave.
+        directory: created if missing.
+        results: of `index.evaluation.reproduction.reproduce.reproduce`.
         name: of the data.
-        figure_3: the picture that a job made, if there is one.
+        figure_3: the picture of a job, if there is one.
     """
     directory.mkdir(parents=True, exist_ok=True)
     for n in (3, 4, 5):
         (directory / f"figure{n}.png").unlink(missing_ok=True)  # of an earlier report
     if figure_3:
         (directory / "figure3.png").write_bytes(figure_3.read_bytes())
-    found = found | {"figure_3": figure_3 is not None}
-    (directory / "results.json").write_text(json.dumps(found, indent=1) + "\n")
-    (directory / "report.md").write_text(markdown(found, name))
-    curves = [experiment for experiment in experiments_of(found) if experiment.key in FIGURES_4]
+    results = results | {"figure_3": figure_3 is not None}
+    (directory / "results.json").write_text(json.dumps(results, indent=1) + "\n")
+    (directory / "report.md").write_text(markdown(results, name))
+    curves = [experiment for experiment in chosen_experiments(results) if experiment.key in FIGURE_4_KEYS]
     if curves:
-        recalls = [[_recalls(row, variant, found)[0] for row, variant in e.row_variants()] for e in curves]
+        recalls = [[_recalls(row, variant, results)[0] for row, variant in e.row_variants()] for e in curves]
         draw_figure_4(directory / "figure4.png", [e.title for e in curves], recalls)
-    if grown := _grown(found):
+    if grown := _growth_curves(results):
         draw_figure_5(directory / "figure5.png", [row["cells"] for row in grown[0][2][0]], [
             (name, np.array([[row["R@1"] for row in rows] for rows in by_seed])) for name, _, by_seed in grown
         ])  # fmt: skip
 
 
-def experiments_of(found: Found) -> list[Experiment]:
-    """The tables and figures that were made."""
-    return [EXPERIMENTS[key] for key in found["experiments"]]
+def chosen_experiments(results: Results) -> list[Experiment]:
+    """Return the chosen tables and figures."""
+    return [EXPERIMENTS[key] for key in results["experiments"]]
 
 
-def markdown(found: Found, name: str) -> str:
-    """The report as a page."""
-    parts = [f"# The paper's tables and figures on {name}", *_head(found)]
-    for experiment in experiments_of(found):
+def markdown(results: Results, name: str) -> str:
+    """Return the report as a page."""
+    parts = [f"# The paper's tables and figures on {name}", *_head(results)]
+    for experiment in chosen_experiments(results):
         parts += [f"## {experiment.title}", *([experiment.note] if experiment.note else [])]
-        parts.append(as_markdown(_table(experiment, found)))
-        if experiment.key == FIGURES_4[-1]:
+        parts.append(as_markdown(_table(experiment, results)))
+        if experiment.key == FIGURE_4_KEYS[-1]:
             parts.append("![figure 4](figure4.png)")
-    if found["figure_3"]:
+    if results["figure_3"]:
         parts += [
             "## Figure 3: queries and what is retrieved",
             "Drawn at random, MNCL, our inputs. ![figure 3](figure3.png)",
         ]
-    if _grown(found):
-        parts += ["## Figure 5: a growing gallery", as_markdown(_growth_table(found)), "![figure 5](figure5.png)"]
-    if (orders := _orders_table(found))[1]:
-        parts += ["## Do the orders hold?", ORDERS, as_markdown(orders)]
-    if rankings := _ranking_rows(found):
-        parts += ["## Ranking of MNCL, validation scenes", as_markdown((("", *RECALLS), rankings))]
-    if fine := _fine_rows(found):
+    if _growth_curves(results):
+        parts += ["## Figure 5: a growing gallery", as_markdown(_growth_table(results)), "![figure 5](figure5.png)"]
+    if (orders := _orders_table(results))[1]:
+        parts += ["## Does the order hold?", ORDERS, as_markdown(orders)]
+    if rankings := _ranking_rows(results):
+        parts += ["## Ranking of MNCL, validation scenes", as_markdown((("", *RECALL_NAMES), rankings))]
+    if fine := _fine_rows(results):
         head = "", "5 m", "10 m", "5 m, neighbour cell", "10 m, neighbour cell"
         parts += ["## Fine stages, true cell given, validation scenes", as_markdown((head, fine))]
-    parts += ["## What training costs", as_markdown(_cost_table(found))]
+    parts += ["## What training costs", as_markdown(_cost_table(results))]
     return "\n\n".join(parts) + "\n"
 
 
-def _head(found: Found) -> list[str]:
-    """What was measured on, how much was trained, and what published figures are worth here."""
-    data, seeds, runs = found["data"], found["seeds"], found["runs"]
+def _head(results: Results) -> list[str]:
+    """Return the paragraphs about data, training and the published figures."""
+    data, seeds, runs = results["data"], results["seeds"], results["runs"]
     exact = ", ".join(f"R@{k} {value:.3f}" for k, value in data["exact_matching"].items())
-    spread = (
-        "mean ± standard deviation over them, figure 4 and what is said so of the first"
-        if len(seeds) > 1
-        else "one run each"
-    )
+    spread = "mean ± standard deviation over them; figure 4 shows the first" if len(seeds) > 1 else "one run each"
     hours = sum(result["training"]["seconds"] for results in runs.values() for result in results) / 3600
     return [
-        f"Test scenes: {data['cells']} cells, {data['queries']} queries. Exact matching of the hints, which knows what "
-        f"each sentence means: {exact}. Seeds {', '.join(map(str, seeds))}; {spread}. {hours:.1f} hours of training in "
+        f"Test scenes: {data['cells']} cells, {data['queries']} queries. Exact matching of the true "
+        f"hints: {exact}. Seeds {', '.join(map(str, seeds))}; {spread}. {hours:.1f} hours of training in "
         "all.",
-        as_markdown(_settings_table(found)),
+        as_markdown(_settings_table(results)),
         "Our inputs: an instance's label, mean colour, centre, point closest to the cell's centre, size and number of "
         "points. The paper's inputs: its points by a frozen PointNet++, mean colour, centre and number of points; no "
         "label. Columns marked (paper) are published figures on KITTI360Pose, with the paper's inputs and T5: other "
-        "data and perhaps another text encoder, so their order is what compares.",
+        "data and perhaps another text encoder, so only their order is comparable.",
     ]
 
 
-def _settings_table(found: Found) -> Table:
-    """How each kind of model was trained."""
+def _settings_table(results: Results) -> Table:
+    """Return the table of training settings."""
     rows: dict[tuple[str, ...], list[str]] = {}
-    for name, results in found["runs"].items():
-        told = results[0]["settings"]
-        steps = f"{told['steps']}, best of validation" + (f", patience {told['patience']}" if told["patience"] else "")
-        rate = f"{told['learning_rate']:g}, {told['schedule']}"
+    for name, by_seed in results["runs"].items():
+        settings = by_seed[0]["settings"]
+        steps = f"{settings['steps']}, best of validation" + (
+            f", patience {settings['patience']}" if settings["patience"] else ""
+        )
+        rate = f"{settings['learning_rate']:g}, {settings['schedule']}"
         key = (
             steps,
-            str(told["batch_size"]),
-            str(told.get("width", "-")),
+            str(settings["batch_size"]),
+            str(settings.get("width", "-")),
             rate,
-            told.get("text_encoder", "-"),
-            told["wording"],
+            settings.get("text_encoder", "-"),
+            settings["wording"],
         )
         rows.setdefault(key, []).append(name.split("-")[0])
     head = "trained", "steps", "batch", "width", "learning rate", "text encoder", "wording"
     return head, [(", ".join(dict.fromkeys(names)), *key) for key, names in rows.items()]
 
 
-def _table(experiment: Experiment, found: Found) -> Table:
-    metrics = RECALLS if experiment.metric == "retrieval" else tuple(f"k={k}" for k in LOCALIZATION_KS)
+def _table(experiment: Experiment, results: Results) -> Table:
+    metrics = RECALL_NAMES if experiment.metric == "retrieval" else tuple(f"k={k}" for k in LOCALIZATION_KS)
     validated = metrics if experiment.metric == "retrieval" else metrics[:1]
     published = [m for m in metrics if any(m in row.published for row in experiment.rows)]
     published_validated = [m for m in validated if any(m in row.validation for row in experiment.rows)]
     rows = []
     for row, variant in experiment.row_variants():
-        test, validation = _recalls(row, variant, found)
+        test, validation = _recalls(row, variant, results)
         name = f"{row.name}, {variant}" if len(experiment.variants) > 1 else row.name
         rows.append((
             name, *_columns(test, experiment), *_columns(validation, experiment)[: len(validated)],
@@ -142,14 +140,14 @@ def _table(experiment: Experiment, found: Found) -> Table:
     return (*head, *(m + VALIDATED + PUBLISHED for m in published_validated)), rows
 
 
-def _recalls(row: TableRow, variant: str, found: Found) -> tuple[Numbers, Numbers]:
-    """[seeds, metrics] on the test and on the validation scenes; of localization [seeds, k, metres]."""
-    results = found["runs"][apply_variant(row.run, variant).name]
+def _recalls(row: TableRow, variant: str, results: Results) -> tuple[Numbers, Numbers]:
+    """Return recalls [seeds, metrics] on test and validation scenes; for localization [seeds, k, metres]."""
+    by_seed = results["runs"][apply_variant(row.run, variant).name]
     if row.fine is None:
         splits = "retrieval", "validation_retrieval"
-        test, validation = ([list(result[split].values()) for result in results] for split in splits)
+        test, validation = ([list(result[split].values()) for result in by_seed] for split in splits)
     else:
-        of_fine = [result["localization"][apply_variant(row.fine, variant).name] for result in results]
+        of_fine = [result["localization"][apply_variant(row.fine, variant).name] for result in by_seed]
         test, validation = (
             [[list(by.values()) for by in by_split[split].values()] for by_split in of_fine]
             for split in ("test", "val")
@@ -170,14 +168,14 @@ def _spread(values: Sequence[float] | Numbers) -> str:
     return text if len(values) < 2 else f"{text} ± {np.std(values, ddof=1):.3f}"
 
 
-def _orders_table(found: Found) -> Table:
-    """Each order that the paper's tables have, by its first figure: all pairs of rows with different figures."""
+def _orders_table(results: Results) -> Table:
+    """Return the table of the paper's orders: all pairs of rows with different first figures."""
     rows: list[tuple[str, ...]] = []
-    for experiment in experiments_of(found):
+    for experiment in chosen_experiments(results):
         place = experiment.title.split(":")[0]
         for variant in experiment.variants:
             for worse, better in experiment.published_orders():
-                gain = _gain(worse, better, variant, found)
+                gain = _recall_gain(worse, better, variant, results)
                 holds = "yes" if gain.mean() > 0 else "no"
                 rows.append(
                     (
@@ -192,29 +190,31 @@ def _orders_table(found: Found) -> Table:
     return ("", "the paper's order", "of", "in the mean", "seeds where it holds", "difference"), rows
 
 
-def _gain(worse: TableRow, better: TableRow, variant: str, found: Found) -> Numbers:
-    """[seeds] by how much the first figure is better: recall@1, or the share of first positions within 5 m."""
-    first = [_recalls(row, variant, found)[0] for row in (worse, better)]
+def _recall_gain(worse: TableRow, better: TableRow, variant: str, results: Results) -> Numbers:
+    """Return the gain [seeds] in the first figure: recall@1, or the share of first positions within 5 m."""
+    first = [_recalls(row, variant, results)[0] for row in (worse, better)]
     seeds = min(len(recalls) for recalls in first)
     below, above = (recalls[:seeds].reshape(seeds, -1)[:, 0] for recalls in first)
     return above - below
 
 
-def _grown(found: Found) -> list[tuple[str, str, list[list[dict[str, Any]]]]]:
-    """(name, published, [seeds] rows) of each curve of figure 5 that was made."""
+def _growth_curves(results: Results) -> list[tuple[str, str, list[list[dict[str, Any]]]]]:
+    """Return name, published figures and rows [seeds] of each curve of figure 5 that was made."""
     curves = [
         (f"{name}, {variant}", published, apply_variant(run, variant))
         for name, (run, published) in GROWTH.items()
         for variant in VARIANTS
     ]
-    runs = found["runs"]
+    runs = results["runs"]
     return [
-        (name, told, [result["growth"] for result in runs[run.name]]) for name, told, run in curves if run.name in runs
+        (name, published, [result["growth"] for result in runs[run.name]])
+        for name, published, run in curves
+        if run.name in runs
     ]
 
 
-def _growth_table(found: Found) -> Table:
-    grown = _grown(found)
+def _growth_table(results: Results) -> Table:
+    grown = _growth_curves(results)
     rows: list[tuple[str, ...]] = []
     for name, published, by_seed in grown:
         recalls = np.mean([[row["R@1"] for row in rows_] for rows_ in by_seed], axis=0)
@@ -230,23 +230,23 @@ def _growth_table(found: Found) -> Table:
     ), rows
 
 
-def _ranking_rows(found: Found) -> list[tuple[str, ...]]:
+def _ranking_rows(results: Results) -> list[tuple[str, ...]]:
     rows = []
     for variant in VARIANTS:
-        results = [result["rankings"] for result in found["runs"].get(apply_variant(MNCL, variant).name, [])]
+        by_seed = [result["rankings"] for result in results["runs"].get(apply_variant(MNCL, variant).name, [])]
         rows += [
-            (f"{name}, {variant}", *(_spread([result[name][str(k)] for result in results]) for k in RETRIEVAL_KS))
-            for name in (results[0] if results else ())
+            (f"{name}, {variant}", *(_spread([result[name][str(k)] for result in by_seed]) for k in RETRIEVAL_KS))
+            for name in (by_seed[0] if by_seed else ())
         ]
     return rows
 
 
-def _fine_rows(found: Found) -> list[tuple[str, ...]]:
+def _fine_rows(results: Results) -> list[tuple[str, ...]]:
     names = ("within_5m", "within_10m", "neighbour_within_5m", "neighbour_within_10m")
     measured = [
-        (name, [result["validation"] for result in results])
-        for name, results in found["runs"].items()
-        if "within_5m" in results[0].get("validation", {})
+        (name, [result["validation"] for result in by_seed])
+        for name, by_seed in results["runs"].items()
+        if "within_5m" in by_seed[0].get("validation", {})
     ]
     if not measured:
         return []
@@ -255,15 +255,15 @@ def _fine_rows(found: Found) -> list[tuple[str, ...]]:
     return rows + [(name, *(_spread([f[key] for f in figures]) for key in names)) for name, figures in measured]
 
 
-def _cost_table(found: Found) -> Table:
+def _cost_table(results: Results) -> Table:
     rows: list[tuple[str, ...]] = []
-    for name, results in found["runs"].items():
-        training = [result["training"] for result in results]
-        # The median over the seeds: one of them may have shared the machine, or been stopped for a while.
+    for name, by_seed in results["runs"].items():
+        training = [result["training"] for result in by_seed]
+        # The median over the seeds, because one may have shared the machine.
         typical = {key: float(np.median([facts[key] for facts in training])) for key in training[0]}
-        size = f"{results[0]['parameters'] / 1e6:.2f} M" if "parameters" in results[0] else "-"
-        cell = f"{results[0]['bytes_a_cell']:.0f}" if "bytes_a_cell" in results[0] else "-"
-        steps, seconds = (f"{typical[best]:.0f} of {typical[of]:.0f}" for best, of in COSTS)
+        size = f"{by_seed[0]['parameters'] / 1e6:.2f} M" if "parameters" in by_seed[0] else "-"
+        cell = f"{by_seed[0]['bytes_a_cell']:.0f}" if "bytes_a_cell" in by_seed[0] else "-"
+        steps, seconds = (f"{typical[best]:.0f} of {typical[total]:.0f}" for best, total in COSTS)
         speed, memory = f"{typical['descriptions_per_second']:.0f}", f"{typical['peak_memory_mb']:.0f} MB"
         rows.append((name, speed, steps, f"{seconds} s", memory, size, cell))
     return ("", "descriptions/s", "best step", "until then", "peak memory", "parameters", "bytes a cell"), rows

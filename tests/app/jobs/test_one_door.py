@@ -6,7 +6,7 @@ import pytest
 from app.jobs.evaluation import Evaluation
 from index.answering.localizer import Localizer
 from index.build.build import build_index
-from index.evaluation.predictions import FILE, Predictions
+from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from models.sources.source import VALIDATION_SEED, open_source
 from models.training.settings import TrainingConfig
 from models.training.training_data import load_training_data
@@ -19,7 +19,7 @@ def test_all_three_come_through_one_door(osm_file, weights_dir, text_encoder, tm
     build_index(osm_file, tmp_path / "index", weights_dir, "val")
     indexed = Localizer.open(tmp_path / "index", weights_dir)
     Evaluation(weights_dir=weights_dir, data=osm_file, split="val").run(tmp_path / "report", lambda *_: None)
-    measured = Predictions.load(tmp_path / "report" / FILE)
+    measured = Predictions.load(tmp_path / "report" / PREDICTIONS_FILE)
     config, rng = TrainingConfig(spacing_m=30.0), np.random.default_rng(0)
     trained = load_training_data(osm_file, ("train", "val"), text_encoder, config, rng)
 

@@ -87,7 +87,7 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
     data = localizer.map_data()
     asked = open_source(osm_file).queries()
     mine = Queries.from_text(asked.sentences[::40], asked.positions_m[::40], data.cells)
-    made = Ranker.of(localizer.retriever, data.cells, data.gallery.labels)
+    made = Ranker.from_cells(localizer.retriever, data.cells, data.gallery.labels)
     stored, anew = (run(data, mine, vectors_of_map(data, ranker)) for ranker in (localizer.ranker, made))
     assert stored == anew
 

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from index.answering.describing import (
-    MOST_FACTS,
-    OPEN_M,
-    SEEN_M,
+    FAR_VISIBLE_M,
+    MAX_FACTS,
+    VISIBLE_M,
     Describer,
-    NamedSights,
-    Sight,
+    NamedFacts,
+    VisibleObject,
     hint_text,
     named_text,
     street_facts,
@@ -73,7 +73,7 @@ def test_what_is_said_is_true(localizer, scan, positions):
             way = np.array(fact.at) - (x, y)
             assert np.hypot(*way) == pytest.approx(fact.away_m, abs=0.06)
             if fact.instance != STREET_KIND:
-                assert fact.away_m <= SEEN_M
+                assert fact.away_m <= VISIBLE_M
                 assert np.hypot(*(points[fact.source_id] - fact.at).T).min() <= OFF_M
             if fact.bearing_deg is not None:
                 assert abs(apart(fact.bearing_deg, np.degrees(np.arctan2(*way)))) <= 5 / fact.away_m
@@ -87,7 +87,7 @@ def test_what_is_said_is_true(localizer, scan, positions):
 def test_three_to_six_sentences_each_of_another_thing(localizer, nameless, positions):
     for position in positions:
         for said in (localizer.describe((float(position[0]), float(position[1]))), nameless.describe(position)):
-            assert 3 <= len(said.hints) <= MOST_FACTS
+            assert 3 <= len(said.hints) <= MAX_FACTS
             assert said.description == " ".join(fact.text for fact in said.hints)
             for told in ([f.source_id for f in said.hints], [f.text for f in said.hints]):
                 assert len(set(told)) == len(told)
@@ -123,14 +123,14 @@ def test_there_is_nothing_to_say_where_nothing_is_near(source, bare):
 
 def test_names_are_told_from_farther_where_little_else_can_be_told(source, surroundings, bare, nameless, positions):
     data = source.data
-    at = next(position for position in positions if len(nameless.describe(position).hints) == MOST_FACTS)
+    at = next(position for position in positions if len(nameless.describe(position).hints) == MAX_FACTS)
     x, y = at.tolist()
     town = named(
         ("amenity/cafe", "Elmo", point(x, y + 20)),
         ("amenity/pub", "Anna", point(x, y + 50)),
         ("amenity/bar", "Berta", point(x, y + 60)),
         ("amenity/pub", "Otto", point(x + 100, y)),
-        ("shop/books", "Arkadia", point(x, y - OPEN_M - 1)),
+        ("shop/books", "Arkadia", point(x, y - FAR_VISIBLE_M - 1)),
     )
     full, empty = (Describer(data.gallery, data.palette, data.frame, near, town) for near in (surroundings, bare))
     assert [fact.name for fact in full.describe(at).hints if fact.name in {"Elmo", "Anna", "Berta", "Otto"}] == ["Elmo"]
@@ -144,7 +144,7 @@ def test_the_street_and_what_has_a_name():
     [street] = street_facts(town, at, 2)
     assert street.text == "I am at the corner of West 25th Street and 10th Avenue."
     assert (street.instance, street.name, street.at) == (STREET_KIND, "West 25th Street", (215.0, 80.0))
-    facts = NamedSights(town).facts(at, SEEN_M)
+    facts = NamedFacts(town).facts(at, VISIBLE_M)
     assert [fact.text for fact in facts] == ["Bottino is 8 m to my north.", "Chelsea Park is 29 m to my southeast."]
     assert (facts[0].at, facts[0].away_m, facts[0].bearing_deg) == ((215.0, 92.0), 8.0, 0.0)
 
@@ -175,13 +175,13 @@ def named(*objects):
 
 
 def texts(gazetteer):
-    return [fact.text for fact in NamedSights(gazetteer).facts(np.zeros(2), SEEN_M)]
+    return [fact.text for fact in NamedFacts(gazetteer).facts(np.zeros(2), VISIBLE_M)]
 
 
 def test_what_nobody_sees_is_not_told():
     kinds = ("office/company", "entrance/main", "amenity/parking/underground", "public_transport/stop_position_tram")
     assert texts(named(*((kind, f"Thing {n}", point(0, 5)) for n, kind in enumerate(kinds)))) == []
-    assert texts(named(("shop/books", "Arkadia", point(0, SEEN_M + 1)))) == []
+    assert texts(named(("shop/books", "Arkadia", point(0, VISIBLE_M + 1)))) == []
 
 
 def test_a_name_is_told_once_and_never_that_of_a_street():
@@ -223,7 +223,7 @@ def test_hints_in_words(hint, is_ground, turn, text):
 
 
 def test_what_is_just_west_of_north_has_no_bearing_of_360():
-    fact = Sight("tree", None, None, np.array([-0.001, 10.0])).fact("A tree.", np.zeros(2))
+    fact = VisibleObject("tree", None, None, np.array([-0.001, 10.0])).fact("A tree.", np.zeros(2))
     assert fact.bearing_deg == 0.0
 
 

@@ -84,7 +84,7 @@ def test_uncertainty_is_wide_when_unsure_and_narrow_when_told(localizer) -> None
 
 def test_cells_beyond_the_search_depth_count_as_doubt(localizer, monkeypatch) -> None:
     whole = ask(localizer)
-    monkeypatch.setattr(localizer.by_vectors("none"), "depth", 20)
+    monkeypatch.setattr(localizer.vector_localizer("none"), "depth", 20)
     shallow = ask(localizer)
     assert [c.cell_id for c in shallow.candidates] == [c.cell_id for c in whole.candidates]
     assert shallow.estimate.probability <= whole.estimate.probability
@@ -149,7 +149,7 @@ def test_template_hints_are_never_read_again(index_dir, weights_dir, monkeypatch
     hints = ("The pose is on-top of a road.", "The pose is north of a tree.")
     expected = load_retriever(weights_dir).encode_descriptions([hints])  # that never saw the index
     fresh = Localizer.open(index_dir, weights_dir)
-    monkeypatch.setattr(fresh.retriever, "read", None)  # what would run the text encoder
+    monkeypatch.setattr(fresh.retriever, "embed_hints", None)  # what would run the text encoder
     assert fresh.retriever.encode_descriptions([hints]) == pytest.approx(expected, abs=1e-5)
     assert fresh.localize([Query(" ".join(hints), refine="none")])[0].estimate
 
@@ -164,7 +164,7 @@ def test_several_texts_together_are_where_each_alone_is(localizer, refine) -> No
     ]
     together = localizer.localize([Query(text, refine=refine) for text in texts])
     for text, one in zip(texts, together, strict=True):
-        localizer.posterior.texts._kept.clear()
+        localizer.posterior.chunk_reader._cache.clear()
         (alone,) = localizer.localize([Query(text, refine=refine)])
         assert alone.estimate.position == pytest.approx(one.estimate.position, abs=1e-3)
         assert [c.cell_id for c in alone.candidates] == [c.cell_id for c in one.candidates]

@@ -1,6 +1,6 @@
 import pytest
 
-from index.answering.meanings import PHRASES_FILE, VECTORS_FILE, Meanings, meanings_of
+from index.answering.meanings import PHRASES_FILE, VECTORS_FILE, Meanings, embed_phrases
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
 from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.kinds.vocabulary import load_vocabulary
@@ -28,7 +28,7 @@ def lookup() -> Lookup:
 
 
 def made(lookup, text_encoder) -> Meanings:
-    return Meanings.of(*meanings_of(lookup.phrases(), text_encoder.embed), text_encoder.embed)
+    return Meanings.from_vectors(*embed_phrases(lookup.phrases(), text_encoder.embed), text_encoder.embed)
 
 
 @pytest.fixture(scope="module")
@@ -86,7 +86,7 @@ def test_meanings_are_saved_and_read_back(lookup, meanings, text_encoder, tmp_pa
     again = Meanings.load(tmp_path, text_encoder.embed)
     assert again.like("the baby shop") == meanings.like("the baby shop") is not None
     (tmp_path / PHRASES_FILE).write_text("[]")
-    with pytest.raises(IndexBroken, match="do not belong together; rebuild"):
+    with pytest.raises(IndexBroken, match="do not match; rebuild"):
         Meanings.load(tmp_path, text_encoder.embed)
     (tmp_path / VECTORS_FILE).write_bytes(b"no index")
     with pytest.raises(IndexBroken, match="cannot be read; rebuild"):

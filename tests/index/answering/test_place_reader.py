@@ -71,7 +71,7 @@ def test_a_text_that_comes_again_is_not_read_again(localizer, monkeypatch) -> No
 
 
 def test_what_is_remembered_is_bounded_by_its_size(localizer) -> None:
-    kept = localizer.posterior.places._kept
+    kept = localizer.posterior.places._cache
     kept.clear()
     answer(localizer, "a bench by some trees, a building across the street, at a crossing")
     [mentions] = kept.values()
@@ -152,7 +152,7 @@ def test_odd_texts_are_answered_without_numbers_that_are_none(localizer, text) -
 def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(localizer) -> None:
     posterior = localizer.posterior
     for text, kept in (("I am north of a bench.", 1), ("There is a bench on my left.", 0)):
-        [hints] = posterior.texts.parse([text])
+        [hints] = posterior.chunk_reader.parse([text])
         trust = posterior.binding.reading(hints).label.amax(dim=1).tolist()
         mentions = posterior.places.read(text, "en", to_listener=False)
         near, places = near_hints(hints, trust, mentions)
@@ -163,7 +163,7 @@ def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(local
 def test_a_measure_that_both_claim_is_of_the_nearer(localizer, hint, mention) -> None:
     text = "A bench is 20 m to my west, and there is a Kiosk."
     [measure] = find_measures(text)
-    [read] = localizer.posterior.texts.parse(["The pose is south of a bench."])[0]
+    [read] = localizer.posterior.chunk_reader.parse(["The pose is south of a bench."])[0]
     at, other = text.index(hint), text.index(mention)
     noticed = replace(read, start=at, end=at + len(hint), measure=measure)
     named = Mention(mention, other, other + len(mention), "thing", cue=Cue(measure=measure))
@@ -181,7 +181,7 @@ def test_a_measure_is_of_one_hint_or_mention_of_an_answer(localizer) -> None:
 
 def test_a_class_that_the_gazetteer_lacks_stays_a_hint(localizer) -> None:
     posterior = localizer.posterior
-    [hints] = posterior.texts.parse(["The pose is south of a bench."])
+    [hints] = posterior.chunk_reader.parse(["The pose is south of a bench."])
     lacks = Mention("bench", 23, 28, "unknown", kinds=("amenity/bench",), cue=Cue("wind", wind=0.0))
     assert near_hints(hints, [1.0], [lacks]) == ([0], [])
     assert near_hints(hints, [1.0], [replace(lacks, kinds=())])[0] == [], "a name is no class"

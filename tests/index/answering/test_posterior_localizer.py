@@ -46,7 +46,7 @@ def posterior_model(text_encoder):
 @pytest.fixture(scope="module")
 def posterior(posterior_model, model, source):
     data = source.data
-    ranker = Ranker.of(model, data.cells, data.gallery.labels)
+    ranker = Ranker.from_cells(model, data.cells, data.gallery.labels)
     return posterior_of_map(posterior_model, data, ranker, build_neighbour_index(source.geometry(), data.cells))
 
 
@@ -159,10 +159,10 @@ def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_
 
 def test_long_descriptions_are_read_in_pieces(posterior):
     text = " ".join(f"The pose is north of a gray bench number{n}." for n in range(60))
-    [hints] = posterior.texts.parse([text])
+    [hints] = posterior.chunk_reader.parse([text])
     assert len(hints) == 60
     assert {text[hint.start : hint.end] for hint in hints[::10]} == {hint.noun for hint in hints[::10]}
-    assert posterior.texts.parse(["no full stop"]) == [()]
+    assert posterior.chunk_reader.parse(["no full stop"]) == [()]
 
 
 def test_weights_are_saved_and_read_back(text_encoder, tmp_path):

@@ -26,7 +26,7 @@ def labels(city):
 @pytest.fixture(scope="module")
 def expected(weighted, cells, labels):
     """[Q, N] what the weighted sum over the levels is, padded and all at once."""
-    ranker = Ranker.of(weighted, cells, labels)
+    ranker = Ranker.from_cells(weighted, cells, labels)
     texts = weighted.encode_texts(TEXTS)
     table = ranker.table.scores(texts, np.arange(len(cells)))
     whole = (
@@ -36,7 +36,7 @@ def expected(weighted, cells, labels):
 
 
 def test_all_levels_on_the_whole_gallery(weighted, cells, labels, expected) -> None:
-    ranker = Ranker.of(weighted, cells, labels, depth=len(cells))
+    ranker = Ranker.from_cells(weighted, cells, labels, depth=len(cells))
     scores, rows = ranker.rank(weighted.encode_texts(TEXTS), len(cells))
     for q in range(len(TEXTS)):
         assert sorted(rows[q]) == list(range(len(cells)))
@@ -45,7 +45,7 @@ def test_all_levels_on_the_whole_gallery(weighted, cells, labels, expected) -> N
 
 
 def test_the_best_of_vector_search_are_reordered_and_stay_first(weighted, cells, labels, expected) -> None:
-    plain, deep = (Ranker.of(weighted, cells, labels, depth=depth) for depth in (0, 20))
+    plain, deep = (Ranker.from_cells(weighted, cells, labels, depth=depth) for depth in (0, 20))
     texts = weighted.encode_texts(TEXTS)
     (whole, by_whole), (scores, rows) = plain.rank(texts, 50), deep.rank(texts, 50)
     assert np.array_equal(
@@ -60,7 +60,7 @@ def test_the_best_of_vector_search_are_reordered_and_stay_first(weighted, cells,
 
 
 def test_some_cells_score_as_in_the_whole(weighted, cells, labels, expected) -> None:
-    ranker, rows = Ranker.of(weighted, cells, labels), np.array([7, 3, 100])
+    ranker, rows = Ranker.from_cells(weighted, cells, labels), np.array([7, 3, 100])
     [text] = weighted.encode_texts(TEXTS[:1])
     assert ranker.score(text, rows) == pytest.approx(expected[0][rows], abs=1e-5)
     scores, found = ranker_on_some_cells(ranker, rows).rank([text], 3)
@@ -69,7 +69,7 @@ def test_some_cells_score_as_in_the_whole(weighted, cells, labels, expected) -> 
 
 
 def test_without_weights_z_scores_are_added(mncl, cells, labels) -> None:
-    ranker = Ranker.of(mncl, cells, labels, depth=len(cells))
+    ranker = Ranker.from_cells(mncl, cells, labels, depth=len(cells))
     texts = mncl.encode_texts(TEXTS)
     scores, _ = ranker.rank(texts, len(cells))
     assert scores.mean(axis=1) == pytest.approx(0, abs=1e-4), "each level is centred on the gallery"
@@ -77,7 +77,7 @@ def test_without_weights_z_scores_are_added(mncl, cells, labels) -> None:
 
 
 def test_saved_and_loaded_ranks_the_same(weighted, cells, labels, tmp_path) -> None:
-    ranker = Ranker.of(weighted, cells, labels)
+    ranker = Ranker.from_cells(weighted, cells, labels)
     ranker.table.save(tmp_path)
     again, texts = Ranker.load(weighted, tmp_path, ranker.store), weighted.encode_texts(TEXTS)
     assert again.rank(texts, 10)[0] == pytest.approx(ranker.rank(texts, 10)[0], abs=2e-3)
@@ -94,9 +94,9 @@ def test_cells_are_looked_at_once(weighted, cells, labels, monkeypatch) -> None:
     monkeypatch.setattr(
         weighted, "embed_cells", lambda batch, labels: sizes.append(len(batch.mask)) or embed_cells(batch, labels)
     )
-    rich = Ranker.of(weighted, cells, labels)
+    rich = Ranker.from_cells(weighted, cells, labels)
     assert sum(sizes) == len(cells)
-    lean = Ranker.of(weighted.global_only(), cells, labels)
+    lean = Ranker.from_cells(weighted.global_only(), cells, labels)
     assert lean.table.is_empty
     everything = np.arange(len(cells))
     assert np.array_equal(lean.store.vectors(everything), rich.store.vectors(everything))

@@ -18,7 +18,7 @@ from models.paper.fine.regressor import Regressor, RegressorConfig
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 
 
-class Told:
+class OracleRefiner:
     """A refiner that knows where each description was said."""
 
     method, name, fingerprint, error_m = "regressor", "oracle", "told", 0.5
@@ -39,7 +39,7 @@ class Told:
 
 @pytest.fixture(scope="module")
 def ranker(asked, model):
-    return Ranker.of(model, asked[0].cells, asked[0].gallery.labels)
+    return Ranker.from_cells(model, asked[0].cells, asked[0].gallery.labels)
 
 
 @pytest.fixture
@@ -50,7 +50,7 @@ def regressor(text_encoder):
 
 def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> None:
     data, queries = asked
-    report = evaluate(*asked, vectors_of_map(data, ranker, Told(data.cells, queries.positions_m)), tmp_path)
+    report = evaluate(*asked, vectors_of_map(data, ranker, OracleRefiner(data.cells, queries.positions_m)), tmp_path)
     plain = evaluate(*asked, vectors_of_map(data, ranker))
     assert {v for row in report["localization"].values() for v in row.values()} == {1.0}
     assert report["method"] == "regressor"
@@ -98,7 +98,7 @@ def test_a_query_may_ask_for_positions_inside_the_cells(localizer, regressor) ->
 
 def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
     center = localizer.gallery.cells.center_m[:, :2]
-    told = Told(localizer.gallery.cells, center[:1] + 4)
+    told = OracleRefiner(localizer.gallery.cells, center[:1] + 4)
     # One cell alone is surely the right one.
     sure = Query(TEXT, 1, within=Circle(tuple(center[0]), 1.0), refine="none")
     plain, refined = refining(localizer, lambda _: told).localize([sure, dataclasses.replace(sure, refine="regressor")])

@@ -3,7 +3,7 @@ import pytest
 
 from index.answering.query import Reply
 from index.asking.open_questions import OpenQuestions
-from index.asking.question_spec import OPEN, Asked
+from index.asking.question_spec import OPEN_QUESTIONS, QuestionSpec
 from models.errors import ReplyError
 from models.posterior.places.landmarks import Landmarks
 from models.posterior.questions import WRONG
@@ -20,14 +20,14 @@ def questions():
     return OpenQuestions(Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity", "leisure")))
 
 
-@pytest.mark.parametrize("kind", OPEN)
+@pytest.mark.parametrize("kind", OPEN_QUESTIONS)
 def test_what_can_be_said_is_what_the_rows_have(questions, kind):
     """A reply is as likely as the row of each cell has it, with errors."""
-    rows, names = questions.rows(Asked(kind), np.arange(len(CENTERS)), [])
+    rows, names = questions.rows(QuestionSpec(kind), np.arange(len(CENTERS)), [])
     assert names == NAMES[kind]
     total = np.zeros(len(CENTERS))
     for n in range(names):
-        [name] = questions.likeliest(Asked(kind), np.eye(names)[n])
+        [name] = questions.likeliest_names(QuestionSpec(kind), np.eye(names)[n])
         chance = np.exp(questions.answered([Reply(kind, name.upper())]))
         right = rows.toarray()[:, n]
         assert chance == pytest.approx((1 - WRONG) * right + WRONG * (1 - right) / (names - 1))
@@ -46,8 +46,8 @@ def test_the_cross_street_is_of_the_street_that_was_said(questions):
     }
     assert np.exp(crossing["10th Avenue"][at_corner]) == pytest.approx(1 - WRONG, abs=0.01)
     assert np.exp(crossing["West 25th Street"][at_corner]) == pytest.approx(WRONG / (NAMES["street"] - 1), abs=0.01)
-    rows, _ = questions.rows(Asked("corner"), np.array([at_corner]), [on_west])
-    assert questions.likeliest(Asked("corner"), rows.toarray()[0])[0] == "10th Avenue"
+    rows, _ = questions.rows(QuestionSpec("corner"), np.array([at_corner]), [on_west])
+    assert questions.likeliest_names(QuestionSpec("corner"), rows.toarray()[0])[0] == "10th Avenue"
 
 
 def test_what_is_unknown_or_closed_tells_nothing(questions):
@@ -59,7 +59,7 @@ def test_what_is_unknown_or_closed_tells_nothing(questions):
     ("kind", "what"), [("street", "street"), ("corner", "street"), ("name", "place"), ("address", "house")]
 )
 def test_a_name_that_the_map_has_not_is_refused_with_advice(questions, kind, what):
-    with pytest.raises(ReplyError, match=rf"^answers\[1\]\.choice: is no {what} .*description.*unknown") as raised:
+    with pytest.raises(ReplyError, match=rf"^answers\[1\]\.choice: is not a {what} .*description.*unknown") as raised:
         questions.answered([Reply("near:tree", "yes"), Reply(kind, "Elm Street")])
     assert (raised.value.number, raised.value.field) == (1, "choice")
 
@@ -67,4 +67,4 @@ def test_a_name_that_the_map_has_not_is_refused_with_advice(questions, kind, wha
 def test_a_map_without_names_asks_for_none():
     gazetteer = made_gazetteer()
     bare = OpenQuestions(Landmarks.build(gazetteer, CENTERS, ("aeroway",)))
-    assert [bare.has(kind) for kind in OPEN] == [True, False, True, True]
+    assert [bare.has(kind) for kind in OPEN_QUESTIONS] == [True, False, True, True]

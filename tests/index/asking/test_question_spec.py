@@ -1,23 +1,23 @@
 import pytest
 
-from index.asking.question_spec import LISTED, OPEN, OTHER, UNKNOWN, Asked
+from index.asking.question_spec import MAX_CHOICES, OPEN_QUESTIONS, OTHER, UNKNOWN, QuestionSpec
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.lexicon.question_classes import load_question_classes
 
 ALL = [
-    Asked("near", ("tree",)),
-    Asked("way", ("street lamp",)),
-    Asked("colour", ("building", "red", "gray")),
-    Asked("street"),
-    Asked("name"),
-    Asked("corner"),
-    Asked("address"),
+    QuestionSpec("near", ("tree",)),
+    QuestionSpec("way", ("street lamp",)),
+    QuestionSpec("colour", ("building", "red", "gray")),
+    QuestionSpec("street"),
+    QuestionSpec("name"),
+    QuestionSpec("corner"),
+    QuestionSpec("address"),
 ]
 
 
 @pytest.mark.parametrize("asked", ALL)
 def test_an_id_says_all(asked):
-    assert Asked.parse(asked.id) == asked
+    assert QuestionSpec.parse(asked.id) == asked
 
 
 @pytest.mark.parametrize(
@@ -28,20 +28,20 @@ def test_an_id_says_all(asked):
     ],
 )
 def test_what_is_no_id(wrong):
-    assert LISTED == 4
-    assert Asked.parse(wrong) is None
+    assert MAX_CHOICES == 4
+    assert QuestionSpec.parse(wrong) is None
 
 
 def test_questions_in_words():
     texts = [asked.question().text for asked in ALL]
     assert texts == [
         "Is there a tree within about 10 metres of you?",
-        "Where is the nearest street lamp, seen from you?",
+        "In which direction is the nearest street lamp?",
         "What colour is the nearest building?",
         "Which street are you on?",
-        "What is the name of a shop or another place that you see?",
-        "Which street crosses the street you are on nearest to you?",
-        "What is the number of the house nearest to you, and its street?",
+        "What is the name of a shop or another place that you can see?",
+        "What is the nearest cross street?",
+        "What is the number and street of the house nearest to you?",
     ]
 
 
@@ -52,11 +52,11 @@ def test_choices_are_the_values_and_unknown(asked):
     assert [choice.value for choice in question.choices] == [*asked.values, UNKNOWN]
     assert len({choice.text for choice in question.choices}) == len(question.choices)
     assert (OTHER in asked.values) == (asked.kind == "colour")
-    assert question.is_open == (asked.kind in OPEN)
+    assert question.is_open == (asked.kind in OPEN_QUESTIONS)
 
 
 def test_an_open_question_offers_names():
-    question = Asked("street").question(["Unioninkatu", "A: B | C"])
+    question = QuestionSpec("street").question(["Unioninkatu", "A: B | C"])
     assert [(choice.value, choice.text) for choice in question.choices] == [
         ("Unioninkatu", "Unioninkatu"),
         ("A: B | C", "A: B | C"),

@@ -3,10 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from index.answering.posterior_localizer import GOOD_M
-from index.answering.query import MOST_REPLIES, Box, Circle, Prior, Query, Reply
-from index.asking.known_facts import Heard
-from index.asking.question_spec import Asked
+from index.answering.posterior_localizer import WELL_LOCATED_M
+from index.answering.query import MAX_REPLIES, Box, Circle, Prior, Query, Reply
+from index.asking.known_facts import KnownFacts
+from index.asking.question_spec import QuestionSpec
 from index.asking.questions import Questions
 from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, EMPTY_GAZETTEER
 from models.citymap.gazetteer.name_columns import GazetteerObject, ObjectTable
@@ -45,9 +45,9 @@ def asked(posterior):
 @pytest.mark.parametrize(
     "one",
     [
-        Asked("near", ("bench",)),
-        Asked("way", ("street lamp",)),
-        Asked("colour", ("building", "red", "white")),
+        QuestionSpec("near", ("bench",)),
+        QuestionSpec("way", ("street lamp",)),
+        QuestionSpec("colour", ("building", "red", "white")),
     ],
 )
 def test_the_chances_of_all_answers_add_up_to_one_everywhere(posterior, one):
@@ -121,8 +121,8 @@ def test_the_question_leaves_the_least_entropy_of_all_that_could_be_asked(poster
         chance = np.stack([mass(located.weight * np.exp(log_p)) for log_p in told], axis=1)
         return expected_entropy(before / before.sum(), (chance / before[:, None].clip(1e-300))[None])[0]
 
-    others = [Asked("near", ("bench",)), Asked("near", ("bollard",)), Asked("near", ("post box",))]
-    best = Asked.parse(questions.ask(located, Heard(labels=frozenset(["tree"])), []).id)
+    others = [QuestionSpec("near", ("bench",)), QuestionSpec("near", ("bollard",)), QuestionSpec("near", ("post box",))]
+    best = QuestionSpec.parse(questions.ask(located, KnownFacts(labels=frozenset(["tree"])), []).id)
     assert best.values
     assert left(best) < min(left(one) for one in others)
 
@@ -131,15 +131,15 @@ def test_a_house_number_is_asked_for_where_a_word_would_tell_too_little(posterio
     """A reply of a word is preferred as long as it leaves no bit more."""
     numbered = with_house_numbers(posterior)
     everywhere = np.zeros(len(posterior.gallery.cells))
-    asked = numbered.ask_anywhere(everywhere, Heard(), [])
+    asked = numbered.ask_anywhere(everywhere, KnownFacts(), [])
     assert asked.id == "address"
     assert [choice.value for choice in asked.choices][-1] == "unknown"
     told = numbered.answered([Reply("address", "17, east street 3")])
     assert told.cells.argmax() == 16
     two = np.where(np.isin(np.arange(len(everywhere)), told.cells.argsort()[[0, -1]]), 0.0, -np.inf)
-    assert numbered.ask_anywhere(two, Heard(), []).id != "address"
+    assert numbered.ask_anywhere(two, KnownFacts(), []).id != "address"
     said = [Reply("address", "17 East Street 3")]
-    assert numbered.ask_anywhere(everywhere, Heard(), said).id not in {"address", "street"}
+    assert numbered.ask_anywhere(everywhere, KnownFacts(), said).id not in {"address", "street"}
 
 
 def with_house_numbers(posterior):
@@ -162,7 +162,7 @@ def test_what_the_text_says_is_not_asked(posterior, asked):
     for text in ("I am on East Street 2.", "I am on East Street 2. There is a bench."):
         [finding] = posterior.find([Query(text)])
         assert finding.question is None or finding.question.id != "street"
-    heard = Heard(labels=frozenset(["bench"]), has_winds=False)
+    heard = KnownFacts(labels=frozenset(["bench"]), has_winds=False)
     [finding] = posterior.find([VAGUE])
     found, before = [], []
     while question := posterior.questions.ask(finding.located, heard, before):
@@ -178,22 +178,22 @@ def test_what_the_text_says_is_not_asked(posterior, asked):
 
 def test_who_has_given_all_replies_that_are_taken_is_asked_nothing_more(posterior):
     [finding] = posterior.find([VAGUE])
-    before = [Reply("near:tree", "unknown")] * MOST_REPLIES
-    assert posterior.questions.ask(finding.located, Heard(), before[1:]) is not None
-    assert posterior.questions.ask(finding.located, Heard(), before) is None
+    before = [Reply("near:tree", "unknown")] * MAX_REPLIES
+    assert posterior.questions.ask(finding.located, KnownFacts(), before[1:]) is not None
+    assert posterior.questions.ask(finding.located, KnownFacts(), before) is None
 
 
 def test_the_cross_street_is_asked_for_when_the_street_is_known():
     def open_of(heard, *replies):
-        return [one.kind for one in heard.open(replies)]
+        return [one.kind for one in heard.open_questions(replies)]
 
-    assert open_of(Heard()) == ["street", "name", "address"]
-    assert open_of(Heard(), Reply("street", "unknown")) == ["name", "address"]
-    assert open_of(Heard(), Reply("street", "A"), Reply("name", "unknown")) == ["corner", "address"]
-    assert open_of(Heard(is_on_street=True, is_at_name=True)) == ["corner", "address"]
-    assert open_of(Heard(is_on_street=True, is_at_corner=True, is_at_house=True)) == ["name"]
-    assert open_of(Heard(), Reply("address", "1 A")) == ["name", "corner"]  # of the street that was said with it
-    assert open_of(Heard(), Reply("address", "unknown")) == ["street", "name"]
+    assert open_of(KnownFacts()) == ["street", "name", "address"]
+    assert open_of(KnownFacts(), Reply("street", "unknown")) == ["name", "address"]
+    assert open_of(KnownFacts(), Reply("street", "A"), Reply("name", "unknown")) == ["corner", "address"]
+    assert open_of(KnownFacts(is_on_street=True, is_at_name=True)) == ["corner", "address"]
+    assert open_of(KnownFacts(is_on_street=True, is_at_corner=True, is_at_house=True)) == ["name"]
+    assert open_of(KnownFacts(), Reply("address", "1 A")) == ["name", "corner"]  # of the street that was said with it
+    assert open_of(KnownFacts(), Reply("address", "unknown")) == ["street", "name"]
 
 
 def test_an_answer_narrows_and_a_wrong_one_is_survived(posterior, asked):
@@ -257,7 +257,7 @@ def test_a_refused_text_has_a_question_and_its_reply_is_an_answer(localizer, ref
     assert after.status != "no_match"
     on_third = localizer.frame.from_wgs84(LAT + 180 * LAT_M, LON)[1]
     assert abs(after.estimate.position[1] - on_third) < 30
-    assert any("of the replies" in warning for warning in after.warnings)
+    assert any("replies alone" in warning for warning in after.warnings)
 
 
 def test_replies_alone_look_along_a_whole_street(posterior, monkeypatch):
@@ -286,7 +286,7 @@ def test_who_knows_nothing_is_asked_other_things_and_then_nothing(localizer):
         query = replace(query, replies=(*query.replies, Reply(answer.question.id, "unknown")))
     assert answer.status == "no_match"
     assert found[0] == "street"
-    assert len(found) == len(set(found)) == MOST_REPLIES
+    assert len(found) == len(set(found)) == MAX_REPLIES
 
 
 def test_what_is_offered_to_a_refused_text_is_where_it_may_have_been_said(localizer):
@@ -312,17 +312,17 @@ def test_not_every_refused_text_has_a_question(localizer):
 def test_who_has_begun_to_reply_is_asked_until_the_place_is_good(localizer):
     query, p50 = SAYS_NOTHING, np.inf
     replies = {"street": "East Street 3", "corner": "North Path 2"}
-    while (question := localizer.localize([query])[0].question) is not None and len(query.replies) < MOST_REPLIES:
+    while (question := localizer.localize([query])[0].question) is not None and len(query.replies) < MAX_REPLIES:
         reply = Reply(question.id, replies.get(question.id, "unknown"))
         query = replace(query, replies=(*query.replies, reply))
         p50 = localizer.localize([query])[0].estimate.radius_m.p50
     assert {reply.question for reply in query.replies} >= {"street", "corner"}
-    assert p50 <= GOOD_M or len(query.replies) == MOST_REPLIES
+    assert p50 <= WELL_LOCATED_M or len(query.replies) == MAX_REPLIES
 
 
 def test_the_middle_of_a_cell_is_the_node_nearest_to_its_centre(posterior) -> None:
     given = posterior.nodes.sights, list(posterior.labels), posterior._palette, EMPTY_GAZETTEER, posterior.gallery.cells
-    once = Questions(*given)._middle
+    once = Questions(*given)._middle_nodes
     surroundings, centers = posterior.surroundings, posterior.gallery.cells.center_m[:, :2]
     owner = surroundings.owner(once)
     apart = np.hypot(*(surroundings.positions_m(once) - centers[owner]).T)

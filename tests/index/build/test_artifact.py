@@ -170,7 +170,7 @@ def test_a_file_that_the_disk_does_not_give_is_named(copy, monkeypatch) -> None:
         raise OSError(errno.EIO, os.strerror(errno.EIO))
 
     monkeypatch.setattr("index.build.manifest.sha256", fails)
-    with pytest.raises(IndexBroken, match=r"cannot be read \(Input/output error\); see to its disk"):
+    with pytest.raises(IndexBroken, match=r"cannot be read \(Input/output error\); check its disk"):
         open_version(copy)
 
 

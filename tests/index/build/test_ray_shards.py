@@ -67,7 +67,7 @@ def test_a_cluster_that_is_not_there_is_said_at_once(osm_file, tmp_path, monkeyp
 def test_workers_that_write_elsewhere_and_shards_that_are_lost_are_said(osm_file, tmp_path, monkeypatch) -> None:
     job = IndexJob(osm_file, tmp_path)
     fake_ray(monkeypatch, get=lambda done: done, **make_here(lambda _, shard: Path(f"/of/the/worker/{shard.name}")))
-    with pytest.raises(DataError, match=rf"/of/the/worker/1-of-2 was made and is not here: .* {tmp_path} in common"):
+    with pytest.raises(DataError, match=rf"/of/the/worker/1-of-2 was made but is not visible here: .* {tmp_path}"):
         build_on_ray(job, 2, None)
 
     def lost(_done):

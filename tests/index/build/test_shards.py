@@ -12,8 +12,8 @@ from safetensors.numpy import load_file
 from index.build.artifact import open_version
 from index.build.build import IndexJob
 from index.build.shard import Shard
-from index.build.shard_data import FILE, Part
-from index.build.shard_store import PARTS
+from index.build.shard_data import FILE, ShardData
+from index.build.shard_store import SHARDS_DIR
 from models.citymap.cells import CELLS_PER_BLOCK
 from models.errors import DataError, IndexBroken
 from models.files import TEMP_PREFIX
@@ -42,12 +42,12 @@ def given(job, monkeypatch):
     kept = job.out_dir / "kept"
     part_of(job, SECOND).rename(kept)
     monkeypatch.setattr(
-        Part, "of", lambda _encoder, _likelihood, source, *_: Part.load(kept, LEVELS, source.data.cells)
+        ShardData, "build", lambda _encoder, _likelihood, source, *_: ShardData.load(kept, LEVELS, source.data.cells)
     )
 
 
 def part_of(job, shard):
-    [found] = job.out_dir.glob(f"{PARTS}/*/{shard.name}")
+    [found] = job.out_dir.glob(f"{SHARDS_DIR}/*/{shard.name}")
     return found
 
 
@@ -63,13 +63,13 @@ def test_shards_give_the_bytes_of_the_whole(deep_index, job) -> None:
     assert told(job.out_dir) == whole
     assert {path.name for path in version.iterdir()} == {*whole["files"], "manifest.json"}
     assert {"levels.instance.npy", "levels.relation.npy", "statements.safetensors"} <= whole["files"].keys()
-    assert not (job.out_dir / PARTS).exists()
+    assert not (job.out_dir / SHARDS_DIR).exists()
     assert replace(job, keep_current=True).merge(2) == version
 
 
 def test_a_shard_without_cells_is_a_part_too(job) -> None:
     none = Shard(1, 3)  # of two blocks
-    path = job.make_part(none)
+    path = job.make_shard(none)
     assert rows_of(job, none) == [0, 0]
     columns = load_file(path / FILE)
     assert len(columns["vectors"]) == 0
@@ -80,12 +80,12 @@ def test_a_shard_without_cells_is_a_part_too(job) -> None:
 def test_shards_of_a_scan_give_the_bytes_of_the_whole(streets, weights_dir, tmp_path, monkeypatch) -> None:
     of_models = ("paper.retriever", "paper.instance_encoder", "paper.level_table", "posterior.statements")
     for module in (*(f"models.{name}" for name in of_models), "index.build.build", "index.build.shard_store"):
-        monkeypatch.setattr(f"{module}.BLOCK", 8)
+        monkeypatch.setattr(f"{module}.CELLS_PER_BLOCK", 8)
     whole, shared = (IndexJob(streets, tmp_path / name, weights_dir) for name in ("whole", "shared"))
     whole.build()
     count = 2
     for shard in Shard.all(count):
-        shared.make_part(shard)
+        shared.make_shard(shard)
     assert all(first < last for first, last in (rows_of(shared, shard) for shard in Shard.all(count)))
     shared.merge(count)
     assert "surroundings.safetensors" in told(tmp_path / "whole")["files"]
@@ -95,12 +95,12 @@ def test_shards_of_a_scan_give_the_bytes_of_the_whole(streets, weights_dir, tmp_
 def test_a_good_part_is_not_made_again_and_a_damaged_one_is(job, unread, monkeypatch) -> None:
     path = part_of(job, FIRST)
     before = (path / "manifest.json").stat().st_ino
-    assert job.make_part(FIRST) == path
+    assert job.make_shard(FIRST) == path
     assert (path / "manifest.json").stat().st_ino == before
     whole = (path / "part.safetensors").read_bytes()
     (path / "part.safetensors").write_bytes(whole[:-1])
     monkeypatch.undo()
-    assert job.make_part(FIRST) == path
+    assert job.make_shard(FIRST) == path
     assert (path / "part.safetensors").read_bytes() == whole
 
 
@@ -108,12 +108,12 @@ def test_what_is_missing_damaged_or_of_something_else_is_refused_by_name(
     job, unread, strip_file, weights_dir, monkeypatch
 ) -> None:
     path = part_of(job, SECOND)
-    with pytest.raises(IndexBroken, match=r"not all of 3 parts: 1-of-3 is missing; 2-of-3 is missing; 3-of-3 is"):
+    with pytest.raises(IndexBroken, match=r"lacks some of 3 parts: 1-of-3 is missing; 2-of-3 is missing; 3-of-3 is"):
         job.merge(3)
     faults = {
-        "is of another map": replace(job, map_path=strip_file),
+        "was made from another map": replace(job, map_path=strip_file),
         "was made with --levels": replace(job, levels=False),
-        "is of another model": replace(job, weights_dir=weights_dir, levels=False),
+        "was made by another model": replace(job, weights_dir=weights_dir, levels=False),
     }
     for fault, other in faults.items():
         with pytest.raises(IndexBroken, match=rf"1-of-2 is missing \(\S+ {fault}.*2-of-2 is missing.*--shard I/2"):
@@ -142,7 +142,7 @@ def test_what_is_missing_damaged_or_of_something_else_is_refused_by_name(
 
 
 def test_who_is_killed_leaves_nothing_that_is_taken_for_a_part(job, given, monkeypatch) -> None:
-    save = Part.save
+    save = ShardData.save
 
     def killed(part, directory):
         save(part, directory)
@@ -151,8 +151,8 @@ def test_who_is_killed_leaves_nothing_that_is_taken_for_a_part(job, given, monke
     pid = os.fork()
     if not pid:
         try:
-            Part.save = killed
-            job.make_part(SECOND)
+            ShardData.save = killed
+            job.make_shard(SECOND)
         finally:  # or a fork of pytest goes on
             os._exit(1)
     assert os.waitpid(pid, 0)[1] == signal.SIGKILL
@@ -160,21 +160,21 @@ def test_who_is_killed_leaves_nothing_that_is_taken_for_a_part(job, given, monke
     assert len(list(directory.glob(f"{TEMP_PREFIX}*"))) == 1
     with pytest.raises(IndexBroken, match="parts: 2-of-2 is missing;"):
         job.merge(2)
-    job.make_part(SECOND)
+    job.make_shard(SECOND)
     assert sorted(path.name for path in directory.iterdir()) == [FIRST.name, SECOND.name]
 
 
 def test_of_two_who_make_one_part_the_first_is_kept(job, given, monkeypatch) -> None:
-    save, made = Part.save, []
+    save, made = ShardData.save, []
 
     def late(part, directory):
-        monkeypatch.setattr(Part, "save", save)
-        made.append(job.make_part(SECOND))
+        monkeypatch.setattr(ShardData, "save", save)
+        made.append(job.make_shard(SECOND))
         made.append((made[0] / "manifest.json").stat().st_ino)
         save(part, directory)
 
-    monkeypatch.setattr(Part, "save", late)
-    path = job.make_part(SECOND)
+    monkeypatch.setattr(ShardData, "save", late)
+    path = job.make_shard(SECOND)
     assert made == [path, (path / "manifest.json").stat().st_ino]
     assert sorted(one.name for one in path.parent.iterdir()) == [FIRST.name, SECOND.name]
 
@@ -184,21 +184,21 @@ def test_a_part_that_cannot_be_written_is_said_and_nothing_is_left(job, given, m
         (directory / "part.safetensors").write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Part, "save", full)
-    with pytest.raises(DataError, match=r"out cannot be written: .*No space left.*; make room"):
-        job.make_part(SECOND)
+    monkeypatch.setattr(ShardData, "save", full)
+    with pytest.raises(DataError, match=r"out cannot be written: .*No space left.*; free some space"):
+        job.make_shard(SECOND)
     assert [path.name for path in part_of(job, FIRST).parent.iterdir()] == [FIRST.name]
 
 
 def test_that_nothing_can_be_written_is_found_before_the_work(deep_file, rich_dir, tmp_path, unread) -> None:
-    (tmp_path / PARTS).write_text("no directory")
+    (tmp_path / SHARDS_DIR).write_text("no directory")
     with pytest.raises(DataError, match="cannot be written"):
-        IndexJob(deep_file, tmp_path, rich_dir).make_part(FIRST)
+        IndexJob(deep_file, tmp_path, rich_dir).make_shard(FIRST)
 
 
 @pytest.mark.parametrize("text", ["5/4", "0/4", "1/0", "x", "", "1", "1/2/3", "-1/4", " 1/4", "1/4\n", "1.0/4", "01/4"])
 def test_what_is_no_shard_is_refused(text) -> None:
-    with pytest.raises(ValueError, match=r"is no shard: give which, from 1, and of how many"):
+    with pytest.raises(ValueError, match=r"is not a shard; expected I/N with I from 1 to N"):
         Shard.parse(text)
 
 

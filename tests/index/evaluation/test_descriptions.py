@@ -3,7 +3,12 @@ from types import SimpleNamespace
 import numpy as np
 
 from index.answering.answers import Answer, Candidate, Estimate, ModelName, Radius
-from index.evaluation.descriptions import descriptions_table, draw_positions, evaluate_descriptions, find_again
+from index.evaluation.descriptions import (
+    descriptions_table,
+    draw_positions,
+    evaluate_descriptions,
+    localize_descriptions,
+)
 
 
 def test_positions_are_found_again_by_their_descriptions(localizer) -> None:
@@ -28,7 +33,7 @@ def test_positions_lie_in_the_squares_of_different_cells(localizer) -> None:
 
 def test_where_nothing_can_be_said_nothing_is_found(localizer) -> None:
     off_the_map = (-400.0, 0.0)
-    found = find_again(localizer, np.array([off_the_map, (60.0, 61.0), off_the_map]), lambda *_: None)
+    found = localize_descriptions(localizer, np.array([off_the_map, (60.0, 61.0), off_the_map]), lambda *_: None)
     assert found.words.tolist()[::2] == [0, 0]
     assert np.isinf(found.error_m).tolist() == [True, False, True]
     assert not (found.is_ok | found.is_held)[::2].any()
@@ -46,7 +51,7 @@ def test_what_is_found_in_another_scene_is_not_found_though_a_circle_holds_it() 
         describe=lambda _: SimpleNamespace(description="I am here.", cell_id="a"),
         localize=lambda _: answers,
     )
-    found = find_again(localizer, np.array([at, at, at]), lambda *_: None)
+    found = localize_descriptions(localizer, np.array([at, at, at]), lambda *_: None)
     assert found.error_m.tolist() == [0.0, np.inf, np.inf]
     assert found.is_held.tolist() == [True, True, False]
     assert found.is_ok.tolist() == [True, True, False]

@@ -6,9 +6,9 @@ import pytest
 
 from index.answering.ranking import Ranker
 from index.evaluation.ambiguity import ambiguity
-from index.evaluation.evaluation import evaluate, grow, rescore
+from index.evaluation.evaluation import evaluate, grow_gallery, rescore
 from index.evaluation.localizers import vectors_of_map
-from index.evaluation.predictions import FILE, Predictions
+from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from index.evaluation.scoring import score
 from models.citymap.hints import build_hint_table
 from models.citymap.queries import Queries
@@ -20,7 +20,7 @@ from models.sources.source import open_source
 @pytest.fixture(scope="module")
 def vectors(asked, model):
     data = asked[0]
-    return vectors_of_map(data, Ranker.of(model, data.cells, data.gallery.labels))
+    return vectors_of_map(data, Ranker.from_cells(model, data.cells, data.gallery.labels))
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +91,7 @@ def test_a_growing_gallery_asks_the_same_queries(report, asked) -> None:
     assert first["queries"] == second["queries"] > 10
     assert first["cells"] < second["cells"] < len(data.cells)
     assert first["retrieval"]["5"] >= second["retrieval"]["5"]
-    (radius, (small, part), rows), _ = grow(data, queries, [120, 60])
+    (radius, (small, part), rows), _ = grow_gallery(data, queries, [120, 60])
     assert radius == 60
     assert [small.cells.ids[n] for n in part.truth] == [
         data.cells.ids[queries.truth[list(queries.sentences).index(said)]] for said in part.sentences
@@ -104,11 +104,11 @@ def test_radii_that_hold_nothing_are_refused(asked, radii, message) -> None:
     data, queries = asked
     shifted = replace(queries, positions_m=queries.positions_m + 3.3)
     with pytest.raises(DataError, match=message):
-        grow(data, shifted, radii)
+        grow_gallery(data, shifted, radii)
 
 
 def test_another_scene_is_never_a_hit(run_dir) -> None:
-    whole = Predictions.load(run_dir / FILE)
+    whole = Predictions.load(run_dir / PREDICTIONS_FILE)
     elsewhere = replace(whole, cell_scenes=np.array(["other"] * len(whole.cell_ids)))
     assert np.isfinite(whole.errors_m()).all()
     assert np.isinf(elsewhere.errors_m()).all()
@@ -129,14 +129,14 @@ def test_a_query_far_from_every_cell_is_asked_and_missed(asked, vectors) -> None
 def test_broken_predictions_are_refused(run_dir, tmp_path) -> None:
     with pytest.raises(DataError, match="no such file"):
         rescore(tmp_path)
-    (tmp_path / FILE).write_bytes(b"nothing")
+    (tmp_path / PREDICTIONS_FILE).write_bytes(b"nothing")
     with pytest.raises(DataError, match="no predictions"):
         rescore(tmp_path)
-    whole = Predictions.load(run_dir / FILE)
-    replace(whole, scenes=whole.scenes[:-1]).save(tmp_path / FILE)
+    whole = Predictions.load(run_dir / PREDICTIONS_FILE)
+    replace(whole, scenes=whole.scenes[:-1]).save(tmp_path / PREDICTIONS_FILE)
     with pytest.raises(DataError, match="scenes"):
         rescore(tmp_path)
-    replace(whole, ranked=whole.ranked + 10_000).save(tmp_path / FILE)
+    replace(whole, ranked=whole.ranked + 10_000).save(tmp_path / PREDICTIONS_FILE)
     with pytest.raises(DataError, match="outside the gallery"):
         rescore(tmp_path)
 

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from index.evaluation.place_texts import constructions_of, evaluate_told, told_tables
+from index.evaluation.place_texts import constructions_of, evaluate_texts, text_tables
 from models.language.mentions.reader import find_mentions
 from models.sources.place_texts import PlaceText
 
@@ -19,7 +19,7 @@ def texts(localizer):
 
 
 def test_the_report_has_errors_and_radii_of_all_texts_and_by_construction(localizer, texts, tmp_path) -> None:
-    report = evaluate_told(localizer, texts, tmp_path, lambda *_: None)
+    report = evaluate_texts(localizer, texts, tmp_path, lambda *_: None)
     assert report["texts"] == 3
     assert list(report["within"]) == ["10", "30", "100", "250"]
     assert all(share < 0.67 for share in report["within"].values()), "a text without an answer is never within"
@@ -28,7 +28,7 @@ def test_the_report_has_errors_and_radii_of_all_texts_and_by_construction(locali
     assert {"street", "corner", "left, right, ahead, behind", "listener"} <= set(report["by_construction"])
     assert report["by_construction"]["corner"]["texts"] == 1
     assert json.loads((tmp_path / "told.json").read_text()) == report
-    [(head, rows)] = told_tables(report)
+    [(head, rows)] = text_tables(report)
     assert all(len(row) == len(head) for row in rows)
     assert [row[0] for row in rows] == ["all", *report["by_construction"]]
     assert (tmp_path / "told.md").read_text().count("\n") == len(rows) + 2

@@ -5,9 +5,9 @@ import pytest
 import torch
 
 from index.answering.ranking import Ranker
-from index.evaluation.candidates import SIZES, SOURCES, candidate_recall
+from index.evaluation.candidates import CANDIDATE_COUNTS, SOURCES, candidate_recall
 from index.evaluation.localizers import posterior_of_map, vectors_of_map
-from index.evaluation.robustness import _damage, nearest_hints, robustness, robustness_tables
+from index.evaluation.robustness import _damage_map, nearest_hints, robustness, robustness_tables
 from index.evaluation.trials import Trial, all_trials
 from models.citymap.types import Hint
 from models.errors import DataError
@@ -58,7 +58,7 @@ def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_e
     data, queries = asked
     rows = np.arange(0, len(queries), max(1, len(queries) // 3))
     some = queries.take(rows)
-    ranker = Ranker.of(model, data.cells, data.gallery.labels)
+    ranker = Ranker.from_cells(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
     untrained.matcher = load_posterior().matcher  # knows the names already
     posterior = posterior_of_map(untrained, data, ranker, build_neighbour_index(source.geometry(), data.cells))
@@ -72,20 +72,22 @@ def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_e
     names = [head[0].split(":")[0] for head, _ in of_candidates]
     assert names == list(found["candidates"]) == ["template text", "free wording, unseen grammar"]
     assert all(len(rows) == len(SOURCES) for _, rows in of_candidates)
-    raw, _, by_list, both = ([row["recall"][str(n)] for n in SIZES] for row in candidate_recall(some, posterior))
+    raw, _, by_list, both = (
+        [row["recall"][str(n)] for n in CANDIDATE_COUNTS] for row in candidate_recall(some, posterior)
+    )
     assert all(b >= o for b, o in zip(both, by_list, strict=True)), "both hold what one holds"
     first = [ranker.search([ranker.retriever.encode_description(s)], 10)[1][0] for s in some.sentences]
     assert raw[0] == pytest.approx(np.mean([t in r for t, r in zip(some.truth, first, strict=True)]))
-    with pytest.raises(DataError, match="what the hints mean"):
+    with pytest.raises(DataError, match="the hints behind the texts"):
         robustness(data, replace(some, hints=None), vectors, posterior, lambda *_: None)
 
 
 def test_points_of_a_damaged_map_are_those_of_the_parts_that_are_left(asked) -> None:
     data = asked[0]
-    damage = _damage(data, Trial("gone", lambda hints, _rng: (), dropped=0.3), np.random.default_rng(0))
+    damage = _damage_map(data, Trial("gone", lambda hints, _rng: (), dropped=0.3), np.random.default_rng(0))
     before, after = data.gallery.cells, damage.data.gallery.cells
     chosen = np.array([3, 0])
     rows = np.concatenate([np.arange(before.parts.starts[n], before.parts.starts[n + 1]) for n in chosen])
-    left = damage.kept[rows]
+    left = damage.is_kept[rows]
     assert 0 < left.sum() < len(left)
     assert np.array_equal(after.sample(chosen), before.sample(chosen)[left])

@@ -3,9 +3,9 @@ import pytest
 import shapely
 
 from index.answering.query import Reply
-from index.asking.question_spec import OPEN, Asked
+from index.asking.question_spec import OPEN_QUESTIONS, QuestionSpec
 from index.evaluation import simulated_person as measured
-from index.evaluation.simulated_person import Person, Truth
+from index.evaluation.simulated_person import MapTruth, SimulatedPerson
 from tests.models.citymap.gazetteer.made_town import made_gazetteer
 
 LABELS = ("tree", "bench", "bollard", "building")
@@ -13,15 +13,15 @@ LABELS = ("tree", "bench", "bollard", "building")
 
 @pytest.fixture(scope="module")
 def truth(source):
-    return Truth(source.geometry(), source.data.gallery, source.data.palette, source.gazetteer())
+    return MapTruth(source.geometry(), source.data.gallery, source.data.palette, source.gazetteer())
 
 
 @pytest.fixture
 def sure(truth, monkeypatch):
     """(position) -> a person there who errs in nothing."""
-    for name in ("WRONG", "DO_NOT_KNOW", "IDEAS", "TURN"):
+    for name in ("WRONG_SHARE", "UNKNOWN_SHARE", "DISTANCE_LOG_SIGMA", "BEARING_SIGMA_DEG"):
         monkeypatch.setattr(measured, name, 0.0)
-    return lambda position: Person(truth, 0, position, np.random.default_rng(0))
+    return lambda position: SimulatedPerson(truth, 0, position, np.random.default_rng(0))
 
 
 @pytest.mark.parametrize("label", LABELS)
@@ -37,29 +37,29 @@ def test_the_truth_is_that_of_the_map(truth, city, asked, sure, label) -> None:
         assert number == pieces.instance[of_class[nearest]] or metres == 0.0
         person = sure(position)
         near = "yes" if metres <= 10 else "no"
-        assert person.reply(Asked("near", (label,)).question()).choice == near
+        assert person.reply(QuestionSpec("near", (label,)).question()).choice == near
         wind = ("north" if north > 0 else "south") if abs(north) > abs(east) else ("east" if east > 0 else "west")
-        assert person.reply(Asked("way", (label,)).question()).choice == (wind if metres <= 15 else "none")
+        assert person.reply(QuestionSpec("way", (label,)).question()).choice == (wind if metres <= 15 else "none")
         assert bearing == pytest.approx(np.degrees(np.arctan2(east, north)), abs=0.5)
 
 
 def test_people_name_the_street_they_are_on(truth, asked, sure) -> None:
     near = [(truth.streets(position, 40.0), position) for position in asked[1].positions_m[:60]]
     position, name = next((at, some[0][1]) for some, at in near if len(some) == 1 or some[1][0] > some[0][0] + 5)
-    assert sure(position).reply(Asked("street").question()).choice == name
+    assert sure(position).reply(QuestionSpec("street").question()).choice == name
 
 
 @pytest.fixture
 def in_town(source, monkeypatch):
     """(x, y, seed) -> a person in the made-up town of names who errs in nothing."""
-    for name in ("WRONG", "DO_NOT_KNOW", "IDEAS"):
+    for name in ("WRONG_SHARE", "UNKNOWN_SHARE", "DISTANCE_LOG_SIGMA"):
         monkeypatch.setattr(measured, name, 0.0)
-    town = Truth(source.geometry(), source.data.gallery, source.data.palette, made_gazetteer())
-    return lambda x, y, seed=0: Person(town, 0, np.array([x, y]), np.random.default_rng(seed))
+    town = MapTruth(source.geometry(), source.data.gallery, source.data.palette, made_gazetteer())
+    return lambda x, y, seed=0: SimulatedPerson(town, 0, np.array([x, y]), np.random.default_rng(seed))
 
 
 def test_people_read_signs_that_are_near(in_town) -> None:
-    question = Asked("name").question()
+    question = QuestionSpec("name").question()
     said = [in_town(60.0, 90.0, seed).reply(question).choice for seed in range(300)]
     assert set(said) == {"Кафе Пушкин", "北京饭店"}
     assert np.mean([name == "Кафе Пушкин" for name in said]) == pytest.approx((1 / 7) / (1 / 7 + 1 / 27), abs=0.06)
@@ -67,7 +67,7 @@ def test_people_read_signs_that_are_near(in_town) -> None:
 
 
 def test_people_know_the_nearest_street_that_crosses(in_town) -> None:
-    question = Asked("corner").question()
+    question = QuestionSpec("corner").question()
     assert in_town(60.0, 82.0).reply(question).choice == "11th Avenue"
     assert in_town(120.0, 82.0).reply(question).choice == "10th Avenue"
     assert in_town(198.0, 30.0).reply(question).choice == "West 24th Street"
@@ -77,20 +77,20 @@ def test_people_know_the_nearest_street_that_crosses(in_town) -> None:
 
 
 def test_people_read_the_number_that_seems_nearest(in_town, monkeypatch) -> None:
-    question = Asked("address").question()
+    question = QuestionSpec("address").question()
     assert in_town(250.0, 84.0).reply(question).choice == "450 West 25th Street"
     assert in_town(250.0, 76.0).reply(question).choice == "449 West 25th Street"
     assert in_town(60.0, 80.0).reply(question).choice == "unknown"
-    monkeypatch.setattr(measured, "IDEAS", 0.25)
+    monkeypatch.setattr(measured, "DISTANCE_LOG_SIGMA", 0.25)
     said = [in_town(250.0, 82.0, seed).reply(question).choice for seed in range(300)]
     assert 0.5 < np.mean([name == "450 West 25th Street" for name in said]) < 0.95  # 13 m away, the other 17
 
 
-@pytest.mark.parametrize("kind", OPEN)
+@pytest.mark.parametrize("kind", OPEN_QUESTIONS)
 def test_a_wrong_name_is_another_of_the_map(in_town, monkeypatch, kind) -> None:
-    monkeypatch.setattr(measured, "WRONG", 1.0)
+    monkeypatch.setattr(measured, "WRONG_SHARE", 1.0)
     x = 250.0 if kind == "address" else 120.0
-    names = {in_town(x, 90.0, seed).reply(Asked(kind).question()).choice for seed in range(200)}
+    names = {in_town(x, 90.0, seed).reply(QuestionSpec(kind).question()).choice for seed in range(200)}
     right = {
         "street": "West 25th Street",
         "name": "T-Optik",
@@ -105,8 +105,8 @@ def test_people_err_as_often_as_is_said(truth, asked) -> None:
     away = [truth.nearest(0, position, "building")[0] for position in asked[1].positions_m]
     position = asked[1].positions_m[int(np.argmax(away))]
     assert max(away) > 20, "far enough that nobody takes it for ten metres"
-    person = Person(truth, 0, position, np.random.default_rng(0))
-    question = Asked("near", ("building",)).question()
+    person = SimulatedPerson(truth, 0, position, np.random.default_rng(0))
+    question = QuestionSpec("near", ("building",)).question()
     replies = [person.reply(question) for _ in range(600)]
     assert np.mean([reply.choice == "unknown" for reply in replies]) == pytest.approx(0.2, abs=0.05)
     assert all(isinstance(reply, Reply) and reply.question == question.id for reply in replies)

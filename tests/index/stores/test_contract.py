@@ -10,7 +10,7 @@ from index.answering.query import Box
 from index.stores import milvus_store
 from index.stores.faiss_store import FaissStore
 from index.stores.milvus_connection import URI
-from index.stores.milvus_store import MilvusStore, collection_of
+from index.stores.milvus_store import MilvusStore, collection_name
 from models.errors import IndexBroken, StoreUnavailable
 
 TOLERANCE = 1e-6  # of a score; a backend sums in an order of its own
@@ -37,7 +37,7 @@ class Faiss:
         self.directory = directory
 
     def write(self, version, vectors, positions_m):
-        FaissStore.of(vectors).save(self.directory / version)
+        FaissStore.from_vectors(vectors).save(self.directory / version)
         return self.open(version, vectors, positions_m)
 
     def open(self, version, vectors, positions_m):
@@ -51,13 +51,13 @@ class Milvus:
         self.stack = stack
 
     def write(self, version, vectors, positions_m):
-        with MilvusStore.written(version, vectors, positions_m, ["town"] * len(vectors)) as store:
+        with MilvusStore.create(version, vectors, positions_m, ["town"] * len(vectors)) as store:
             self.stack.callback(store.close)
             self.stack.callback(store.drop)
             return store
 
     def open(self, version, vectors, positions_m):
-        store = MilvusStore(collection_of(version), vectors.shape[1], len(vectors))
+        store = MilvusStore(collection_name(version), vectors.shape[1], len(vectors))
         self.stack.callback(store.close)
         return store
 
@@ -174,7 +174,7 @@ def in_milvus(backend):
 
 
 def test_more_than_milvus_gives_at_once_is_exact(in_milvus, store, vectors, monkeypatch) -> None:
-    monkeypatch.setattr(milvus_store, "MOST", 300)
+    monkeypatch.setattr(milvus_store, "MAX_HITS_PER_SEARCH", 300)
     assert_best(store.search(vectors[:3], 1000), vectors[:3] @ vectors.T, 1000)
 
 
@@ -197,7 +197,7 @@ def test_what_fails_after_it_leaves_no_collection(in_milvus, vectors, positions_
     regions = ["town"] * 50
     with (
         pytest.raises(OSError, match="full"),
-        MilvusStore.written("half", vectors[:50], positions_m[:50], regions),
+        MilvusStore.create("half", vectors[:50], positions_m[:50], regions),
     ):
         raise OSError("full")
     with pytest.raises(IndexBroken, match="no collection hereabouts_half"):

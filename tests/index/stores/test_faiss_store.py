@@ -17,9 +17,9 @@ def vectors():
 
 
 def test_many_vectors_take_a_quarter_and_find_nearly_the_same(vectors, tmp_path, monkeypatch) -> None:
-    exact = FaissStore.of(vectors)
-    monkeypatch.setattr("index.stores.faiss_store.EXACT", 2999)
-    FaissStore.of(vectors).save(tmp_path / "small")
+    exact = FaissStore.from_vectors(vectors)
+    monkeypatch.setattr("index.stores.faiss_store.MAX_FLOAT_VECTORS", 2999)
+    FaissStore.from_vectors(vectors).save(tmp_path / "small")
     exact.save(tmp_path / "exact")
     assert (tmp_path / "small").stat().st_size < 0.27 * (tmp_path / "exact").stat().st_size
     small = FaissStore.load(tmp_path / "small", positions_m=np.zeros((3000, 2)))
@@ -36,14 +36,20 @@ def test_many_vectors_take_a_quarter_and_find_nearly_the_same(vectors, tmp_path,
 @pytest.fixture
 def in_lists(monkeypatch):
     """Stores of more than 2,000 vectors have 16 lists, of which 4 are searched."""
-    for name, value in {"EXACT": 100, "MANY": 2000, "LISTS": 16, "SEARCHED": 4, "FEW": 50}.items():
+    for name, value in {
+        "MAX_FLOAT_VECTORS": 100,
+        "MAX_FLAT_VECTORS": 2000,
+        "IVF_LISTS": 16,
+        "IVF_PROBES": 4,
+        "MAX_PROBED_K": 50,
+    }.items():
         monkeypatch.setattr(f"index.stores.faiss_store.{name}", value)
 
 
 def test_very_many_vectors_are_found_in_lists_of_like_ones(vectors, tmp_path, in_lists) -> None:
     alike = vectors[:100].repeat(30, axis=0) + 0.3 * vectors
     alike /= np.linalg.norm(alike, axis=1, keepdims=True)
-    FaissStore.of(alike).save(tmp_path / "lists")
+    FaissStore.from_vectors(alike).save(tmp_path / "lists")
     positions_m = np.stack([np.arange(3000), np.zeros(3000)], axis=1)
     store = FaissStore.load(tmp_path / "lists", positions_m)
     assert (len(store), store.dim) == (3000, 64)
@@ -61,19 +67,19 @@ def test_very_many_vectors_are_found_in_lists_of_like_ones(vectors, tmp_path, in
 
 
 def test_lists_that_hold_too_few_are_not_all_that_is_looked_at(vectors, in_lists, monkeypatch) -> None:
-    monkeypatch.setattr("index.stores.faiss_store.SEARCHED", 1)
+    monkeypatch.setattr("index.stores.faiss_store.IVF_PROBES", 1)
     far = np.concatenate([vectors[:1].repeat(2990, axis=0), -vectors[:1].repeat(10, axis=0)])
-    scores, rows = FaissStore.of(far).search(-vectors[:1], 40)
+    scores, rows = FaissStore.from_vectors(far).search(-vectors[:1], 40)
     assert (rows >= 0).all()
     assert len(set(rows[0].tolist())) == 40
     assert scores[0, 9] > 0.9 > scores[0, 10]
 
 
 def test_the_bits_of_a_vector_are_the_same_in_lists_and_without(vectors, in_lists, monkeypatch) -> None:
-    lists = FaissStore.of(vectors)
-    monkeypatch.setattr("index.stores.faiss_store.MANY", 3000)
+    lists = FaissStore.from_vectors(vectors)
+    monkeypatch.setattr("index.stores.faiss_store.MAX_FLAT_VECTORS", 3000)
     rows = np.arange(3000)
-    np.testing.assert_array_equal(lists.vectors(rows), FaissStore.of(vectors).vectors(rows))
+    np.testing.assert_array_equal(lists.vectors(rows), FaissStore.from_vectors(vectors).vectors(rows))
 
 
 @pytest.mark.parametrize("bits", [32, 16, 8])
@@ -81,14 +87,14 @@ def test_the_bits_of_a_vector_are_the_same_in_lists_and_without(vectors, in_list
 def test_however_many_vectors_are_looked_at_together_the_file_is_the_same(
     vectors, tmp_path, in_lists, monkeypatch, bits, many
 ) -> None:
-    monkeypatch.setattr("index.stores.faiss_store.MANY", many)
+    monkeypatch.setattr("index.stores.faiss_store.MAX_FLAT_VECTORS", many)
 
     def written():
-        FaissStore.of(vectors, bits=bits).save(tmp_path / "vectors")
+        FaissStore.from_vectors(vectors, bits=bits).save(tmp_path / "vectors")
         return (tmp_path / "vectors").read_bytes()
 
     at_once = written()
-    monkeypatch.setattr("index.stores.faiss_store.AT_ONCE", 700)
+    monkeypatch.setattr("index.stores.faiss_store.VECTORS_PER_BLOCK", 700)
     assert written() == at_once
 
 
@@ -104,25 +110,25 @@ def test_of_vectors_in_a_file_none_stay_in_memory(vectors, in_lists, monkeypatch
 
     assert kept.sum() == pytest.approx(vectors.sum())
     assert in_memory_kb() > 500
-    FaissStore.of(kept)
+    FaissStore.from_vectors(kept)
     assert in_memory_kb() == 0
 
 
 def test_a_store_of_sixteen_bits_takes_half_and_scores_alike(vectors, tmp_path) -> None:
-    exact = FaissStore.of(vectors)
-    FaissStore.of(vectors, bits=16).save(tmp_path / "half")
+    exact = FaissStore.from_vectors(vectors)
+    FaissStore.from_vectors(vectors, bits=16).save(tmp_path / "half")
     exact.save(tmp_path / "exact")
     assert (tmp_path / "half").stat().st_size < 0.52 * (tmp_path / "exact").stat().st_size
     half = FaissStore.load(tmp_path / "half")
     assert half.search(vectors[:50], 20)[0] == pytest.approx(exact.search(vectors[:50], 20)[0], abs=1e-3)
-    assert len(FaissStore.of(vectors[:0], bits=16)) == 0
+    assert len(FaissStore.from_vectors(vectors[:0], bits=16)) == 0
 
 
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="only Linux tells which files are mapped")
 @pytest.mark.parametrize("bits", [32, 16, 8])
 def test_a_file_is_mapped_not_read(vectors, tmp_path, bits) -> None:
     path = tmp_path / "vectors.faiss"
-    FaissStore.of(vectors, bits=bits).save(path)
+    FaissStore.from_vectors(vectors, bits=bits).save(path)
     store = FaissStore.load(path)
     assert str(path) in Path("/proc/self/maps").read_text()
     path.unlink()  # as when a version is removed while it is served
@@ -132,7 +138,7 @@ def test_a_file_is_mapped_not_read(vectors, tmp_path, bits) -> None:
 @pytest.mark.parametrize("bits", [32, 8])
 def test_a_file_that_was_cut_short_is_refused(vectors, tmp_path, bits) -> None:
     path = tmp_path / "vectors.faiss"
-    FaissStore.of(vectors, bits=bits).save(path)
+    FaissStore.from_vectors(vectors, bits=bits).save(path)
     content = path.read_bytes()
     for size in (0, 3, 100, len(content) // 2, len(content) - 1):
         path.write_bytes(content[:size])

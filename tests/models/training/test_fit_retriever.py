@@ -182,7 +182,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(strip, coarse, tmp_pat
     assert (tmp_path / "a" / "config.json").read_text() == (tmp_path / "b" / "config.json").read_text()
     retriever = load_retriever(tmp_path / "a")
     assert retriever.points is not None
-    store = Ranker.of(retriever, cells, labels).store
+    store = Ranker.from_cells(retriever, cells, labels).store
     assert store.vectors(np.arange(len(cells))).shape == (len(cells), 32)
 
 

@@ -5,7 +5,7 @@ import torch
 
 from index.evaluation.reproduction import jobs as module
 from index.evaluation.reproduction.figure_3 import draw_figure_3
-from index.evaluation.reproduction.jobs import ALL, ALONE, LISTED, Z_SCORES, Job
+from index.evaluation.reproduction.jobs import ALL_LEVELS, GLOBAL_ONLY, RERANKED, Z_SCORES, ReproductionJob
 from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.paper.mncl import Mncl, MnclConfig
 from models.training.experiments import TrainingRun, TrainingScale
@@ -16,9 +16,9 @@ def test_rankings_are_of_one_model_by_each_way(text_encoder, osm_file) -> None:
     torch.manual_seed(1)
     retriever = Mncl(text_encoder, MnclConfig(width=32, level_weights=(1.0, 0.0, 0.0))).eval()
     found = module._rankings(retriever, osm_file)
-    assert list(found) == [ALONE, LISTED, ALL, Z_SCORES]
-    assert found[ALONE] == found[ALL], "the other levels weigh nothing"
-    assert found[Z_SCORES] != found[ALL]
+    assert list(found) == [GLOBAL_ONLY, RERANKED, ALL_LEVELS, Z_SCORES]
+    assert found[GLOBAL_ONLY] == found[ALL_LEVELS], "the other levels weigh nothing"
+    assert found[Z_SCORES] != found[ALL_LEVELS]
 
 
 def test_figure_3_is_drawn(asked, model, text_encoder, tmp_path) -> None:
@@ -36,7 +36,9 @@ def test_results_go_with_the_files_of_a_text_encoder(osm_file, tmp_path, method)
 
     def key() -> str:
         said = (f"model.text_encoder={encoder}",)
-        return Job.of(TrainingRun(method), 0, osm_file, tmp_path / "out", TrainingScale(said, said, ())).key
+        return ReproductionJob.build(
+            TrainingRun(method), 0, osm_file, tmp_path / "out", TrainingScale(said, said, ())
+        ).key
 
     keys = []
     for name, content in (("weights", "a"), ("weights", "other"), ("pooling/config", "b"), ("weights", "a")):

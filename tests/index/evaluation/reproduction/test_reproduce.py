@@ -8,7 +8,7 @@ import torch
 
 from index.evaluation.reproduction import reproduce as module
 from index.evaluation.reproduction.report import markdown, write_reproduction
-from index.evaluation.reproduction.reproduce import chosen, in_epochs
+from index.evaluation.reproduction.reproduce import choose_experiments, scale_in_epochs
 from models.errors import DataError
 from models.paper import point_encoder
 from models.sources.source import open_source
@@ -42,7 +42,7 @@ def here(work, tasks, workers):
 
 @pytest.fixture
 def small(monkeypatch):
-    monkeypatch.setattr(module, "_all_done", here)
+    monkeypatch.setattr(module, "_run_in_processes", here)
     monkeypatch.setattr(point_encoder, "_LEVELS", ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128))))
     threads = torch.get_num_threads()
     yield
@@ -116,7 +116,7 @@ def test_every_order_of_the_papers_tables_is_asked() -> None:
 
 def test_epochs_are_as_many_steps_as_the_data_has_batches(osm_file) -> None:
     batches = len(open_source(osm_file, "train").queries()) // 4
-    scale = in_epochs(SCALE, osm_file, 10)
+    scale = scale_in_epochs(SCALE, osm_file, 10)
     _, training = load_settings("mncl", scale.retriever)
     assert (training.steps, training.validate_every) == (10 * batches, batches)
     assert (training.schedule, training.halve_every) == ("step", 5 * batches)
@@ -124,10 +124,10 @@ def test_epochs_are_as_many_steps_as_the_data_has_batches(osm_file) -> None:
 
 
 def test_tables_are_chosen_by_name() -> None:
-    assert chosen("2, 4b, 2") == (EXPERIMENTS["2"], EXPERIMENTS["4b"])
-    assert chosen(None) == ALL
+    assert choose_experiments("2, 4b, 2") == (EXPERIMENTS["2"], EXPERIMENTS["4b"])
+    assert choose_experiments(None) == ALL
     with pytest.raises(DataError, match=r"--tables 9: .* 4a"):
-        chosen("9")
+        choose_experiments("9")
 
 
 def made_up(run: TrainingRun, seed: int) -> dict[str, object]:
