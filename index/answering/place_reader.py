@@ -94,7 +94,9 @@ class PlaceReader:
         like = None if self.meanings is None else self.meanings.like
         return find_mentions(description, self._lookup, self._cues, language, nouns, like)
 
-    def place_evidence(self, mentions: Sequence[Mention], description: str, listener_m: Floats | None) -> PlaceEvidence | None:
+    def place_evidence(
+        self, mentions: Sequence[Mention], description: str, listener_m: Floats | None
+    ) -> PlaceEvidence | None:
         """Return the evidence of mentions about positions; None if there is none."""
         wind = None if listener_m is None else listener_wind(description)
         meets = listener_m is not None or is_meeting(description)

@@ -62,7 +62,9 @@ class Provenance(_Out):
     attribution: str
 
     @classmethod
-    def build(cls, localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT_ALIAS) -> "Provenance":
+    def build(
+        cls, localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT_ALIAS
+    ) -> "Provenance":
         """Return the provenance of an answer.
 
         Args:
