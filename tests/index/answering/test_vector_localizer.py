@@ -9,7 +9,7 @@ from index.answering.query import Circle, Query
 from index.answering.ranking import Ranker
 from index.evaluation.evaluation import evaluate
 from index.evaluation.localizers import vectors_of_map
-from index.evaluation.predictions import FILE, Predictions
+from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from models.errors import WeightsError
 from models.paper.fine.checkpoint import load_refiner, save_fine
 from models.paper.fine.matching import Matching, MatchingConfig
@@ -66,7 +66,7 @@ def test_refined_positions_are_saved_and_lie_in_their_cells(asked, ranker, regre
     data, queries = asked
     part = dataclasses.replace(queries.take(np.arange(9)), hints=None)
     evaluate(data, part, vectors_of_map(data, ranker, regressor), tmp_path)
-    saved = Predictions.load(tmp_path / FILE)
+    saved = Predictions.load(tmp_path / PREDICTIONS_FILE)
     first = saved.ranked[:, : saved.predicted_m.shape[1]]
     away = np.abs(saved.predicted_m - saved.cell_centers_m[first])
     assert 0 < away.max() <= data.cells.size_m / 2 + 1e-6

@@ -99,7 +99,7 @@ def test_a_growing_gallery_asks_the_same_queries(report, asked) -> None:
     assert [data.cells.ids[n] for n in rows] == list(small.cells.ids)
 
 
-@pytest.mark.parametrize(("radii", "message"), [([0], "no radius"), ([1e-6], "larger radius")])
+@pytest.mark.parametrize(("radii", "message"), [([0], "not a valid radius"), ([1e-6], "larger radius")])
 def test_radii_that_hold_nothing_are_refused(asked, radii, message) -> None:
     data, queries = asked
     shifted = replace(queries, positions_m=queries.positions_m + 3.3)
