@@ -43,7 +43,7 @@ def cues() -> CueReader:
 
 def read(text, noun, lookup, meanings, cues):
     start = text.index(noun)
-    return find_mentions(text, lookup, cues, nouns=[(start, start + len(noun))], like=meanings.like)
+    return find_mentions(text, lookup, cues, nouns=[(start, start + len(noun))], find_paraphrase=meanings.like)
 
 
 @pytest.mark.parametrize(("noun", "thing"), [("baby shop", 0), ("municipal art museum", 1)])
@@ -58,7 +58,7 @@ def test_paraphrases_of_nouns_and_names_are_understood(lookup, meanings, cues, n
 
 def test_shops_are_found_without_being_told_of(lookup, meanings, cues) -> None:
     text = "in front of the baby shop"
-    [mention] = find_mentions(text, lookup, cues, like=meanings.like)
+    [mention] = find_mentions(text, lookup, cues, find_paraphrase=meanings.like)
     assert (mention.text, mention.objects.tolist()) == ("baby shop", [0])
     assert not any(len(m.objects) for m in find_mentions(text, lookup, cues))
 
@@ -77,7 +77,7 @@ def test_what_is_said_in_a_name_is_not_read_twice(lookup, meanings, cues) -> Non
 
 def test_what_has_a_name_is_not_taken_for_another(lookup, cues) -> None:
     text = "I'm outside the Old Mill"
-    [mention] = find_mentions(text, lookup, cues, nouns=[(16, 24)], like=lambda _: ("baby", "goods", "shop"))
+    [mention] = find_mentions(text, lookup, cues, nouns=[(16, 24)], find_paraphrase=lambda _: ("baby", "goods", "shop"))
     assert mention.objects.tolist() == [2]
 
 
