@@ -91,7 +91,7 @@ def test_an_answer_is_whole_and_says_why(answer, query, asked, surest, scan):
         assert np.hypot(*np.subtract(hint.at, answer.estimate.position)) == pytest.approx(hint.away_m, abs=1.1)
     things = {instance.source_id: instance.points_m[:, :2] for instance in scan.instances}
     for hint in shown:  # stands on the thing itself
-        assert np.hypot(*(things[hint.source_id] - hint.at).T).min() < 0.5
+        assert np.hypot(*(things[hint.source_id] - hint.at).T).min() < 0.75
     text = query.description
     assert [text[slice(*hint.span)] for hint in answer.evidence] == [hint.text for hint in answer.evidence]
     points = np.array(answer.heat_map.points)

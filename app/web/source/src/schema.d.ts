@@ -376,7 +376,7 @@ export interface components {
         };
         /**
          * Candidate
-         * @description A cell that may be the right one.
+         * @description A cell that may contain the speaker.
          */
         Candidate: {
             /**
@@ -388,12 +388,12 @@ export interface components {
             cell_id: string;
             /**
              * Score
-             * @description what cells are ranked by, before any prior; with posterior the logarithm of the likelihood summed over the part of the map that the cell owns, comparable within one answer; with any other refine the similarity of text and cell (a cosine, or the weighted sum of one a level), comparable within one index
+             * @description score before any prior; with posterior the log likelihood summed over the area of the cell, comparable within one answer; with any other refine the similarity of text and cell (a cosine, or a weighted sum of one per level), comparable within one index
              */
             score: number;
             /**
              * Probability
-             * @description calibrated
+             * @description calibrated probability that this is the right cell
              */
             probability: number;
             /** Center */
@@ -424,7 +424,7 @@ export interface components {
         };
         /**
          * CellInstance
-         * @description One instance of a cell; metres, map frame.
+         * @description An instance in a cell; metres, map frame.
          */
         CellInstance: {
             /** Label */
@@ -451,7 +451,7 @@ export interface components {
             ];
             /**
              * Closest
-             * @description its point nearest to the cell's centre
+             * @description its closest point to the cell's centre
              */
             closest: [
                 number,
@@ -518,7 +518,7 @@ export interface components {
             wgs84: components["schemas"]["LatLon"] | null;
             /**
              * Instances
-             * @description how many are in it; GET /cells/{cell_id} has them
+             * @description number of instances; GET /cells/{cell_id} lists them
              */
             instances: number;
         };
@@ -544,17 +544,17 @@ export interface components {
         };
         /**
          * Choice
-         * @description An answer that a question can be given.
+         * @description A reply that a question offers.
          */
         Choice: {
             /**
              * Value
-             * @description what to send back
+             * @description the value to send back
              */
             value: string;
             /**
              * Text
-             * @description what to show
+             * @description the text to show
              */
             text: string;
         };
@@ -730,7 +730,7 @@ export interface components {
         };
         /**
          * Estimate
-         * @description Where the speaker is, how sure that is, and what made it.
+         * @description The estimated position of the speaker and its uncertainty.
          */
         Estimate: {
             /**
@@ -743,13 +743,13 @@ export interface components {
             ];
             /**
              * Method
-             * @description posterior: the hint posterior; cell_center: the centre of the best cell; the others are models of the fine stage
+             * @description posterior: the hint posterior; cell_center: the centre of the best cell; regressor, matching: models of the fine stage
              * @enum {string}
              */
             method: "cell_center" | "regressor" | "matching" | "posterior";
             /**
              * Covariance
-             * @description square metres, of the true position around `position`; wide when unsure
+             * @description covariance of the true position around `position`, square metres
              */
             covariance: [
                 [
@@ -764,7 +764,7 @@ export interface components {
             radius_m: components["schemas"]["Radius"];
             /**
              * Probability
-             * @description that the best candidate is the right cell
+             * @description probability that the best candidate is the right cell
              */
             probability: number;
             /** @description null if the map has no georeference */
@@ -774,7 +774,7 @@ export interface components {
              * @description the position in words; null on a map without names
              */
             place?: string | null;
-            /** @description null where the text tells none */
+            /** @description null if the text does not tell */
             heading?: components["schemas"]["Heading"] | null;
         };
         /**
@@ -880,17 +880,17 @@ export interface components {
         });
         /**
          * Evidence
-         * @description How one hint was understood, and what on the map explains it.
+         * @description How one hint was understood, and which object of the map explains it.
          */
         Evidence: {
             /**
              * Text
-             * @description the words for the thing
+             * @description the words for the object
              */
             text: string;
             /**
              * Span
-             * @description the characters of the description in which they stand, from the first to before the last
+             * @description the characters of the description that contain them: start and end (exclusive)
              */
             span: [
                 number,
@@ -898,34 +898,34 @@ export interface components {
             ] | null;
             /**
              * Label
-             * @description the map's class that fits them best
+             * @description the best matching class of the map
              */
             label: string | null;
             /** Colour */
             colour: string | null;
             /**
              * Relation
-             * @description where the speaker is, seen from the thing; near: no direction was said. Of places also what was said: at, across, left, ahead right, corner ...
+             * @description direction from the object to the speaker; near if the text gives none. For named places also other relations: at, across, left, ahead right, corner ...
              */
             relation: string;
             /**
              * Distance M
-             * @description as it was said
+             * @description the distance in the text
              */
             distance_m: number | null;
             /**
              * Absent
-             * @description the text says that there is none
+             * @description the text says that there is no such object
              */
             absent: boolean;
             /**
              * Explained
-             * @description probability that something on the map explains the hint
+             * @description probability that an object of the map explains the hint
              */
             explained: number;
             /**
              * Instance
-             * @description class of what explains it at the estimate
+             * @description class of the object that explains it at the estimate
              */
             instance?: string | null;
             /** Name */
@@ -934,12 +934,12 @@ export interface components {
             source_id?: string | null;
             /**
              * Away M
-             * @description from its closest point to the estimate
+             * @description distance from the estimate to its closest point, metres
              */
             away_m?: number | null;
             /**
              * At
-             * @description that point: x, y in metres, map frame
+             * @description its closest point: x, y in metres, map frame
              */
             at?: [
                 number,
@@ -947,18 +947,18 @@ export interface components {
             ] | null;
             /**
              * Bearing Deg
-             * @description of places: from the estimate to it, clockwise from north
+             * @description named places only: direction from the estimate, clockwise from north
              */
             bearing_deg?: number | null;
             /**
              * Exact
-             * @description of places: whether this is a name of it on the map, or another of its chain; null for what is near
+             * @description named places only: whether the text has a name of it, rather than of another branch of its chain; null for nearby objects
              */
             exact?: boolean | null;
         };
         /**
          * Fact
-         * @description A sentence that is true at a position, and what on the map it tells of.
+         * @description A true sentence about a position, and the object it is about.
          */
         Fact: {
             /**
@@ -968,19 +968,19 @@ export interface components {
             text: string;
             /**
              * Instance
-             * @description class of what it tells of
+             * @description class of the object
              */
             instance: string;
             /**
              * Name
-             * @description null where it has none
+             * @description null if it has none
              */
             name: string | null;
             /** Source Id */
             source_id: string | null;
             /**
              * At
-             * @description its point nearest to the position: x, y in metres, map frame
+             * @description its closest point to the position: x, y in metres, map frame
              */
             at: [
                 number,
@@ -988,12 +988,12 @@ export interface components {
             ];
             /**
              * Away M
-             * @description from the position to that point
+             * @description distance from the position to that point, metres
              */
             away_m: number;
             /**
              * Bearing Deg
-             * @description from the position to that point, clockwise from north; null where it is there
+             * @description direction from the position to that point, clockwise from north; null at distance 0
              */
             bearing_deg: number | null;
         };
@@ -1028,7 +1028,7 @@ export interface components {
         };
         /**
          * Heading
-         * @description Where the speaker looks, as the text tells it by left, right, ahead and behind.
+         * @description Where the speaker looks, if the text uses left, right, ahead or behind.
          */
         Heading: {
             /**
@@ -1052,17 +1052,17 @@ export interface components {
         };
         /**
          * HeatMap
-         * @description The distribution behind an answer.
+         * @description The probability distribution of the position.
          */
         HeatMap: {
             /**
              * Spacing M
-             * @description edge of the square round each point; as fine as a few that hold the distribution can be
+             * @description edge of the square around each point, metres
              */
             spacing_m: number;
             /**
              * Points
-             * @description x, y, probability, likeliest first, map frame
+             * @description x, y, probability; likeliest first; map frame
              */
             points: [
                 number,
@@ -1709,12 +1709,12 @@ export interface components {
         };
         /**
          * Question
-         * @description The one thing whose answer would narrow most where the speaker is.
+         * @description The follow-up question that narrows the position most.
          */
         Question: {
             /**
              * Id
-             * @description what to send back; it says all that the service needs to know
+             * @description the id to send back; the service keeps no other state
              */
             id: string;
             /**
@@ -1724,19 +1724,19 @@ export interface components {
             text: string;
             /**
              * Choices
-             * @description the last is "unknown": the question is not asked again, and nothing else changes
+             * @description the last one is "unknown": the question is not asked again and the answer does not change
              */
             choices: components["schemas"]["Choice"][];
             /**
              * Is Open
-             * @description a name that is not listed may be sent as choice as well; it is compared without case and accents
+             * @description names that are not listed may be sent as well; case and accents do not matter
              * @default false
              */
             is_open: boolean;
         };
         /**
          * Radius
-         * @description Metres around the estimate that hold the true position with probability .5 and .9.
+         * @description Radii in metres around the estimate that contain the true position with probability 0.5 and 0.9.
          */
         Radius: {
             /** P50 */
