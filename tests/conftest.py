@@ -20,7 +20,7 @@ import torch
 from filelock import FileLock
 
 from index.answering.localizer import Localizer
-from index.build.build import build_index
+from index.build.build import IndexJob
 from models.checkpoint import round_weights
 from models.citymap.cells import CellTable
 from models.citymap.gallery import MapData
@@ -223,7 +223,7 @@ def weights_dir(model: Mncl, made_once: MadeOnce) -> Path:
 
 @pytest.fixture(scope="session")
 def index_dir(osm_file: Path, weights_dir: Path, made_once: MadeOnce) -> Path:
-    return made_once("index", lambda out: build_index(osm_file, out, weights_dir))
+    return made_once("index", lambda out: IndexJob(osm_file, out, weights_dir).build())
 
 
 @pytest.fixture(scope="session")

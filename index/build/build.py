@@ -28,22 +28,6 @@ from models.sources.source import open_source
 from models.spool import scratch, spooling_in
 
 
-def build_index(
-    map_path: Path,
-    out_dir: Path,
-    weights_dir: Path | None = None,
-    split: str | None = None,
-    keep_current: bool = False,
-    levels: bool = False,
-    progress: Progress | None = None,
-    store: StoreName = "faiss",
-    within: Region | None = None,
-) -> Path:
-    """Build an index version of a map and point the alias "default" to it; as `IndexJob.build`."""
-    job = IndexJob(map_path, out_dir, weights_dir, split, keep_current, levels, store, within)
-    return job.build(progress or no_progress)
-
-
 def no_progress(_stage: str, _done: int, _total: int) -> None:
     """Ignore a progress report."""
 

@@ -175,13 +175,6 @@ class Retriever(TextEncoderModel):
             encoded += self.embed_texts(table[hints], hints >= 0).split()
         return encoded
 
-    def encode_descriptions(self, descriptions: Sequence[Sequence[str]]) -> Vectors:
-        """Return unit vectors [Q, D] float32 of descriptions at the global level."""
-        vectors: Vectors = np.concatenate(
-            [text.global_vectors.cpu().numpy() for text in self.encode_texts(descriptions)]
-        )
-        return vectors
-
     @torch.inference_mode()
     def encode_cells(
         self, cells: CellFeatures, label_embeddings: Tensor, first: int

@@ -2,7 +2,7 @@
 
 from html import escape
 
-from index.build.build import build_index
+from index.build.build import IndexJob
 from tests.conftest import LAT, LAT_M, LON, LON_M, tiny_osm
 
 SCRIPT = "<script>window.hacked=1</script>"
@@ -53,6 +53,6 @@ def hostile_index(made_once):
 
     def make(out):
         (out / f"{MAP}.osm").write_text(hostile_town())
-        build_index(out / f"{MAP}.osm", out / "index")
+        IndexJob(out / f"{MAP}.osm", out / "index").build()
 
     return made_once("hostile-town", make) / "index"

@@ -13,7 +13,6 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
 
-MAX_REACH_PX: Final = 253  # distances are bytes, and the scan adds 1 to reach + 1
 MAX_SQUARED_REACH_PX: Final = 180  # sums of two squares have 16 bits
 ColumnDistances = npt.NDArray[np.uint8]
 SquaredDistances = npt.NDArray[np.uint16]
@@ -25,7 +24,8 @@ def column_distances(pixels: Ints, shape: tuple[int, int], reach: int) -> Column
     Args:
         pixels: [n] drawn pixels, column * rows + row.
         shape: columns and rows.
-        reach: pixels, at most MAX_REACH_PX; rows have a margin of this size at both ends.
+        reach: pixels, at most 253, because distances are bytes and the scan adds 1 to reach + 1; rows have a margin of
+            this size at both ends.
     """
     distances = np.full((shape[0], shape[1] + 2 * reach), reach + 1, np.uint8)
     _fill_columns(distances, pixels, reach)

@@ -60,13 +60,6 @@ class ObjectTable(Sequence[GazetteerObject]):
         self._all_kinds, self._kind_starts, self._kinds = tuple(known), kind_starts, kinds
         self._string_starts, self._written, self._strings = starts, written, strings
 
-    @classmethod
-    def from_objects(cls, objects: Sequence[GazetteerObject]) -> "ObjectTable":
-        """Build the table of some objects."""
-        builder = ObjectTableBuilder()
-        builder.add(objects)
-        return builder.build()
-
     def __len__(self) -> int:
         return len(self._written)
 

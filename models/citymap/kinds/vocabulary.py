@@ -17,7 +17,6 @@ from models.errors import DataError
 FOLDER = Path(__file__).parent
 # Languages that use the names of another one.
 LANGUAGE_ALIASES = {"nb": "no", "nn": "no", "zh": "zh-CN", "zh-HK": "zh-TW"}
-VOCABULARY_FILES = ("kinds.json.xz", "names.json.xz", "brands.json.xz", "LICENCES.md")
 
 
 class Vocabulary:

@@ -6,15 +6,13 @@ up a pose's neighbours by its cell id, so every cell of the scene must be in it.
 """
 
 import json
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal, get_args
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
 from scipy.spatial import cKDTree
 
-from models.errors import DataError
 from models.files import replace_file
 from models.sources.kitti360pose.records import PublishedCell
 
@@ -31,7 +29,6 @@ COMPASS_STEPS: dict[Compass, tuple[int, int]] = {
     "southwest": (-1, -1),
 }
 NEIGHBOUR_TOLERANCE_M = 1e-3  # cells of one grid are whole steps apart; others belong to another grid
-ADVICE = "cells and direction must come from one preparation"
 
 
 def find_neighbours(cells: Sequence[PublishedCell], grid_m: float) -> Neighbours:
@@ -52,45 +49,6 @@ def find_neighbours(cells: Sequence[PublishedCell], grid_m: float) -> Neighbours
         for n in np.flatnonzero(distance <= NEIGHBOUR_TOLERANCE_M).tolist():
             neighbours[cells[n].id][point] = cells[int(row[n])].id
     return neighbours
-
-
-def load_direction(path: Path, cell_ids: Collection[str]) -> Neighbours:
-    """Read the neighbours of a scene's cells.
-
-    Args:
-        path: direction/<scene>.json.
-        cell_ids: the cells of the scene.
-
-    Returns:
-        For each cell's id: point of the compass -> id of the cell there, where there is one.
-
-    Raises:
-        DataError: the file is missing, malformed, names a cell that is not in the scene, or lacks one.
-    """
-    try:
-        stored = TypeAdapter(dict[str, dict[Compass, str | None]]).validate_json(path.read_bytes())
-    except FileNotFoundError as error:
-        raise DataError(
-            f"{path}: no neighbours for this scene; the file is missing; prepare the scene again"
-        ) from error
-    except OSError as error:
-        raise DataError(f"{path}: cannot be opened: {error.strerror}") from error
-    except ValidationError as error:
-        first = error.errors()[0]
-        field = ".".join(repr(part)[:80] for part in first["loc"]) or "content"
-        raise DataError(f"{path}: {field}: {first['msg']}; expected cell id -> point of the compass -> id") from error
-    known = set(cell_ids)
-    for cell_id, points in stored.items():
-        for field, named in (("", cell_id), *((f".{point}", neighbour) for point, neighbour in points.items())):
-            if named is not None and named not in known:
-                raise DataError(f"{path}: {cell_id[:80]!r}{field}: no cell {named[:80]!r} in this scene; {ADVICE}")
-    missing = sorted(known - stored.keys())
-    if missing:
-        raise DataError(f"{path}: {missing[0]!r}: missing, and {len(missing) - 1} more of the scene's cells; {ADVICE}")
-    return {
-        cell_id: {point: named for point, named in points.items() if named is not None}
-        for cell_id, points in stored.items()
-    }
 
 
 def save_direction(path: Path, neighbours: Neighbours) -> None:

@@ -25,20 +25,6 @@ POSE_TOLERANCE_M = 0.5  # `pose` and `pose_w` give one position twice; farther a
 DRIVE = re.compile(r"\d{4}_\d{2}_\d{2}_drive_(.+)_sync")
 
 
-class Scene(NamedTuple):
-    """A scene of the published layout.
-
-    Attributes:
-        name: of its files, for example "2013_05_28_drive_0003_sync".
-        cells: in stored order.
-        poses: in stored order.
-    """
-
-    name: str
-    cells: list[PublishedCell]
-    poses: list[PublishedPose]
-
-
 class CellKey(NamedTuple):
     """The facts about a cell that poses refer to: scene, corner (world metres), edge, and the ids of its objects."""
 
@@ -101,18 +87,6 @@ def select_scenes(available: Sequence[str], split: str | None, where: Path) -> t
     return tuple(chosen)
 
 
-def load_cells(path: Path) -> list[PublishedCell]:
-    """Load the cells of a scene.
-
-    Args:
-        path: cells/<scene>.pkl.
-
-    Raises:
-        DataError: it is missing, cut short, holds anything but cells, or a cell is not usable; file and field named.
-    """
-    return list(iter_cells(path))
-
-
 def iter_cells(path: Path) -> Iterator[PublishedCell]:
     """Yield the cells of a scene; only one cell's points are in memory at a time.
 
@@ -120,7 +94,7 @@ def iter_cells(path: Path) -> Iterator[PublishedCell]:
         path: cells/<scene>.pkl.
 
     Raises:
-        DataError: as `load_cells`.
+        DataError: it is missing, cut short, holds anything but cells, or a cell is not usable; file and field named.
     """
     ids: set[str] = set()
     scene_name = None
@@ -150,24 +124,6 @@ def load_poses(path: Path) -> list[PublishedPose]:
             poses.append(read_pose(record))
             _check_scene(record, poses[-1].scene_name, poses[0].scene_name)
     return poses
-
-
-def load_scene(root: Path, scene: str) -> Scene:
-    """Load the cells and poses of a scene.
-
-    Args:
-        root: of the published layout.
-        scene: its name, long or short.
-
-    Raises:
-        DataError: a file of it is missing or not usable, or its poses do not belong to its cells.
-    """
-    [name] = select_scenes(list_scenes(root), scene, root / "cells")
-    cells = load_cells(root / "cells" / f"{name}.pkl")
-    path = root / "poses" / f"{name}.pkl"
-    poses = load_poses(path)
-    check_poses(path, poses, {cell.id: build_cell_key(cell) for cell in cells})
-    return Scene(name, cells, poses)
 
 
 def build_cell_key(cell: PublishedCell) -> CellKey:

@@ -14,7 +14,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from models.errors import DataError
-from models.files import FileRecord, file_records, new_directory, sha256
+from models.files import FileRecord, file_records, new_directory
 from models.sources.kitti360pose.files import (
     CellKey,
     build_cell_key,
@@ -116,7 +116,7 @@ def open_store(path: Path) -> PoseStore:
     """Open a store with its columns mapped into memory.
 
     Args:
-        path: a directory that `convert` wrote. Sizes and structure are checked, checksums are not (`verify_store`).
+        path: a directory that `convert` wrote. Sizes and structure are checked, checksums are not.
 
     Raises:
         DataError: it is not a store, or incomplete, or inconsistent.
@@ -138,18 +138,6 @@ def open_store(path: Path) -> PoseStore:
         raise DataError(f"{path}: {problem}; {ADVICE}")
     scenes = tuple(StoredScene(**scene.model_dump()) for scene in manifest.scenes)
     return PoseStore.whole(path, scenes, columns, strings.words, strings.cell_ids)
-
-
-def verify_store(path: Path) -> None:
-    """Read every file of a store and compare its checksum.
-
-    Raises:
-        DataError: it is not a store, or a file is missing or was changed.
-    """
-    open_store(path)
-    for name, record in _read_manifest(path).files.items():
-        if sha256(path / name) != record.sha256:
-            raise DataError(f"{path / name}: changed after it was written; {ADVICE}")
 
 
 def _add_scene(writer: ColumnWriter, data: Path, name: str, number: int, step: Step | None) -> StoredScene:

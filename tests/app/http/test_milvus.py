@@ -12,7 +12,7 @@ from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
 from index.build.artifact import open_version, read_aliases, set_alias
-from index.build.build import build_index
+from index.build.build import IndexJob
 from index.build.manifest import write_manifest
 from index.stores.milvus_connection import URI
 from index.stores.milvus_store import MilvusStore
@@ -38,7 +38,7 @@ def uri(milvus_server):
 @pytest.fixture(scope="module")
 def root(uri, osm_file, weights_dir, tmp_path_factory):
     root = tmp_path_factory.mktemp("in-milvus") / "index"
-    build_index(osm_file, root, weights_dir, store="milvus")
+    IndexJob(osm_file, root, weights_dir, store="milvus").build()
     yield root
     manifest = open_version(root)[1]
     MilvusStore(manifest.collection, manifest.dim, manifest.cells).drop()
@@ -78,9 +78,9 @@ def test_its_rows_are_counted_when_it_is_verified(root, tmp_path, weights_dir, o
     verified = CliRunner().invoke(cli.app, ["verify", "--index", str(root)])
     assert verified.exit_code == 0, verified.output
     other = tmp_path / "index"
-    directory = build_index(osm_file, other, weights_dir, store="milvus")
+    directory = IndexJob(osm_file, other, weights_dir, store="milvus").build()
     manifest = open_version(other)[1]
-    assert build_index(osm_file, other, weights_dir, keep_current=True, store="milvus") == directory
+    assert IndexJob(osm_file, other, weights_dir, keep_current=True, store="milvus").build() == directory
     MilvusStore(manifest.collection, manifest.dim, manifest.cells).drop()
     shutil.copytree(directory, root / directory.name)
     refused = CliRunner().invoke(cli.app, ["alias", "set", "canary", directory.name, "--index", str(root)])
@@ -126,7 +126,7 @@ def test_where_milvus_is_down_the_service_starts_and_what_needs_no_vectors_is_an
 def test_a_build_without_milvus_leaves_nothing(monkeypatch, osm_file, weights_dir, tmp_path):
     monkeypatch.setenv(URI, "http://127.0.0.1:1")
     with pytest.raises(StoreUnavailable, match="cannot create_collection"):
-        build_index(osm_file, tmp_path / "index", weights_dir, store="milvus")
+        IndexJob(osm_file, tmp_path / "index", weights_dir, store="milvus").build()
     assert not list((tmp_path / "index").glob("*"))
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from app.jobs.evaluation import Evaluation
 from index.answering.localizer import Localizer
-from index.build.build import build_index
+from index.build.build import IndexJob
 from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from models.sources.source import VALIDATION_SEED, open_source
 from models.training.settings import TrainingConfig
@@ -16,7 +16,7 @@ from models.training.training_data import load_training_data
 def test_all_three_come_through_one_door(osm_file, weights_dir, text_encoder, tmp_path) -> None:
     source = open_source(osm_file, "val")
     cells = source.data.cells
-    build_index(osm_file, tmp_path / "index", weights_dir, "val")
+    IndexJob(osm_file, tmp_path / "index", weights_dir, "val").build()
     indexed = Localizer.open(tmp_path / "index", weights_dir)
     Evaluation(weights_dir=weights_dir, data=osm_file, split="val").run(tmp_path / "report", lambda *_: None)
     measured = Predictions.load(tmp_path / "report" / PREDICTIONS_FILE)

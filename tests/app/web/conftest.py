@@ -14,7 +14,7 @@ from playwright.sync_api import sync_playwright
 
 from app.main import create_app
 from app.settings import Settings
-from index.build.build import build_index
+from index.build.build import IndexJob
 from tests.app.conftest import forked_from, wait_until
 from tests.conftest import LAT, LAT_M, LON, LON_M, tiny_osm
 
@@ -53,7 +53,7 @@ def named_town():
 def town_index(made_once):
     def make(out):
         (out / "town.osm").write_text(named_town())
-        build_index(out / "town.osm", out / "index")
+        IndexJob(out / "town.osm", out / "index").build()
 
     return made_once("named-town", make) / "index"
 

@@ -10,6 +10,7 @@ from safetensors.numpy import load
 from index.answering.localizer import Localizer
 from index.answering.query import Box, Circle, Prior, Query
 from models.paper.checkpoint import load_retriever
+from tests.encoding import encode_descriptions
 
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 CORNER = Box(-154, -154, 4, 4)
@@ -46,7 +47,7 @@ def test_candidates_are_the_posteriors_best(localizer, within, prior) -> None:
         allowed = allowed[np.linalg.norm(centers - 10, axis=1) <= 60]
     [sentences] = localizer.sentences([TEXT])
     assert sentences[1] == "The pose is east of a bench."
-    vector = localizer.retriever.encode_descriptions([sentences])[0]
+    vector = encode_descriptions(localizer.retriever, [sentences])[0]
     posterior = naive_posterior(localizer, vector, allowed, prior)
     best = np.argsort(-posterior, kind="stable")[:7]
     assert [c.cell_id for c in answer.candidates] == [localizer.gallery.cells.ids[n] for n in best]
@@ -147,10 +148,10 @@ def test_templates_and_what_cannot_be_read_are_encoded_as_they_are(localizer) ->
 
 def test_template_hints_are_never_read_again(index_dir, weights_dir, monkeypatch) -> None:
     hints = ("The pose is on-top of a road.", "The pose is north of a tree.")
-    expected = load_retriever(weights_dir).encode_descriptions([hints])  # that never saw the index
+    expected = encode_descriptions(load_retriever(weights_dir), [hints])  # that never saw the index
     fresh = Localizer.open(index_dir, weights_dir)
     monkeypatch.setattr(fresh.retriever, "embed_hints", None)  # what would run the text encoder
-    assert fresh.retriever.encode_descriptions([hints]) == pytest.approx(expected, abs=1e-5)
+    assert encode_descriptions(fresh.retriever, [hints]) == pytest.approx(expected, abs=1e-5)
     assert fresh.localize([Query(" ".join(hints), refine="none")])[0].estimate
 
 

@@ -9,7 +9,7 @@ from index.asking.known_facts import KnownFacts
 from index.asking.question_spec import QuestionSpec
 from index.asking.questions import Questions
 from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, EMPTY_GAZETTEER
-from models.citymap.gazetteer.name_columns import GazetteerObject, ObjectTable
+from models.citymap.gazetteer.name_columns import GazetteerObject, ObjectTableBuilder
 from models.errors import ReplyError
 from models.posterior.questions import expected_entropy
 from tests.conftest import LAT, LAT_M, LON, LON_M
@@ -108,7 +108,13 @@ def test_the_question_leaves_the_least_entropy_of_all_that_could_be_asked(poster
     """Against the posterior itself: every answer is given, and cells' masses are compared before and after."""
     [finding] = posterior.find([VAGUE])
     # of a map without names: what can be answered to an open question is not listed
-    given = posterior.nodes.sights, list(posterior.labels), posterior._palette, EMPTY_GAZETTEER, posterior.gallery.cells
+    given = (
+        posterior.nodes.sights,
+        list(posterior.labels),
+        posterior.nodes._palette,
+        EMPTY_GAZETTEER,
+        posterior.gallery.cells,
+    )
     located, questions = finding.located, Questions(*given)
     cell_of = np.repeat(np.arange(len(posterior.gallery.cells)), np.diff(posterior.surroundings.cell_starts))
 
@@ -147,14 +153,16 @@ def with_house_numbers(posterior):
     sights, gazetteer = posterior.nodes.sights, posterior.places.gazetteer
     at = posterior.gallery.cells.center_m[:, :2]
     houses = [GazetteerObject((ADDRESS_KIND,), (), str(n + 1), "East Street 3") for n in range(len(at))]
+    builder = ObjectTableBuilder()
+    builder.add([*gazetteer.objects, *houses])
     town = replace(
         gazetteer,
-        objects=ObjectTable.from_objects([*gazetteer.objects, *houses]),
+        objects=builder.build(),
         segments_m=np.concatenate([gazetteer.segments_m, np.tile(at, 2).astype(np.float32)]),
         starts=np.concatenate([gazetteer.starts, gazetteer.starts[-1] + 1 + np.arange(len(at))]),
         is_area=np.concatenate([gazetteer.is_area, np.zeros(len(at), bool)]),
     )
-    return Questions(sights, list(posterior.labels), posterior._palette, town, posterior.gallery.cells)
+    return Questions(sights, list(posterior.labels), posterior.nodes._palette, town, posterior.gallery.cells)
 
 
 def test_what_the_text_says_is_not_asked(posterior, asked):
@@ -321,7 +329,13 @@ def test_who_has_begun_to_reply_is_asked_until_the_place_is_good(localizer):
 
 
 def test_the_middle_of_a_cell_is_the_node_nearest_to_its_centre(posterior) -> None:
-    given = posterior.nodes.sights, list(posterior.labels), posterior._palette, EMPTY_GAZETTEER, posterior.gallery.cells
+    given = (
+        posterior.nodes.sights,
+        list(posterior.labels),
+        posterior.nodes._palette,
+        EMPTY_GAZETTEER,
+        posterior.gallery.cells,
+    )
     once = Questions(*given)._middle_nodes
     surroundings, centers = posterior.surroundings, posterior.gallery.cells.center_m[:, :2]
     owner = surroundings.owner(once)

@@ -16,11 +16,12 @@ from models.citymap.types import DIRECTIONS
 from models.sources.kitti360 import job as kitti360_job
 from models.sources.kitti360.job import prepare_data
 from models.sources.kitti360.rules import PrepareConfig
-from models.sources.kitti360pose.files import Scene, save_scene
+from models.sources.kitti360pose.files import save_scene
 from models.sources.kitti360pose.pickle_values import RECORD_CLASSES, RECORD_MODULE, PickledRecord
 from models.sources.kitti360pose.pickle_writer import write_records
 from models.sources.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
 from models.sources.store.pose_store import PoseStore
+from tests.models.sources.published import Scene
 from tests.models.sources.raw_scenes import TEST_STREET, VAL_STREET
 
 MINI = Path(__file__).parents[4] / "shared/data/k360-mini"

@@ -28,6 +28,7 @@ from models.training.posterior import fit_posterior
 from models.training.posterior.fit_reader import ReadingSet
 from models.training.settings import TrainingConfig
 from models.training.training_data import TrainingCells, TrainingData
+from tests.encoding import encode_descriptions
 from tests.models.training.fake_device import FAKE, Away
 
 CPU = torch.device("cpu")
@@ -54,7 +55,7 @@ def load(sources: Any, encoder: Any, rng: np.random.Generator) -> list[TrainingD
 def retriever(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> None:
     config = METHODS[method].config_type(width=32, inputs=inputs)
     fit_retriever.train_retriever(partial(load, sources), out, METHODS[method], config, CONFIG)
-    assert load_retriever(out).encode_descriptions([["A tree is north of me."]]).shape == (1, 32)
+    assert encode_descriptions(load_retriever(out), [["A tree is north of me."]]).shape == (1, 32)
 
 
 def fine(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> None:

@@ -1,6 +1,7 @@
 """The preparation job: complete scenes only, made once, the same whatever else is prepared."""
 
 import gzip
+import json
 import os
 from pathlib import Path
 
@@ -13,10 +14,9 @@ from models.sources.kitti360.job import prepare_data
 from models.sources.kitti360.prepare import prepare_scene
 from models.sources.kitti360.raw import load_raw_scene
 from models.sources.kitti360.rules import PrepareConfig
-from models.sources.kitti360pose.direction import load_direction
-from models.sources.kitti360pose.files import load_cells, load_scene
 from models.sources.store.files import load_data
 from tests.models.sources.conftest import LONG, MINI, QUICK, VAL, assert_same, contents, forbid, needs_mini
+from tests.models.sources.published import load_cells, load_scene
 from tests.models.sources.raw_scenes import write_town
 
 
@@ -42,9 +42,8 @@ def test_what_comes_out_is_the_published_layout(raw_root: Path, prepared: Path) 
         scene = load_scene(prepared, digits)
         rng = np.random.default_rng([0, *digits.encode()])
         assert_same([*scene[1:]], [*prepare_scene(load_raw_scene(raw_root, digits), QUICK, rng)])
-        assert set(load_direction(prepared / f"direction/{name}.json", [c.id for c in scene.cells])) == {
-            c.id for c in scene.cells
-        }
+        direction = json.loads((prepared / f"direction/{name}.json").read_text())
+        assert list(direction) == [cell.id for cell in scene.cells]
     store = load_data(prepared)
     assert [scene.name for scene in store.split("test").scenes] == [LONG]
     assert [scene.name for scene in store.split("val").scenes] == [VAL]
@@ -215,4 +214,5 @@ def test_the_sample_is_prepared(tmp_path: Path) -> None:
     prepare_data(MINI / "raw", tmp_path, "0003")
     scene = load_scene(tmp_path, "0003")
     assert len(scene.cells) == 52
-    load_direction(tmp_path / f"direction/{LONG}.json", [cell.id for cell in scene.cells])
+    direction = json.loads((tmp_path / f"direction/{LONG}.json").read_text())
+    assert list(direction) == [cell.id for cell in scene.cells]

@@ -9,8 +9,8 @@ import pytest
 from models.errors import DataError
 from models.sources.kitti360 import job as kitti360_job
 from models.sources.kitti360.job import prepare_data
-from models.sources.kitti360pose.files import load_scene
 from tests.models.sources.conftest import LONG, QUICK, VAL, contents, forbid
+from tests.models.sources.published import load_scene
 
 
 def stop(*args: object):

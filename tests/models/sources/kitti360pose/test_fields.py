@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from models.errors import DataError
-from models.sources.kitti360pose.files import load_cells, load_poses, load_scene, save_scene
+from models.sources.kitti360pose.files import load_poses, save_scene
 from models.sources.kitti360pose.pickle_values import PickledRecord
 from models.sources.kitti360pose.pickle_writer import cell_record, pose_record
 from tests.models.sources.conftest import LONG, dump, make_cell, make_hint, make_pose, oracle
+from tests.models.sources.published import load_cells, load_scene
 
 
 def nan(array: np.ndarray) -> np.ndarray:

@@ -9,15 +9,7 @@ from pathlib import Path
 import pytest
 
 from models.errors import DataError
-from models.sources.kitti360pose.files import (
-    list_scenes,
-    load_cells,
-    load_poses,
-    load_scene,
-    save_scene,
-    select_scenes,
-    short_name,
-)
+from models.sources.kitti360pose.files import list_scenes, load_poses, save_scene, select_scenes, short_name
 from models.sources.kitti360pose.pickle_values import RECORD_CLASSES, RECORD_MODULE
 from models.sources.kitti360pose.pickle_writer import pose_record
 from tests.models.sources.conftest import (
@@ -32,6 +24,7 @@ from tests.models.sources.conftest import (
     oracle,
     reference_pickle,
 )
+from tests.models.sources.published import load_cells, load_scene
 
 
 @needs_mini

@@ -13,15 +13,12 @@ import numpy as np
 import pytest
 
 from models.errors import DataError
-from models.sources.kitti360pose.files import (
-    iter_cells,
-    load_cells,
-    load_poses,
-)
+from models.sources.kitti360pose.files import iter_cells, load_poses
 from models.sources.kitti360pose.pickle_values import RECORD_MODULE
 from models.sources.kitti360pose.pickle_writer import cell_record, pose_record
 from models.sources.kitti360pose.records import PublishedCell
 from tests.models.sources.conftest import LONG, dump, make_cell, make_pose, reference_pickle
+from tests.models.sources.published import load_cells
 
 
 class Evil:

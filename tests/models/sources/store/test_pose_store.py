@@ -7,11 +7,12 @@ import pytest
 
 from models.citymap.point_sample import sample_points
 from models.errors import DataError
-from models.sources.kitti360pose.files import Scene, save_scene
+from models.sources.kitti360pose.files import save_scene
 from models.sources.kitti360pose.records import PublishedCell, PublishedObject
 from models.sources.store.files import convert, load_data
 from models.sources.store.pose_store import PoseStore
 from tests.models.sources.conftest import assert_kept, assert_same
+from tests.models.sources.published import Scene
 
 
 @pytest.fixture(params=["converted", "published"])
