@@ -30,7 +30,7 @@ def test_a_city_of_two_copies_is_measured_whole(run, osm_file, cells, tmp_path, 
     result = run("--cells", 2 * len(cells), "--map", osm_file, "--out", tmp_path / "r")
     assert result.exit_code == 0, result.output
     report = json.loads((tmp_path / "r" / "benchmark.json").read_text())
-    assert "PostGIS and Nominatim are not run" in report["compared"]
+    assert "PostGIS and Nominatim are not measured" in report["compared"]
     assert str(len(cells)) in report["assumed"]
     [size], [ratio] = report["sizes"], report["ratios"]
     assert size["copies"] == 2

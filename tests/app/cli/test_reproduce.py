@@ -56,7 +56,7 @@ def test_a_configuration_that_is_none_is_refused(tmp_path, text, message) -> Non
     ("options", "message"),
     [
         (("--steps", "3", "--epochs", "2"), "one of them"),
-        (("--tables", "7"), "--tables 7: there is none"),
+        (("--tables", "7"), "--tables 7: unknown"),
         (("--seeds", "one"), "--seeds one"),
         (("--device", "tpu"), "device"),
         pytest.param(

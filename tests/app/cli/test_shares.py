@@ -25,7 +25,7 @@ def calls(monkeypatch):
         def __init__(self, map_path, out_dir, _weights_dir, _split, keep_current, levels, store, _region):
             self.given = map_path, out_dir, keep_current, levels, store
 
-        def make_part(self, shard, _show):
+        def make_shard(self, shard, _show):
             asked.append((*self.given, shard))
             return Path("o/.parts/x/2-of-4")
 
