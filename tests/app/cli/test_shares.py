@@ -71,7 +71,7 @@ def test_shards_are_merged_here_or_made_in_a_cluster(calls) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        *((("--shard", text), "give which, from 1, and of how many") for text in ("5/4", "0/4", "x", "", "4")),
+        *((("--shard", text), "is not a shard; expected") for text in ("5/4", "0/4", "x", "", "4")),
         (("--merge", "0"), "Invalid value for '--merge'"),
         (("--engine", "spark"), "Invalid value for '--engine'"),
         (("--shard", "1/2", "--merge", "2"), "give one of them"),
