@@ -1,4 +1,8 @@
-"""`Likelihood` at the nodes of a map, compiled: node by node, without arrays of all that is around them."""
+"""`Likelihood` at the nodes of a map, compiled: node by node, without arrays of all that is around them.
+
+A description in template sentences takes 9.5 ms of CPU less by it, of 54. Training needs the form that torch can
+differentiate; `tests/models/posterior/test_node_likelihood.py` compares the two.
+"""
 
 from functools import lru_cache
 from typing import Final
