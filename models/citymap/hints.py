@@ -47,14 +47,12 @@ class HintTable:
         instance: [R] row in `CityMap.instances`.
         direction: [R] index into DIRECTIONS.
         colour: [R] index into the palette's words, -1 if unknown.
-        distance_m: [R] from the position to the closest point, in the plane.
     """
 
     starts: npt.NDArray[Any]
     instance: npt.NDArray[Any]
     direction: npt.NDArray[Any]
     colour: npt.NDArray[Any]
-    distance_m: Floats
 
 
 def build_hint_table(palette: Palette, parts: PartTable, positions_m: Floats) -> HintTable:
@@ -76,7 +74,6 @@ def build_hint_table(palette: Palette, parts: PartTable, positions_m: Floats) ->
         instance=parts.instance[near],
         direction=direction_index(offset[near]),
         colour=palette.word_index(parts.rgb[near]),
-        distance_m=distance[near],
     )
 
 

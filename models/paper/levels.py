@@ -8,7 +8,6 @@ import torch
 from torch import Tensor
 
 Level = Literal["global", "instance", "relation"]
-LEVELS: tuple[Level, ...] = ("global", "instance", "relation")
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,7 +30,7 @@ class Binding:
     """
 
     def __init__(self, matcher: LabelMatcher, labels: Sequence[str], palette: Palette) -> None:
-        self.matcher, self.labels, self.palette = matcher, tuple(labels), palette
+        self.matcher, self.labels = matcher, tuple(labels)
         with torch.no_grad():
             self._bound: BoundLabels = matcher.bind(self.labels)
         self._colours, self._words = colour_table(palette), colour_words(palette)

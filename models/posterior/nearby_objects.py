@@ -27,7 +27,6 @@ class Near:
 
     Attributes:
         node: [R] node of each row.
-        metres: [R] to its closest point.
         bearing: [R] degrees from the node to it, clockwise from north.
         part: [R] which of the surroundings' things.
         nearest_m: [M] infinite where there is none.
@@ -35,7 +34,6 @@ class Near:
     """
 
     node: Ints
-    metres: Floats
     bearing: Floats
     part: Ints
     nearest_m: Floats
@@ -83,7 +81,7 @@ def _near(around: Neighbours, rows: Ints, nodes: int) -> Near:
     np.minimum.at(nearest, node, metres)
     weight = np.exp((nearest[node] - metres) / APART_M)
     weight /= np.bincount(node, weight, nodes)[node]
-    return Near(node, metres, np.degrees(np.arctan2(east, north)) % 360, part, nearest, weight)
+    return Near(node, np.degrees(np.arctan2(east, north)) % 360, part, nearest, weight)
 
 
 class Seen:

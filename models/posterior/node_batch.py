@@ -30,7 +30,6 @@ class NodeBatch:
         whole: [R] bool, see `models.posterior.neighbours.neighbours.Neighbours`.
         rank: [R, 5] how many nearer instances there are, and how many in all, see `ranks_of`.
         part: [R] row of the next three.
-        parts: [P] row of each part in the gallery.
         label: [P] label of each.
         rgb: [P, 3] colour of each, 0..1, NaN where unknown.
         is_vague: [P] see `MapObjects`.
@@ -42,7 +41,6 @@ class NodeBatch:
     whole: Tensor
     rank: Tensor
     part: Tensor
-    parts: Tensor
     label: Tensor
     rgb: Tensor
     is_vague: Tensor
@@ -60,7 +58,7 @@ class NodeBatch:
         node, way = torch.from_numpy(around.node), way_number(torch.from_numpy(around.way))
         rank = ranks_of(node, way, label[torch.from_numpy(around.part)])
         chosen = torch.from_numpy(parts)
-        looks = chosen, label[chosen], rgb[chosen], is_vague[chosen]
+        looks = label[chosen], rgb[chosen], is_vague[chosen]
         return cls(node, way, torch.from_numpy(around.whole), rank, torch.from_numpy(part), *looks, nodes)
 
 

@@ -236,8 +236,7 @@ class StoreSource(Source):
             gallery=self.data.gallery,
             positions_m=np.column_stack([poses.positions_m[:, :2], scene * SCENE_GAP_M]),
             best=poses.cell.astype(np.intp),
-            # in the order in which they were said
-            table=HintTable(poses.starts, poses.label, poses.direction, poses.colour, np.arange(float(len(mentioned)))),
+            table=HintTable(poses.starts, poses.label, poses.direction, poses.colour),  # in stated order
             labels=poses.words,
             words=poses.words,
             part_number=numbers,

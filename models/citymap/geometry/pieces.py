@@ -1,22 +1,21 @@
 """The table of pieces: the part of each instance in each tile, and which pieces are connected."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 import shapely
 
-from models.citymap.geometry.piece_rows import TILE_COLUMNS_PER_BAND, PieceRows, cut_band
+from models.citymap.geometry.piece_rows import PieceRows
 from models.citymap.geometry.segments import STEP_M, Steps, to_geometry
-from models.citymap.geometry.solids import THING, Solid
-from models.citymap.geometry.tiling import BEYOND_MAP_M, TILE_M, TOUCHING_M, Geometries, tile_span
+from models.citymap.geometry.solids import THING
+from models.citymap.geometry.tiling import BEYOND_MAP_M, TILE_M, TOUCHING_M, Geometries
 from models.citymap.points import Ints, block_keys, ranges, thin_to_spacing
 from models.citymap.types import Floats
 from models.compiled import compiled
-from models.processes import map_forked
 from models.spool import forget, in_turn, spooled, starts_of
 
 PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometries are built at a time, to bound memory
@@ -59,16 +58,6 @@ class PieceTable:
     segments: Steps
     link_starts: Ints
     links: Ints
-
-    @classmethod
-    def from_solids(cls, solids: Sequence[Solid]) -> "PieceTable":
-        """Cut solids into pieces."""
-        columns = np.stack(tile_span(shapely.bounds([solid.geometry for solid in solids])[:, [0, 2]]), axis=1)
-        bands = [
-            (low, low + TILE_COLUMNS_PER_BAND)
-            for low in range(int(columns.min()), int(columns.max()) + 1, TILE_COLUMNS_PER_BAND)
-        ]
-        return cls.from_bands(map_forked(partial(cut_band, solids), bands))
 
     @classmethod
     def from_bands(cls, bands: Iterable[PieceRows]) -> "PieceTable":

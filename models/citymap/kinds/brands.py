@@ -2,7 +2,7 @@
 
 import re
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Sequence
 from typing import Final
 
 _SEPARATORS: Final = re.compile(r"[\W_]+")
@@ -18,31 +18,24 @@ class Brands:
     """Brands by their spellings.
 
     Args:
-        tags: sets of tags that brands have.
-        brands: for each brand the indexes of its tags in `tags`, and its spellings, the usual one first.
+        brands: the spellings of each brand, the usual one first.
     """
 
-    def __init__(self, tags: list[dict[str, str]], brands: Iterable[tuple[list[int], list[str]]]) -> None:
-        self._tags = tags
-        self._brands = list(brands)
+    def __init__(self, brands: Sequence[Sequence[str]]) -> None:
+        self._brands = brands
         self._by_spelling: dict[str, list[int]] = {}
-        for row, (_, spellings) in enumerate(self._brands):
+        for row, spellings in enumerate(self._brands):
             for spelling in spellings:
                 self._by_spelling.setdefault(normalize_name(spelling), []).append(row)
 
-    def tags(self, name: str) -> list[Mapping[str, str]]:
-        """Return the sets of tags that places of a brand have; empty if it is unknown."""
-        sets = [self._tags[number] for row in self._rows(name) for number in self._brands[row][0]]
-        return [tags for number, tags in enumerate(sets) if tags not in sets[:number]]
-
     def spellings(self, name: str) -> tuple[str, ...]:
         """Return the other spellings of a brand; empty if it is unknown."""
-        all_spellings = dict.fromkeys(spelling for row in self._rows(name) for spelling in self._brands[row][1])
+        all_spellings = dict.fromkeys(spelling for row in self._rows(name) for spelling in self._brands[row])
         return tuple(spelling for spelling in all_spellings if normalize_name(spelling) != normalize_name(name))
 
     def _rows(self, name: str) -> list[int]:
         """Return the rows of the brands of a name; those whose usual spelling it is exclude the others."""
         form = normalize_name(name)
         rows = self._by_spelling.get(form, [])
-        with_usual_spelling = [row for row in rows if normalize_name(self._brands[row][1][0]) == form]
+        with_usual_spelling = [row for row in rows if normalize_name(self._brands[row][0]) == form]
         return with_usual_spelling or rows

@@ -162,34 +162,22 @@ def brand_spellings(item: Mapping[str, Any]) -> list[str]:
     return [name for form, name in by_form.items() if form]
 
 
-def merge_brands(index: Json, brandless: list[str]) -> Json:
-    """Return the brands, merged where they are the same: their tags (by number) and their spellings."""
-    merged: dict[str, tuple[dict[str, int], list[str]]] = {}
+def merge_brands(index: Json, brandless: list[str]) -> list[list[str]]:
+    """Return the spellings of each brand, merged where brands are the same."""
+    merged: dict[str, list[str]] = {}
     for path in sorted(index):
         tree, _, branch = path.partition("/")
         if tree != "brands" or branch in brandless:
             continue
         for item in index[path]["items"]:
-            kind_tags = {key: item["tags"][key] for key in KIND_TAGS if key in item["tags"]}
             names = brand_spellings(item)
-            if not kind_tags or not names:
-                continue
-            same = item["tags"].get("brand:wikidata") or normalize_name(names[0])
-            tags, spellings = merged.setdefault(same, ({}, []))
-            form = json.dumps(kind_tags, sort_keys=True, ensure_ascii=False)
-            bare = normalize_name(item["tags"].get("name", "")) == normalize_name(
-                item["tags"].get("brand", "")
-            )  # not "Tesco Café"
-            tags[form] = tags.get(form, 0) + bare
-            spellings.extend(names)
-    kinds = sorted({tags for kind_tags, _ in merged.values() for tags in kind_tags})
-    number = {tags: place for place, tags in enumerate(kinds)}
+            if names and any(key in item["tags"] for key in KIND_TAGS):
+                merged.setdefault(item["tags"].get("brand:wikidata") or normalize_name(names[0]), []).extend(names)
     rows = []
-    for kind_tags, names in merged.values():
+    for names in merged.values():
         once = {normalize_name(name): name for name in reversed(names)}
-        usual = sorted(kind_tags, key=kind_tags.__getitem__, reverse=True)
-        rows.append([[number[tags] for tags in usual], [once[form] for form in unique(map(normalize_name, names))]])
-    return {"tags": [json.loads(tags) for tags in kinds], "brands": sorted(rows, key=lambda row: row[1])}
+        rows.append([once[form] for form in unique(map(normalize_name, names))])
+    return sorted(rows)
 
 
 def compress_json(content: Json) -> bytes:
@@ -213,7 +201,7 @@ def write_vocabulary(schema: Path, brands: Path, out: Path) -> None:
     }
     names = {"source": sources[0], "names": names_abroad}
     index = read_json(brands / "dist" / "json" / "nsi.min.json")["nsi"]
-    chains = {"source": sources[1], **merge_brands(index, selection["brandless"])}
+    chains = {"source": sources[1], "brands": merge_brands(index, selection["brandless"])}
     for file, content in (("kinds", kinds), ("names", names), ("brands", chains)):
         replace_file(out / f"{file}.json.xz", compress_json(content))
     texts = [

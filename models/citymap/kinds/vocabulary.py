@@ -77,10 +77,6 @@ class Vocabulary:
             else:
                 yield from ((noun, kinds) for noun, kinds in self.nouns(language).items() if is_wanted(noun))
 
-    def brand(self, name: str) -> tuple[str, ...]:
-        """Return the ids of the kinds of a brand's places, by any spelling of its name; empty if it is unknown."""
-        return tuple(dict.fromkeys(key for tags in self._brands.tags(name) for key in self.kinds_of(tags)))
-
     def spellings(self, brand: str) -> tuple[str, ...]:
         """Return the other spellings of a brand."""
         return self._brands.spellings(brand)
@@ -123,8 +119,7 @@ class Vocabulary:
 
     @cached_property
     def _brands(self) -> Brands:
-        content = read_compressed_json(self._folder / "brands.json.xz")
-        return Brands(content["tags"], content["brands"])
+        return Brands(read_compressed_json(self._folder / "brands.json.xz")["brands"])
 
 
 def read_compressed_json(path: Path) -> dict[str, Any]:

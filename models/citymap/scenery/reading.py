@@ -30,7 +30,6 @@ class Outline:
         width_m: of a line.
         name: if it has one.
         paths: [V, 2] each, metres, map frame.
-        is_hole: whether each path is a hole of the area before it.
     """
 
     label: str
@@ -38,7 +37,6 @@ class Outline:
     width_m: float
     name: str | None
     paths: list[Floats]
-    is_hole: list[bool]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,7 +76,6 @@ def read_scenery(path: Path) -> DecodedScenery:
 def _outlines(metadata: dict[str, str], tensors: dict[str, npt.NDArray[Any]], positions_m: Floats) -> list[Outline]:
     labels, names = json.loads(metadata["labels"]), json.loads(metadata["names"])
     paths = np.split(positions_m, tensors["size"].cumsum()[:-1])
-    hole = tensors["hole"].astype(bool).tolist()
     last = tensors["paths"].cumsum().tolist()
     return [
         Outline(
@@ -87,7 +84,6 @@ def _outlines(metadata: dict[str, str], tensors: dict[str, npt.NDArray[Any]], po
             width_m=float(tensors["width"][n]) / UNITS_PER_M,
             name=names.get(str(n)),
             paths=paths[first:end],
-            is_hole=hole[first:end],
         )
         for n, (first, end) in enumerate(pairwise([0, *last]))
     ]

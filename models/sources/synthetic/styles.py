@@ -49,7 +49,7 @@ class Style:
         bend: greatest slope by which streets deviate from a straight line.
         fan: true if all streets bend the same way, as around a centre.
         relief_m: height of its hills.
-        parking, verge, trees: share of street sides with bays, with a strip of grass, with a row of trees.
+        parking, verge: share of street sides with bays, with a strip of grass.
     """
 
     lots: dict[str, float]
@@ -62,33 +62,32 @@ class Style:
     relief_m: float
     parking: float
     verge: float
-    trees: float
 
 
 STYLES: dict[str, Style] = {
     "suburb": Style(
         {"houses": 7, "flats": 1, "park": 1, "row": 0.5}, (64, 92), (5.5, 7.5), (1.5, 2.5), 0.15, 0.24, False, 5,
-        0.25, 0.2, 0.2,
+        0.25, 0.2,
     ),
     "grid": Style(
         {"row": 5, "flats": 2, "houses": 1, "park": 0.7, "works": 0.5}, (66, 88), (7, 10), (2.5, 4), 0.05, 0.0, False,
-        2, 0.5, 0.15, 0.35,
+        2, 0.5, 0.15,
     ),
     "village": Style(
         {"farm": 5, "houses": 3, "park": 1, "row": 0.5}, (58, 96), (4.8, 6.5), (1.2, 1.8), 0.22, 0.4, False, 9,
-        0.1, 0.35, 0.15,
+        0.1, 0.35,
     ),
     "works": Style(
         {"works": 4, "flats": 2, "houses": 1.5, "row": 1, "park": 0.6}, (76, 104), (7.5, 10), (1.8, 3), 0.12, 0.1,
-        False, 2, 0.35, 0.4, 0.25,
+        False, 2, 0.35, 0.4,
     ),
     "ring": Style(
         {"row": 3, "houses": 3, "flats": 2, "park": 1.2, "works": 0.4}, (60, 90), (6, 9), (1.8, 3.2), 0.12, 0.18, True,
-        4, 0.35, 0.25, 0.4,
+        4, 0.35, 0.25,
     ),
     "mixed": Style(
         {"houses": 3, "row": 2.5, "flats": 1.5, "farm": 1, "works": 1, "park": 1}, (60, 96), (5.5, 9), (1.5, 3.2), 0.14,
-        0.32, False, 6, 0.3, 0.25, 0.3,
+        0.32, False, 6, 0.3, 0.25,
     ),
 }  # fmt: skip
 

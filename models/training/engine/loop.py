@@ -87,7 +87,6 @@ class Progress:
         steps: total number of steps.
         loss: of this step.
         figures: metrics of the validation after this step, if there was one.
-        learning_rate: of this step.
         descriptions_per_second: examples trained on since the last validation.
     """
 
@@ -95,7 +94,6 @@ class Progress:
     steps: int
     loss: float
     figures: dict[str, float] | None
-    learning_rate: float
     descriptions_per_second: float
 
 
@@ -159,8 +157,7 @@ def run_training(
         if files and figures is not None:
             files.write(run.history.rows, task.criterion, run.best_weights, run.state())
         if progress:
-            rate = run.last_learning_rate
-            progress(Progress(run.step, config.steps, loss, figures, rate, run.descriptions_per_second))
+            progress(Progress(run.step, config.steps, loss, figures, run.descriptions_per_second))
     task.model.load_state_dict(run.best_weights)
     task.model.eval()
     return run.history

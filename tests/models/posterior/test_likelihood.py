@@ -37,7 +37,7 @@ def around(rng, nodes=5, labels=4, parts=9):
     rgb[0] = math.nan
     whole = torch.from_numpy(rng.random(len(node)) < 0.8)
     rank = ranks_of(torch.from_numpy(node), way_number(way), label[part])
-    looks = torch.arange(parts), label, rgb, torch.arange(parts) % 2 == 0
+    looks = label, rgb, torch.arange(parts) % 2 == 0
     return NodeBatch(torch.from_numpy(node), way_number(way), whole, rank, part, *looks, nodes), way
 
 
@@ -208,7 +208,7 @@ def test_what_is_absent_is_not_near(model):
     label = torch.zeros(1, dtype=torch.long)
     here = NodeBatch(
         node, way_number(way), torch.ones(1, dtype=torch.bool), ranks_of(node, way_number(way), label),
-        torch.zeros(1, dtype=torch.long), torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4),
+        torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4),
         torch.zeros(1, dtype=torch.bool), 2,
     )  # fmt: skip
     relation = torch.zeros(1, len(RELATIONS))

@@ -2,9 +2,17 @@ import numpy as np
 import pytest
 import shapely
 
+from models.citymap.geometry.piece_rows import cut_band
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.geometry.solids import Solid, sample_solid
-from models.citymap.geometry.tiling import ALL_TILES, TILE_M, clip_to_tiles, split_connected, subtract_covers
+from models.citymap.geometry.tiling import (
+    ALL_TILES,
+    TILE_M,
+    clip_to_tiles,
+    split_connected,
+    subtract_covers,
+    tile_span,
+)
 
 
 def array(*geometries):
@@ -16,6 +24,11 @@ def array(*geometries):
 def blob(rng, size):
     """An area with corners at random."""
     return shapely.convex_hull(shapely.MultiPoint(rng.uniform(-60, 60, 2) + rng.normal(size=(9, 2)) * size))
+
+
+def pieces_of(solids):
+    columns = np.stack(tile_span(shapely.bounds([solid.geometry for solid in solids])[:, [0, 2]]))
+    return PieceTable.from_bands([cut_band(solids, (int(columns.min()), int(columns.max()) + 1))])
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -66,7 +79,7 @@ def test_pieces_of_one_instance_are_linked_across_borders_where_they_touch():
     side = Solid(0, "ground", shapely.box(-30, 4, 30, 5.5))  # the same instance, as KITTI-360 numbers ground
     other = Solid(1, "ground", shapely.box(-30, -6, 30, -2))
     fence = Solid(2, "wall", shapely.LineString([(-30, 8), (30, 8)]), 0.0, 1.5)
-    table = PieceTable.from_solids([road, side, other, fence])
+    table = pieces_of([road, side, other, fence])
     middle = (table.bounds_m[:, :2] + table.bounds_m[:, 2:]) / 2
     for k in range(len(table.instance)):
         linked = table.links[table.link_starts[k] : table.link_starts[k + 1]]
@@ -103,11 +116,11 @@ def test_pieces_of_some_columns_at_a_time_hang_together_as_all_do(columns, monke
     rng = np.random.default_rng(columns)
     solids = [Solid(n % 3, "ground", blob(rng, 30), 0.0, 0.0) for n in range(9)]
     solids += [Solid(3 + n % 2, "wall", shapely.LineString(rng.uniform(-80, 80, (6, 2))), 0.0, 2.0) for n in range(4)]
-    whole = PieceTable.from_solids(solids)
+    whole = pieces_of(solids)
     assert whole.shape[0] > 6
     assert len(whole.links)
     monkeypatch.setattr("models.citymap.geometry.pieces.TILE_COLUMNS_PER_BLOCK", columns)
-    part = PieceTable.from_solids(solids)
+    part = pieces_of(solids)
     assert np.array_equal(part.link_starts, whole.link_starts)
     assert np.array_equal(part.links, whole.links)
 
@@ -115,7 +128,7 @@ def test_pieces_of_some_columns_at_a_time_hang_together_as_all_do(columns, monke
 @pytest.mark.parametrize("at_once", [1, 5, 17])
 def test_places_to_stand_are_the_same_however_many_areas_are_looked_at_together(at_once, monkeypatch) -> None:
     rng = np.random.default_rng(at_once)
-    table = PieceTable.from_solids([Solid(n, "ground", blob(rng, 25), 0.0, 0.0) for n in range(6)])
+    table = pieces_of([Solid(n, "ground", blob(rng, 25), 0.0, 0.0) for n in range(6)])
     rows = np.flatnonzero(table.dimension == 2)
     whole = table.ground_lattice(rows, 2.0)
     block = np.floor(whole[:, :2] / 2.0)

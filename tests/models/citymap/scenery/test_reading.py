@@ -25,7 +25,6 @@ def test_shapes_are_read_as_they_were_written(tmp_path) -> None:
     ]
     tree, house, road = drawn.outlines
     assert tree.paths[0].tolist() == [[-3.2, 4.0]]
-    assert house.is_hole == [False, True]
     assert shapely.Polygon(house.paths[0], [house.paths[1]]).equals(yard)
     assert [path.tolist() for path in road.paths] == [[[0, 0], [100, 1]], [[200, 5], [300, 5]]]
     assert drawn.places == [NamedPoint((1.0, -2.0), "Café Ö", "amenity/cafe")]

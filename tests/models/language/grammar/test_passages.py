@@ -9,6 +9,7 @@ from models.language.grammar.labelled_text import Fact
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.wording import Wording
 from models.language.measures import COMPASS
+from tests.models.language.grammar.passage_rules import problem_of
 
 FACTS = [
     Fact("lamp", "north", "black"),
@@ -37,7 +38,7 @@ FACTS = [
 )
 def test_a_passage_finds_the_facts_of_its_pattern(phrase, facts) -> None:
     passage = Passage(phrase)
-    assert passage.problem() is None
+    assert problem_of(passage) is None
     assert passage.match(FACTS, range(len(FACTS))) == facts
 
 
@@ -59,7 +60,7 @@ def test_a_passage_finds_the_facts_of_its_pattern(phrase, facts) -> None:
     ],
 )
 def test_what_is_wrong_with_a_passage_is_said(phrase, problem) -> None:
-    assert problem in Passage(phrase).problem()
+    assert problem in problem_of(Passage(phrase))
 
 
 class Plain:
@@ -118,7 +119,7 @@ def test_every_passage_tells_facts_that_are_made_to_suit_it(grammar) -> None:
     drawn = [Fact(f"thing {n}", COMPASS[n], None if n % 2 else "gray") for n in range(6)]
     passages = [Passage(phrase) for phrase in load_grammar(grammar).phrases["passages"]]
     for passage in passages:
-        assert passage.problem() is None, passage.phrase
+        assert problem_of(passage) is None, passage.phrase
         facts = passage.suit(drawn[: passage.things], lambda: "black")
         assert passage.match(facts, range(len(facts))) == list(range(len(facts))), passage.phrase
 

@@ -14,6 +14,7 @@ from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
 from models.language.measures import COMPASS
 from models.language.parsed_hint import RELATIONS
+from tests.models.language.grammar.passage_rules import problem_of
 
 GRAMMARS = ("train", "val", "test")
 FACTS = [
@@ -51,7 +52,7 @@ def test_the_distance_and_the_name_are_said(grammar) -> None:
 @pytest.mark.parametrize("grammar", GRAMMARS)
 def test_phrases_have_only_known_slots_and_no_direction_of_their_own(grammar) -> None:
     phrases = load_grammar(grammar).phrases
-    assert not [(p, problem) for p in phrases["passages"] if (problem := Passage(p).problem())]
+    assert not [(p, problem) for p in phrases["passages"] if (problem := problem_of(Passage(p)))]
     for table in phrases.keys() - {"passages"}:
         for phrase in phrases[table]:
             slots = set(re.findall(r"\{([a-zA-Z]+)\d?\}", phrase))

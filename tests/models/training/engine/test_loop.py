@@ -104,9 +104,8 @@ def test_patience_ends_training() -> None:
 
 
 def test_the_step_schedule_halves() -> None:
-    rates = []
-    config = LoopConfig(steps=7, batch_size=8, schedule="step", halve_every=3, learning_rate=0.08)
-    run_training(Line(), config, progress=lambda report: rates.append(report.learning_rate))
+    config = LoopConfig(steps=7, batch_size=8, schedule="step", halve_every=3, learning_rate=0.08, validate_every=1)
+    rates = [row.learning_rate for row in run_training(Line(), config).rows]
     assert rates == pytest.approx([0.08] * 3 + [0.04] * 3 + [0.02])
 
 
