@@ -74,11 +74,12 @@ def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
         localizer: a localizer of the map.
         count: the most descriptions; positions without objects are skipped.
     """
-    from index.evaluation.robustness import nearest_hints  # noqa: PLC0415 - heavy
+    from index.evaluation.localizers import map_of_index  # noqa: PLC0415 - heavy
+    from index.evaluation.robustness import nearest_hints  # noqa: PLC0415
     from models.citymap.templates import render_hint  # noqa: PLC0415
 
     cells, rng = localizer.gallery.cells, np.random.default_rng(0)
-    around, data = localizer.posterior.surroundings, localizer.map_data()
+    around, data = localizer.posterior.surroundings, map_of_index(localizer)
     occupied = np.flatnonzero(np.diff(around.cell_starts))  # cells with objects
     rows = rng.choice(occupied, 2 * count)
     positions_m = cells.center_m[rows, :2] + rng.uniform(-cells.size_m / 4, cells.size_m / 4, (len(rows), 2))

@@ -69,7 +69,7 @@ class Evaluation(BaseModel):
         """
         from index.answering.localizer import Localizer  # noqa: PLC0415
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415  # brings torch, which takes seconds
-        from index.evaluation.localizers import with_raw_texts  # noqa: PLC0415
+        from index.evaluation.localizers import map_of_index, with_raw_texts  # noqa: PLC0415
         from models.citymap.queries import Queries  # noqa: PLC0415
 
         if self.data is not None:
@@ -79,7 +79,7 @@ class Evaluation(BaseModel):
         progress("open index", 0, 0)
         dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
         localizer = Localizer.open(self.index_dir, *dirs)
-        data = localizer.map_data()
+        data = map_of_index(localizer)
         sentences = [(description,) for description in self.descriptions]
         queries = Queries.from_text(sentences, np.array(self.positions_m), data.cells)
         evaluated: CellLocalizer = localizer.posterior

@@ -32,7 +32,7 @@ from index.stores.opening import open_store
 from models.citymap.cells import PartTable
 from models.citymap.colours import PALETTES
 from models.citymap.frame import Frame
-from models.citymap.gallery import Gallery, MapData
+from models.citymap.gallery import Gallery
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.scenery.files import SceneryPart, file_name, is_scenery
@@ -240,18 +240,6 @@ class Localizer:
         free = [n for n, sentences in enumerate(raw) if not self._known_hints.issuperset(sentences)]
         read = dict(zip(free, self.posterior.sentences([descriptions[n] for n in free]), strict=True))
         return [read.get(n) or sentences for n, sentences in enumerate(raw)]
-
-    def map_data(self) -> MapData:
-        """Return the map of the index for an evaluation."""
-        return MapData(
-            name=self.manifest.map_name,
-            split="index",
-            gallery=self.gallery,
-            palette=self.palette,
-            frame=self.frame,
-            grid_m=self.manifest.grid_m,
-            attribution=self.manifest.attribution,
-        )
 
     def scenery(self, number: int) -> SceneryPart | None:
         """Return a file of the drawing of the map; None if there is no such file."""

@@ -1,16 +1,35 @@
 """The localizers that are measured: of a map that is no index, and of some of the cells of a gallery."""
 
+import numpy as np
+
+from index.answering.localizer import Localizer
 from index.answering.posterior_localizer import PosteriorLocalizer
 from index.answering.ranking import Ranker
 from index.answering.result import CellLocalizer
 from index.answering.vector_localizer import VectorLocalizer
 from index.stores.faiss_store import FaissStore
+from models.citymap.cells import CellTable
 from models.citymap.gallery import MapData
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
-from models.citymap.points import Ints
+from models.citymap.points import Ints, ranges
 from models.paper.fine.fine_model import FineModel
 from models.posterior.model import PosteriorModel
+from models.posterior.neighbours.map_objects import MapObjects
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
+
+
+def map_of_index(localizer: Localizer) -> MapData:
+    """Return the map of an index."""
+    manifest = localizer.manifest
+    return MapData(
+        name=manifest.map_name,
+        split="index",
+        gallery=localizer.gallery,
+        palette=localizer.palette,
+        frame=localizer.frame,
+        grid_m=manifest.grid_m,
+        attribution=manifest.attribution,
+    )
 
 
 def vectors_of_map(data: MapData, ranker: Ranker, refiner: FineModel | None = None) -> VectorLocalizer:
@@ -50,11 +69,20 @@ def on_some_cells(localizer: CellLocalizer, data: MapData, rows: Ints) -> CellLo
     if isinstance(localizer, VectorLocalizer):
         how = localizer.refiner, localizer.sentences, localizer.depth
         return VectorLocalizer(ranker, data.gallery, data.frame, data.grid_m, *how)
-    parts = localizer.surroundings.things.parts_in(localizer.gallery.cells, rows)
+    parts = count_parts(localizer.surroundings.things, localizer.gallery.cells, rows)
     given = localizer.weights, data.gallery, data.palette, data.frame, localizer.surroundings.take(rows, parts), ranker
     if localizer.places is None:
         return PosteriorLocalizer(*given, grid_m=data.grid_m)
     return PosteriorLocalizer(*given, localizer.places.gazetteer, data.grid_m, localizer.places.meanings)
+
+
+def count_parts(objects: MapObjects, cells: CellTable, rows: Ints) -> Ints:
+    """Return the number [P] of parts of each object in some of the cells of a map."""
+    if objects.are_parts:
+        number = ranges(cells.parts.starts[rows], cells.parts.starts[rows + 1])
+    else:
+        number = cells.take(rows).parts.instance
+    return np.bincount(number, minlength=len(objects.instance)).astype(np.int32)
 
 
 def ranker_on_some_cells(ranker: Ranker, rows: Ints) -> Ranker:

@@ -210,13 +210,21 @@ def _instance_scenes(gallery: Gallery) -> list[str]:
     return names
 
 
+def _count_kept_parts(objects: MapObjects, parts: PartTable, is_kept: npt.NDArray[np.bool_]) -> Ints:
+    """Return the number [P] of kept parts of each object; 0 for an instance that lost most parts."""
+    if objects.are_parts:
+        return is_kept.astype(np.int32)
+    kept = np.bincount(parts.instance[is_kept], minlength=len(objects.instance))
+    return np.where(2 * kept > objects.parts, kept, 0).astype(np.int32)
+
+
 def _damaged_localizers(
     damage: DamagedMap, vectors: VectorLocalizer, posterior: PosteriorLocalizer
 ) -> tuple[VectorLocalizer, PosteriorLocalizer]:
     """Build retriever and posterior for a damaged map."""
     data, ranker = damage.data, vectors.ranker
     around = posterior.surroundings
-    parts = around.things.parts_among(posterior.gallery.cells.parts, damage.is_kept)
+    parts = _count_kept_parts(around.things, posterior.gallery.cells.parts, damage.is_kept)
     surroundings = around.take(np.arange(len(data.cells)), parts)
     encoded = Ranker.from_cells(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
     return vectors_of_map(data, encoded), posterior_of_map(posterior.weights, data, encoded, surroundings)

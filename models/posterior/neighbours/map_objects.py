@@ -6,10 +6,10 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from models.citymap.cells import CellTable, PartTable
+from models.citymap.cells import PartTable
 from models.citymap.gallery import Gallery
 from models.citymap.map_geometry import PieceGeometry
-from models.citymap.points import Ints, ranges
+from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.strings import Categorical
 
@@ -53,21 +53,6 @@ class MapObjects:
     def is_vague(self) -> npt.NDArray[np.bool_]:
         """[P] whether the nearest point of an object is imprecise, as for ground areas of a map without scans."""
         return self.is_flat & (not self.are_parts)
-
-    def parts_in(self, cells: CellTable, rows: Ints) -> Ints:
-        """Return the number [P] of parts of each object in cells."""
-        if self.are_parts:
-            thing = ranges(cells.parts.starts[rows], cells.parts.starts[rows + 1])
-        else:
-            thing = cells.take(rows).parts.instance
-        return np.bincount(thing, minlength=len(self.instance)).astype(np.int32)
-
-    def parts_among(self, parts: PartTable, kept: npt.NDArray[np.bool_]) -> Ints:
-        """Return the number [P] of kept parts of each object; 0 for an instance that lost most parts."""
-        if self.are_parts:
-            return kept.astype(np.int32)
-        left = np.bincount(parts.instance[kept], minlength=len(self.instance))
-        return np.where(2 * left > self.parts, left, 0).astype(np.int32)
 
     def labels(self, gallery: Gallery) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
         """Return the distinct labels of the gallery, and the index [P] of each object's label."""

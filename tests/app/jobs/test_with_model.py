@@ -11,7 +11,7 @@ from app.cli import main as cli
 from app.main import create_app
 from app.settings import Settings
 from index.answering.ranking import Ranker
-from index.evaluation.localizers import vectors_of_map
+from index.evaluation.localizers import map_of_index, vectors_of_map
 from models.citymap.queries import Queries
 from models.sources.source import open_source
 
@@ -84,7 +84,7 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
     """The index's own vectors against vectors made anew."""
     from index.evaluation.evaluation import evaluate as run
 
-    data = localizer.map_data()
+    data = map_of_index(localizer)
     asked = open_source(osm_file).queries()
     mine = Queries.from_text(asked.sentences[::40], asked.positions_m[::40], data.cells)
     made = Ranker.from_cells(localizer.retriever, data.cells, data.gallery.labels)

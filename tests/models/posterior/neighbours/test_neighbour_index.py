@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from index.evaluation.localizers import count_parts
 from models.citymap.map_geometry import build_geometry, cut_cells
 from models.errors import IndexBroken
 from models.posterior.neighbours.neighbour_index import build_neighbour_index, load_neighbour_index
@@ -111,7 +112,7 @@ def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(scanned) -
 def test_taking_cells_keeps_their_nodes_and_what_they_show(kind, request) -> None:
     cells, s = request.getfixturevalue(kind)[::2]
     chosen = np.array([7, 2, 30])
-    some = s.take(chosen, s.things.parts_in(cells, chosen))
+    some = s.take(chosen, count_parts(s.things, cells, chosen))
     of_chosen = np.concatenate([np.arange(s.cell_starts[c], s.cell_starts[c + 1]) for c in chosen])
     assert (nodes_of(some) == s.positions_m(of_chosen)).all()
     assert np.diff(some.cell_starts).tolist() == np.diff(s.cell_starts)[chosen].tolist()
