@@ -64,8 +64,9 @@ load: install  ## what the service bears on this machine, which has to be idle: 
 soak: install  ## whether memory grows in 100,000 requests
 	$(BIN)/python -m tests.load.soak --index $(INDEX)
 
-chaos: install  ## KILLS kills of builds and of the service at random moments: nothing acknowledged may be lost
+chaos: install  ## KILLS kills of builds and of the service at random moments, and 200 switches: nothing acknowledged may be lost
 	$(BIN)/python -m tests.load.chaos --kills $(KILLS)
+	SWITCHES=200 $(BIN)/python -m pytest tests/app/http/test_switching.py
 
 check: install  ## ruff and mypy
 	$(BIN)/ruff check .

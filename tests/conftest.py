@@ -20,6 +20,7 @@ import torch
 from filelock import FileLock
 
 from index.answering.localizer import Localizer
+from index.answering.query import Query
 from index.build.build import IndexJob
 from models.checkpoint import round_weights
 from models.citymap.cells import CellTable
@@ -43,6 +44,20 @@ MadeOnce = Callable[[str, Callable[[Path], object]], Path]
 SIZE_M = 300
 LAT, LON = 60.0, 25.0
 LAT_M, LON_M = 1 / 111_412.0, 1 / 55_800.0  # degrees a metre, near enough at 60 degrees
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put the tests that share a server first, next to each other, so that one worker of a run starts it for all.
+
+    Files with slow tests are next, so that no worker is left alone with them in the end.
+    """
+    slow = {item.path for item in items if item.get_closest_marker("slow")}
+
+    def rank(item: pytest.Item) -> tuple[str, bool]:
+        server = item.get_closest_marker("server")
+        return server.args[0] if server else "~", item.path not in slow
+
+    items.sort(key=rank)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -229,6 +244,15 @@ def index_dir(osm_file: Path, weights_dir: Path, made_once: MadeOnce) -> Path:
 @pytest.fixture(scope="session")
 def localizer(index_dir: Path, weights_dir: Path) -> Localizer:
     return Localizer.open(index_dir, weights_dir)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _compiled_once(request: pytest.FixtureRequest, _own_cache: None) -> None:
+    """Compile what answers before a parallel run begins, or each of its processes would, for 35 seconds of CPU."""
+    texts = ("A tree is north of me.", "I am on East Street 2 at North Path 3, and a building is on my right.")
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        made_once, localizer = (request.getfixturevalue(name) for name in ("made_once", "localizer"))
+        made_once("compiled", lambda _: localizer.localize([Query(text) for text in texts]))
 
 
 @pytest.fixture(scope="session")

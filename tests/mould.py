@@ -21,6 +21,8 @@ from unittest.mock import patch
 
 import httpx
 
+from app import main
+from app.jobs import runner
 from app.threads import THREAD_VARIABLES
 
 ROOT = Path(__file__).parents[1]
@@ -182,9 +184,9 @@ class _Forks:
         configure_logging("warning")
         settings = Settings(index_dir=root, jobs_dir=jobs, port=port)
         with (
-            patch("app.main.open_workers", _open_fakes),
-            patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=WORKER, max_waiting=1000)),
-            patch("app.jobs.runner.MAX_FINISHED_JOBS", 1000),
+            patch.object(main, "open_workers", _open_fakes),
+            patch.object(main, "EvaluationJobs", partial(EvaluationJobs, command=WORKER, max_waiting=1000)),
+            patch.object(runner, "MAX_FINISHED_JOBS", 1000),
         ):
             _limit(**limits)
             serve(create_app(settings), settings)

@@ -18,6 +18,7 @@ from app.server import CLOSING_S
 from app.settings import Settings
 from index.stores.milvus_connection import TOKEN, URI
 from models.errors import IndexMismatch
+from tests.dockerfile import command_of, option, user_id
 from tests.manifests import LAYERS, ROOT, built, containers, kustomization, name, one, pods_of, template
 
 DOCS = Path(__file__).parent.parent / "docs"
@@ -105,8 +106,7 @@ def test_a_pod_may_do_next_to_nothing(document) -> None:
     assert pods["automountServiceAccountToken"] is False
     assert pods["securityContext"]["runAsNonRoot"] is True
     assert pods["securityContext"]["seccompProfile"] == {"type": "RuntimeDefault"}
-    user = str(pods["securityContext"]["runAsUser"])
-    assert f"--uid {user} " in (ROOT.parent / "Dockerfile").read_text(), "the image's own"
+    assert pods["securityContext"]["runAsUser"] == user_id(), "the image's own"
     assert "initContainers" not in pods
     [container] = containers([document])
     assert container["securityContext"] == {
@@ -211,8 +211,7 @@ def test_probes_ask_what_is_there_and_open() -> None:
         asked = container[probe]["httpGet"]
         assert routes[asked["path"]].openapi_extra == OPEN, "a probe has no key"
         assert asked["port"] == port["name"]
-    text = (ROOT.parent / "Dockerfile").read_text()
-    assert f'"--port", "{port["containerPort"]}"' in text
+    assert port["containerPort"] == int(option(command_of("CMD"), "--port"))
     assert one(built("base"), "Service")["spec"]["ports"][0]["targetPort"] == port["name"]
     policy = one(built("base"), "NetworkPolicy")["spec"]
     assert policy["ingress"] == [{"ports": [{"protocol": "TCP", "port": port["containerPort"]}]}]

@@ -46,7 +46,7 @@ class FakeLocalizer:
         self.batches.append(list(queries))
         self.threads.add(threading.current_thread().name)
         self.entered.release()
-        assert self.gate.wait(10), "a test left the gate closed"
+        assert self.gate.wait(60), "a test left the gate closed"
         for query in queries:
             if self._is_told("bad", query):
                 raise RuntimeError("secret: " + query.description)
@@ -55,7 +55,7 @@ class FakeLocalizer:
     def describe(self, position_m):
         self.positions.append(position_m)
         self.threads.add(threading.current_thread().name)
-        assert self.gate.wait(10), "a test left the gate closed"
+        assert self.gate.wait(60), "a test left the gate closed"
         if max(map(abs, position_m)) > 1000:
             return None
         tree = Fact("A green tree is 3 m to my east.", "tree", None, "node/1", (3.0, 0.0), 3.0, 90.0)

@@ -8,6 +8,7 @@ from unittest.mock import patch
 
 from fake_localizer import FakeLocalizer
 
+from app import main
 from app.jobs.runner import EvaluationJobs
 from app.logs import configure_logging
 from app.main import create_app
@@ -26,7 +27,7 @@ class TellingLocalizer(FakeLocalizer):
 settings = load_settings(port=int(sys.argv[1]))
 configure_logging("info")
 worker = sys.argv[2:] or (sys.executable, Path(__file__).parent / "jobs/fake_worker.py")
-with patch("app.main.EvaluationJobs", partial(EvaluationJobs, command=worker)):
+with patch.object(main, "EvaluationJobs", partial(EvaluationJobs, command=worker)):
     app = create_app(settings, TellingLocalizer)
 app.add_api_route("/waiting", lambda: len(app.state.indexes.queue()._pending))
 serve(app, settings)

@@ -7,6 +7,7 @@ import httpx
 import pytest
 from fake_localizer import FakeLocalizer
 
+from app import client as client_module
 from app.client import AsyncClient, Client, ServiceError
 from app.main import create_app
 from app.settings import Settings
@@ -68,7 +69,7 @@ def test_what_is_refused_says_why(url):
 
 
 def test_nobody_there_says_so(monkeypatch):
-    monkeypatch.setattr("app.client.time.sleep", lambda _s: None)
+    monkeypatch.setattr(client_module.time, "sleep", lambda _s: None)
     for error in both("http://127.0.0.1:9", lambda client: client.info(), tries=2):
         assert (error.status, error.code) == (0, "no_answer")
         assert "is the service running" in error.detail
@@ -83,7 +84,7 @@ def test_another_service_is_not_taken_for_this_one():
 @pytest.mark.parametrize(("status", "code"), [(429, "queue_full"), (503, "not_ready")])
 def test_what_is_busy_is_asked_again_when_it_says(url, monkeypatch, status, code):
     waited = []
-    monkeypatch.setattr("app.client.time.sleep", waited.append)
+    monkeypatch.setattr(client_module.time, "sleep", waited.append)
     problem = {"code": code, "detail": "busy", "request_id": "r"}
     answers = [httpx.Response(status, json=problem, headers={"Retry-After": str(n)}) for n in (2, 90)]
     answers.append(httpx.Response(200, content=httpx.get(f"{url}/info").content))

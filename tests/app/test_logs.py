@@ -12,6 +12,7 @@ from fake_localizer import FakeLocalizer
 from structlog.testing import capture_logs
 from typer.testing import CliRunner
 
+from app import limits, logs, server
 from app.cli.main import app as cli
 from app.main import create_app
 from app.server import DrainingServer, serve
@@ -105,7 +106,7 @@ def test_no_line_has_what_was_said_however_the_request_ends(logged, in_a_thread,
     said, fake = logged(), FakeLocalizer()
     with client(in_a_thread, Settings(), FakeLocalizer()) as here:
         statuses = {response.status_code for response in asked_well_and_wrongly(here)}
-    monkeypatch.setattr("app.limits.MAX_WAITING_QUERIES", 1)
+    monkeypatch.setattr(limits, "MAX_WAITING_QUERIES", 1)
     with client(in_a_thread, Settings(), fake) as here:
         statuses |= {response.status_code for response in asked_too_much(here, fake, until)}
     with client(in_a_thread, Settings(read_key="long-enough"), fake) as here:
@@ -157,8 +158,8 @@ def test_a_service_that_logs_what_is_said_warns(monkeypatch, is_wanted):
 
 def test_the_command_logs_as_its_settings_say(monkeypatch, tmp_path):
     begun = []
-    monkeypatch.setattr("app.logs.configure_logging", lambda *given: begun.append(given))
-    monkeypatch.setattr("app.server.serve", lambda _app, _settings: None)
+    monkeypatch.setattr(logs, "configure_logging", lambda *given: begun.append(given))
+    monkeypatch.setattr(server, "serve", lambda _app, _settings: None)
     for wanted in ("false", "true"):
         environ = {"HEREABOUTS_LOG_DESCRIPTIONS": wanted, "OMP_NUM_THREADS": "1"}
         assert CliRunner().invoke(cli, ["serve", "--index", str(tmp_path)], env=environ).exit_code == 0

@@ -108,7 +108,7 @@ def test_the_command_speaks_to_an_agent_over_http(url, until):
         check(*asyncio.run(run()))
     finally:
         server.terminate()
-        server.wait(10)
+        server.wait(60)
 
 
 def test_a_refusal_tells_the_agent_what_to_do(url):

@@ -22,6 +22,7 @@ from app.server import DrainingServer, page_url, serve
 from app.settings import Settings
 
 IN_FLIGHT = 64  # requests when a signal comes
+WAIT_S = 60  # for what takes a second on an idle machine
 SCRIPT = Path(__file__).parent / "serve_fake.py"
 
 pytestmark = pytest.mark.slow  # processes of their own
@@ -39,27 +40,34 @@ class Served:
         environ = os.environ | {"HEREABOUTS_MAX_WAIT_MS": "60000"}  # what is held makes the wait seem long
         environ |= {"TMPDIR": str(scratch)}  # a service that is killed leaves its files there
         self.process = subprocess.Popen([sys.executable, SCRIPT, str(self.port)], env=environ, **pipes)
+        # Every request has a connection of its own, as requests of as many users have.
+        self.http = httpx.Client(
+            base_url=self.url,
+            timeout=WAIT_S,
+            headers={"Connection": "close"},
+            limits=httpx.Limits(max_connections=None),
+        )
 
     def is_ready(self):
         assert self.process.poll() is None, self.process.stderr.read()
         try:
-            return httpx.get(f"{self.url}/readyz").status_code == 200
+            return self.http.get("/readyz").status_code == 200
         except httpx.TransportError:
             return False
 
     def localize(self, text):
-        return httpx.post(f"{self.url}/localize", json={"description": text})
+        return self.http.post("/localize", json={"description": text})
 
     def evaluate(self, until):
         """Status URL and process id of an evaluation that does not end by itself."""
         body = {"queries": [{"hints": ["held"], "position": [1, 2]}]}
-        url = self.url + httpx.post(f"{self.url}/evaluate", json=body).headers["location"]
-        until(lambda: httpx.get(url).json()["progress"]["stage"] == "ask", 20)
+        url = self.http.post("/evaluate", json=body).headers["location"]
+        until(lambda: self.http.get(url).json()["progress"]["stage"] == "ask", WAIT_S)
         children = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text()
         return url, int(children)
 
     def waiting(self):
-        return httpx.get(f"{self.url}/waiting").json()
+        return self.http.get("/waiting").json()
 
     def release(self):
         self.process.stdin.write("\n")
@@ -69,7 +77,7 @@ class Served:
         self.process.send_signal(signal.SIGTERM)
 
     def outcome(self):
-        out, err = self.process.communicate(timeout=10)
+        out, err = self.process.communicate(timeout=WAIT_S)
         return self.process.returncode, out.splitlines(), [json.loads(line) for line in err.splitlines()]
 
 
@@ -77,11 +85,12 @@ class Served:
 def served(until, tmp_path):
     served = Served(tmp_path)
     try:
-        until(served.is_ready, 30)
+        until(served.is_ready, WAIT_S)
         yield served
     finally:
         served.process.kill()
         served.process.communicate()
+        served.http.close()
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT], ids=lambda number: number.name)
@@ -94,12 +103,12 @@ def test_a_signal_finishes_what_waits_and_exits_with_0(served, problem, until, n
         thread.start()
     until(lambda: served.waiting() == IN_FLIGHT - 1)
     served.process.send_signal(number)
-    until(lambda: httpx.get(f"{served.url}/readyz").status_code == 503)
-    problem(httpx.get(f"{served.url}/readyz"), 503, "draining")
+    until(lambda: served.http.get("/readyz").status_code == 503)
+    problem(served.http.get("/readyz"), 503, "draining")
     problem(served.localize("refused"), 503, "draining")
     served.release()
     for thread in threads:
-        thread.join(10)
+        thread.join(WAIT_S)
     assert [answer.status_code for answer in answers] == [200] * IN_FLIGHT
     code, computed, lines = served.outcome()
     assert code == 0
@@ -124,7 +133,7 @@ def test_client_that_left_is_not_computed(served, until):
         until(lambda: served.waiting() == 1)
     until(lambda: served.waiting() == 0)
     served.release()
-    busy.join(10)
+    busy.join(WAIT_S)
     assert served.localize("stays").status_code == 200
     served.terminate()
     code, computed, lines = served.outcome()
@@ -143,19 +152,19 @@ def test_second_signal_does_not_wait_for_the_queue(served, until):
     threads[1].start()
     until(lambda: served.waiting() == 1)
     served.terminate()
-    until(lambda: httpx.get(f"{served.url}/readyz").status_code == 503)
+    until(lambda: served.http.get("/readyz").status_code == 503)
     served.terminate()
     with pytest.raises(httpx.TransportError):
-        until(lambda: httpx.get(f"{served.url}/readyz").status_code == 200)
+        until(lambda: served.http.get("/readyz").status_code == 200)
     served.release()
-    assert served.process.wait(10) == -signal.SIGTERM
+    assert served.process.wait(WAIT_S) == -signal.SIGTERM
     for thread in threads:
-        thread.join(10)
+        thread.join(WAIT_S)
 
 
 def test_sigterm_ends_an_evaluation_and_tells_who_follows_it(served, until):
     url, worker = served.evaluate(until)
-    with httpx.stream("GET", f"{url}/events", timeout=20) as stream:
+    with served.http.stream("GET", f"{url}/events") as stream:
         lines = stream.iter_lines()
         assert next(lines) == "event: progress"  # so it is followed before the service is told to end
         served.terminate()
@@ -172,11 +181,11 @@ def test_worker_dies_with_a_service_that_is_killed(served, until):
 
 def test_client_that_leaves_the_events_cancels_nothing(served, until):
     url, worker = served.evaluate(until)
-    with httpx.stream("GET", f"{url}/events") as stream:
+    with served.http.stream("GET", f"{url}/events") as stream:
         assert next(stream.iter_lines()) == "event: progress"
-    assert httpx.get(url).json()["status"] == "running"
+    assert served.http.get(url).json()["status"] == "running"
     assert is_running(worker)
-    assert httpx.delete(url).json()["status"] == "cancelled"
+    assert served.http.delete(url).json()["status"] == "cancelled"
 
 
 def is_running(pid):
@@ -200,7 +209,7 @@ def test_a_signal_that_comes_before_the_queue_is_started_is_not_lost(fake):
         await indexes.close()
         return refused.value.code
 
-    assert asyncio.run(asyncio.wait_for(start_and_end(), 20)) is Code.DRAINING
+    assert asyncio.run(asyncio.wait_for(start_and_end(), WAIT_S)) is Code.DRAINING
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@ import os
 import pytest
 from typer.testing import CliRunner
 
+from app import threads as threads_module
 from app.cli.main import app
 from app.threads import THREAD_VARIABLES, set_thread_env, usable_cpus
 
@@ -76,7 +77,7 @@ def test_a_process_has_one_thread():
 @pytest.mark.parametrize(("command", "threads"), [("train", "3"), ("localize", "1"), ("index", "1"), ("evaluate", "1")])
 def test_training_alone_takes_all_cpus(monkeypatch, command, threads):
     environ = {}
-    monkeypatch.setattr("app.threads.usable_cpus", lambda: 3)
-    monkeypatch.setattr("app.threads.set_thread_env.__defaults__", (1, environ))
+    monkeypatch.setattr(threads_module, "usable_cpus", lambda: 3)
+    monkeypatch.setattr(threads_module.set_thread_env, "__defaults__", (1, environ))
     assert CliRunner().invoke(app, [command, "--no-such-option"]).exit_code == 2
     assert environ == dict.fromkeys(THREAD_VARIABLES, threads)

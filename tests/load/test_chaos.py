@@ -2,7 +2,7 @@ import pytest
 
 from tests.load.chaos import run
 
-KILLS, SEED = 12, 7
+KILLS, SEED = 5, 7
 
 pytestmark = pytest.mark.slow
 

@@ -3,6 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from models import spool
 from models.errors import DataError
 from models.files import TEMP_PREFIX
 from models.spool import forget, in_turn, on_disk, scratch, spooled, spooling_in, starts_of
@@ -18,7 +19,7 @@ def parts(sizes):
 @pytest.mark.parametrize("held", [0, 40, 2**30])
 @pytest.mark.parametrize("sizes", [[5], [0, 3, 0, 7], [0, 0]])
 def test_columns_are_those_of_the_parts_on_disk_or_not(held, sizes, monkeypatch) -> None:
-    monkeypatch.setattr("models.spool.HELD", held)
+    monkeypatch.setattr(spool, "HELD", held)
     found = spooled(iter(parts(sizes)))
     assert set(found) == {"wide", "number"}
     for name, column in found.items():
@@ -29,8 +30,8 @@ def test_columns_are_those_of_the_parts_on_disk_or_not(held, sizes, monkeypatch)
 
 
 def test_what_lies_on_disk_takes_no_memory_but_while_it_is_looked_at(monkeypatch, tmp_path) -> None:
-    monkeypatch.setattr("models.spool.HELD", 10)
-    monkeypatch.setattr("models.spool.AT_ONCE", 3000)
+    monkeypatch.setattr(spool, "HELD", 10)
+    monkeypatch.setattr(spool, "AT_ONCE", 20_000)
     with spooling_in(tmp_path):
         columns = spooled(parts([100_000] * 3))
     seen = [(resident(tmp_path), some["wide"].sum(), len(some["number"])) for some in in_turn(columns)]
@@ -55,7 +56,7 @@ def resident(directory: Path) -> int:
 
 @pytest.mark.parametrize("held", [1000, 2**30])
 def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
-    monkeypatch.setattr("models.spool.HELD", held)
+    monkeypatch.setattr(spool, "HELD", held)
     found = on_disk(50_000, np.int32)
     assert not found.any()
     order = np.random.default_rng(0).permutation(50_000)
@@ -67,8 +68,8 @@ def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
 @pytest.mark.parametrize("held", [1, 2**30])
 @pytest.mark.parametrize("sizes", [[], [3], [0, 2, 0, 5, 1, 0, 0, 4]])
 def test_runs_begin_where_those_before_them_end(held, sizes, monkeypatch) -> None:
-    monkeypatch.setattr("models.spool.HELD", held)
-    monkeypatch.setattr("models.spool.AT_ONCE", 3)
+    monkeypatch.setattr(spool, "HELD", held)
+    monkeypatch.setattr(spool, "AT_ONCE", 3)
     found = starts_of(np.array(sizes, np.int16))
     assert found.dtype == np.int32
     assert found.tolist() == [sum(sizes[:n]) for n in range(len(sizes) + 1)]
@@ -81,7 +82,7 @@ def test_more_rows_than_can_be_numbered_are_said() -> None:
 
 
 def test_a_full_disk_is_said(monkeypatch, tmp_path) -> None:
-    monkeypatch.setattr("models.spool.HELD", 10)
+    monkeypatch.setattr(spool, "HELD", 10)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "missing"))
     with pytest.raises(DataError, match=r"missing cannot be written: .*TMPDIR"):
         spooled(parts([1000]))

@@ -3,6 +3,7 @@ import pickle
 import numpy as np
 import pytest
 
+from models import strings as strings_module
 from models.strings import Categorical, Postings, StringArray, merge_columns
 
 STRINGS = ["", "Café Zoë", "Кафе", "", "北京", "a"]
@@ -91,7 +92,7 @@ def test_categories_come_back(strings) -> None:
 @pytest.mark.parametrize("at_once", [1, 2, 3, 1000])
 @pytest.mark.parametrize("strings", [("b", "a", "b", "ab", "", "b", "a"), ("x",) * 7, ("one",), ()])
 def test_categories_of_bytes_are_those_of_strings_however_many_are_looked_at(at_once, strings, monkeypatch) -> None:
-    monkeypatch.setattr("models.strings.STRINGS_PER_BLOCK", at_once)
+    monkeypatch.setattr(strings_module, "STRINGS_PER_BLOCK", at_once)
     from_bytes, expected = Categorical.from_bytes(np.array(strings, "S8")), Categorical.from_strings(strings)
     for name, column in merge_columns([expected.columns("x")]).items():
         assert np.array_equal(from_bytes.columns("x")[name], column)

@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.main import app
+from index.build import artifact
 from index.build.artifact import read_aliases
 from tests.versions import write_index, write_version
 
@@ -104,7 +105,7 @@ def test_a_directory_that_cannot_be_written_is_said_and_nothing_changes(alias, r
     def fails(*_arguments):
         raise OSError(error, os.strerror(error), str(root))
 
-    monkeypatch.setattr("index.build.artifact.replace_file", fails)
+    monkeypatch.setattr(artifact, "replace_file", fails)
     for arguments in (("set", "default", "copied"), ("set", "default", "v2"), ("remove", "canary")):
         code, _, said = alias(*arguments)
         assert code == 1

@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.main import app
+from models.sources.synthetic import towns
 from tests.models.sources.raw_scenes import VAL_STREET
 
 
@@ -83,7 +84,7 @@ def test_a_reader_is_kept_by_the_posterior_alone(run, prepared, tmp_path) -> Non
 
 def test_synth_gives_ground_one_number_unless_told_otherwise(run, tmp_path, monkeypatch) -> None:
     asked = []
-    monkeypatch.setattr("models.sources.synthetic.towns.write_towns", lambda *args: asked.append(args) or ("one",))
+    monkeypatch.setattr(towns, "write_towns", lambda *args: asked.append(args) or ("one",))
     assert run("synth", "--out", tmp_path / "out").exit_code == 0
     assert run("synth", "--out", tmp_path / "out", "--pieces", "own").exit_code == 0
     assert [args[-1] for args in asked] == ["official", "own"]

@@ -9,6 +9,7 @@ import pytest
 from fake_localizer import FakeLocalizer
 from typer.testing import CliRunner
 
+from app import logs, server
 from app.cli.main import app
 from app.threads import THREAD_VARIABLES
 from models.citymap.frame import Frame
@@ -124,8 +125,8 @@ def test_index_builds_and_says_what_next(monkeypatch):
 
 def test_serve_takes_options_then_environment(monkeypatch):
     served = []
-    monkeypatch.setattr("app.server.serve", lambda _app, settings: served.append(settings))
-    monkeypatch.setattr("app.logs.configure_logging", lambda level, with_messages: None)
+    monkeypatch.setattr(server, "serve", lambda _app, settings: served.append(settings))
+    monkeypatch.setattr(logs, "configure_logging", lambda level, with_messages: None)
     monkeypatch.setenv("HEREABOUTS_HOST", "0.0.0.0")
     monkeypatch.setenv("HEREABOUTS_WORKERS", "7")
     assert run("serve", "--index", "/i", "--port", "9").exit_code == 0

@@ -13,6 +13,8 @@ from fake_localizer import FakeLocalizer
 from good_requests import GOOD, IN_PATH, JSON, WITH_BODY, ask
 from local_client import local_client
 
+from app import limits
+from app.jobs import runner
 from app.jobs.job import EvaluationJob
 from app.main import create_app
 from app.settings import Settings
@@ -133,8 +135,8 @@ def api(fake, until, versions_dir):
 
     settings = Settings(index_dir=versions_dir, read_key=KEY)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
-        patch.setattr("app.limits.MAX_EVALUATE_BODY_BYTES", MOST_BYTES)
+        patch.setattr(runner.EvaluationJobs, "submit", submit)
+        patch.setattr(limits, "MAX_EVALUATE_BODY_BYTES", MOST_BYTES)
         with local_client(create_app(settings, lambda: fake), headers={"X-API-Key": KEY}) as api:
             until(lambda: api.get("/readyz").status_code == 200)
             yield api

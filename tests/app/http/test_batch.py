@@ -4,6 +4,7 @@ import pytest
 from fake_localizer import FakeLocalizer
 from fastapi.testclient import TestClient
 
+from app import main
 from app.main import create_app
 from app.settings import Settings
 from models.errors import IndexBroken
@@ -67,7 +68,7 @@ def test_a_full_batch_does_not_crowd_the_queue(api, fake, until):
     queue = api.app.state.indexes.queue()
     until(lambda: queue.num_waiting + queue._computing == 4)
     fake.gate.set()
-    thread.join(20)
+    thread.join(60)
     assert all(one["result"] for one in answers[0].json()["items"])
 
 
@@ -80,9 +81,9 @@ def test_items_of_an_index_that_answers_do_not_wait_for_one_that_cannot(monkeypa
     async def check_version(_index_dir, _version):
         pass  # there are no files, which it would say soon or late
 
-    monkeypatch.setattr("app.main._open_workers", open_workers)
-    monkeypatch.setattr("app.main.check_version", check_version)
-    monkeypatch.setattr("app.main._read_aliases", lambda _dir: {"default": "v1", "berlin": "v2"})
+    monkeypatch.setattr(main, "_open_workers", open_workers)
+    monkeypatch.setattr(main, "check_version", check_version)
+    monkeypatch.setattr(main, "_read_aliases", lambda _dir: {"default": "v1", "berlin": "v2"})
     here, there = {"description": TEXT}, {"description": TEXT, "index": "berlin"}
     with TestClient(create_app(Settings())) as api:
         until(lambda: api.post("/localize", json=there).status_code == 200)

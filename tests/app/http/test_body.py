@@ -6,6 +6,8 @@ import json
 import pytest
 from starlette.datastructures import Headers
 
+from app import limits
+from app.http import bodies
 from app.http.bodies import LARGE_BODY_BYTES, MAX_JSON_VALUES, LargeBodies, Share, check_headers, check_json, read_body
 from app.http.errors import Problem
 
@@ -76,7 +78,7 @@ def test_five_megabytes_are_a_short_413(api, problem):
 
 def test_limit_is_the_last_byte_that_passes(settings, fake, start, problem, monkeypatch):
     body = b'{"description": "a tree"}'
-    monkeypatch.setattr("app.limits.MAX_BODY_BYTES", len(body))
+    monkeypatch.setattr(limits, "MAX_BODY_BYTES", len(body))
     with start(settings, fake) as api:
         assert post(api, body).status_code == 200
         problem(post(api, body + b" "), 413, "body_too_large")
@@ -134,7 +136,7 @@ def test_wrong_method_is_405_with_allow(api, problem):
 def test_a_body_of_many_values_is_refused_before_it_is_parsed(api, problem, monkeypatch, piece):
     content = b"[" + piece * MAX_JSON_VALUES + b"1]"
     problem(api.post("/evaluate", content=content, headers=JSON), 413, "body_too_large")
-    monkeypatch.setattr("app.http.bodies.json", None)
+    monkeypatch.setattr(bodies, "json", None)
     with pytest.raises(Problem, match="values"):
         check_json(content)
 
@@ -160,7 +162,7 @@ def test_large_bodies_have_a_bound_together():
 
 
 def test_a_body_that_does_not_come_is_given_up(settings, fake, start, monkeypatch):
-    monkeypatch.setattr("app.http.bodies.BODY_TIMEOUT_S", 0.05)
+    monkeypatch.setattr(bodies, "BODY_TIMEOUT_S", 0.05)
     sent = []
 
     async def ask(app):

@@ -22,7 +22,7 @@ def serve(in_a_thread):
 
 
 def connect(port):
-    return socket.create_connection(("127.0.0.1", port), timeout=5)
+    return socket.create_connection(("127.0.0.1", port), timeout=60)
 
 
 def read_until_closed(connection):

@@ -6,7 +6,9 @@ from pathlib import Path
 import pytest
 from fake_localizer import TRUE_FRAME, FakeLocalizer
 
+from app import limits as limits_module
 from app.http.schemas.evaluate_requests import EvaluateRequest
+from app.jobs import runner
 from app.jobs.evaluation import build_evaluation, find_data, read_evaluation
 from app.settings import Settings
 from models.citymap.frame import Frame
@@ -26,7 +28,7 @@ def submitted(monkeypatch):
         found.append(evaluation)
         return EvaluationJob(Path("/nowhere"))
 
-    monkeypatch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
+    monkeypatch.setattr(runner.EvaluationJobs, "submit", submit)
     return found
 
 
@@ -139,8 +141,8 @@ def test_nan_is_no_json(api, problem):
 
 
 def test_its_own_limit_of_bytes(settings, fake, start, submitted, problem, monkeypatch):
-    monkeypatch.setattr("app.limits.MAX_BODY_BYTES", 100)
-    monkeypatch.setattr("app.limits.MAX_EVALUATE_BODY_BYTES", 100_000)
+    monkeypatch.setattr(limits_module, "MAX_BODY_BYTES", 100)
+    monkeypatch.setattr(limits_module, "MAX_EVALUATE_BODY_BYTES", 100_000)
     with start(settings, fake) as api:
         body = {"queries": [ASKED] * 800}
         assert 65_536 < len(json.dumps(body)) < 100_000

@@ -13,6 +13,7 @@ from local_client import local_client
 from structlog.testing import capture_logs
 
 from app.http.keys import OPEN, KeyCheck, open_routes
+from app.jobs import runner
 from app.jobs.job import EvaluationJob
 from app.main import create_app
 from app.settings import Settings
@@ -181,7 +182,7 @@ def evaluates_nothing(monkeypatch):
     async def submit(_jobs, _evaluation):
         return EvaluationJob(Path("nowhere"))
 
-    monkeypatch.setattr("app.jobs.runner.EvaluationJobs.submit", submit)
+    monkeypatch.setattr(runner.EvaluationJobs, "submit", submit)
 
 
 def statuses_of_changes(api, headers):

@@ -7,6 +7,7 @@ from itertools import pairwise
 import pytest
 from fake_localizer import FakeLocalizer
 
+from app import limits
 from index.answering.answers import Choice, Question
 from index.answering.query import Box, Circle, Prior, Query, Reply
 from models.citymap.frame import Frame
@@ -143,14 +144,14 @@ def test_deadline_is_kept_while_the_model_is_busy(api, fake, problem):
 
 
 def test_full_queue_is_429_with_retry_after(settings, fake, start, until, problem, monkeypatch):
-    monkeypatch.setattr("app.limits.MAX_WAITING_QUERIES", 1)
+    monkeypatch.setattr(limits, "MAX_WAITING_QUERIES", 1)
     with start(settings, fake) as api:
         fake.gate.clear()
         statuses = []
         ask, ask_headers = {"json": {"description": "a tree"}}, {"Content-Type": "application/json"}
         threads = [threading.Thread(target=lambda: statuses.append(api.post("/localize", **ask).status_code))]
         threads[0].start()
-        assert fake.entered.acquire(timeout=5)
+        assert fake.entered.acquire(timeout=60)
         threads.append(threading.Thread(target=lambda: statuses.append(api.post("/localize", **ask).status_code)))
         threads[1].start()
         until(lambda: len(api.app.state.indexes.queue()._pending) == 1)
@@ -161,7 +162,7 @@ def test_full_queue_is_429_with_retry_after(settings, fake, start, until, proble
         problem(at_the_door, 429, "queue_full")
         fake.gate.set()
         for thread in threads:
-            thread.join(5)
+            thread.join(60)
         problem(api.post("/localize", content=b"{" * 60_000, headers=ask_headers), 400, "invalid_json")
     assert statuses == [200, 200]
 

@@ -19,7 +19,7 @@ from index.stores.milvus_store import MilvusStore
 from models.errors import StoreUnavailable
 
 pytest.importorskip("pymilvus", reason="pymilvus not installed: pip install 'hereabouts[dev]'")
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("warm_workers")]
+pytestmark = [pytest.mark.slow, pytest.mark.server("milvus"), pytest.mark.usefixtures("warm_workers")]
 THREADS, PAUSE_S = 4, 0.1
 QUERIES = [
     {"description": text, "refine": refine}
@@ -47,7 +47,7 @@ def root(uri, osm_file, weights_dir, tmp_path_factory):
 @pytest.fixture(scope="module")
 def served(root, weights_dir, until):
     with TestClient(create_app(Settings(index_dir=root, weights_dir=weights_dir, workers=2))) as api:
-        until(lambda: api.get("/readyz").status_code == 200, 60)
+        until(lambda: api.get("/readyz").status_code == 200)
         yield api
 
 
@@ -64,7 +64,7 @@ def test_no_vectors_are_in_the_directory(root):
 
 def test_it_answers_as_an_index_in_a_file(served, index_dir, weights_dir, until):
     with TestClient(create_app(Settings(index_dir=index_dir, weights_dir=weights_dir, workers=1))) as other:
-        until(lambda: other.get("/readyz").status_code == 200, 60)
+        until(lambda: other.get("/readyz").status_code == 200)
         for query in QUERIES:
             here, there = (api.post("/localize", json=query).json() for api in (served, other))
             assert here["status"] == there["status"]
@@ -111,7 +111,7 @@ def test_where_milvus_is_down_the_service_starts_and_what_needs_no_vectors_is_an
     write_manifest(directory, moved)
     set_alias(root, "default", manifest.version)
     with TestClient(create_app(Settings(index_dir=root, weights_dir=weights_dir, workers=1))) as api:
-        until(lambda: api.get("/readyz").status_code == 200, 60)
+        until(lambda: api.get("/readyz").status_code == 200)
         response = api.post("/localize", json=QUERIES[0])
         problem(response, 503, "store_unavailable")
         assert response.headers["Retry-After"] == "2"
@@ -153,7 +153,7 @@ def test_killed_under_load_and_started_again_it_answers_without_a_restart(milvus
         assert served.get("/readyz").status_code == 200
         refused = set(down())
         milvus_server.start()
-        until(lambda: [status for _, status, _ in answered[-2 * THREADS :]] == [200] * 2 * THREADS, 60)
+        until(lambda: [status for _, status, _ in answered[-2 * THREADS :]] == [200] * 2 * THREADS)
     finally:
         ends.set()
         for thread in threads:

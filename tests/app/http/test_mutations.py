@@ -9,6 +9,7 @@ from functools import partial
 import pytest
 from fake_localizer import Steady
 
+from app import main
 from app.jobs.runner import EvaluationJobs
 from app.main import create_app
 from app.settings import Settings
@@ -80,7 +81,7 @@ def answers_to(port, raw, wait_s=WAIT_S):
 @pytest.mark.slow
 def test_no_bytes_break_the_service(in_a_thread, tmp_path, monkeypatch):
     draw = random.Random("mutations 1")
-    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, max_waiting=2))
+    monkeypatch.setattr(main, "EvaluationJobs", partial(EvaluationJobs, max_waiting=2))
     with in_a_thread(create_app(Settings(index_dir=tmp_path), Steady)) as port:
         good = request("/localize", GOOD)
         assert answers_to(port, good, GOOD_WAIT_S) == [200]

@@ -48,7 +48,7 @@ async def submitted(queue, *jobs, deadline_s=None):
 async def busy(queue, fake):
     fake.gate.clear()
     [task] = await submitted(queue, "first")
-    assert await asyncio.to_thread(fake.entered.acquire, timeout=5)
+    assert await asyncio.to_thread(fake.entered.acquire, timeout=60)
     return task
 
 
@@ -267,7 +267,7 @@ def test_a_busy_worker_keeps_nothing_from_an_idle_one(fake):
             one.gate.clear()
         tasks = await submitted(queue, "first", "second")
         for one in fakes:
-            assert await asyncio.to_thread(one.entered.acquire, timeout=5)
+            assert await asyncio.to_thread(one.entered.acquire, timeout=60)
         rest = await submitted(queue, *"abcdef")
         fakes[0].gate.set()
         await asyncio.gather(*rest)

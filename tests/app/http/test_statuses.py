@@ -12,6 +12,9 @@ from fake_localizer import FakeLocalizer
 from good_requests import GOOD, JSON, WITH_BODY, ask
 from service_states import Services, raises
 
+from app import limits, main
+from app.http import bodies, queue
+from app.jobs import store
 from app.jobs.runner import EvaluationJobs
 from app.main import create_app
 from app.settings import Settings
@@ -55,7 +58,7 @@ def services(until, versions_dir, tmp_path_factory):
     part = tmp_path_factory.mktemp("parts") / "0.gz"
     part.write_bytes(gzip.compress(b"geometry", mtime=0))
     with ExitStack() as stack, pytest.MonkeyPatch.context() as patch:
-        patch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=("true",)))
+        patch.setattr(main, "EvaluationJobs", partial(EvaluationJobs, command=("true",)))
         yield Services(stack, until, versions_dir, SceneryPart(part, "ab" * 32))
 
 
@@ -125,7 +128,7 @@ def map_that_is_nowhere(services, operation, patch):
 
 @provokes(408, "body_too_slow", *WITH_BODY)
 def body_that_does_not_come(services, operation, patch):
-    patch.setattr("app.http.bodies.BODY_TIMEOUT_S", 0.01)
+    patch.setattr(bodies, "BODY_TIMEOUT_S", 0.01)
 
     async def late():
         await asyncio.sleep(60)
@@ -148,14 +151,14 @@ def broken_aliases(services, operation, patch):
 
 @provokes(409, "not_writable", "POST /evaluate")
 def full_disk_of_jobs(services, operation, patch):
-    patch.setattr("app.jobs.store.JobStore.add", raises(OSError(errno.ENOSPC, "full")))
+    patch.setattr(store.JobStore, "add", raises(OSError(errno.ENOSPC, "full")))
     return ask(services(), operation)
 
 
 @provokes(413, "body_too_large", *WITH_BODY)
 def body_above_the_limit(services, operation, patch):
     for limit in ("BODY", "BATCH_BODY", "EVALUATE_BODY"):
-        patch.setattr(f"app.limits.MAX_{limit}_BYTES", 1)  # read when the service starts
+        patch.setattr(limits, f"MAX_{limit}_BYTES", 1)  # read when the service starts
     return ask(services("small"), operation)
 
 
@@ -176,7 +179,7 @@ def index_that_is_no_name(services, operation, patch):
 
 @provokes(429, "queue_full", "POST /localize", "GET /search")
 def queue_without_a_place(services, operation, patch):
-    patch.setattr("app.http.queue.REFUSAL_DELAY_S", 0)
+    patch.setattr(queue, "REFUSAL_DELAY_S", 0)
     patch.setattr(services().app.state.indexes.queue(), "_max_queue", 0)
     return ask(services(), operation)
 
@@ -189,7 +192,7 @@ def jobs_without_a_place(services, operation, patch):
 
 @provokes(429, "bodies_full", *WITH_BODY)
 def memory_without_a_place(services, operation, patch):
-    patch.setattr("app.http.bodies.MAX_LARGE_BODIES", 0)  # read when the service starts
+    patch.setattr(bodies, "MAX_LARGE_BODIES", 0)  # read when the service starts
     return ask(services("crowded"), operation, content=b" " * 65_536, headers=JSON)
 
 
@@ -201,7 +204,7 @@ def fault_of_the_localizer(services, operation, patch):
 
 @provokes(500, "internal_error", "POST /evaluate")
 def fault_of_the_store(services, operation, patch):
-    patch.setattr("app.jobs.store.JobStore.add", raises(RuntimeError("a fault")))
+    patch.setattr(store.JobStore, "add", raises(RuntimeError("a fault")))
     return ask(services(), operation)
 
 
@@ -230,7 +233,7 @@ def service_that_ends(services, operation, patch):
 
 @provokes(504, "deadline_exceeded", "POST /localize", "POST /describe", "GET /search")
 def slow_localizer(services, operation, patch):
-    patch.setattr("app.limits.DEFAULT_DEADLINE_MS", 50)  # of GET /search, which takes none
+    patch.setattr(limits, "DEFAULT_DEADLINE_MS", 50)  # of GET /search, which takes none
     late = {"json": GOOD[operation]["json"] | {"deadline_ms": 50}} if operation in WITH_BODY else {}
     api = services()
     services.fake.gate.clear()

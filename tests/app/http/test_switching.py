@@ -9,6 +9,8 @@ import httpx
 import pytest
 from fake_localizer import FakeLocalizer
 
+from app import main
+from app.http import indexes
 from app.main import create_app
 from app.settings import Settings
 from index.build.artifact import open_version, read_aliases, register, set_alias
@@ -85,8 +87,8 @@ def test_200_switches_under_64_clients_lose_nothing_and_no_answer_mixes_versions
         opened.append(Versioned(open_version(order.index_dir)[1].version))
         return opened[-1:]
 
-    monkeypatch.setattr("app.main.open_workers", open_version_of)
-    monkeypatch.setattr("app.http.indexes.ALIAS_POLL_S", 0.01)
+    monkeypatch.setattr(main, "open_workers", open_version_of)
+    monkeypatch.setattr(indexes, "ALIAS_POLL_S", 0.01)
     every = httpx.Limits(max_connections=CLIENTS + 1, max_keepalive_connections=CLIENTS + 1)
     with (
         in_a_thread(create_app(Settings(index_dir=root, max_wait_ms=60_000))) as port,

@@ -17,7 +17,7 @@ from models.posterior.model import load_posterior
 @pytest.fixture(scope="module")  # its processes are started as users' are, and not forked from one of the tests
 def served(index_dir, weights_dir, until):
     with TestClient(create_app(Settings(index_dir=index_dir, weights_dir=weights_dir))) as served:
-        until(lambda: served.get("/readyz").status_code == 200, 60)
+        until(lambda: served.get("/readyz").status_code == 200)
         yield served
 
 
@@ -151,5 +151,5 @@ def test_index_that_was_changed_is_not_served(index_dir, weights_dir, tmp_path, 
         file.write_bytes(file.read_bytes()[:-1])
     settings = Settings(index_dir=tmp_path / "index", weights_dir=weights_dir)
     with TestClient(create_app(settings)) as api:
-        until(lambda: api.get("/readyz").json()["code"] != "not_ready", 60)
+        until(lambda: api.get("/readyz").json()["code"] != "not_ready")
         problem(api.get("/readyz"), 503, "load_failed")

@@ -20,11 +20,12 @@ def run(self, report_dir, progress):
         time.sleep(60)
     if "wrong" in hint:
         raise DataError(f"{self.index_dir}/cells: are wrong, make them right")
-    if "orphan" in hint and os.fork() == 0:
-        Path(report_dir).with_name("child").write_text(str(os.getpid()))
-        time.sleep(60)
+    if "orphan" in hint:
+        child = os.fork()
+        if child == 0:
+            time.sleep(60)
+        Path(report_dir).with_name("child").write_text(str(child))
     if "orphan" in hint or "crash" in hint:
-        time.sleep(0.3)  # the child has written
         print("secret of the crash", file=sys.stderr, flush=True)
         os.abort()
     if "fault" in hint:

@@ -11,7 +11,9 @@ from pathlib import Path
 import pytest
 import structlog
 
+from app import main
 from app.http.routes import evaluate
+from app.jobs import runner
 from app.jobs.job import EvaluationJob
 from app.jobs.runner import EvaluationJobs
 
@@ -26,7 +28,7 @@ def command(warm):
 
 @pytest.fixture
 def api(settings, fake, start, command, monkeypatch):
-    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=command, max_waiting=2))
+    monkeypatch.setattr(main, "EvaluationJobs", partial(EvaluationJobs, command=command, max_waiting=2))
     with start(settings, fake) as api:
         yield api
 
@@ -213,7 +215,7 @@ def test_one_runs_some_wait_and_one_more_is_refused(api, problem):
 
 
 def test_finished_jobs_are_kept_for_a_while(api, monkeypatch, problem):
-    monkeypatch.setattr("app.jobs.runner.MAX_FINISHED_JOBS", 2)
+    monkeypatch.setattr(runner, "MAX_FINISHED_JOBS", 2)
     running = begin(api, "held")
     wait_for(api, running, "running")
     old = []
@@ -227,7 +229,7 @@ def test_finished_jobs_are_kept_for_a_while(api, monkeypatch, problem):
 
 
 def test_end_of_the_service_leaves_nothing(settings, fake, start, monkeypatch):
-    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=COMMAND))
+    monkeypatch.setattr(main, "EvaluationJobs", partial(EvaluationJobs, command=COMMAND))
     with start(settings, fake) as api:
         jobs = [begin(api, "held"), begin(api, "held")]
         wait_for(api, jobs[0], "running")

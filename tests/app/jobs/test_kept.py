@@ -17,10 +17,13 @@ from fake_localizer import FakeLocalizer
 from local_client import local_client
 from structlog.testing import capture_logs
 
+from app import main
+from app.jobs import runner, store
 from app.jobs.runner import EvaluationJobs
 from app.main import create_app
 from app.settings import Settings
 from models.files import TEMP_PREFIX
+from tests.app.conftest import is_ready
 
 WORKER = "tests.app.jobs.fake_worker"
 SERVE = Path(__file__).parents[1] / "serve_fake.py"
@@ -35,7 +38,7 @@ def body(hint):
 @pytest.fixture
 def service(tmp_path, monkeypatch, until, warm):
     """A service whose jobs lie in one directory, as often as it is started."""
-    monkeypatch.setattr("app.main.EvaluationJobs", partial(EvaluationJobs, command=warm.command(WORKER)))
+    monkeypatch.setattr(main, "EvaluationJobs", partial(EvaluationJobs, command=warm.command(WORKER)))
 
     @contextmanager
     def run():
@@ -107,7 +110,7 @@ def test_what_a_kill_left_in_part_is_removed(service, until, tmp_path):
 
 def test_a_job_is_promised_once_its_directory_is_on_disk(service, monkeypatch, tmp_path):
     synced = []
-    monkeypatch.setattr("app.jobs.store.sync", synced.append)
+    monkeypatch.setattr(store, "sync", synced.append)
     with service() as api:
         begin(api, "a tree")
         assert synced == [tmp_path / "jobs"]
@@ -132,15 +135,15 @@ def test_a_full_disk_stops_no_job_and_takes_no_other(service, until, monkeypatch
         slow, old, waiting = (begin(api, "slow") for _ in range(3))
         until(lambda: status(api, slow) == "running")
         api.delete(f"/evaluate/{old}")
-        patch.setattr("app.jobs.runner.MAX_FINISHED_JOBS", 1)
-        patch.setattr("app.jobs.store.replace_file", fails)
-        patch.setattr("app.jobs.store.JobStore.remove", fails)
+        patch.setattr(runner, "MAX_FINISHED_JOBS", 1)
+        patch.setattr(store, "replace_file", fails)
+        patch.setattr(store.JobStore, "remove", fails)
         problem(api.post("/evaluate", json=body("a tree")), 409, "not_writable")
-        until(lambda: status(api, waiting) == "done", 60)
+        until(lambda: status(api, waiting) == "done")
         assert api.get(f"/evaluate/{old}").status_code == 404
         patch.undo()
         after = begin(api, "a tree")
-        until(lambda: status(api, after) == "done", 60)
+        until(lambda: status(api, after) == "done")
 
 
 def test_a_directory_of_another_service_is_not_shared(service, tmp_path):
@@ -166,14 +169,7 @@ class Killed:
         command = [sys.executable, SERVE, str(port), *self.worker]
         self.process = subprocess.Popen(command, env=environ, stderr=subprocess.DEVNULL)
         self.url = f"http://127.0.0.1:{port}"
-
-        def is_ready():
-            try:
-                return httpx.get(f"{self.url}/readyz").status_code == 200
-            except httpx.TransportError:
-                return False
-
-        until(is_ready, 30)
+        until(lambda: is_ready(self.url))
 
     def kill(self):
         self.process.send_signal(signal.SIGKILL)
@@ -195,11 +191,13 @@ def test_what_was_acknowledged_is_there_after_every_kill(tmp_path, until, warm):
             service.kill()
         service.start(until)
 
-        def states():
-            return [httpx.get(f"{service.url}/evaluate/{job}").json()["status"] for job in acknowledged]
+        with httpx.Client(base_url=service.url) as client:
 
-        until(lambda: set(states()) <= {"done", "interrupted"}, 60)
-        assert states().count("interrupted") <= 4
+            def states():
+                return [client.get(f"/evaluate/{job}").json()["status"] for job in acknowledged]
+
+            until(lambda: set(states()) <= {"done", "interrupted"})
+            assert states().count("interrupted") <= 4
     finally:
         service.kill()
     kept = [json.loads(path.read_text())["job"] for path in (tmp_path / "jobs").glob("*/state.json")]

@@ -22,7 +22,7 @@ TIMEOUT_S = 120
 def served(strip_file, index_dir, weights_dir, until, warm_workers):
     settings = Settings(index_dir=index_dir, weights_dir=weights_dir, data_dir=strip_file.parent)
     with local_client(create_app(settings)) as served:
-        until(lambda: served.get("/readyz").status_code == 200, 60)
+        until(lambda: served.get("/readyz").status_code == 200)
         yield served
 
 

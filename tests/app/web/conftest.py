@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from html import escape
 from urllib.parse import urlsplit
 
-import httpx
 import pytest
 import uvicorn
 from playwright.sync_api import sync_playwright
@@ -15,7 +14,7 @@ from playwright.sync_api import sync_playwright
 from app.main import create_app
 from app.settings import Settings
 from index.build.build import IndexJob
-from tests.app.conftest import forked_from, wait_until
+from tests.app.conftest import forked_from, is_ready, wait_until
 from tests.conftest import LAT, LAT_M, LON, LON_M, tiny_osm
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -60,20 +59,19 @@ def town_index(made_once):
 
 @contextmanager
 def served(settings, warm):
-    """The service, in a thread of its own; gives its address. Its workers are forked from `warm`, its jobs are not."""
-    app = create_app(settings)
-    server = uvicorn.Server(uvicorn.Config(app, port=0, log_level="warning"))
-    thread = threading.Thread(target=lambda: asyncio.run(server.serve()), daemon=True)
+    """Serve in a thread and yield the address; the service's processes are forked from `warm`."""
     with forked_from(warm):
+        server = uvicorn.Server(uvicorn.Config(create_app(settings), port=0, log_level="warning"))
+        thread = threading.Thread(target=lambda: asyncio.run(server.serve()), daemon=True)
         thread.start()
-        wait_until(lambda: server.started, 60)
+        wait_until(lambda: server.started)
         url = f"http://127.0.0.1:{server.servers[0].sockets[0].getsockname()[1]}/"
-        wait_until(lambda: httpx.get(f"{url}readyz").status_code == 200, 60)
+        wait_until(lambda: is_ready(url.rstrip("/")))
     try:
         yield url
     finally:
         server.should_exit = True
-        thread.join(30)
+        thread.join(60)
 
 
 @pytest.fixture(scope="session")

@@ -10,6 +10,8 @@ import pytest
 from fake_localizer import FakeLocalizer
 from fastapi.testclient import TestClient
 
+from app import main
+from app.http import indexes
 from app.main import create_app
 from app.settings import Settings
 from app.workers import checksums as sums
@@ -67,7 +69,7 @@ def test_it_gives_way_and_ends_with_who_waits_for_it(root, monkeypatch, tmp_path
 
     async def run():
         task = asyncio.create_task(sums.check_version(root, version_of(root)))
-        async with asyncio.timeout(20):
+        async with asyncio.timeout(60):
             while not (said.exists() and said.read_text()):
                 await asyncio.sleep(0.01)
         task.cancel()
@@ -97,9 +99,9 @@ def test_a_flipped_bit_ends_readiness_by_name_until_the_alias_moves_to_what_is_w
     manifest = root / sound / "manifest.json"
     manifest.write_text(manifest.read_text().replace(broken, sound))
     flip(root / broken / "statements.safetensors")
-    monkeypatch.setattr("app.main.open_workers", lambda _order, _count: [FakeLocalizer()])
-    monkeypatch.setattr("app.main.check_version", lambda where, _: sums.check_version(where, version_of(where)))
-    monkeypatch.setattr("app.http.indexes.ALIAS_POLL_S", 0.05)
+    monkeypatch.setattr(main, "open_workers", lambda _order, _count: [FakeLocalizer()])
+    monkeypatch.setattr(main, "check_version", lambda where, _: sums.check_version(where, version_of(where)))
+    monkeypatch.setattr(indexes, "ALIAS_POLL_S", 0.05)
     said = logged("info")
     with TestClient(create_app(Settings(index_dir=root))) as api:
         until(lambda: api.get("/readyz").json().get("code") == "load_failed")

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from index.answering import place_reader
 from index.answering.place_reader import near_hints, with_one_owner
 from index.answering.query import Prior, Query
 from models.language.measures import find_measures
@@ -60,7 +61,7 @@ def test_a_heading_is_told_by_left_and_ahead(localizer) -> None:
 def test_a_text_that_comes_again_is_not_read_again(localizer, monkeypatch) -> None:
     text = "I'm on East Street 2 where North Path 1 begins, and it rains"
     first = answer(localizer, text)
-    monkeypatch.setattr("index.answering.place_reader.find_mentions", None)
+    monkeypatch.setattr(place_reader, "find_mentions", None)
     again = answer(localizer, text)
     assert first.estimate is not None
     assert again.estimate is not None

@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from index.answering import posterior_localizer
 from index.answering.posterior_localizer import WELL_LOCATED_M
 from index.answering.query import MAX_REPLIES, Box, Circle, Prior, Query, Reply
 from index.asking.known_facts import KnownFacts
@@ -270,7 +271,7 @@ def test_a_refused_text_has_a_question_and_its_reply_is_an_answer(localizer, ref
 
 def test_replies_alone_look_along_a_whole_street(posterior, monkeypatch):
     """However few cells a text would be looked at in."""
-    monkeypatch.setattr("index.answering.posterior_localizer.CANDIDATES", 2)
+    monkeypatch.setattr(posterior_localizer, "CANDIDATES", 2)
     y_m = posterior.gallery.cells.center_m[:, 1]
     on_third = posterior.frame.from_wgs84(LAT + 180 * LAT_M, LON)[1]
     [finding] = posterior.find([replace(SAYS_NOTHING, replies=(Reply("street", "East Street 3"),))])

@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from index.answering.localizer import Localizer
+from index.build import manifest as manifest_module
 from index.build.artifact import find_version, open_version, read_aliases, register, set_alias
 from index.build.manifest import check_model
 from models.errors import IndexBroken, IndexMismatch
@@ -169,7 +170,7 @@ def test_a_file_that_the_disk_does_not_give_is_named(copy, monkeypatch) -> None:
     def fails(_path):
         raise OSError(errno.EIO, os.strerror(errno.EIO))
 
-    monkeypatch.setattr("index.build.manifest.sha256", fails)
+    monkeypatch.setattr(manifest_module, "sha256", fails)
     with pytest.raises(IndexBroken, match=r"cannot be read \(Input/output error\); check its disk"):
         open_version(copy)
 

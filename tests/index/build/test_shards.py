@@ -9,6 +9,7 @@ from dataclasses import replace
 import pytest
 from safetensors.numpy import load_file
 
+from index.build import build, shard_store
 from index.build.artifact import open_version
 from index.build.build import IndexJob
 from index.build.shard import Shard
@@ -17,6 +18,8 @@ from index.build.shard_store import SHARDS_DIR
 from models.citymap.cells import CELLS_PER_BLOCK
 from models.errors import DataError, IndexBroken
 from models.files import TEMP_PREFIX
+from models.paper import instance_encoder, level_table, retriever
+from models.posterior import statements
 from tests.index_facts import told
 
 FIRST, SECOND = Shard.all(2)
@@ -33,7 +36,7 @@ def job(deep_parts, deep_file, rich_dir, tmp_path):
 @pytest.fixture
 def unread(monkeypatch):
     """No map is opened."""
-    monkeypatch.setattr("index.build.build.open_source", lambda *_: pytest.fail("the map was opened"))
+    monkeypatch.setattr(build, "open_source", lambda *_: pytest.fail("the map was opened"))
 
 
 @pytest.fixture
@@ -78,9 +81,8 @@ def test_a_shard_without_cells_is_a_part_too(job) -> None:
 
 @pytest.mark.slow
 def test_shards_of_a_scan_give_the_bytes_of_the_whole(streets, weights_dir, tmp_path, monkeypatch) -> None:
-    of_models = ("paper.retriever", "paper.instance_encoder", "paper.level_table", "posterior.statements")
-    for module in (*(f"models.{name}" for name in of_models), "index.build.build", "index.build.shard_store"):
-        monkeypatch.setattr(f"{module}.CELLS_PER_BLOCK", 8)
+    for module in (retriever, instance_encoder, level_table, statements, build, shard_store):
+        monkeypatch.setattr(module, "CELLS_PER_BLOCK", 8)
     whole, shared = (IndexJob(streets, tmp_path / name, weights_dir) for name in ("whole", "shared"))
     whole.build()
     count = 2

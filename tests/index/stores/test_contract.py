@@ -9,7 +9,7 @@ import pytest
 from index.answering.query import Box
 from index.stores import milvus_store
 from index.stores.faiss_store import FaissStore
-from index.stores.milvus_connection import URI
+from index.stores.milvus_connection import URI, MilvusConnection
 from index.stores.milvus_store import MilvusStore, collection_name
 from models.errors import IndexBroken, StoreUnavailable
 
@@ -62,13 +62,17 @@ class Milvus:
         return store
 
 
-@pytest.fixture(scope="module", params=["faiss", "lite", pytest.param("server", marks=pytest.mark.slow)])
+@pytest.fixture(
+    scope="module",
+    params=["faiss", "lite", pytest.param("server", marks=[pytest.mark.slow, pytest.mark.server("milvus")])],
+)
 def backend(request, tmp_path_factory):
     if request.param == "faiss":
         yield Faiss(tmp_path_factory.mktemp("faiss"))
         return
     with ExitStack() as stack, pytest.MonkeyPatch.context() as patch:
         patch.setenv(URI, _milvus_uri(request, tmp_path_factory))
+        patch.setitem(MilvusConnection.call.__kwdefaults__, "timeout_s", 60.0)  # also where the machine is busy
         yield Milvus(stack)
 
 

@@ -5,7 +5,9 @@ import numpy as np
 import pytest
 
 from index.answering.query import Box
+from index.stores import faiss_store
 from index.stores.faiss_store import FaissStore
+from models import spool
 from models.errors import IndexBroken
 from models.spool import spooled
 
@@ -18,7 +20,7 @@ def vectors():
 
 def test_many_vectors_take_a_quarter_and_find_nearly_the_same(vectors, tmp_path, monkeypatch) -> None:
     exact = FaissStore.from_vectors(vectors)
-    monkeypatch.setattr("index.stores.faiss_store.MAX_FLOAT_VECTORS", 2999)
+    monkeypatch.setattr(faiss_store, "MAX_FLOAT_VECTORS", 2999)
     FaissStore.from_vectors(vectors).save(tmp_path / "small")
     exact.save(tmp_path / "exact")
     assert (tmp_path / "small").stat().st_size < 0.27 * (tmp_path / "exact").stat().st_size
@@ -43,7 +45,7 @@ def in_lists(monkeypatch):
         "IVF_PROBES": 4,
         "MAX_PROBED_K": 50,
     }.items():
-        monkeypatch.setattr(f"index.stores.faiss_store.{name}", value)
+        monkeypatch.setattr(faiss_store, name, value)
 
 
 def test_very_many_vectors_are_found_in_lists_of_like_ones(vectors, tmp_path, in_lists) -> None:
@@ -67,7 +69,7 @@ def test_very_many_vectors_are_found_in_lists_of_like_ones(vectors, tmp_path, in
 
 
 def test_lists_that_hold_too_few_are_not_all_that_is_looked_at(vectors, in_lists, monkeypatch) -> None:
-    monkeypatch.setattr("index.stores.faiss_store.IVF_PROBES", 1)
+    monkeypatch.setattr(faiss_store, "IVF_PROBES", 1)
     far = np.concatenate([vectors[:1].repeat(2990, axis=0), -vectors[:1].repeat(10, axis=0)])
     scores, rows = FaissStore.from_vectors(far).search(-vectors[:1], 40)
     assert (rows >= 0).all()
@@ -77,7 +79,7 @@ def test_lists_that_hold_too_few_are_not_all_that_is_looked_at(vectors, in_lists
 
 def test_the_bits_of_a_vector_are_the_same_in_lists_and_without(vectors, in_lists, monkeypatch) -> None:
     lists = FaissStore.from_vectors(vectors)
-    monkeypatch.setattr("index.stores.faiss_store.MAX_FLAT_VECTORS", 3000)
+    monkeypatch.setattr(faiss_store, "MAX_FLAT_VECTORS", 3000)
     rows = np.arange(3000)
     np.testing.assert_array_equal(lists.vectors(rows), FaissStore.from_vectors(vectors).vectors(rows))
 
@@ -87,20 +89,20 @@ def test_the_bits_of_a_vector_are_the_same_in_lists_and_without(vectors, in_list
 def test_however_many_vectors_are_looked_at_together_the_file_is_the_same(
     vectors, tmp_path, in_lists, monkeypatch, bits, many
 ) -> None:
-    monkeypatch.setattr("index.stores.faiss_store.MAX_FLAT_VECTORS", many)
+    monkeypatch.setattr(faiss_store, "MAX_FLAT_VECTORS", many)
 
     def written():
         FaissStore.from_vectors(vectors, bits=bits).save(tmp_path / "vectors")
         return (tmp_path / "vectors").read_bytes()
 
     at_once = written()
-    monkeypatch.setattr("index.stores.faiss_store.VECTORS_PER_BLOCK", 700)
+    monkeypatch.setattr(faiss_store, "VECTORS_PER_BLOCK", 700)
     assert written() == at_once
 
 
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="only Linux tells what of a file is in memory")
 def test_of_vectors_in_a_file_none_stay_in_memory(vectors, in_lists, monkeypatch) -> None:
-    monkeypatch.setattr("models.spool.HELD", 1000)
+    monkeypatch.setattr(spool, "HELD", 1000)
     kept = spooled([{"vectors": vectors}])["vectors"]
     at = f"{kept.ctypes.data:x}-"
 

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from sklearn.cluster import DBSCAN
 
+from models.citymap import cells as cells_module
 from models.citymap.cells import cut_cubes, cut_parts, grid_centers
 from models.citymap.map_geometry import build_geometry, cut_cells
 from models.citymap.points import PointTable
@@ -75,7 +76,7 @@ def test_the_summary_of_parts(scan, points) -> None:
 def test_processes_give_what_one_gives(scan, points, monkeypatch) -> None:
     centers = grid_centers(scan.locations_m, scan.rules)
     many = cut_cubes(points, centers, scan.rules)
-    monkeypatch.setattr("models.citymap.cells.CUBES_PER_TASK", 10**6)
+    monkeypatch.setattr(cells_module, "CUBES_PER_TASK", 10**6)
     one = cut_cubes(points, centers, scan.rules)
     for name in ("starts", "instance", "count", "low_m", "closest_m", "rgb"):
         assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)
@@ -101,7 +102,7 @@ def test_the_grid_is_regular_and_within_reach(city) -> None:
 
 def test_a_grid_is_the_same_however_much_of_it_is_looked_at_together(city, monkeypatch) -> None:
     whole = grid_centers(city.locations_m, city.rules)
-    monkeypatch.setattr("models.citymap.cells.GRID_POINTS_PER_BLOCK", 7)
+    monkeypatch.setattr(cells_module, "GRID_POINTS_PER_BLOCK", 7)
     assert np.array_equal(grid_centers(city.locations_m, city.rules), whole)
 
 

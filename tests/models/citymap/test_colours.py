@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from models.citymap import colours
 from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE, PALETTES, material_colour, parse_colour
 
 
@@ -21,7 +22,7 @@ def test_centres_name_themselves_and_match_a_naive_search(palette) -> None:
 def test_many_colours_are_compared_some_at_a_time(monkeypatch) -> None:
     rgb = np.random.default_rng(0).random((4, 10, 3))
     expected = BASIC_PALETTE.word_index(rgb)
-    monkeypatch.setattr("models.citymap.colours.COLOURS_PER_BLOCK", 7)
+    monkeypatch.setattr(colours, "COLOURS_PER_BLOCK", 7)
     assert np.array_equal(BASIC_PALETTE.word_index(rgb[::-1]), expected[::-1])
     assert expected.shape == (4, 10)
 

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import cdist
 
+from models.citymap import points as points_module
 from models.citymap.points import PointTable, bounding_corners, first_in_voxel
 from models.citymap.types import CityMap, Instance
 
@@ -28,7 +29,7 @@ def test_neighbours_do_not_depend_on_how_many_are_found_at_once(monkeypatch, blo
     labels = ["road", "pole", "road", "wall"]
     clouds = [(rng.normal(size=(500, 3)) * [3, 3, 0.3]).astype(np.float32) for _ in labels]
     instances = tuple(Instance(n, label, cloud) for n, (label, cloud) in enumerate(zip(labels, clouds, strict=True)))
-    monkeypatch.setattr("models.citymap.points.POINTS_PER_PAIR_BLOCK", block)
+    monkeypatch.setattr(points_module, "POINTS_PER_PAIR_BLOCK", block)
     points = PointTable.from_map(CityMap("clouds", instances, frozenset({"road", "wall"}), np.zeros((1, 3))), 0.75)
     source = np.repeat(np.arange(len(points.xyz)), np.diff(points.pair_starts))
     stuff = np.flatnonzero(points.is_stuff[points.instance])

@@ -9,6 +9,7 @@ from tokenizers import Tokenizer, models, pre_tokenizers
 from transformers import AutoModel, AutoTokenizer, PreTrainedTokenizerFast, T5Config, T5EncoderModel
 
 from models.errors import WeightsError
+from models.language import int8
 from models.language import text_encoder as module
 from models.language.int8 import (
     HAS_INT8_PRODUCTS,
@@ -208,7 +209,7 @@ def test_layers_keep_little_of_texts_of_all_lengths(text_encoder, monkeypatch) -
         met.add(len(made := pad(*given)))
         return made
 
-    monkeypatch.setattr("models.language.int8.nn.functional.pad", padded)
+    monkeypatch.setattr(int8.nn.functional, "pad", padded)
     with torch.inference_mode():
         for words in range(1, 60):
             text_encoder.read(["cafe " * words], 1)

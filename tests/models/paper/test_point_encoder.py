@@ -6,6 +6,7 @@ import torch
 
 from models.citymap.point_sample import POINTS_PER_PART, sample_points
 from models.errors import WeightsError
+from models.paper import instance_encoder, level_table, retriever
 from models.paper.instance_encoder import DEFAULT_INPUTS, CellFeatures
 from models.paper.level_table import LevelTable, encode_gallery
 from models.paper.mncl import Mncl, MnclConfig
@@ -110,8 +111,8 @@ def test_a_retriever_with_points_looks_at_them(features, text_encoder) -> None:
 def test_a_slice_that_begins_at_a_block_gives_the_bits_of_the_whole(
     city, cells, text_encoder, monkeypatch, tmp_path
 ) -> None:
-    for module in ("instance_encoder", "level_table", "retriever"):
-        monkeypatch.setattr(f"models.paper.{module}.CELLS_PER_BLOCK", 16)
+    for module in (instance_encoder, level_table, retriever):
+        monkeypatch.setattr(module, "CELLS_PER_BLOCK", 16)
     monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path))
     torch.manual_seed(0)
     cells, labels = cells.take(np.arange(90)), np.array([i.label for i in city.instances])

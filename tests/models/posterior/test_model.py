@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 import torch
 
+from models.language import labels as labels_module
 from models.language.lexicon.lexicon import load_lexicon
 from models.posterior.model import POSTERIORS, load_posterior, save_posterior
 
@@ -17,7 +18,7 @@ def other_lexicon(monkeypatch):
     lexicon = load_lexicon()
     labels = {label: lexicon.labels[label] for label in MAP}
     other = replace(lexicon, labels=labels | {"bench": [*labels["bench"], "perch for walkers"]})
-    monkeypatch.setattr("models.language.labels.load_lexicon", lambda: other)
+    monkeypatch.setattr(labels_module, "load_lexicon", lambda: other)
     return other
 
 

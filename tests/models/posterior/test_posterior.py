@@ -7,6 +7,7 @@ import pytest
 import torch
 
 from models.language.parsed_hint import RELATIONS
+from models.posterior import locate as locate_module
 from models.posterior.area_filter import Inside
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.locate import MEAN_M, locate
@@ -135,7 +136,7 @@ def test_a_prior_may_rule_places_out(town):
 
 def test_cells_far_behind_may_be_looked_at_roughly(town, monkeypatch):
     rough = [locate(town.posterior, reading) for reading in town.readings[:30]]
-    monkeypatch.setattr("models.posterior.locate.BEHIND", np.inf)
+    monkeypatch.setattr(locate_module, "BEHIND", np.inf)
     exact = [locate(town.posterior, reading) for reading in town.readings[:30]]
     assert any(len(a.points) < len(b.points) for a, b in zip(rough, exact, strict=True)), "some cells are left rough"
     for a, b in zip(rough, exact, strict=True):

@@ -4,6 +4,7 @@ import torch
 from scipy.sparse import csc_array
 
 from models.errors import IndexBroken
+from models.posterior import statements as statements_module
 from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.neighbours.neighbour_index import build_neighbour_index
 from models.posterior.node_batch import NodeBatch
@@ -51,7 +52,7 @@ def test_a_statement_holds_in_a_cell_as_far_as_what_it_says_is_told_of_there(giv
 
 @pytest.mark.parametrize("at_once", [10**6, 7])
 def test_scores_are_those_of_a_naive_sum(statements, at_once, monkeypatch) -> None:
-    monkeypatch.setattr("models.posterior.statements.AT_ONCE", at_once)
+    monkeypatch.setattr(statements_module, "AT_ONCE", at_once)
     rng, labels, words = np.random.default_rng(0), int(statements.label.max()) + 1, statements.words
     relation, label, colour = (torch.from_numpy(rng.dirichlet([0.3] * n, 3)).float() for n in (10, labels, words + 1))
     absent = torch.tensor([0.0, 0.2, 1.0])
@@ -73,7 +74,7 @@ def test_scores_are_those_of_a_naive_sum(statements, at_once, monkeypatch) -> No
 
 
 def test_several_processes_make_what_one_makes(given, statements, monkeypatch) -> None:
-    monkeypatch.setattr("models.posterior.statements.CELLS_PER_BLOCK", 20)
+    monkeypatch.setattr(statements_module, "CELLS_PER_BLOCK", 20)
     again = Statements.of(*given)
     assert (again.number == statements.number).all()
     assert (_holds(again) != _holds(statements)).nnz == 0

@@ -32,6 +32,10 @@ from tests.encoding import encode_descriptions
 from tests.models.training.fake_device import FAKE, Away
 
 CPU = torch.device("cpu")
+# Every method, and one of each family with the paper's inputs, which take a point encoder.
+MODELS = {method: (method, DEFAULT_INPUTS) for method in (*METHODS, *FINE_METHODS)} | {
+    f"{method}-points": (method, PAPER_INPUTS) for method in ("mncl", "matching")
+}
 CONFIG = TrainingConfig(steps=1, batch_size=8, spacing_m=30.0)
 SMALL: dict[Any, dict[str, Any]] = {
     fit_points: {"load_settings": lambda *_: (None, CONFIG), "TRAINING_CELLS_PER_SOURCE": 10,
@@ -59,8 +63,9 @@ def retriever(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -
 
 
 def fine(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> None:
+    """Train a fine stage; the one that takes points is resumed, too."""
     config = FINE_METHODS[method].config_type(width=32, inputs=inputs)
-    for resume in (False, True):
+    for resume in (False, True) if inputs == PAPER_INPUTS else (False,):
         fit_fine.train_fine(partial(load, sources), out, method, config, CONFIG, out / "run", resume)
     assert load_fine(out).error_m
 
@@ -162,11 +167,9 @@ def main(osm_file: Path, out: Path) -> None:
             setattr(module, name, value)
     sources = [open_source(osm_file, split) for split in ("train", "val")]
     cases: dict[str, Callable[[], None]] = {"device": device, "lending": lending}
-    for train, methods in ((retriever, METHODS), (fine, FINE_METHODS)):
-        for method in methods:
-            for inputs in (DEFAULT_INPUTS, PAPER_INPUTS):
-                name = f"{method}-{inputs[0]}"
-                cases[name] = partial(train, sources, method, inputs, out / name)
+    for name, (method, inputs) in MODELS.items():
+        train = retriever if method in METHODS else fine
+        cases[name] = partial(train, sources, method, inputs, out / name)
     cases["points"] = partial(shared_points, sources, out / "points")
     cases["posterior"] = partial(posterior, sources, out / "posterior")
     (out / "report.json").write_text(json.dumps({name: tried(run) for name, run in cases.items()}))

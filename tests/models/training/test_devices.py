@@ -10,7 +10,6 @@ from torch.utils import backend_registration
 
 from models.paper.checkpoint import METHODS
 from models.paper.fine.checkpoint import FINE_METHODS
-from models.paper.instance_encoder import DEFAULT_INPUTS, PAPER_INPUTS
 
 pytestmark = [
     pytest.mark.slow,
@@ -20,7 +19,7 @@ pytestmark = [
     ),
 ]
 ROOT = Path(__file__).parents[3]
-MODELS = [f"{method}-{inputs[0]}" for method in (*METHODS, *FINE_METHODS) for inputs in (DEFAULT_INPUTS, PAPER_INPUTS)]
+NAMES = ["device", "lending", *METHODS, *FINE_METHODS, "mncl-points", "matching-points", "points", "posterior"]
 
 
 @pytest.fixture(scope="module")
@@ -34,6 +33,7 @@ def report(made_once, strip_file):
     return json.loads((made_once("devices", make) / "report.json").read_text())
 
 
-@pytest.mark.parametrize("name", ["device", "lending", *MODELS, "points", "posterior"])
+@pytest.mark.parametrize("name", NAMES)
 def test_all_of_it_is_on_one_device(report, name) -> None:
+    assert report.keys() == set(NAMES)
     assert not report[name], report[name]

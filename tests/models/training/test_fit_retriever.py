@@ -18,6 +18,7 @@ from models.paper.instance_encoder import PAPER_INPUTS, CellFeatures
 from models.paper.mncl import Mncl, MnclConfig
 from models.paper.text2loc import Text2Loc, Text2LocConfig
 from models.sources.source import open_sources
+from models.training import fit_points
 from models.training.fit_fine import train_fine
 from models.training.fit_points import train_points
 from models.training.fit_retriever import RetrievalTask, train_retriever
@@ -157,9 +158,7 @@ def coarse(monkeypatch):
 def test_a_point_encoder_is_trained_first_and_saved_along(strip, coarse, tmp_path, monkeypatch) -> None:
     *regions, whole = strip
     few = ("training.steps=40", "training.validate_every=20", "training.batch_size=32")
-    monkeypatch.setattr(
-        "models.training.fit_points.load_settings", lambda name, changes: load_settings(name, [*few, *changes])
-    )
+    monkeypatch.setattr(fit_points, "load_settings", lambda name, changes: load_settings(name, [*few, *changes]))
     config = TrainingConfig(steps=4, batch_size=16, spacing_m=30.0, validate_every=2)
 
     def load(encoder, rng):
@@ -177,7 +176,7 @@ def test_a_point_encoder_is_trained_first_and_saved_along(strip, coarse, tmp_pat
     assert figures["label"] > commonest
     with pytest.raises(KeyboardInterrupt):
         train_retriever(load, tmp_path / "b", Mncl, model, config, tmp_path / "run", progress=kill)
-    monkeypatch.setattr("models.training.fit_points._PointTask.loss", None)  # it is not trained again
+    monkeypatch.setattr(fit_points._PointTask, "loss", None)  # it is not trained again
     train_retriever(load, tmp_path / "b", Mncl, model, config, tmp_path / "run", resume=True)
     assert (tmp_path / "a" / "config.json").read_text() == (tmp_path / "b" / "config.json").read_text()
     retriever = load_retriever(tmp_path / "a")
@@ -195,7 +194,7 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, co
         return [TrainingData.from_sources(*regions, encoder, config, rng)]
 
     figures = train_points([TrainingCells.from_sources(*regions)], tmp_path / "points", config)
-    monkeypatch.setattr("models.training.fit_points.fit_points", None)  # none is trained again
+    monkeypatch.setattr(fit_points, "fit_points", None)  # none is trained again
     given = config.model_copy(update={"points": tmp_path / "points"})
     train_retriever(load, tmp_path / "coarse", Text2Loc, Text2LocConfig(width=32, inputs=PAPER_INPUTS), given)
     train_fine(load, tmp_path / "fine", "matching", MatchingConfig(width=32, inputs=PAPER_INPUTS, plain=False), given)

@@ -5,6 +5,7 @@ import torch
 from models.paper.checkpoint import METHODS
 from models.paper.retriever import Retriever
 from models.sources.source import VALIDATION_SEED
+from models.training import validation as validation_module
 from models.training.validation import EncodedGallery, Validation, calibrate, fit_weights
 
 
@@ -42,7 +43,7 @@ def test_every_level_gets_a_weight(model, region_queries) -> None:
 
 def test_the_global_level_has_a_temperature_of_its_own(model, region_queries, monkeypatch) -> None:
     scored = [true_scores(np.random.default_rng(hints), hints, 3) for hints in (1, 2, 4)]
-    monkeypatch.setattr("models.training.validation._score_queries", lambda *_: scored)
+    monkeypatch.setattr(validation_module, "_score_queries", lambda *_: scored)
     fields = calibrate(model, [region_queries], np.random.default_rng(0))
     _, *alone = fit_weights([(hints, scores[:1], truth) for hints, scores, truth in scored])
     assert [fields["global_temperature"], fields["global_temperature_decay"]] == pytest.approx(alone)

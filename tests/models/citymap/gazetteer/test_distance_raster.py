@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 import shapely
 
+from models.citymap.gazetteer import distance_raster
 from models.citymap.gazetteer.distance_raster import BLOCK_PX, EXACT_REACH_M, MARGIN_M, DistanceRaster
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
 from models.citymap.gazetteer.name_columns import GazetteerObject
@@ -144,7 +145,7 @@ def test_a_map_where_nothing_is_named() -> None:
 def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
     raster = DistanceRaster(town, CENTERS, GRID_M)
     most = 5 * max(raster.distances_to([np.array([n])]).nbytes for n in range(5)) // 2
-    monkeypatch.setattr("models.citymap.gazetteer.distance_raster.CACHE_BYTES", most)
+    monkeypatch.setattr(distance_raster, "CACHE_BYTES", most)
     raster = DistanceRaster(town, CENTERS, GRID_M)
     first = [away(raster, np.array([n])).copy() for n in range(5)]
     assert 2 <= len(raster._cache) < 5
@@ -153,7 +154,7 @@ def test_asked_again_it_says_the_same(town, monkeypatch) -> None:
 
 
 def test_what_is_larger_than_all_that_is_kept_is_found_and_not_kept(town, raster, monkeypatch) -> None:
-    monkeypatch.setattr("models.citymap.gazetteer.distance_raster.CACHE_BYTES", 100)
+    monkeypatch.setattr(distance_raster, "CACHE_BYTES", 100)
     small = DistanceRaster(town, CENTERS, GRID_M)
     assert (away(small, np.array([0])) == away(raster, np.array([0]))).all()
     assert not small._cache

@@ -5,6 +5,7 @@ import pytest
 import shapely
 from scipy.cluster.hierarchy import DisjointSet
 
+from models.citymap.geometry import cutting
 from models.citymap.geometry.solids import GROUND_SPACING_M, crown_reach_m
 from models.citymap.geometry.tiling import TOUCHING_M
 from models.citymap.map_geometry import ScannedPieceGeometry, build_geometry
@@ -85,7 +86,7 @@ def test_the_town_as_geometry_is_nearly_the_town_as_points(city, scan, geometry,
 
 def test_processes_give_what_one_gives(geometry, cells, monkeypatch):
     many = geometry.cut(cells.center_m)
-    monkeypatch.setattr("models.citymap.geometry.cutting.CUBES_PER_TASK", 64)
+    monkeypatch.setattr(cutting, "CUBES_PER_TASK", 64)
     one = geometry.cut(cells.center_m)
     for name in ("starts", "instance", "count", "low_m", "high_m", "closest_m", "rgb"):
         assert np.array_equal(getattr(many, name), getattr(one, name), equal_nan=True)

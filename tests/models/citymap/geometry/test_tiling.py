@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 import shapely
 
+from models.citymap.geometry import pieces as pieces_module
 from models.citymap.geometry.piece_rows import cut_band
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.geometry.solids import Solid, sample_solid
@@ -119,7 +120,7 @@ def test_pieces_of_some_columns_at_a_time_hang_together_as_all_do(columns, monke
     whole = pieces_of(solids)
     assert whole.shape[0] > 6
     assert len(whole.links)
-    monkeypatch.setattr("models.citymap.geometry.pieces.TILE_COLUMNS_PER_BLOCK", columns)
+    monkeypatch.setattr(pieces_module, "TILE_COLUMNS_PER_BLOCK", columns)
     part = pieces_of(solids)
     assert np.array_equal(part.link_starts, whole.link_starts)
     assert np.array_equal(part.links, whole.links)
@@ -134,5 +135,5 @@ def test_places_to_stand_are_the_same_however_many_areas_are_looked_at_together(
     block = np.floor(whole[:, :2] / 2.0)
     assert not whole[:, 2].any()
     assert len(np.unique(block, axis=0)) == len(whole) > 500
-    monkeypatch.setattr("models.citymap.geometry.pieces.PIECES_PER_BLOCK", at_once)
+    monkeypatch.setattr(pieces_module, "PIECES_PER_BLOCK", at_once)
     assert np.array_equal(table.ground_lattice(rows, 2.0), whole)

@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from models.language.grammar import wording as wording_module
 from models.language.grammar.files import load_grammar
 from models.language.grammar.labelled_text import Fact
 from models.language.grammar.passages import Passage, plural
@@ -79,13 +80,11 @@ class Plain:
 def wording_of(monkeypatch):
     """The training grammar with one passage in place of its own, which is told wherever it can be."""
     tables = load_grammar("train")
-    monkeypatch.setattr("models.language.grammar.wording.PASSAGE_SHARE", 1.0)
+    monkeypatch.setattr(wording_module, "PASSAGE_SHARE", 1.0)
 
     def make(phrase):
         phrases = {**tables.phrases, "passages": [phrase]}
-        monkeypatch.setattr(
-            "models.language.grammar.wording.load_grammar", lambda _grammar: replace(tables, phrases=phrases)
-        )
+        monkeypatch.setattr(wording_module, "load_grammar", lambda _grammar: replace(tables, phrases=phrases))
         return Wording("train")
 
     return make

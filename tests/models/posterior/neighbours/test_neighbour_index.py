@@ -4,6 +4,7 @@ import pytest
 from index.evaluation.localizers import count_parts
 from models.citymap.map_geometry import build_geometry, cut_cells
 from models.errors import IndexBroken
+from models.posterior.neighbours import nodes as nodes_module
 from models.posterior.neighbours.neighbour_index import build_neighbour_index, load_neighbour_index
 from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.neighbours.nodes import SPACING_M
@@ -28,7 +29,7 @@ def around(source, cells):
 
 def test_nodes_are_the_same_however_many_columns_are_looked_at(around, monkeypatch):
     cells, bodies, expected = around
-    monkeypatch.setattr("models.posterior.neighbours.nodes.COLUMNS", 7)
+    monkeypatch.setattr(nodes_module, "COLUMNS", 7)
     found = build_neighbour_index(bodies, cells)
     assert np.array_equal(found.offset, expected.offset)
     assert np.array_equal(found.cell_starts, expected.cell_starts)

@@ -4,6 +4,7 @@ import pytest
 from models.citymap.gazetteer.gazetteer import build_gazetteer
 from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.errors import IndexBroken
+from models.posterior.places import landmarks as landmarks_module
 from models.posterior.places.landmarks import FILE, Landmarks
 from models.posterior.places.name_probabilities import ON_STREET_M
 from tests.models.citymap.gazetteer.made_town import made_gazetteer, point
@@ -100,7 +101,7 @@ def test_cells_do_not_depend_on_which_others_there_are(landmarks):
 
 @pytest.mark.parametrize("at_once", [1, 4])
 def test_landmarks_are_the_same_of_however_many_cells_at_once(at_once, landmarks, monkeypatch):
-    monkeypatch.setattr("models.posterior.places.landmarks.AT_ONCE", at_once)
+    monkeypatch.setattr(landmarks_module, "AT_ONCE", at_once)
     some = Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity"))
     for name in ("on_street", "said", "numbered"):
         assert (dense(getattr(some, name)) == dense(getattr(landmarks, name))).all()

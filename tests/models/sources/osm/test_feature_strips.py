@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
+from models.sources.osm import feature_strips
 from models.sources.osm.classes import load_classes
 from models.sources.osm.feature_strips import FeatureInstances, FeatureStrips
 from models.sources.osm.features import Feature
@@ -19,15 +20,15 @@ def feature(label, geometry, source, height_m=0.0):
 
 
 def filed(tmp_path, features, monkeypatch, band):
-    monkeypatch.setattr("models.sources.osm.feature_strips.TILE_COLUMNS_PER_BAND", band)
+    monkeypatch.setattr(feature_strips, "TILE_COLUMNS_PER_BAND", band)
     return FeatureStrips(tmp_path, [features[:2], [], features[2:]])
 
 
 @pytest.mark.parametrize("band", [1, 2, 7])
 def test_a_map_is_the_same_in_strips_of_any_width(band, osm_file, monkeypatch) -> None:
-    monkeypatch.setattr("models.sources.osm.feature_strips.TILE_COLUMNS_PER_BAND", 10_000)
+    monkeypatch.setattr(feature_strips, "TILE_COLUMNS_PER_BAND", 10_000)
     whole = load_osm(osm_file)
-    monkeypatch.setattr("models.sources.osm.feature_strips.TILE_COLUMNS_PER_BAND", band)
+    monkeypatch.setattr(feature_strips, "TILE_COLUMNS_PER_BAND", band)
     part = load_osm(osm_file)
     assert len(part.instances) == len(whole.instances) > 20
     for one, other in zip(part.instances, whole.instances, strict=True):

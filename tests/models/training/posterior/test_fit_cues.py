@@ -7,6 +7,7 @@ import torch
 from models.errors import TrainingError
 from models.language.mentions.cue_reader import ANGLES, CueReader
 from models.posterior.model import load_posterior
+from models.training.posterior import fit_cues as fit_cues_module
 from models.training.posterior.cue_texts import (
     CueMention,
     CueText,
@@ -33,7 +34,7 @@ def reader() -> CueReader:
 
 
 def test_it_learns_and_leaves_the_other_reader_as_it_was(reader, monkeypatch) -> None:
-    monkeypatch.setattr("models.training.posterior.fit_cues.WARM_UP_STEPS", 5)
+    monkeypatch.setattr(fit_cues_module, "WARM_UP_STEPS", 5)
     base = [p.clone() for p in load_posterior().reader.tuned.parameters()]
     losses = []
     fit_cues(reader, TEXTS, 30, np.random.default_rng(0), lambda *row: losses.append(row[2]))

@@ -7,6 +7,7 @@ from models.errors import TrainingError
 from models.posterior.model import load_posterior
 from models.posterior.places.kernels import PlaceKernels
 from models.sources.place_texts import PlaceText
+from models.training.posterior import fit_kernels as fit_kernels_module
 from models.training.posterior.fit_kernels import KernelExample, MapTexts, calibrate_kernels, fit_kernels, read_examples
 from tests.models.citymap.gazetteer.made_town import is_common, made_gazetteer
 
@@ -68,11 +69,11 @@ def _small(monkeypatch):
         "BATCH_TEXTS": 1,
         "PULL_WEIGHT": 0.0,
     }.items():
-        monkeypatch.setattr(f"models.training.posterior.fit_kernels.{name}", value)
+        monkeypatch.setattr(fit_kernels_module, name, value)
 
 
 def test_fitting_lowers_the_surprise(monkeypatch) -> None:
-    monkeypatch.setattr("models.training.posterior.fit_kernels.BATCH_TEXTS", 5)
+    monkeypatch.setattr(fit_kernels_module, "BATCH_TEXTS", 5)
     _, done = fitted(30, scale=1.5)  # far too wide
     assert [step for step, _, _ in done] == list(range(1, 31))
     first, last = done[0][2], done[-1][2]
@@ -94,7 +95,7 @@ def test_a_strong_pull_keeps_the_weights(monkeypatch) -> None:
         return sum(float(((a - b) ** 2).sum().detach()) for a, b in pairs)
 
     free = moved(fitted(12)[0])
-    monkeypatch.setattr("models.training.posterior.fit_kernels.PULL_WEIGHT", 100.0)
+    monkeypatch.setattr(fit_kernels_module, "PULL_WEIGHT", 100.0)
     assert moved(fitted(12)[0]) < free / 2
 
 

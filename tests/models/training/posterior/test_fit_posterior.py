@@ -16,7 +16,7 @@ from models.language.lexicon.lexicon import load_lexicon
 from models.language.measures import COMPASS
 from models.posterior.likelihood import Likelihood
 from models.posterior.model import PosteriorConfig, load_posterior
-from models.training.posterior import fit_posterior
+from models.training.posterior import fit_posterior, training_sites
 from models.training.posterior.training_sites import TrainingSite
 from models.training.settings import TrainingConfig
 
@@ -95,7 +95,7 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
 def read_texts(monkeypatch, wording, **shares) -> list[str]:
     """Twenty texts about three things, as they are given to the reader."""
     for name, value in shares.items():
-        monkeypatch.setattr(f"models.training.posterior.training_sites.{name}", value)
+        monkeypatch.setattr(training_sites, name, value)
     shipped, texts = load_posterior(), []
 
     def read(batch):

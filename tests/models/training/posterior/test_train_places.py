@@ -4,6 +4,7 @@ import pytest
 import torch
 
 from models.posterior.model import load_posterior
+from models.training.posterior import train_places as train_places_module
 from models.training.posterior.train_places import train_places
 
 TEXTS = {
@@ -17,9 +18,8 @@ TEXTS = {
 @pytest.mark.slow
 def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypatch) -> None:
     """Three readers in three processes, one of them for what answers; the kernels are fitted to the texts."""
-    where = "models.training.posterior.train_places."
-    monkeypatch.setattr(where + "LABELLED_DIR", tmp_path)
-    monkeypatch.setattr(where + "EPOCHS", 1)
+    monkeypatch.setattr(train_places_module, "LABELLED_DIR", tmp_path)
+    monkeypatch.setattr(train_places_module, "EPOCHS", 1)
     mention = {"start": 0, "end": 5, "form": "thing", "relation": "seen", "angle": 90}
     for name in ("real_places", "invented", "meeting"):
         rows = [{"text": f"bank{n} on my right", "mentions": [mention]} for n in range(4)]
