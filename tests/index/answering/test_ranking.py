@@ -1,3 +1,5 @@
+from typing import get_args
+
 import numpy as np
 import pytest
 import torch
@@ -5,7 +7,7 @@ import torch
 from index.answering.ranking import Ranker
 from index.evaluation.localizers import ranker_on_some_cells
 from models.errors import IndexBroken
-from models.paper.levels import LEVELS, level_scores
+from models.paper.levels import Level, level_scores
 from models.paper.mncl import Mncl, MnclConfig
 
 TEXTS = [["I am north of a red building.", "A bench is west of me."], ["There is a tree to my east."]]
@@ -73,7 +75,7 @@ def test_without_weights_z_scores_are_added(mncl, cells, labels) -> None:
     texts = mncl.encode_texts(TEXTS)
     scores, _ = ranker.rank(texts, len(cells))
     assert scores.mean(axis=1) == pytest.approx(0, abs=1e-4), "each level is centred on the gallery"
-    assert set(level_scores(texts[0], texts[0], LEVELS)) == set(LEVELS)
+    assert set(level_scores(texts[0], texts[0], get_args(Level))) == set(get_args(Level))
 
 
 def test_saved_and_loaded_ranks_the_same(weighted, cells, labels, tmp_path) -> None:
